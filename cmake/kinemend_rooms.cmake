@@ -1,0 +1,53 @@
+# A room is one folder below src/: a static library of its own, tested by one program of its own.
+
+set(KINEMEND_ROOMS "" CACHE INTERNAL "")
+
+# Settings that every target of the project shares.
+add_library(kinemend_settings INTERFACE)
+# No contraction: the same seed gives the same bytes with and without fused multiply-add.
+target_compile_options(kinemend_settings INTERFACE $<$<CXX_COMPILER_ID:GNU,Clang>:-ffp-contract=off>)
+if(KINEMEND_DEVELOPER)
+  target_compile_options(kinemend_settings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+    -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
+endif()
+if(KINEMEND_SANITIZE)
+  target_compile_options(kinemend_settings INTERFACE -fsanitize=${KINEMEND_SANITIZE} -fno-omit-frame-pointer
+    -fno-sanitize-recover=all)
+  target_link_options(kinemend_settings INTERFACE -fsanitize=${KINEMEND_SANITIZE})
+endif()
+
+# kinemend_room(<name> [USES <room>...] [LINK <target>...])
+function(kinemend_room name)
+  cmake_parse_arguments(ROOM "" "" "USES;LINK" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
+  add_library(kinemend_${name} STATIC ${sources})
+  add_library(kinemend::${name} ALIAS kinemend_${name})
+  target_include_directories(kinemend_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_include_directories(kinemend_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_compile_features(kinemend_${name} PUBLIC cxx_std_20)
+  target_link_libraries(kinemend_${name} PRIVATE $<BUILD_INTERFACE:kinemend_settings> ${ROOM_LINK})
+  foreach(used ${ROOM_USES})
+    target_link_libraries(kinemend_${name} PUBLIC kinemend_${used})
+  endforeach()
+  set_target_properties(kinemend_${name} PROPERTIES EXPORT_NAME ${name})
+  set(KINEMEND_ROOMS ${KINEMEND_ROOMS} kinemend_${name} CACHE INTERNAL "")
+endfunction()
+
+# kinemend::kinemend is all rooms together, installed with a package file.
+function(kinemend_library)
+  add_library(kinemend INTERFACE)
+  add_library(kinemend::kinemend ALIAS kinemend)
+  target_link_libraries(kinemend INTERFACE ${KINEMEND_ROOMS})
+  install(TARGETS kinemend ${KINEMEND_ROOMS} EXPORT kinemend ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/kinemend DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(EXPORT kinemend NAMESPACE kinemend:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/kinemend
+    FILE kinemend-targets.cmake)
+  include(CMakePackageConfigHelpers)
+  configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/kinemend-config.cmake.in
+    ${PROJECT_BINARY_DIR}/kinemend-config.cmake INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/kinemend)
+  write_basic_package_version_file(${PROJECT_BINARY_DIR}/kinemend-config-version.cmake
+    COMPATIBILITY SameMinorVersion)
+  install(FILES ${PROJECT_BINARY_DIR}/kinemend-config.cmake ${PROJECT_BINARY_DIR}/kinemend-config-version.cmake
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/kinemend)
+endfunction()

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemend/clip.hpp"
+#include "kinemend/options.hpp"
+
+namespace kinemend {
+
+/// What was done to one sample (a joint in a frame).
+enum class Action : std::uint8_t { kept, denoised, despiked, filled, foot_adjusted, refused };
+
+std::string_view to_string(Action action);
+
+/// Which parts of a clip a cleaner may change.
+struct Selection {
+  std::vector<std::uint8_t> joints;  ///< J, 1 where the rotation may change
+  bool root_position = true;         ///< position of joint 0
+  bool translations = true;          ///< positions of translated joints that are selected
+
+  static Selection all(const Clip& clip) {
+    return {std::vector<std::uint8_t>(clip.joint_count(), 1), true, true};
+  }
+};
+
+/// What a cleaner says of its work beside the cleaned clip.
+struct CleanTrace {
+  std::vector<Action> actions;            ///< F x J where the cleaner tells samples apart (spikes, fills); else empty
+  std::vector<Action> root_actions;       ///< F, the same for the root position; else empty
+  std::vector<double> noise_deg;          ///< J: estimated noise per axis before cleaning, degrees; else empty
+  std::optional<double> root_noise;       ///< the same for the root position, file units
+  std::vector<std::string> warnings;
+};
+
+/// What a method can do live.
+struct LiveSupport {
+  enum class Kind : std::uint8_t {
+    none,      ///< needs the whole take
+    windowed,  ///< a frame's result depends on `half_window_frames` on either side and on nothing else
+    causal,    ///< depends on the past only, through a state: `make_frame_filter`
+  };
+  Kind kind = Kind::none;
+  std::size_t half_window_frames = 0;  ///< of `windowed`
+};
+
+/// One frame of live motion.
+struct LiveFrame {
+  Vec3 root_position;
+  std::vector<Quat> rotations;          ///< J
+  std::vector<Vec3> joint_translations;  ///< one a translated joint
+};
+
+/// The state of a causal cleaner on one stream: each call takes frame t and returns it cleaned.
+class FrameFilter {
+ public:
+  virtual ~FrameFilter() = default;
+  virtual void filter(LiveFrame& frame) = 0;
+};
+
+/// A cleaning method with its options. Immutable after construction and safe to share between threads.
+class Cleaner {
+ public:
+  virtual ~Cleaner() = default;
+
+  /// Cleans the selected parts of `clip` in place. Every frame is motion: calibration frames are already off. Any number
+  /// of frames is accepted, one and two included. The result does not depend on the number of threads.
+  virtual CleanTrace clean(Clip& clip, const Selection& selection) const = 0;
+
+  virtual LiveSupport live_support(double frame_rate_hz) const;
+  /// A new stream's state, of a causal cleaner; nullptr of any other. `clean` of a causal cleaner gives the same numbers.
+  virtual std::unique_ptr<FrameFilter> make_frame_filter(const Skeleton& skeleton, double frame_rate_hz) const;
+};
+
+/// An entry of the table of methods.
+struct Method {
+  std::string name;     ///< "bilateral"
+  std::string summary;  ///< one line
+  std::string paper;    ///< where it comes from
+  std::vector<OptionSpec> options;
+  std::unique_ptr<Cleaner> (*make)(const OptionValues& values);
+};
+
+/// All methods, `auto` first.
+std::span<const Method> methods();
+/// Errors: `ErrorKind::usage`, with the names there are.
+const Method& find_method(std::string_view name);
+/// Errors: `ErrorKind::usage` for an unknown method or option or a value out of range.
+std::unique_ptr<Cleaner> make_cleaner(std::string_view method, const OptionValues& values = {});
+
+}  // namespace kinemend

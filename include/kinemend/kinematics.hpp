@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "kinemend/clip.hpp"
+
+namespace kinemend {
+
+/// Global rotations and positions of one frame: J of each, in file units.
+/// R_j = R_parent rest_j q_j and p_j = p_parent + R_parent offset_j, roots in the world frame.
+struct Pose {
+  std::vector<Quat> rotations;
+  std::vector<Vec3> positions;
+};
+
+Pose forward_kinematics(const Clip& clip, std::size_t frame);
+
+/// Joint positions of every frame, F x J, then end sites if asked: F x (J + E), file units.
+std::vector<Vec3> joint_positions(const Clip& clip, bool with_end_sites = false);
+
+}  // namespace kinemend

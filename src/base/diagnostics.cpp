@@ -1,0 +1,29 @@
+#include "kinemend/diagnostics.hpp"
+
+#include <algorithm>
+
+namespace kinemend {
+
+namespace {
+
+auto find_entry(auto& entries, std::string_view name) {
+  return std::find_if(entries.begin(), entries.end(), [&](const Diagnostic& d) { return d.name == name; });
+}
+
+}  // namespace
+
+void Diagnostics::add(std::string_view name, std::string_view message, std::size_t line) {
+  const auto known = find_entry(entries_, name);
+  if (known != entries_.end()) {
+    ++known->count;
+  } else {
+    entries_.push_back({std::string(name), std::string(message), line, 1});
+  }
+}
+
+std::size_t Diagnostics::count(std::string_view name) const noexcept {
+  const auto known = find_entry(entries_, name);
+  return known == entries_.end() ? 0 : known->count;
+}
+
+}  // namespace kinemend

@@ -1,0 +1,7 @@
+#include "kinemend/version.hpp"
+
+namespace kinemend {
+
+std::string_view version() noexcept { return KINEMEND_VERSION; }
+
+}  // namespace kinemend

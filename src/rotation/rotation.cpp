@@ -1,0 +1,52 @@
+#include "kinemend/rotation.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace kinemend {
+
+Quat normalized(Quat q) {
+  const double length = norm(q);
+  return length > 0 ? (1.0 / length) * q : Quat{};
+}
+
+Vec3 rotate(Quat q, Vec3 v) {
+  const Vec3 u{q.x, q.y, q.z};
+  const Vec3 t = 2.0 * cross(u, v);
+  return v + q.w * t + cross(u, t);
+}
+
+Quat exp(Vec3 rotation_vector) {
+  const double angle = norm(rotation_vector);
+  // sin(angle / 2) / angle, by its series where the quotient would lose digits.
+  const double scale = angle < 1e-4 ? 0.5 - angle * angle / 48 : std::sin(angle / 2) / angle;
+  return {std::cos(angle / 2), scale * rotation_vector.x, scale * rotation_vector.y, scale * rotation_vector.z};
+}
+
+Vec3 log(Quat q) {
+  if (q.w < 0) q = -q;
+  const Vec3 axis{q.x, q.y, q.z};
+  const double sine = norm(axis);
+  // angle / sin(angle / 2); atan2 keeps all digits at 0 and at pi.
+  const double scale = sine < 1e-8 ? 2.0 / q.w : 2 * std::atan2(sine, q.w) / sine;
+  return scale * axis;
+}
+
+double angle_between(Quat a, Quat b) {
+  const Quat d = conjugate(a) * b;
+  return 2 * std::atan2(norm(Vec3{d.x, d.y, d.z}), std::fabs(d.w));
+}
+
+Quat slerp(Quat a, Quat b, double t) { return a * exp(t * log(conjugate(a) * b)); }
+
+void align_hemispheres(std::span<Quat> track, std::size_t stride) {
+  for (std::size_t i = stride; i < track.size(); i += stride) {
+    track[i] = align_hemisphere(track[i], track[i - stride]);
+  }
+}
+
+double wrap_angle(double angle, double half_turn) {
+  return angle - 2 * half_turn * std::floor((angle + half_turn) / (2 * half_turn));
+}
+
+}  // namespace kinemend
