@@ -1,0 +1,74 @@
+# The front desk: every target is one thin call of CMake, CTest or a script. `make help` lists them.
+SHELL := /bin/bash
+JOBS ?= $(shell nproc)
+PYTHON ?= /usr/bin/python3
+BUILD := build
+KINEMEND := $(BUILD)/release/cli/kinemend
+DEMO := build/demo
+
+.PHONY: help setup build demo test asan lint format bench bench-quick papers papers-quick fuzz install-test clean
+
+help: ## this list
+	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## (.*)/  make \1\t\2/' | expand -t 22
+
+setup: ## install the Debian packages of packages.txt that are missing
+	@tools/install_packages packages.txt
+
+build: setup ## the command line and the library, as they ship
+	cmake --preset release >/dev/null
+	cmake --build --preset release -j $(JOBS)
+
+demo: build ## clean the noisy take that ships with the project
+	@mkdir -p $(DEMO)
+	@echo
+	@echo "A noisy walk, examples/takes/noisy_walk.bvh, cleaned by: kinemend clean noisy_walk.bvh"
+	@echo
+	@$(KINEMEND) clean examples/takes/noisy_walk.bvh -o $(DEMO)/noisy_walk.clean.bvh --force
+	@echo
+	@echo "Error before, against the clean original:"
+	@$(KINEMEND) compare examples/takes/walk.bvh examples/takes/noisy_walk.bvh
+	@echo
+	@echo "Error after:"
+	@$(KINEMEND) compare examples/takes/walk.bvh $(DEMO)/noisy_walk.clean.bvh
+	@echo
+	@echo "The clean take is $(DEMO)/noisy_walk.clean.bvh"
+
+$(BUILD)/dev/.built: FORCE
+	cmake --preset dev
+	cmake --build --preset dev -j $(JOBS)
+FORCE:
+
+test: setup $(BUILD)/dev/.built ## build and run every test (real takes too where KINEMEND_DATA names a folder)
+	ctest --preset dev -j $(JOBS)
+
+asan: setup ## the tests under AddressSanitizer and UndefinedBehaviorSanitizer
+	cmake --preset asan
+	cmake --build --preset asan -j $(JOBS)
+	ctest --preset asan -j $(JOBS)
+
+lint: setup ## formatting, static analysis and the direction of includes
+	tools/lint
+
+format: ## rewrite every source file in the project's format
+	git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
+
+bench: setup $(BUILD)/dev/.built ## the speed tables, beside SciPy's figures of the same run
+	tools/run_benchmarks $(BUILD)/dev
+
+bench-quick: setup $(BUILD)/dev/.built
+	tools/run_benchmarks $(BUILD)/dev --quick
+
+papers: setup $(BUILD)/dev/.built ## the papers' own experiments: tables and plots under build/papers
+	tools/run_papers $(BUILD)/dev
+
+papers-quick: setup $(BUILD)/dev/.built
+	tools/run_papers $(BUILD)/dev --quick
+
+fuzz: setup ## fuzz each reader for a minute (FUZZ_SECONDS=60)
+	tools/run_fuzzers $${FUZZ_SECONDS:-60}
+
+install-test: build ## install into a folder and build the README's snippet against it
+	tools/install_test $(BUILD)/release
+
+clean: ## remove everything that was built
+	rm -rf $(BUILD)
