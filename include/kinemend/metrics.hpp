@@ -1,0 +1,164 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "kinemend/clip.hpp"
+
+namespace kinemend {
+
+// Every error figure of the project, defined once. A figure compares `other` with `reference`, from
+// `first_frame` on: pass `leading_calibration_frames(reference)` to leave a calibration pose out.
+// Both clips have the same joints (number and names) and the same number of frames, and
+// `first_frame` lies inside; otherwise `ErrorKind::usage`. Where both are the same the figure is 0.
+
+/// Mean and standard deviation (divided by n, as in NumPy) over frames.
+struct MeanAndDeviation {
+  double mean = 0;
+  double deviation = 0;
+};
+
+/// Mall et al. 2017: per frame the root mean square, over joint-angle channels, of the wrapped
+/// difference in degrees; averaged over frames. The channels are the Euler angles of each joint's
+/// own rotation channels in the reference; those that move in the reference (by more than 0.001
+/// degrees in all) count, roots are left out. The other clip's angles are those nearest to the
+/// reference's in the same frame, so that no branch or whole turn is mistaken for a difference.
+/// Over a set of clips the figure is the mean of the clips' figures. 0 when no channel moves.
+double rms_deg(const Clip& reference, const Clip& other, std::size_t first_frame = 0);
+/// The figure of each frame from `first_frame` on, whose mean is `rms_deg`.
+std::vector<double> rms_deg_per_frame(const Clip& reference, const Clip& other,
+                                      std::size_t first_frame = 0);
+
+/// Root mean square, over all joints and frames, of the angle between local rotations, in degrees.
+double geodesic_rms_deg(const Clip& reference, const Clip& other, std::size_t first_frame = 0);
+/// The same joint by joint, J values.
+std::vector<double> geodesic_rms_deg_per_joint(const Clip& reference, const Clip& other,
+                                               std::size_t first_frame = 0);
+/// A percentile (0 to 100, linear interpolation between order statistics as in NumPy) of the same
+/// angles, degrees.
+double geodesic_percentile_deg(const Clip& reference, const Clip& other, double percentile = 99,
+                               std::size_t first_frame = 0);
+
+/// Mean distance of joint positions (end sites left out), in file units times `scale`: pass the
+/// centimetres a file unit has for centimetres.
+double mpjpe(const Clip& reference, const Clip& other, std::size_t first_frame = 0,
+             double scale = 1.0);
+
+/// Mean norm, over joints and inner frames, of the difference of the second derivatives of joint
+/// positions (central differences at the reference's frame rate), file units / s^2. 0 for fewer
+/// than three frames.
+double accel_error(const Clip& reference, const Clip& other, std::size_t first_frame = 0);
+
+/// Dean 2016: 10 log10(peak^2 / MSE), the mean squared error taken over frames, joints and the
+/// three channels of the logarithm of the quaternion (half the rotation vector) of reference^-1
+/// other, radians. He does not state his peak. Default pi / 2: the largest value that a channel of
+/// that logarithm takes. Infinity when the clips are the same.
+double psnr_db(const Clip& reference, const Clip& other, std::size_t first_frame = 0,
+               double peak = pi / 2);
+
+/// Xiao et al. 2015, eq. 6: per frame the root mean squared distance of the markers, here the joint
+/// positions, in metres.
+MeanAndDeviation rmse_per_marker_m(const Clip& reference, const Clip& other, double metres_per_unit,
+                                   std::size_t first_frame = 0);
+/// The same of F x M positions in any unit. `noisy` (F x M, empty: all) is 1 where the damaged
+/// input was damaged: the paper divides by the number of noisy markers of the frame. Frames without
+/// any are left out.
+MeanAndDeviation rmse_per_marker(std::span<const Vec3> reference, std::span<const Vec3> other,
+                                 std::size_t markers, std::span<const std::uint8_t> noisy = {});
+
+/// Courty 2008, section 5: 1/N sum_{i=0}^{N} |Log(q1_i^-1 q2_i)|^2 of two signals of N + 1
+/// orientations, radians^2. Log is the rotation vector, so the figure is in angles of rotation; the
+/// paper's logarithm of the quaternion gives a quarter of it. As the paper writes it, the sum of N
+/// + 1 terms is divided by N. A signal of one orientation is divided by 1. Errors:
+/// `ErrorKind::usage` when the lengths differ.
+double mse_rad2(std::span<const Quat> reference, std::span<const Quat> other);
+/// The mean over joints.
+double mse_rad2(const Clip& reference, const Clip& other, std::size_t first_frame = 0);
+
+/// Largest angular speed of each local rotation, degrees / s; 0 for fewer than two frames. J
+/// values.
+std::vector<double> peak_angular_speed_deg_s(const Clip& clip, std::size_t first_frame = 0);
+
+/// Joints whose travel on the floor is slide: heel (`foot`, `ankle`, `heel`) and toe (`toe`,
+/// `ball`), by parts of their names, case ignored.
+std::vector<std::size_t> foot_joints(const Skeleton& skeleton);
+
+struct FootSlideSettings {
+  Axis up = Axis::y;
+  std::vector<std::size_t> joints;  ///< empty: `foot_joints`
+  /// In contact is a joint that is less than this above its own floor (the 2nd percentile of its
+  /// height in the reference) at both ends of a step, as a share of the skeleton's height: 0.03 is
+  /// 5 cm of 1.7 m.
+  double contact_height = 0.03;
+  /// ... and whose reference moves slower than this, in skeleton heights per second: 0.25 is 0.4
+  /// m/s of 1.7 m.
+  double contact_speed = 0.25;
+};
+
+struct FootSlide {
+  double per_frame =
+      0;  ///< mean horizontal travel of a joint in contact from a frame to the next, file units
+  std::size_t contact_steps = 0;  ///< joints x steps in contact, over which the mean is taken
+};
+
+/// Horizontal travel of toes and heels in `other` while the reference is in contact with the floor.
+/// Zero for no contact.
+FootSlide foot_slide(const Clip& reference, const Clip& other,
+                     const FootSlideSettings& settings = {}, std::size_t first_frame = 0);
+
+/// Largest extent of the rest pose along an axis (end sites included), file units: the height, or
+/// the arm span of a T-pose, which is about the same.
+double skeleton_height(const Skeleton& skeleton);
+
+/// A length unit that files are written in.
+struct LengthUnit {
+  std::string_view name;  ///< "cm"
+  double metres = 1;
+};
+/// The unit in which a skeleton of this height is a person of 1 to 2.5 m: m, mm, cm, inch, or that
+/// of the CMU files (1 / 0.45 inch); none when no unit fits.
+std::optional<LengthUnit> guess_length_unit(const Skeleton& skeleton);
+
+struct ComparisonSettings {
+  std::size_t first_frame = 0;
+  double psnr_peak = pi / 2;              ///< see `psnr_db`
+  std::optional<double> metres_per_unit;  ///< empty: `guess_length_unit`
+  FootSlideSettings foot_slide;
+};
+
+/// One joint of a comparison.
+struct JointComparison {
+  double geodesic_rms_deg = 0;
+  double geodesic_max_deg = 0;
+  double peak_speed_reference_deg_s = 0;
+  double peak_speed_other_deg_s = 0;
+};
+
+/// All figures at once.
+struct Comparison {
+  std::size_t frames = 0;  ///< compared
+  double rms_deg = 0;
+  double geodesic_rms_deg = 0;
+  double geodesic_p99_deg = 0;
+  double geodesic_max_deg = 0;
+  double mpjpe = 0;                                   ///< file units
+  std::optional<double> mpjpe_cm;                     ///< where the scale is known
+  double accel_error = 0;                             ///< file units / s^2
+  double psnr_db = 0;                                 ///< infinity for equal clips
+  double psnr_peak = 0;                               ///< the peak it was taken with
+  std::optional<MeanAndDeviation> rmse_per_marker_m;  ///< where the scale is known
+  double mse_rad2 = 0;
+  FootSlide foot_slide;                 ///< of the other clip
+  FootSlide foot_slide_reference;       ///< of the reference itself, for comparison
+  std::vector<JointComparison> joints;  ///< J
+};
+
+/// Errors: `ErrorKind::usage` when joints or numbers of frames differ, saying how.
+Comparison compare_clips(const Clip& reference, const Clip& other,
+                         const ComparisonSettings& settings = {});
+
+}  // namespace kinemend
