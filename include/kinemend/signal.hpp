@@ -1,0 +1,182 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "kinemend/pose_matrix.hpp"
+
+/// Filters on F x D matrices of equally spaced samples, in place, each channel by itself. They know
+/// nothing of skeletons: widths are frames, and only `butterworth_lowpass` and
+/// `LinearGaussianModel` speak of hertz and seconds.
+///
+/// What holds for all of them: any F and D, 0 included; a channel's result does not depend on its
+/// neighbours; the negated signal gives the negated result bit for bit; results do not depend on
+/// the processor. Values are finite. Marks of samples are F x D bytes, frame-major, 0 or not 0; an
+/// empty span marks nothing. Errors: `ErrorKind::usage` for a parameter out of range or a span of
+/// the wrong size.
+namespace kinemend {
+
+/// A second-order section: y[t] = b0 x[t] + b1 x[t-1] + b2 x[t-2] - a1 y[t-1] - a2 y[t-2].
+struct Biquad {
+  double b0 = 1, b1 = 0, b2 = 0, a1 = 0, a2 = 0;
+};
+
+/// Gaussian of standard deviation `sigma_frames` (>= 0; 0 changes nothing), cut at 4 sigma (to the
+/// nearest frame) and normalised to sum 1. Beyond its ends the signal goes on as its own point
+/// reflection, x[-k] = 2 x[0] - x[k], so that a straight line stays one and no end bends towards
+/// the mean.
+void gaussian_filter(PoseMatrix& matrix, double sigma_frames);
+
+/// Low-pass Butterworth filter by the bilinear transform, |H|^2 = 1/2 at `cutoff_hz`, gain 1 at 0
+/// Hz, as second-order sections. `order` is 1 to 12; 0 < cutoff_hz < rate_hz / 2.
+std::vector<Biquad> butterworth_lowpass(int order, double cutoff_hz, double rate_hz);
+
+/// Frames that `filter_zero_phase` puts before and behind by default: three times the filter's
+/// length, as SciPy's `sosfiltfilt`. Always less than `frames`.
+std::size_t default_pad_frames(const std::vector<Biquad>& sections, std::size_t frames);
+/// Frames after which the sections' impulse response has decayed below `tolerance`: the padding
+/// with which low cutoffs too leave straight lines straight up to the ends. At most 1,000,000.
+std::size_t settling_frames(const std::vector<Biquad>& sections, double tolerance = 1e-6);
+
+/// Runs the sections forward and backward: no shift in time, and the squared gain. The signal is
+/// continued at both ends by its point reflection over `pad_frames` (cut to F - 1), each run
+/// starting from the steady state of its first sample. With the default padding this is SciPy's
+/// `sosfiltfilt`.
+void filter_zero_phase(PoseMatrix& matrix, const std::vector<Biquad>& sections);
+void filter_zero_phase(PoseMatrix& matrix, const std::vector<Biquad>& sections,
+                       std::size_t pad_frames);
+
+/// Runs the sections forward only, from the steady state of the first frame. The same as
+/// `CausalState`, frame by frame.
+void filter_causal(PoseMatrix& matrix, const std::vector<Biquad>& sections);
+
+/// The memory of a causal filter between frames.
+class CausalState {
+ public:
+  explicit CausalState(std::vector<Biquad> sections) : sections_(std::move(sections)) {}
+  /// Filters the next frame in place. The first frame sets the number of channels and comes back as
+  /// it is if the gain at 0 Hz is 1. Errors: `ErrorKind::usage` if a later frame has another number
+  /// of channels.
+  void step(std::span<double> frame);
+  /// Forgets the past: the next frame is a first frame.
+  void reset() { memory_.clear(), started_ = false; }
+
+ private:
+  std::vector<Biquad> sections_;
+  std::vector<double> memory_;
+  std::size_t channels_ = 0;
+  bool started_ = false;
+};
+
+/// Running median over 2 * half_window + 1 frames. Near the ends the window shrinks and stays
+/// centred; the first and the last frame follow Tukey's end-point rule, y0 = median(x0, y1, 3 y1 -
+/// 2 y2), so that a spike there goes too.
+void median_filter(PoseMatrix& matrix, std::size_t half_window);
+
+/// Replaces x[t] by the median m of its window (t - half_window to t + half_window, cut at the ends
+/// of the take) where |x[t] - m| > max(threshold * 1.4826 * MAD, minimum_deviation), MAD being the
+/// median of |x - m| over the window. `threshold` >= 0, usually 3. In a window of which more than
+/// half is constant MAD is 0 and every other sample counts as an outlier, unless
+/// `minimum_deviation` (>= 0, in the signal's unit) is set. Returns F x D marks: 1 was replaced.
+std::vector<std::uint8_t> hampel_filter(PoseMatrix& matrix, std::size_t half_window,
+                                        double threshold, double minimum_deviation = 0.0);
+
+enum class WaveletFamily { daubechies, symlet };
+enum class WaveletThreshold {
+  universal,  ///< sigma * sqrt(2 ln n): removes nearly all noise, and most small detail
+  sure  ///< SureShrink: per level the threshold of least estimated risk, universal where details
+        ///< are sparse
+};
+enum class WaveletShrinkage { soft, hard };
+
+struct WaveletOptions {
+  WaveletFamily family = WaveletFamily::symlet;
+  int vanishing_moments = 4;  ///< 1 to 10 for daubechies (1 is Haar), 2 to 10 for symlet
+  WaveletThreshold threshold = WaveletThreshold::sure;
+  WaveletShrinkage shrinkage = WaveletShrinkage::soft;
+  int levels = 0;            ///< 0 to 20; 0: as many as the length and the wavelet allow
+  double noise_scale = 1.0;  ///< >= 0, multiplies the estimated noise; 0 changes nothing
+};
+
+/// Denoises each channel by thresholding the details of its orthonormal wavelet transform (Donoho &
+/// Johnstone 1994, 1995). The noise is the MAD of the finest details / 0.6745, per channel. The
+/// chord from the first to the last sample is kept apart, the rest continued by point reflection,
+/// so that ends are no edges. Under 4 frames nothing changes.
+void wavelet_denoise(PoseMatrix& matrix, const WaveletOptions& options = {});
+/// The 2 * vanishing_moments scaling (low-pass) coefficients; orthonormal, sum sqrt(2). By spectral
+/// factorisation: minimum phase for Daubechies, nearest to linear phase for symlets.
+std::vector<double> wavelet_filter(WaveletFamily family, int vanishing_moments);
+
+/// What stands beyond the first and the last sample in `weighted_mean_filter`.
+enum class WeightedMeanEnds {
+  reflect,  ///< point reflection: straight lines stay, time reversal changes nothing
+  blender   ///< as Blender does: the ends stay; a missing second neighbour is the first again
+            ///< (frames 1, 2 and F - 2)
+};
+
+/// The weighted moving mean of Blender's "Smooth Keys", `passes` times (>= 0):
+/// y[t] = (3 x[t-2] + 6 x[t-1] + 4 x[t] + 6 x[t+1] + 3 x[t+2]) / 22.
+void weighted_mean_filter(PoseMatrix& matrix, int passes,
+                          WeightedMeanEnds ends = WeightedMeanEnds::reflect);
+
+/// Which derivative of the signal is white noise.
+enum class MotionModel {
+  position,     ///< the first: a random walk (the constant-position model of Lou & Chai)
+  velocity,     ///< the second: nearly constant velocity
+  acceleration  ///< the third: nearly constant acceleration
+};
+
+/// A continuous model sampled every `frame_step_s` seconds, each channel by itself. `process_noise`
+/// is the square root of the spectral density of the white derivative (unit / s^0.5, s^1.5, s^2.5
+/// for the three kinds), `measurement_noise` the standard deviation of a sample; each one value for
+/// all channels or one for each, process >= 0, measurement > 0. With frame_step_s = 1 all is per
+/// frame.
+struct LinearGaussianModel {
+  MotionModel kind = MotionModel::velocity;
+  double frame_step_s = 1.0;
+  std::vector<double> process_noise = {1.0};
+  std::vector<double> measurement_noise = {1.0};
+};
+
+/// Kalman filter: frame t becomes the mean of the position given samples 0 to t. A sample marked in
+/// `missing` is not looked at: its frame is the prediction (before a channel's first sample: that
+/// sample). Nothing is known beforehand of the state: the prior is wide. A channel without any
+/// sample stays as it is.
+void kalman_filter(PoseMatrix& matrix, const LinearGaussianModel& model,
+                   std::span<const std::uint8_t> missing = {});
+/// Rauch-Tung-Striebel smoother: the mean given all samples. Fills what `missing` marks.
+void kalman_smoother(PoseMatrix& matrix, const LinearGaussianModel& model,
+                     std::span<const std::uint8_t> missing = {});
+
+/// The Kalman filter between frames: the same numbers as `kalman_filter`, but a channel before its
+/// first sample keeps the value it was given.
+class KalmanState {
+ public:
+  KalmanState(LinearGaussianModel model, std::size_t channels);
+  /// Filters the next frame in place. `missing`: one mark a channel, or empty.
+  void step(std::span<double> frame, std::span<const std::uint8_t> missing = {});
+  void reset();
+
+ private:
+  LinearGaussianModel model_;
+  std::size_t channels_ = 0;
+  std::vector<double> memory_;
+};
+
+/// Standard deviation of the white noise in each channel: 1.4826 * MAD of the differences of order
+/// `difference_order` (1 to 10) / sqrt(binomial(2k, k)); sqrt(6) for order 2. A higher order sees
+/// less of the motion and more of the chance. 0 for a channel of no more frames than the order, or
+/// where more than half of the differences are equal.
+std::vector<double> estimate_noise(const PoseMatrix& matrix, int difference_order = 2);
+
+/// Fills marked samples on the straight line between their unmarked neighbours; before the first
+/// and behind the last unmarked sample the value is held. A channel that is marked throughout stays
+/// as it is.
+void fill_linear(PoseMatrix& matrix, std::span<const std::uint8_t> missing);
+/// The same on the natural cubic spline through the channel's unmarked samples.
+void fill_cubic(PoseMatrix& matrix, std::span<const std::uint8_t> missing);
+
+}  // namespace kinemend
