@@ -13,13 +13,13 @@ namespace kinemend {
 
 /// What the user asks for beside the method.
 struct CleanSettings {
-  double strength = 1.0;        ///< 0..1: geodesic blend from the input (0) to the cleaned rotation (1)
-  double max_change_deg = 180;  ///< no sample turns further than this from its input (0..180)
+  double strength = 1.0;  ///< 0..1: geodesic blend from the input (0) to the cleaned rotation (1)
+  double max_change_deg = 180;       ///< no sample turns further than this from its input (0..180)
   std::vector<std::string> joints;   ///< names or shell patterns (`Left*`); empty: all joints
   std::vector<std::string> exclude;  ///< taken out again
   bool root_position = true;         ///< also clean the root position
-  /// Frames [first, last] that may change, counted from 0; the method sees all of the take, and the result is blended in
-  /// over 0.1 s at either end that is not an end of the take.
+  /// Frames [first, last] that may change, counted from 0; the method sees all of the take, and the
+  /// result is blended in over 0.1 s at either end that is not an end of the take.
   std::optional<std::pair<std::size_t, std::size_t>> range;
   double peak_loss_limit = 0.10;  ///< a larger loss of a joint's peak speed is a warning (0..1)
 };
@@ -41,7 +41,7 @@ struct JointSummary {
   double rms_change_deg = 0;
   double max_change_deg = 0;
   std::size_t frames_changed = 0;
-  std::size_t frames_repaired = 0;  ///< despiked, filled or foot-adjusted
+  std::size_t frames_repaired = 0;     ///< despiked, filled or foot-adjusted
   double peak_speed_before_deg_s = 0;  ///< largest angular speed, repaired samples left out
   double peak_speed_after_deg_s = 0;
 };
@@ -64,9 +64,9 @@ struct CleanResult {
   CleanReport report;
 };
 
-/// The main path: takes calibration frames off, runs the cleaner, blends by strength, range and largest change, and
-/// reports. Samples outside the selection keep their exact value. Errors: `ErrorKind::usage` for settings out of range
-/// and for a joint pattern that matches nothing.
+/// The main path: takes calibration frames off, runs the cleaner, blends by strength, range and
+/// largest change, and reports. Samples outside the selection keep their exact value. Errors:
+/// `ErrorKind::usage` for settings out of range and for a joint pattern that matches nothing.
 CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner, const CleanSettings& settings = {},
                        std::string method_name = {});
 

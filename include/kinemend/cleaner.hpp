@@ -31,10 +31,12 @@ struct Selection {
 
 /// What a cleaner says of its work beside the cleaned clip.
 struct CleanTrace {
-  std::vector<Action> actions;            ///< F x J where the cleaner tells samples apart (spikes, fills); else empty
-  std::vector<Action> root_actions;       ///< F, the same for the root position; else empty
-  std::vector<double> noise_deg;          ///< J: estimated noise per axis before cleaning, degrees; else empty
-  std::optional<double> root_noise;       ///< the same for the root position, file units
+  std::vector<Action>
+      actions;  ///< F x J where the cleaner tells samples apart (spikes, fills); else empty
+  std::vector<Action> root_actions;  ///< F, the same for the root position; else empty
+  std::vector<double>
+      noise_deg;  ///< J: estimated noise per axis before cleaning, degrees; else empty
+  std::optional<double> root_noise;  ///< the same for the root position, file units
   std::vector<std::string> warnings;
 };
 
@@ -42,7 +44,8 @@ struct CleanTrace {
 struct LiveSupport {
   enum class Kind : std::uint8_t {
     none,      ///< needs the whole take
-    windowed,  ///< a frame's result depends on `half_window_frames` on either side and on nothing else
+    windowed,  ///< a frame's result depends on `half_window_frames` on either side and on nothing
+               ///< else
     causal,    ///< depends on the past only, through a state: `make_frame_filter`
   };
   Kind kind = Kind::none;
@@ -52,7 +55,7 @@ struct LiveSupport {
 /// One frame of live motion.
 struct LiveFrame {
   Vec3 root_position;
-  std::vector<Quat> rotations;          ///< J
+  std::vector<Quat> rotations;           ///< J
   std::vector<Vec3> joint_translations;  ///< one a translated joint
 };
 
@@ -63,18 +66,22 @@ class FrameFilter {
   virtual void filter(LiveFrame& frame) = 0;
 };
 
-/// A cleaning method with its options. Immutable after construction and safe to share between threads.
+/// A cleaning method with its options. Immutable after construction and safe to share between
+/// threads.
 class Cleaner {
  public:
   virtual ~Cleaner() = default;
 
-  /// Cleans the selected parts of `clip` in place. Every frame is motion: calibration frames are already off. Any number
-  /// of frames is accepted, one and two included. The result does not depend on the number of threads.
+  /// Cleans the selected parts of `clip` in place. Every frame is motion: calibration frames are
+  /// already off. Any number of frames is accepted, one and two included. The result does not
+  /// depend on the number of threads.
   virtual CleanTrace clean(Clip& clip, const Selection& selection) const = 0;
 
   virtual LiveSupport live_support(double frame_rate_hz) const;
-  /// A new stream's state, of a causal cleaner; nullptr of any other. `clean` of a causal cleaner gives the same numbers.
-  virtual std::unique_ptr<FrameFilter> make_frame_filter(const Skeleton& skeleton, double frame_rate_hz) const;
+  /// A new stream's state, of a causal cleaner; nullptr of any other. `clean` of a causal cleaner
+  /// gives the same numbers.
+  virtual std::unique_ptr<FrameFilter> make_frame_filter(const Skeleton& skeleton,
+                                                         double frame_rate_hz) const;
 };
 
 /// An entry of the table of methods.

@@ -11,8 +11,8 @@
 
 namespace kinemend {
 
-/// What a reader keeps of a file so that it can be written back faithfully. Each format derives its own; only the format
-/// that made one looks inside.
+/// What a reader keeps of a file so that it can be written back faithfully. Each format derives its
+/// own; only the format that made one looks inside.
 struct SourceDocument {
   virtual ~SourceDocument() = default;
 };
@@ -27,16 +27,21 @@ struct SourceInfo {
 struct Clip {
   Skeleton skeleton;
   double frame_rate_hz = 0;
-  std::vector<Vec3> root_positions;   ///< F; position of joint 0 in file units (its offset where it has no channels)
+  std::vector<Vec3> root_positions;   ///< F; position of joint 0 in file units (its offset where it
+                                      ///< has no channels)
   std::vector<Quat> local_rotations;  ///< F x J unit quaternions, about the rest rotation
-  std::vector<std::int32_t> translated_joints;  ///< joints other than 0 that have position channels, ascending
-  std::vector<Vec3> joint_translations;         ///< F x translated_joints; replaces the joint's offset
-  std::vector<std::uint8_t> observed;           ///< F x J, 1 where a rotation was measured; empty means all of them
+  std::vector<std::int32_t>
+      translated_joints;  ///< joints other than 0 that have position channels, ascending
+  std::vector<Vec3> joint_translations;  ///< F x translated_joints; replaces the joint's offset
+  std::vector<std::uint8_t>
+      observed;  ///< F x J, 1 where a rotation was measured; empty means all of them
   SourceInfo source;
 
   std::size_t frame_count() const noexcept { return root_positions.size(); }
   std::size_t joint_count() const noexcept { return skeleton.joint_count(); }
-  Quat& rotation(std::size_t frame, std::size_t joint) { return local_rotations[frame * joint_count() + joint]; }
+  Quat& rotation(std::size_t frame, std::size_t joint) {
+    return local_rotations[frame * joint_count() + joint];
+  }
   Quat rotation(std::size_t frame, std::size_t joint) const {
     return local_rotations[frame * joint_count() + joint];
   }
@@ -47,17 +52,19 @@ struct Clip {
     return frame_rate_hz > 0 ? static_cast<double>(frame_count()) / frame_rate_hz : 0.0;
   }
 
-  /// The rules: a valid skeleton; a finite positive rate; arrays of the lengths above; finite positions; rotations of
-  /// unit norm (1e-6). Errors: `ErrorKind::usage` naming the first frame and joint that breaks a rule.
+  /// The rules: a valid skeleton; a finite positive rate; arrays of the lengths above; finite
+  /// positions; rotations of unit norm (1e-6). Errors: `ErrorKind::usage` naming the first frame
+  /// and joint that breaks a rule.
   void validate() const;
 };
 
 /// Frames [first, last) as a clip of their own, without its source document.
 Clip slice(const Clip& clip, std::size_t first, std::size_t last);
 
-/// How many frames at the start are a calibration pose and no part of the motion: 1 where frame 0 is a T-pose as in
-/// the CMU files (its jump to frame 1 is far larger than any step that follows, and its rotations are all nearly
-/// zero or all equal to the rest pose), else 0. Never all of the frames.
+/// How many frames at the start are a calibration pose and no part of the motion: 1 where frame 0
+/// is a T-pose as in the CMU files (its jump to frame 1 is far larger than any step that follows,
+/// and its rotations are all nearly zero or all equal to the rest pose), else 0. Never all of the
+/// frames.
 std::size_t leading_calibration_frames(const Clip& clip);
 
 }  // namespace kinemend

@@ -9,9 +9,10 @@ namespace kinemend {
 
 /// One kind of repair made to odd but usable input. Repeated ones are counted, not listed.
 struct Diagnostic {
-  std::string name;            ///< stable, for programs: `frame_count_mismatch`
-  std::string message;         ///< for people, of the first occurrence
-  std::size_t first_line = 0;  ///< line (from 1) or byte offset of the first occurrence; 0 is unknown
+  std::string name;     ///< stable, for programs: `frame_count_mismatch`
+  std::string message;  ///< for people, of the first occurrence
+  std::size_t first_line =
+      0;  ///< line (from 1) or byte offset of the first occurrence; 0 is unknown
   std::size_t count = 0;
 };
 

@@ -8,8 +8,9 @@
 
 namespace kinemend {
 
-// Every cleaning method as a plain options struct and the function that makes its cleaner. Times are seconds and
-// frequencies hertz, taken against the clip's own rate. The factories throw `ErrorKind::usage` for a value out of range.
+// Every cleaning method as a plain options struct and the function that makes its cleaner. Times
+// are seconds and frequencies hertz, taken against the clip's own rate. The factories throw
+// `ErrorKind::usage` for a value out of range.
 
 /// Orientation filter of Lee & Shin's construction with a Gaussian mask (Courty 2008, eq. 2-3).
 struct GaussianOptions {
@@ -19,18 +20,20 @@ std::unique_ptr<Cleaner> make_gaussian(const GaussianOptions& options = {});
 
 /// Low-pass Butterworth, forward and backward (zero phase); live it runs forward only.
 struct ButterworthOptions {
-  std::int64_t order = 4;   ///< of one direction
-  double cutoff_hz = 8;     ///< half power of one direction
+  std::int64_t order = 4;  ///< of one direction
+  double cutoff_hz = 8;    ///< half power of one direction
 };
 std::unique_ptr<Cleaner> make_butterworth(const ButterworthOptions& options = {});
 
-/// Running median of rotations (the sample of the window with the least sum of distances) and of positions.
+/// Running median of rotations (the sample of the window with the least sum of distances) and of
+/// positions.
 struct MedianOptions {
   double window_s = 0.06;
 };
 std::unique_ptr<Cleaner> make_median(const MedianOptions& options = {});
 
-/// Hampel despiking: a sample further from its window's median than threshold times the spread is replaced.
+/// Hampel despiking: a sample further from its window's median than threshold times the spread is
+/// replaced.
 struct HampelOptions {
   double window_s = 0.15;
   double threshold = 4;  ///< in robust standard deviations
@@ -39,9 +42,9 @@ std::unique_ptr<Cleaner> make_hampel(const HampelOptions& options = {});
 
 /// Wavelet shrinkage on every channel.
 struct WaveletOptions {
-  std::string family = "sym8";      ///< db1..db10, sym2..sym10
-  std::string threshold = "sure";   ///< universal or sure
-  std::string shrinkage = "soft";   ///< soft or hard
+  std::string family = "sym8";     ///< db1..db10, sym2..sym10
+  std::string threshold = "sure";  ///< universal or sure
+  std::string shrinkage = "soft";  ///< soft or hard
 };
 std::unique_ptr<Cleaner> make_wavelet(const WaveletOptions& options = {});
 
@@ -53,14 +56,16 @@ std::unique_ptr<Cleaner> make_weighted_mean(const WeightedMeanOptions& options =
 
 /// Kalman filter or Rauch-Tung-Striebel smoother.
 struct KalmanOptions {
-  std::string model = "velocity";  ///< position (Lou & Chai's baseline) or velocity (constant velocity)
-  bool smoother = true;            ///< off: the causal filter, which also runs live
-  double noise_deg = 0;            ///< measurement noise per axis; 0: estimated from the take
-  double agility = 1;              ///< process noise, relative to the default for human motion
+  std::string model =
+      "velocity";        ///< position (Lou & Chai's baseline) or velocity (constant velocity)
+  bool smoother = true;  ///< off: the causal filter, which also runs live
+  double noise_deg = 0;  ///< measurement noise per axis; 0: estimated from the take
+  double agility = 1;    ///< process noise, relative to the default for human motion
 };
 std::unique_ptr<Cleaner> make_kalman(const KalmanOptions& options = {});
 
-/// The 1-euro filter of Casiez et al. 2012, on SO(3): a causal low-pass whose cutoff grows with speed.
+/// The 1-euro filter of Casiez et al. 2012, on SO(3): a causal low-pass whose cutoff grows with
+/// speed.
 struct OneEuroOptions {
   double min_cutoff_hz = 2.0;
   double speed_coefficient = 0.6;  ///< hertz of cutoff per radian per second
@@ -70,24 +75,26 @@ std::unique_ptr<Cleaner> make_one_euro(const OneEuroOptions& options = {});
 
 /// Bilateral filter on SO(3) (Courty 2008).
 struct BilateralOptions {
-  double sigma_t_s = 0.03;   ///< temporal width
-  double sigma_g_deg = 6;    ///< width in rotation angle (geodesic distance |Log(a^-1 b)|)
+  double sigma_t_s = 0.03;  ///< temporal width
+  double sigma_g_deg = 6;   ///< width in rotation angle (geodesic distance |Log(a^-1 b)|)
   std::int64_t passes = 5;
 };
 std::unique_ptr<Cleaner> make_bilateral(const BilateralOptions& options = {});
 
 /// Non-local pose means (Dean 2016).
 struct NonlocalOptions {
-  double window_s = 0.175;          ///< whole learning window (21 poses at 120 Hz); 0: the whole take
-  double patch_s = 0.092;           ///< whole patch (11 poses at 120 Hz)
-  std::int64_t neighbours = 0;      ///< the k most similar patches; 0: all in the window
-  double bandwidth_deg = 0;         ///< the paper's sigma per channel, as a rotation angle; 0: from the estimated noise
+  double window_s = 0.175;      ///< whole learning window (21 poses at 120 Hz); 0: the whole take
+  double patch_s = 0.092;       ///< whole patch (11 poses at 120 Hz)
+  std::int64_t neighbours = 0;  ///< the k most similar patches; 0: all in the window
+  double bandwidth_deg =
+      0;  ///< the paper's sigma per channel, as a rotation angle; 0: from the estimated noise
   std::string boundary = "dirichlet";  ///< mirror, neumann or dirichlet
-  bool causal = false;              ///< past poses only, for live use
+  bool causal = false;                 ///< past poses only, for live use
 };
 std::unique_ptr<Cleaner> make_nonlocal(const NonlocalOptions& options = {});
 
-/// The default: measures each joint's noise, repairs spikes, smooths as much as the noise asks, leaves clean takes alone.
+/// The default: measures each joint's noise, repairs spikes, smooths as much as the noise asks,
+/// leaves clean takes alone.
 struct AutoOptions {
   double sensitivity = 1;  ///< scales the estimated noise: above 1 cleans more, below 1 less
   bool despike = true;

@@ -17,10 +17,11 @@ namespace kinemend {
 using OptionValue = std::variant<double, std::int64_t, bool, std::string>;
 using OptionValues = std::map<std::string, OptionValue, std::less<>>;
 
-/// One option of a method, defined once: parser, help, configuration files, shell completion and manual page all come
-/// from this.
+/// One option of a method, defined once: parser, help, configuration files, shell completion and
+/// manual page all come from this.
 struct OptionSpec {
-  std::string name;  ///< snake_case with the unit in it: `cutoff_hz`. On a command line: `--cutoff-hz`.
+  std::string
+      name;  ///< snake_case with the unit in it: `cutoff_hz`. On a command line: `--cutoff-hz`.
   std::string unit;  ///< "s", "Hz", "deg", ...; empty for a pure number
   OptionValue default_value;
   double minimum = -std::numeric_limits<double>::infinity();
@@ -31,36 +32,51 @@ struct OptionSpec {
 
 /// The value as text, in the form that `parse_option` reads.
 std::string to_string(const OptionValue& value);
-/// Text to the type of the option's default. Errors: `ErrorKind::usage`, naming the option and what it takes.
+/// Text to the type of the option's default. Errors: `ErrorKind::usage`, naming the option and what
+/// it takes.
 OptionValue parse_option(const OptionSpec& spec, std::string_view text);
-/// Checks type, range and choice; an integer is accepted for a number. Returns the value in the option's own type.
-/// Errors: `ErrorKind::usage`: `cutoff_hz: 900 is outside 0.1 to 120 Hz`.
+/// Checks type, range and choice; an integer is accepted for a number. Returns the value in the
+/// option's own type. Errors: `ErrorKind::usage`: `cutoff_hz: 900 is outside 0.1 to 120 Hz`.
 OptionValue check_option(const OptionSpec& spec, const OptionValue& value);
 
-/// Binds option names to the members of a plain options struct, whose initialisers are the defaults.
+/// Binds option names to the members of a plain options struct, whose initialisers are the
+/// defaults.
 template <class Options>
 class OptionTable {
  public:
-  OptionTable& number(double Options::*member, std::string name, std::string unit, double minimum, double maximum,
-                      std::string help) {
-    return add(member, {std::move(name), std::move(unit), Options{}.*member, minimum, maximum, {}, std::move(help)});
+  OptionTable& number(double Options::*member, std::string name, std::string unit, double minimum,
+                      double maximum, std::string help) {
+    return add(member, {std::move(name),
+                        std::move(unit),
+                        Options{}.*member,
+                        minimum,
+                        maximum,
+                        {},
+                        std::move(help)});
   }
-  OptionTable& integer(std::int64_t Options::*member, std::string name, std::string unit, double minimum,
-                       double maximum, std::string help) {
-    return add(member, {std::move(name), std::move(unit), Options{}.*member, minimum, maximum, {}, std::move(help)});
+  OptionTable& integer(std::int64_t Options::*member, std::string name, std::string unit,
+                       double minimum, double maximum, std::string help) {
+    return add(member, {std::move(name),
+                        std::move(unit),
+                        Options{}.*member,
+                        minimum,
+                        maximum,
+                        {},
+                        std::move(help)});
   }
   OptionTable& flag(bool Options::*member, std::string name, std::string help) {
     return add(member, {std::move(name), "", Options{}.*member, 0, 1, {}, std::move(help)});
   }
-  OptionTable& choice(std::string Options::*member, std::string name, std::vector<std::string> choices,
-                      std::string help) {
-    return add(member, {std::move(name), "", Options{}.*member, 0, 0, std::move(choices), std::move(help)});
+  OptionTable& choice(std::string Options::*member, std::string name,
+                      std::vector<std::string> choices, std::string help) {
+    return add(member,
+               {std::move(name), "", Options{}.*member, 0, 0, std::move(choices), std::move(help)});
   }
 
   const std::vector<OptionSpec>& specs() const noexcept { return specs_; }
 
-  /// The struct with `values` put in. Errors: `ErrorKind::usage` for an unknown name, a wrong type or a value out of
-  /// range.
+  /// The struct with `values` put in. Errors: `ErrorKind::usage` for an unknown name, a wrong type
+  /// or a value out of range.
   Options parse(const OptionValues& values) const {
     Options options;
     for (const auto& [name, value] : values) {

@@ -5,8 +5,8 @@
 
 namespace kinemend {
 
-/// The one random generator (xoshiro256++, seeded through splitmix64). It is passed in, never global:
-/// the same seed gives the same numbers on every machine, compiler and number of threads.
+/// The one random generator (xoshiro256++, seeded through splitmix64). It is passed in, never
+/// global: the same seed gives the same numbers on every machine, compiler and number of threads.
 class Random {
  public:
   explicit Random(std::uint64_t seed) noexcept;

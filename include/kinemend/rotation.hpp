@@ -31,16 +31,17 @@ inline Vec3 cross(Vec3 a, Vec3 b) {
 }
 inline double norm(Vec3 a) { return std::sqrt(dot(a, a)); }
 
-/// A quaternion w + xi + yj + zk; a rotation when its norm is 1 (within 1e-9 for every function below that takes a
-/// rotation). q and -q are the same rotation. a * b turns by b first, then by a.
+/// A quaternion w + xi + yj + zk; a rotation when its norm is 1 (within 1e-9 for every function
+/// below that takes a rotation). q and -q are the same rotation. a * b turns by b first, then by a.
 struct Quat {
   double w = 1, x = 0, y = 0, z = 0;
   friend bool operator==(const Quat&, const Quat&) = default;
 };
 
 inline Quat operator*(Quat a, Quat b) {
-  return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
-          a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+  return {
+      a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 inline Quat operator-(Quat q) { return {-q.w, -q.x, -q.y, -q.z}; }
 inline Quat operator+(Quat a, Quat b) { return {a.w + b.w, a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -56,9 +57,9 @@ Vec3 rotate(Quat q, Vec3 v);
 
 /// Exp: rotation vector (axis times angle, radians) to rotation. Right at and near 0.
 Quat exp(Vec3 rotation_vector);
-/// Log: rotation to the shortest rotation vector, |Log(q)| in [0, pi]. Log(-q) = Log(q) except at exactly pi, where the
-/// two signs of the axis are both right. Right at and near 0 and pi.
-/// Papers that use the logarithm of the quaternion itself (Dean, Courty) mean half of this vector.
+/// Log: rotation to the shortest rotation vector, |Log(q)| in [0, pi]. Log(-q) = Log(q) except at
+/// exactly pi, where the two signs of the axis are both right. Right at and near 0 and pi. Papers
+/// that use the logarithm of the quaternion itself (Dean, Courty) mean half of this vector.
 Vec3 log(Quat q);
 /// |Log(a^-1 b)| in radians, [0, pi]: the length of the geodesic. Exact for small angles.
 double angle_between(Quat a, Quat b);
@@ -66,43 +67,53 @@ double angle_between(Quat a, Quat b);
 Quat slerp(Quat a, Quat b, double t);
 /// q or -q, whichever is nearer to `reference`.
 inline Quat align_hemisphere(Quat q, Quat reference) { return dot(q, reference) < 0 ? -q : q; }
-/// Signs of a whole track chosen so that each sample is nearest to the one before; `stride` is the distance between
-/// successive samples in `track`, so that one joint of a frame-major block can be aligned in place.
+/// Signs of a whole track chosen so that each sample is nearest to the one before; `stride` is the
+/// distance between successive samples in `track`, so that one joint of a frame-major block can be
+/// aligned in place.
 void align_hemispheres(std::span<Quat> track, std::size_t stride = 1);
 
-/// Karcher mean: the rotation with the least sum of squared geodesic distances, sum_i w_i Log(m^-1 q_i) = 0.
-/// `weights` is empty (all equal) or one a rotation, not negative, not all zero. Gauss-Newton from the chordal
-/// mean; unique when the rotations lie within a ball of radius pi / 2. Identity for no rotations.
+/// Karcher mean: the rotation with the least sum of squared geodesic distances, sum_i w_i Log(m^-1
+/// q_i) = 0. `weights` is empty (all equal) or one a rotation, not negative, not all zero.
+/// Gauss-Newton from the chordal mean; unique when the rotations lie within a ball of radius pi
+/// / 2. Identity for no rotations.
 Quat karcher_mean(std::span<const Quat> rotations, std::span<const double> weights = {});
-/// Log-space mean about a reference: r Exp(sum_i w_i Log(r^-1 q_i) / sum_i w_i), one step of the Karcher iteration.
-Quat log_mean(Quat reference, std::span<const Quat> rotations, std::span<const double> weights = {});
-/// The eigenvector of sum_i w_i q_i q_i^T with the largest eigenvalue: the chordal mean, indifferent to signs.
+/// Log-space mean about a reference: r Exp(sum_i w_i Log(r^-1 q_i) / sum_i w_i), one step of the
+/// Karcher iteration.
+Quat log_mean(Quat reference, std::span<const Quat> rotations,
+              std::span<const double> weights = {});
+/// The eigenvector of sum_i w_i q_i q_i^T with the largest eigenvalue: the chordal mean,
+/// indifferent to signs.
 Quat chordal_mean(std::span<const Quat> rotations, std::span<const double> weights = {});
 
 enum class Axis : std::uint8_t { x, y, z };
 
-/// The axes of up to three successive turns about the joint's own (moving) axes, in channel order. `ZXY` means
-/// R = Rz(a0) Rx(a1) Ry(a2): the product is written left to right, so the last turn acts on a vector first.
-/// Neighbouring axes differ. Fewer than three axes describe hinges and saddle joints.
+/// The axes of up to three successive turns about the joint's own (moving) axes, in channel order.
+/// `ZXY` means R = Rz(a0) Rx(a1) Ry(a2): the product is written left to right, so the last turn
+/// acts on a vector first. Neighbouring axes differ. Fewer than three axes describe hinges and
+/// saddle joints.
 struct RotationOrder {
   std::array<Axis, 3> axes{};
   std::uint8_t count = 0;
   friend bool operator==(const RotationOrder&, const RotationOrder&) = default;
 };
 
-/// The 12 orders of three axes: six with three different axes, six with the first repeated as the last.
+/// The 12 orders of three axes: six with three different axes, six with the first repeated as the
+/// last.
 std::span<const RotationOrder> all_rotation_orders();
 /// `"ZXY"` and the like, any case, one to three letters. Errors: `ErrorKind::usage`.
 RotationOrder parse_rotation_order(std::string_view text);
 std::string to_string(RotationOrder order);
 
-/// R = R_axis0(angles[0]) R_axis1(angles[1]) R_axis2(angles[2]); radians, any size; entries past `count` are ignored.
+/// R = R_axis0(angles[0]) R_axis1(angles[1]) R_axis2(angles[2]); radians, any size; entries past
+/// `count` are ignored.
 Quat from_euler(const std::array<double, 3>& angles, RotationOrder order);
-/// The angles (radians) of `rotation` in `order` that lie nearest to `previous`, so that a sequence has no 360-degree
-/// jumps and no flips: of the two branches and all whole turns, the one with the least largest change; in gimbal
-/// lock the freedom is used to change the two locked angles least.
-/// With one or two axes, the angles of the nearest rotation (in geodesic distance) that the axes can reach.
-std::array<double, 3> to_euler_near(Quat rotation, RotationOrder order, const std::array<double, 3>& previous);
+/// The angles (radians) of `rotation` in `order` that lie nearest to `previous`, so that a sequence
+/// has no 360-degree jumps and no flips: of the two branches and all whole turns, the one with the
+/// least largest change; in gimbal lock the freedom is used to change the two locked angles least.
+/// With one or two axes, the angles of the nearest rotation (in geodesic distance) that the axes
+/// can reach.
+std::array<double, 3> to_euler_near(Quat rotation, RotationOrder order,
+                                    const std::array<double, 3>& previous);
 /// The same with the usual ranges: `previous` all zero.
 std::array<double, 3> to_euler(Quat rotation, RotationOrder order);
 

@@ -10,7 +10,14 @@
 namespace kinemend {
 
 /// One column of a joint in the file.
-enum class Channel : std::uint8_t { x_position, y_position, z_position, x_rotation, y_rotation, z_rotation };
+enum class Channel : std::uint8_t {
+  x_position,
+  y_position,
+  z_position,
+  x_rotation,
+  y_rotation,
+  z_rotation
+};
 
 inline bool is_rotation(Channel channel) { return channel >= Channel::x_rotation; }
 inline Axis axis_of(Channel channel) { return static_cast<Axis>(static_cast<int>(channel) % 3); }
@@ -25,10 +32,12 @@ struct EndSite {
 /// A tree of joints as parallel arrays, depth first.
 struct Skeleton {
   std::vector<std::string> names;
-  std::vector<std::int32_t> parents;        ///< -1 for a root
-  std::vector<Vec3> offsets;                ///< from the parent joint, in its frame, file units
-  std::vector<Quat> rest_rotations;         ///< the joint's frame in its parent's when its local rotation is identity
-  std::vector<std::vector<Channel>> channels;  ///< in the order of the file; empty for a fixed joint
+  std::vector<std::int32_t> parents;  ///< -1 for a root
+  std::vector<Vec3> offsets;          ///< from the parent joint, in its frame, file units
+  std::vector<Quat>
+      rest_rotations;  ///< the joint's frame in its parent's when its local rotation is identity
+  std::vector<std::vector<Channel>>
+      channels;  ///< in the order of the file; empty for a fixed joint
   std::vector<EndSite> end_sites;
 
   std::size_t joint_count() const noexcept { return names.size(); }
@@ -38,12 +47,14 @@ struct Skeleton {
   RotationOrder rotation_order(std::size_t joint) const;
   bool has_position_channels(std::size_t joint) const;
   /// Appends a joint and returns its index.
-  std::int32_t add_joint(std::string name, std::int32_t parent, Vec3 offset, std::vector<Channel> joint_channels);
+  std::int32_t add_joint(std::string name, std::int32_t parent, Vec3 offset,
+                         std::vector<Channel> joint_channels);
 
-  /// The rules: arrays of one length; every parent precedes its child; joint 0 is a root; offsets finite; rest rotations
-  /// of unit norm (1e-9); no channel twice in a joint save a rotation axis that is not a neighbour of itself (at most 3
-  /// rotation channels); end sites hang on joints that exist. Names may repeat and may be empty.
-  /// Errors: `ErrorKind::usage` naming the first joint that breaks a rule.
+  /// The rules: arrays of one length; every parent precedes its child; joint 0 is a root; offsets
+  /// finite; rest rotations of unit norm (1e-9); no channel twice in a joint save a rotation axis
+  /// that is not a neighbour of itself (at most 3 rotation channels); end sites hang on joints that
+  /// exist. Names may repeat and may be empty. Errors: `ErrorKind::usage` naming the first joint
+  /// that breaks a rule.
   void validate() const;
 };
 

@@ -7,8 +7,8 @@
 
 namespace kinemend {
 
-/// Cleaning frame by frame: frame t goes in, frame t - latency_frames() comes out. The frames that come out are those
-/// that `Cleaner::clean` gives for the whole take.
+/// Cleaning frame by frame: frame t goes in, frame t - latency_frames() comes out. The frames that
+/// come out are those that `Cleaner::clean` gives for the whole take.
 class Stream {
  public:
   virtual ~Stream() = default;

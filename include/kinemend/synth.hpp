@@ -9,8 +9,8 @@
 
 namespace kinemend {
 
-/// A synthetic take of a full humanoid, made from published normative gait data: clean truth for tests, benchmarks and
-/// the demonstration.
+/// A synthetic take of a full humanoid, made from published normative gait data: clean truth for
+/// tests, benchmarks and the demonstration.
 struct SynthOptions {
   std::string motion = "walk";  ///< one of `synth_motions()`
   double duration_s = 6;        ///< 0.1 to 600

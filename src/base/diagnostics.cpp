@@ -7,7 +7,8 @@ namespace kinemend {
 namespace {
 
 auto find_entry(auto& entries, std::string_view name) {
-  return std::find_if(entries.begin(), entries.end(), [&](const Diagnostic& d) { return d.name == name; });
+  return std::find_if(entries.begin(), entries.end(),
+                      [&](const Diagnostic& d) { return d.name == name; });
 }
 
 }  // namespace

@@ -17,11 +17,13 @@ namespace {
 }
 
 std::string range_text(const OptionSpec& spec) {
-  return fmt::format("is outside {} to {}{}{}", spec.minimum, spec.maximum, spec.unit.empty() ? "" : " ", spec.unit);
+  return fmt::format("is outside {} to {}{}{}", spec.minimum, spec.maximum,
+                     spec.unit.empty() ? "" : " ", spec.unit);
 }
 
 void check_range(const OptionSpec& spec, double value) {
-  if (!(value >= spec.minimum && value <= spec.maximum)) refuse(spec, fmt::format("{}", value), range_text(spec));
+  if (!(value >= spec.minimum && value <= spec.maximum))
+    refuse(spec, fmt::format("{}", value), range_text(spec));
 }
 
 template <class Number>
@@ -78,11 +80,14 @@ OptionValue check_option(const OptionSpec& spec, const OptionValue& value) {
     check_range(spec, checked);
     return checked;
   }
-  if (value.index() != spec.default_value.index()) refuse(spec, to_string(value), "has the wrong type");
-  if (const auto* whole = std::get_if<std::int64_t>(&value)) check_range(spec, static_cast<double>(*whole));
+  if (value.index() != spec.default_value.index())
+    refuse(spec, to_string(value), "has the wrong type");
+  if (const auto* whole = std::get_if<std::int64_t>(&value))
+    check_range(spec, static_cast<double>(*whole));
   if (const auto* text = std::get_if<std::string>(&value); text && !spec.choices.empty()) {
     if (std::find(spec.choices.begin(), spec.choices.end(), *text) == spec.choices.end()) {
-      refuse(spec, fmt::format("\"{}\"", *text), fmt::format("is not one of {}", fmt::join(spec.choices, ", ")));
+      refuse(spec, fmt::format("\"{}\"", *text),
+             fmt::format("is not one of {}", fmt::join(spec.choices, ", ")));
     }
   }
   return value;

@@ -16,7 +16,8 @@ bool finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::is
 
 void check_length(std::size_t actual, std::size_t expected, const char* what) {
   if (actual != expected) {
-    throw Error(ErrorKind::usage, fmt::format("{}: {} values, expected {}", what, actual, expected));
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: {} values, expected {}", what, actual, expected));
   }
 }
 
@@ -41,16 +42,19 @@ void Clip::validate() const {
   if (!observed.empty()) check_length(observed.size(), frames * joints, "observed mask");
   for (std::size_t i = 0; i < translated_joints.size(); ++i) {
     const bool ascending = i == 0 || translated_joints[i] > translated_joints[i - 1];
-    if (translated_joints[i] < 1 || translated_joints[i] >= static_cast<std::int32_t>(joints) || !ascending) {
+    if (translated_joints[i] < 1 || translated_joints[i] >= static_cast<std::int32_t>(joints) ||
+        !ascending) {
       throw Error(ErrorKind::usage, "translated joints are not ascending joint numbers above 0");
     }
   }
   for (std::size_t f = 0; f < frames; ++f) {
-    if (!finite(root_positions[f])) throw Error(ErrorKind::usage, fmt::format("frame {}: root position is not finite", f));
+    if (!finite(root_positions[f]))
+      throw Error(ErrorKind::usage, fmt::format("frame {}: root position is not finite", f));
     for (std::size_t j = 0; j < joints; ++j) {
       if (!(std::fabs(norm(rotation(f, j)) - 1) <= 1e-6)) {
-        throw Error(ErrorKind::usage, fmt::format("frame {}, joint \"{}\": rotation is not a unit quaternion", f,
-                                                  skeleton.names[j]));
+        throw Error(ErrorKind::usage,
+                    fmt::format("frame {}, joint \"{}\": rotation is not a unit quaternion", f,
+                                skeleton.names[j]));
       }
     }
   }

@@ -23,18 +23,20 @@ void check_channels(const Skeleton& skeleton, std::size_t joint) {
     const auto axis = static_cast<std::size_t>(axis_of(channel));
     if (is_rotation(channel)) {
       if (!turns.empty() && turns.back() == axis_of(channel)) {
-        throw Error(ErrorKind::usage, fmt::format("joint {} \"{}\": a rotation channel follows itself", joint,
-                                                  skeleton.names[joint]));
+        throw Error(ErrorKind::usage,
+                    fmt::format("joint {} \"{}\": a rotation channel follows itself", joint,
+                                skeleton.names[joint]));
       }
       turns.push_back(axis_of(channel));
     } else if (std::exchange(seen_position[axis], true)) {
-      throw Error(ErrorKind::usage,
-                  fmt::format("joint {} \"{}\": a position channel occurs twice", joint, skeleton.names[joint]));
+      throw Error(ErrorKind::usage, fmt::format("joint {} \"{}\": a position channel occurs twice",
+                                                joint, skeleton.names[joint]));
     }
   }
   if (turns.size() > 3) {
-    throw Error(ErrorKind::usage, fmt::format("joint {} \"{}\": {} rotation channels, at most 3 are possible", joint,
-                                              skeleton.names[joint], turns.size()));
+    throw Error(ErrorKind::usage,
+                fmt::format("joint {} \"{}\": {} rotation channels, at most 3 are possible", joint,
+                            skeleton.names[joint], turns.size()));
   }
 }
 
@@ -54,7 +56,8 @@ RotationOrder Skeleton::rotation_order(std::size_t joint) const {
 }
 
 bool Skeleton::has_position_channels(std::size_t joint) const {
-  return std::any_of(channels[joint].begin(), channels[joint].end(), [](Channel c) { return !is_rotation(c); });
+  return std::any_of(channels[joint].begin(), channels[joint].end(),
+                     [](Channel c) { return !is_rotation(c); });
 }
 
 std::int32_t Skeleton::add_joint(std::string name, std::int32_t parent, Vec3 offset,
@@ -77,19 +80,25 @@ void Skeleton::validate() const {
   if (parents[0] != -1) throw Error(ErrorKind::usage, "joint 0 is not a root");
   for (std::size_t j = 0; j < count; ++j) {
     if (parents[j] < -1 || parents[j] >= static_cast<std::int32_t>(j)) {
-      throw Error(ErrorKind::usage, fmt::format("joint {} \"{}\": parent {} does not precede it", j, names[j], parents[j]));
+      throw Error(ErrorKind::usage, fmt::format("joint {} \"{}\": parent {} does not precede it", j,
+                                                names[j], parents[j]));
     }
     if (!finite(offsets[j])) {
-      throw Error(ErrorKind::usage, fmt::format("joint {} \"{}\": offset is not finite", j, names[j]));
+      throw Error(ErrorKind::usage,
+                  fmt::format("joint {} \"{}\": offset is not finite", j, names[j]));
     }
     if (!(std::fabs(norm(rest_rotations[j]) - 1) <= 1e-9)) {
-      throw Error(ErrorKind::usage, fmt::format("joint {} \"{}\": rest rotation is not a unit quaternion", j, names[j]));
+      throw Error(
+          ErrorKind::usage,
+          fmt::format("joint {} \"{}\": rest rotation is not a unit quaternion", j, names[j]));
     }
     check_channels(*this, j);
   }
   for (const EndSite& site : end_sites) {
-    if (site.parent < 0 || site.parent >= static_cast<std::int32_t>(count) || !finite(site.offset)) {
-      throw Error(ErrorKind::usage, "an end site hangs on no joint or has an offset that is not finite");
+    if (site.parent < 0 || site.parent >= static_cast<std::int32_t>(count) ||
+        !finite(site.offset)) {
+      throw Error(ErrorKind::usage,
+                  "an end site hangs on no joint or has an offset that is not finite");
     }
   }
 }
@@ -98,7 +107,8 @@ std::vector<Channel> make_channels(bool with_position, RotationOrder order) {
   std::vector<Channel> channels;
   if (with_position) channels = {Channel::x_position, Channel::y_position, Channel::z_position};
   for (std::size_t i = 0; i < order.count; ++i) {
-    channels.push_back(static_cast<Channel>(static_cast<int>(Channel::x_rotation) + static_cast<int>(order.axes[i])));
+    channels.push_back(static_cast<Channel>(static_cast<int>(Channel::x_rotation) +
+                                            static_cast<int>(order.axes[i])));
   }
   return channels;
 }

@@ -47,19 +47,21 @@ Angles hinge_angles(Quat q, RotationOrder order, const Angles& previous) {
   return {nearest_turn(angle, previous[0]), 0, 0};
 }
 
-// Two axes a, b: qa(2x) qb(2y) has the components (cos x cos y, sin x cos y, cos x sin y, e sin x sin y) on (1, a, b, c)
-// with e = 1 when a x b = +c. Its product with q is u(x)^T M u(y), u = (cos, sin), so the best x and y are the angles of
-// the leading singular vectors of the 2 x 2 matrix M.
+// Two axes a, b: qa(2x) qb(2y) has the components (cos x cos y, sin x cos y, cos x sin y, e sin x
+// sin y) on (1, a, b, c) with e = 1 when a x b = +c. Its product with q is u(x)^T M u(y), u = (cos,
+// sin), so the best x and y are the angles of the leading singular vectors of the 2 x 2 matrix M.
 Angles saddle_angles(Quat q, RotationOrder order, const Angles& previous) {
   const Axis a = order.axes[0], b = order.axes[1];
   const auto c = static_cast<Axis>(3 - index_of(a) - index_of(b));
   const double sign = (index_of(a) + 1) % 3 == index_of(b) ? 1.0 : -1.0;
-  const double m00 = q.w, m01 = component(q, b), m10 = component(q, a), m11 = sign * component(q, c);
+  const double m00 = q.w, m01 = component(q, b), m10 = component(q, a),
+               m11 = sign * component(q, c);
   // Singular value decomposition of 2 x 2 in closed form: sum and difference of the two angles.
   const double sum = std::atan2(m10 + m01, m00 - m11);
   const double difference = std::atan2(m10 - m01, m00 + m11);
   const Angles first{sum + difference, sum - difference, 0};
-  const Angles second{first[0] + 2 * pi, first[1], 0};  // the other sign of q, the same after whole turns
+  const Angles second{first[0] + 2 * pi, first[1],
+                      0};  // the other sign of q, the same after whole turns
   return nearer(first, second, previous, 2);
 }
 
@@ -85,13 +87,16 @@ std::span<const RotationOrder> all_rotation_orders() {
 RotationOrder parse_rotation_order(std::string_view text) {
   RotationOrder order;
   if (text.empty() || text.size() > 3) {
-    throw Error(ErrorKind::usage, "rotation order \"" + std::string(text) + "\": expected one to three letters of X, Y, Z");
+    throw Error(ErrorKind::usage, "rotation order \"" + std::string(text) +
+                                      "\": expected one to three letters of X, Y, Z");
   }
   for (const char letter : text) {
     const int axis = std::tolower(static_cast<unsigned char>(letter)) - 'x';
-    const bool repeats = order.count > 0 && index_of(order.axes[order.count - 1U]) == static_cast<std::size_t>(axis);
+    const bool repeats =
+        order.count > 0 && index_of(order.axes[order.count - 1U]) == static_cast<std::size_t>(axis);
     if (axis < 0 || axis > 2 || repeats) {
-      throw Error(ErrorKind::usage, "rotation order \"" + std::string(text) + "\": expected letters X, Y, Z, neighbours different");
+      throw Error(ErrorKind::usage, "rotation order \"" + std::string(text) +
+                                        "\": expected letters X, Y, Z, neighbours different");
     }
     order.axes[order.count++] = static_cast<Axis>(axis);
   }
@@ -115,8 +120,9 @@ Angles to_euler_near(Quat q, RotationOrder order, const Angles& previous) {
   if (order.count == 1) return hinge_angles(q, order, previous);
   if (order.count == 2) return saddle_angles(q, order, previous);
 
-  // After Bernardes & Viollet 2022. With e = 1 when i x j = +k, Rk(t) = Rj(-pi/2) Ri(e t) Rj(pi/2), so that
-  // Ri(a) Rj(b) Rk(c) Rj(-pi/2) = Ri(a) Rj(b - pi/2) Ri(e c): Tait-Bryan orders become proper Euler angles.
+  // After Bernardes & Viollet 2022. With e = 1 when i x j = +k, Rk(t) = Rj(-pi/2) Ri(e t) Rj(pi/2),
+  // so that Ri(a) Rj(b) Rk(c) Rj(-pi/2) = Ri(a) Rj(b - pi/2) Ri(e c): Tait-Bryan orders become
+  // proper Euler angles.
   const Axis i = order.axes[0], j = order.axes[1];
   const bool proper = order.axes[0] == order.axes[2];
   const auto k = proper ? static_cast<Axis>(3 - index_of(i) - index_of(j)) : order.axes[2];

@@ -7,10 +7,13 @@ namespace kinemend {
 
 namespace {
 
-double weight_of(std::span<const double> weights, std::size_t i) { return weights.empty() ? 1.0 : weights[i]; }
+double weight_of(std::span<const double> weights, std::size_t i) {
+  return weights.empty() ? 1.0 : weights[i];
+}
 
 // sum_i w_i Log(r^-1 q_i) / sum_i w_i
-Vec3 mean_tangent(Quat reference, std::span<const Quat> rotations, std::span<const double> weights) {
+Vec3 mean_tangent(Quat reference, std::span<const Quat> rotations,
+                  std::span<const double> weights) {
   Vec3 sum;
   double total = 0;
   for (std::size_t i = 0; i < rotations.size(); ++i) {

@@ -20,7 +20,8 @@ Quat exp(Vec3 rotation_vector) {
   const double angle = norm(rotation_vector);
   // sin(angle / 2) / angle, by its series where the quotient would lose digits.
   const double scale = angle < 1e-4 ? 0.5 - angle * angle / 48 : std::sin(angle / 2) / angle;
-  return {std::cos(angle / 2), scale * rotation_vector.x, scale * rotation_vector.y, scale * rotation_vector.z};
+  return {std::cos(angle / 2), scale * rotation_vector.x, scale * rotation_vector.y,
+          scale * rotation_vector.z};
 }
 
 Vec3 log(Quat q) {
