@@ -119,7 +119,7 @@ struct LengthUnit {
   std::string_view name;  ///< "cm"
   double metres = 1;
 };
-/// The unit in which a skeleton of this height is a person of 1 to 2.5 m: m, mm, cm, inch, or that
+/// The unit in which a skeleton of this height is a person of 1.2 to 2.5 m: m, mm, cm, inch, or that
 /// of the CMU files (1 / 0.45 inch); none when no unit fits.
 std::optional<LengthUnit> guess_length_unit(const Skeleton& skeleton);
 

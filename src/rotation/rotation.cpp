@@ -34,8 +34,10 @@ Vec3 log(Quat q) {
 }
 
 double angle_between(Quat a, Quat b) {
-  const Quat d = conjugate(a) * b;
-  return 2 * std::atan2(norm(Vec3{d.x, d.y, d.z}), std::fabs(d.w));
+  // The vector part of a^-1 b, its terms paired so that it is exactly zero for equal quaternions.
+  const Vec3 d{(a.w * b.x - a.x * b.w) - (a.y * b.z - a.z * b.y), (a.w * b.y - a.y * b.w) - (a.z * b.x - a.x * b.z),
+               (a.w * b.z - a.z * b.w) - (a.x * b.y - a.y * b.x)};
+  return 2 * std::atan2(norm(d), std::fabs(dot(a, b)));
 }
 
 Quat slerp(Quat a, Quat b, double t) { return a * exp(t * log(conjugate(a) * b)); }

@@ -1,0 +1,116 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "kinemend/error.hpp"
+#include "kinemend/kinematics.hpp"
+#include "kinemend/metrics.hpp"
+#include "metrics/pairing.hpp"
+
+namespace kinemend {
+
+namespace {
+
+double along(Vec3 v, Axis axis) { return axis == Axis::x ? v.x : axis == Axis::y ? v.y : v.z; }
+
+double horizontal(Vec3 v, Axis up) {
+  const double height = along(v, up);
+  return std::sqrt(std::max(0.0, dot(v, v) - height * height));
+}
+
+double floor_height(const std::vector<Vec3>& track, Axis up) {
+  std::vector<double> heights;
+  heights.reserve(track.size());
+  for (const Vec3 p : track) heights.push_back(along(p, up));
+  return metrics::percentile_of(std::move(heights), 2);
+}
+
+std::vector<Vec3> track_of(const std::vector<Vec3>& positions, std::size_t joints,
+                           std::size_t joint, std::size_t first_frame) {
+  std::vector<Vec3> track;
+  for (std::size_t i = first_frame * joints + joint; i < positions.size(); i += joints) {
+    track.push_back(positions[i]);
+  }
+  return track;
+}
+
+}  // namespace
+
+std::vector<std::size_t> foot_joints(const Skeleton& skeleton) {
+  static constexpr std::array<std::string_view, 5> parts{"foot", "ankle", "heel", "toe", "ball"};
+  std::vector<std::size_t> found;
+  for (std::size_t j = 0; j < skeleton.joint_count(); ++j) {
+    std::string name = skeleton.names[j];
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const auto in_name = [&](std::string_view part) {
+      return name.find(part) != std::string::npos;
+    };
+    if (std::any_of(parts.begin(), parts.end(), in_name)) found.push_back(j);
+  }
+  return found;
+}
+
+FootSlide foot_slide(const Clip& reference, const Clip& other, const FootSlideSettings& settings,
+                     std::size_t first_frame) {
+  metrics::check_pair(reference, other, first_frame);
+  const auto joints = settings.joints.empty() ? foot_joints(reference.skeleton) : settings.joints;
+  for (const std::size_t j : joints) {
+    if (j >= reference.joint_count()) {
+      throw Error(ErrorKind::usage,
+                  fmt::format("foot joint {} of {} joints", j, reference.joint_count()));
+    }
+  }
+  const double height = skeleton_height(reference.skeleton);
+  const double largest_step =
+      settings.contact_speed * height / std::max(reference.frame_rate_hz, 1e-9);
+  const auto wanted = joint_positions(reference), found = joint_positions(other);
+  FootSlide slide;
+  for (const std::size_t j : joints) {
+    const auto truth = track_of(wanted, reference.joint_count(), j, first_frame);
+    const auto track = track_of(found, reference.joint_count(), j, first_frame);
+    const double ceiling = floor_height(truth, settings.up) + settings.contact_height * height;
+    for (std::size_t f = 1; f < truth.size(); ++f) {
+      const bool low =
+          along(truth[f - 1], settings.up) < ceiling && along(truth[f], settings.up) < ceiling;
+      if (!low || norm(truth[f] - truth[f - 1]) >= largest_step) continue;
+      slide.per_frame += horizontal(track[f] - track[f - 1], settings.up);
+      ++slide.contact_steps;
+    }
+  }
+  if (slide.contact_steps > 0) slide.per_frame /= static_cast<double>(slide.contact_steps);
+  return slide;
+}
+
+double skeleton_height(const Skeleton& skeleton) {
+  Clip rest;
+  rest.skeleton = skeleton;
+  rest.root_positions.resize(1);
+  rest.local_rotations.resize(skeleton.joint_count());
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
+  for (const Vec3 p : joint_positions(rest, true)) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return std::max({high.x - low.x, high.y - low.y, high.z - low.z, 0.0});
+}
+
+std::optional<LengthUnit> guess_length_unit(const Skeleton& skeleton) {
+  // The CMU database's unit is 1 / 0.45 inch. The ranges of heights do not overlap.
+  static constexpr std::array<LengthUnit, 5> units{
+      {{"m", 1.0}, {"CMU unit", 0.0254 / 0.45}, {"inch", 0.0254}, {"cm", 0.01}, {"mm", 0.001}}};
+  const double height = skeleton_height(skeleton);
+  for (const LengthUnit& unit : units) {
+    const double metres = height * unit.metres;
+    if (metres >= 1.2 && metres <= 2.5) return unit;
+  }
+  return std::nullopt;
+}
+
+}  // namespace kinemend

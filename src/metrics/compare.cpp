@@ -1,0 +1,61 @@
+#include <algorithm>
+
+#include "kinemend/metrics.hpp"
+#include "metrics/pairing.hpp"
+
+namespace kinemend {
+
+namespace {
+
+void fill_joints(const Clip& reference, const Clip& other, std::size_t first_frame,
+                 Comparison& result) {
+  const std::size_t joints = reference.joint_count();
+  const auto rms = geodesic_rms_deg_per_joint(reference, other, first_frame);
+  const auto speed = peak_angular_speed_deg_s(reference, first_frame);
+  const auto other_speed = peak_angular_speed_deg_s(other, first_frame);
+  result.joints.resize(joints);
+  for (std::size_t j = 0; j < joints; ++j) {
+    result.joints[j] = {rms[j], 0, speed[j], other_speed[j]};
+  }
+  const auto angles = metrics::geodesic_angles(reference, other, first_frame);
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    double& largest = result.joints[i % joints].geodesic_max_deg;
+    largest = std::max(largest, degrees_per_radian * angles[i]);
+  }
+  for (const JointComparison& joint : result.joints) {
+    result.geodesic_max_deg = std::max(result.geodesic_max_deg, joint.geodesic_max_deg);
+  }
+}
+
+}  // namespace
+
+Comparison compare_clips(const Clip& reference, const Clip& other,
+                         const ComparisonSettings& settings) {
+  const std::size_t first = settings.first_frame;
+  metrics::check_pair(reference, other, first);
+  Comparison result;
+  result.frames = reference.frame_count() - first;
+  result.rms_deg = rms_deg(reference, other, first);
+  result.geodesic_rms_deg = geodesic_rms_deg(reference, other, first);
+  result.geodesic_p99_deg = geodesic_percentile_deg(reference, other, 99, first);
+  result.mpjpe = mpjpe(reference, other, first);
+  result.accel_error = accel_error(reference, other, first);
+  result.psnr_peak = settings.psnr_peak;
+  result.psnr_db = psnr_db(reference, other, first, settings.psnr_peak);
+  result.mse_rad2 = mse_rad2(reference, other, first);
+  result.foot_slide = foot_slide(reference, other, settings.foot_slide, first);
+  result.foot_slide_reference = foot_slide(reference, reference, settings.foot_slide, first);
+  fill_joints(reference, other, first, result);
+
+  std::optional<double> metres = settings.metres_per_unit;
+  if (!metres) {
+    if (const auto unit = guess_length_unit(reference.skeleton)) metres = unit->metres;
+  }
+  if (metres) {
+    result.mpjpe_cm = 100 * *metres * result.mpjpe;
+    result.rmse_per_marker_m = rmse_per_marker_m(reference, other, *metres, first);
+  }
+  return result;
+}
+
+}  // namespace kinemend
