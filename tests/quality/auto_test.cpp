@@ -1,0 +1,228 @@
+// The default method on takes that the project makes itself, and the bugs that users of such tools
+// report.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kinemend/io.hpp"
+#include "kinemend/kinematics.hpp"
+#include "kinemend/synth.hpp"
+#include "quality/quality.hpp"
+
+namespace kinemend::quality {
+namespace {
+
+Clip take(const std::string& motion, double duration_s = 5, double rate_hz = 120) {
+  SynthOptions options;
+  options.motion = motion;
+  options.duration_s = duration_s;
+  options.frame_rate_hz = rate_hz;
+  return synthesize(options);
+}
+
+Clip shipped(const char* name) { return read_clip(std::string(KINEMEND_TAKES) + "/" + name).clip; }
+
+/// Four joints in a chain: the first turns through +-180 degrees of yaw, the second reaches 88
+/// degrees of pitch.
+Clip turning_chain() {
+  Clip clip;
+  const RotationOrder order = parse_rotation_order("ZYX");
+  for (int j = 0; j < 4; ++j) {
+    clip.skeleton.add_joint("link" + std::to_string(j), j - 1, {0, 10, 0},
+                            make_channels(j == 0, order));
+  }
+  clip.frame_rate_hz = 60;
+  constexpr std::size_t frames = 600;
+  clip.root_positions.assign(frames, {});
+  for (std::size_t f = 0; f < frames; ++f) {
+    const double t = static_cast<double>(f) / clip.frame_rate_hz;
+    const double yaw = 0.9 * t, pitch = 88 * radians_per_degree * std::sin(1.3 * t);
+    clip.local_rotations.push_back(from_euler({0, yaw, 0}, order));
+    clip.local_rotations.push_back(from_euler({0.5 * yaw, pitch, 0}, order));
+    clip.local_rotations.push_back(from_euler({0, pitch, yaw}, order));
+    clip.local_rotations.push_back(from_euler({-yaw, 0.5 * pitch, 0.3 * yaw}, order));
+  }
+  return clip;
+}
+
+class AutoOnShippedMotions : public testing::TestWithParam<const char*> {};
+
+TEST_P(AutoOnShippedMotions, BeatsEveryFilterWithFixedParameters) {
+  const Clip truth = take(GetParam());
+  const Clip noisy = damaged(truth, 1.5, 0.004, 3);
+  const double ours = figures(truth, cleaned(noisy, "auto")).rms;
+  EXPECT_LT(ours, 0.45 * figures(truth, noisy).rms);
+  for (const auto& filter : fixed_filters()) {
+    EXPECT_LT(ours, figures(truth, cleaned(noisy, filter.first, filter.second)).rms)
+        << describe(filter);
+  }
+}
+
+TEST_P(AutoOnShippedMotions, LeavesACleanTakeAlone) {
+  const Clip truth = take(GetParam());
+  EXPECT_LT(geodesic_rms_deg(truth, cleaned(truth, "auto")), 0.05);
+}
+
+TEST_P(AutoOnShippedMotions, ChangesLittleTheSecondTime) {
+  const Clip noisy = damaged(take(GetParam()), 1.5, 0.004, 5);
+  const Clip once = cleaned(noisy, "auto");
+  const double first_change = geodesic_rms_deg(noisy, once);
+  EXPECT_LT(geodesic_rms_deg(once, cleaned(once, "auto")), 0.1 * first_change);
+}
+
+INSTANTIATE_TEST_SUITE_P(Motions, AutoOnShippedMotions,
+                         testing::Values("walk", "run", "jump", "turn", "wave"),
+                         [](const auto& motion) { return std::string(motion.param); });
+
+TEST(Auto, CleansTheTakeThatShips) {
+  const Clip truth = shipped("walk.bvh"), noisy = shipped("noisy_walk.bvh");
+  const Figures before = figures(truth, noisy), after = figures(truth, cleaned(noisy, "auto"));
+  EXPECT_GT(before.rms, 3.0);
+  EXPECT_LT(after.rms, 0.25 * before.rms);
+}
+
+TEST(Auto, HoldsThroughHalfTurnsAndNearGimbalLock) {
+  const Clip truth = turning_chain();
+  const Clip noisy = damaged(truth, 1.0, 0, 7);
+  EXPECT_GT(geodesic_rms_deg(truth, noisy), 1.6);
+  const Clip result = cleaned(noisy, "auto");
+  EXPECT_LT(geodesic_rms_deg(truth, result), 0.50);
+  const Clip written = read_clip(write_clip(result), "chain.bvh").clip;
+  EXPECT_LT(geodesic_rms_deg(truth, written), 0.50);
+}
+
+TEST(Auto, HasNoBumpOrFadeAtTheEnds) {
+  const Clip truth = take("walk");
+  double ends = 0, middle = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const Clip result = cleaned(damaged(truth, 1.5, 0, seed), "auto");
+    const std::size_t frames = truth.frame_count();
+    ends += geodesic_rms_deg(slice(truth, 0, 5), slice(result, 0, 5)) +
+            geodesic_rms_deg(slice(truth, frames - 5, frames), slice(result, frames - 5, frames));
+    middle +=
+        2 * geodesic_rms_deg(slice(truth, 100, frames - 100), slice(result, 100, frames - 100));
+  }
+  EXPECT_LT(ends, 2.0 * middle);
+}
+
+TEST(Auto, TakesNoNoticeOfTheSignOfAQuaternion) {
+  const Clip noisy = damaged(take("turn", 3), 1.5, 0.004, 9);
+  Clip negated = noisy;
+  for (std::size_t i = 0; i < negated.local_rotations.size(); i += 3) {
+    negated.local_rotations[i] = -negated.local_rotations[i];
+  }
+  EXPECT_LT(geodesic_rms_deg(cleaned(noisy, "auto"), cleaned(negated, "auto")), 1e-6);
+}
+
+TEST(Auto, DoesNotShiftTheMotionInTime) {
+  const Clip truth = take("walk");
+  const Clip result = cleaned(damaged(truth, 1.5, 0.004, 2), "auto");
+  const std::size_t frames = truth.frame_count();
+  const auto error_at = [&](int lag) {
+    const auto first = static_cast<std::size_t>(10 + lag);
+    return geodesic_rms_deg(slice(truth, 10, frames - 10),
+                            slice(result, first, first + frames - 20));
+  };
+  for (const int lag : {-3, -2, -1, 1, 2, 3})
+    EXPECT_LT(error_at(0), error_at(lag)) << "lag " << lag;
+}
+
+TEST(Auto, ReversedInTimeGivesTheReversedResult) {
+  const Clip noisy = damaged(take("walk", 3), 1.5, 0.004, 4);
+  const auto reversed = [](Clip clip) {
+    const std::size_t joints = clip.joint_count(), frames = clip.frame_count();
+    for (std::size_t f = 0; f < frames / 2; ++f) {
+      std::swap(clip.root_positions[f], clip.root_positions[frames - 1 - f]);
+      for (std::size_t j = 0; j < joints; ++j)
+        std::swap(clip.rotation(f, j), clip.rotation(frames - 1 - f, j));
+    }
+    return clip;
+  };
+  EXPECT_LT(geodesic_rms_deg(cleaned(noisy, "auto"), reversed(cleaned(reversed(noisy), "auto"))),
+            0.15);
+}
+
+class FastEvent : public testing::TestWithParam<const char*> {};
+
+TEST_P(FastEvent, KeepsItsPeakSpeed) {
+  const Clip truth = take(GetParam(), 4);
+  const CleanResult result = clean_clip(damaged(truth, 0.5, 0.002, 6), *make_cleaner("auto"));
+  const auto before = peak_angular_speed_deg_s(truth),
+             after = peak_angular_speed_deg_s(result.clip);
+  for (std::size_t j = 0; j < truth.joint_count(); ++j) {
+    if (before[j] < 200) continue;
+    EXPECT_GT(after[j], 0.85 * before[j]) << truth.skeleton.names[j];
+    EXPECT_LT(after[j], 1.2 * before[j]) << truth.skeleton.names[j];
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Events, FastEvent, testing::Values("punch", "clap", "landing"),
+                         [](const auto& motion) { return std::string(motion.param); });
+
+TEST(Auto, KeepsTheContactOfALanding) {
+  const Clip truth = take("landing", 4);
+  const Clip noisy = damaged(truth, 0.5, 0.002, 8);
+  const Clip result = cleaned(noisy, "auto");
+  EXPECT_LT(foot_slide(truth, result).per_frame, 0.5 * foot_slide(truth, noisy).per_frame);
+}
+
+TEST(Auto, LeavesUntouchedJointsBitwiseAlone) {
+  Clip noisy = damaged(take("wave", 3), 1.5, 0.004, 12);
+  const Clip truth = take("wave", 3);
+  // Fingers as captured by a glove, exact.
+  std::vector<std::size_t> exact;
+  for (std::size_t j = 0; j < noisy.joint_count(); ++j) {
+    if (noisy.skeleton.names[j].find("Hand") == std::string::npos) continue;
+    exact.push_back(j);
+    for (std::size_t f = 0; f < noisy.frame_count(); ++f)
+      noisy.rotation(f, j) = truth.rotation(f, j);
+  }
+  ASSERT_FALSE(exact.empty());
+  const Clip result = cleaned(noisy, "auto");
+  for (const std::size_t j : exact) {
+    for (std::size_t f = 0; f < noisy.frame_count(); ++f) {
+      ASSERT_EQ(noisy.rotation(f, j), result.rotation(f, j))
+          << noisy.skeleton.names[j] << ", frame " << f;
+    }
+  }
+}
+
+TEST(Auto, UsesTheRateOfTheFile) {
+  const double at_60 = [] {
+    const Clip truth = take("walk", 5, 60);
+    return figures(truth, cleaned(damaged(truth, 1.5, 0.004, 1), "auto")).rms;
+  }();
+  const double at_240 = [] {
+    const Clip truth = take("walk", 5, 240);
+    return figures(truth, cleaned(damaged(truth, 1.5, 0.004, 1), "auto")).rms;
+  }();
+  EXPECT_LT(at_60, 1.4);
+  EXPECT_LT(at_240, 0.75 * at_60) << "four times the samples of one motion leave less noise";
+}
+
+TEST(Auto, KeepsATPoseOutOfTheMotion) {
+  SynthOptions options;
+  options.duration_s = 3;
+  options.t_pose_first = true;
+  const Clip truth = synthesize(options);
+  ASSERT_EQ(leading_calibration_frames(truth), 1U);
+  const Clip noisy = damaged(truth, 1.5, 0.004, 1);
+  const CleanResult with_pose = clean_clip(noisy, *make_cleaner("auto"));
+  const CleanResult without_pose =
+      clean_clip(slice(noisy, 1, noisy.frame_count()), *make_cleaner("auto"));
+  EXPECT_EQ(with_pose.report.calibration_frames, 1U);
+  EXPECT_EQ(geodesic_rms_deg(slice(with_pose.clip, 1, noisy.frame_count()), without_pose.clip),
+            0.0);
+}
+
+TEST(Auto, SurvivesTheShortestTakes) {
+  const Clip walk = damaged(take("walk"), 1.5, 0.004, 1);
+  for (const std::size_t frames : {1U, 2U, 3U, 4U, 5U, 8U, 13U, 30U}) {
+    const Clip result = cleaned(slice(walk, 0, frames), "auto");
+    EXPECT_NO_THROW(result.validate());
+    EXPECT_EQ(result.frame_count(), frames);
+  }
+}
+
+}  // namespace
+}  // namespace kinemend::quality
