@@ -25,9 +25,9 @@ struct Biquad {
 };
 
 /// Gaussian of standard deviation `sigma_frames` (>= 0; 0 changes nothing), cut at 4 sigma (to the
-/// nearest frame) and normalised to sum 1. Beyond its ends the signal goes on as its own point
-/// reflection, x[-k] = 2 x[0] - x[k], so that a straight line stays one and no end bends towards
-/// the mean.
+/// nearest frame) and normalised to sum 1; at most 100,000. Beyond its ends the signal goes on as
+/// its own point reflection, x[-k] = 2 x[0] - x[k], so that a straight line stays one and no end
+/// bends towards the mean.
 void gaussian_filter(PoseMatrix& matrix, double sigma_frames);
 
 /// Low-pass Butterworth filter by the bilinear transform, |H|^2 = 1/2 at `cutoff_hz`, gain 1 at 0
@@ -102,9 +102,9 @@ struct WaveletOptions {
 };
 
 /// Denoises each channel by thresholding the details of its orthonormal wavelet transform (Donoho &
-/// Johnstone 1994, 1995). The noise is the MAD of the finest details / 0.6745, per channel. The
-/// chord from the first to the last sample is kept apart, the rest continued by point reflection,
-/// so that ends are no edges. Under 4 frames nothing changes.
+/// Johnstone 1994, 1995). The noise is the MAD of the finest details / 0.6745, per channel. Beyond
+/// its ends the signal goes on as its point reflection, at each level, so that ends are no edges;
+/// straight lines stay (2 vanishing moments or more). Under 4 frames nothing changes.
 void wavelet_denoise(PoseMatrix& matrix, const WaveletOptions& options = {});
 /// The 2 * vanishing_moments scaling (low-pass) coefficients; orthonormal, sum sqrt(2). By spectral
 /// factorisation: minimum phase for Daubechies, nearest to linear phase for symlets.
@@ -113,12 +113,14 @@ std::vector<double> wavelet_filter(WaveletFamily family, int vanishing_moments);
 /// What stands beyond the first and the last sample in `weighted_mean_filter`.
 enum class WeightedMeanEnds {
   reflect,  ///< point reflection: straight lines stay, time reversal changes nothing
-  blender   ///< as Blender does: the ends stay; a missing second neighbour is the first again
-            ///< (frames 1, 2 and F - 2)
+  blender   ///< as Blender: frames 0 and F - 1 stay; 1, 2 and F - 2 take the nearest neighbour for
+            ///< the missing second
 };
 
-/// The weighted moving mean of Blender's "Smooth Keys", `passes` times (>= 0):
-/// y[t] = (3 x[t-2] + 6 x[t-1] + 4 x[t] + 6 x[t+1] + 3 x[t+2]) / 22.
+/// The weighted moving mean of Blender's "Smooth Keys", `passes` times (>= 0). Blender averages a
+/// mean that leans to the past, weights 3:5:2:1:1 over five keys, and its mirror image; together
+/// y[t] = (2 x[t-2] + 3 x[t-1] + 2 x[t] + 3 x[t+1] + 2 x[t+2]) / 12. Under 3 frames nothing
+/// changes.
 void weighted_mean_filter(PoseMatrix& matrix, int passes,
                           WeightedMeanEnds ends = WeightedMeanEnds::reflect);
 

@@ -1,0 +1,68 @@
+#include "signal/kernels.hpp"
+#include "signal/simd.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "signal/iir_kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace kinemend::signal::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Transposed direct form II over channels `begin` to `end` of one row, `sections` of them one after
+// the other while the sample is in a register. Memory: two rows a section.
+template <std::size_t sections, class D>
+HWY_INLINE void filter_row_part(D d, double* row, std::size_t begin, std::size_t end,
+                                std::size_t channels, const Biquad* biquads, double* memory) {
+  for (std::size_t c = begin; c < end; c += hn::Lanes(d)) {
+    auto x = hn::LoadU(d, row + c);
+    for (std::size_t s = 0; s < sections; ++s) {
+      const Biquad& q = biquads[s];
+      double* first = memory + 2 * s * channels + c;
+      double* second = first + channels;
+      const auto y = hn::Add(hn::Mul(hn::Set(d, q.b0), x), hn::LoadU(d, first));
+      const auto to_first = hn::Sub(hn::Mul(hn::Set(d, q.b1), x), hn::Mul(hn::Set(d, q.a1), y));
+      const auto to_second = hn::Sub(hn::Mul(hn::Set(d, q.b2), x), hn::Mul(hn::Set(d, q.a2), y));
+      hn::StoreU(hn::Add(to_first, hn::LoadU(d, second)), d, first);
+      hn::StoreU(to_second, d, second);
+      x = y;
+    }
+    hn::StoreU(x, d, row + c);
+  }
+}
+
+template <std::size_t sections>
+HWY_INLINE void filter_row(double* row, std::size_t channels, const Biquad* biquads,
+                           double* memory) {
+  const hn::ScalableTag<double> wide;
+  const hn::CappedTag<double, 1> narrow;
+  const std::size_t whole = channels - channels % hn::Lanes(wide);
+  filter_row_part<sections>(wide, row, 0, whole, channels, biquads, memory);
+  filter_row_part<sections>(narrow, row, whole, channels, channels, biquads, memory);
+}
+
+void filter_rows(const Rows& rows, std::span<const Biquad> sections, double* memory) {
+  for (std::size_t t = 0; t < rows.count; ++t) {
+    double* row = rows.first + static_cast<std::ptrdiff_t>(t) * rows.stride;
+    std::size_t s = 0;
+    for (; s + 2 <= sections.size(); s += 2) {
+      filter_row<2>(row, rows.channels, &sections[s], memory + 2 * s * rows.channels);
+    }
+    if (s < sections.size()) {
+      filter_row<1>(row, rows.channels, &sections[s], memory + 2 * s * rows.channels);
+    }
+  }
+}
+
+}  // namespace kinemend::signal::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace kinemend::signal {
+HWY_EXPORT(filter_rows);
+void filter_rows(const Rows& rows, std::span<const Biquad> sections, double* memory) {
+  HWY_DYNAMIC_DISPATCH(filter_rows)(rows, sections, memory);
+}
+}  // namespace kinemend::signal
+#endif
