@@ -1,0 +1,152 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinemend/signal.hpp"
+#include "signal/checks.hpp"
+#include "signal/extension.hpp"
+#include "signal/order_statistics.hpp"
+#include "signal/sorting_network.hpp"
+
+namespace kinemend {
+
+namespace {
+
+using signal::mad_to_sigma;
+
+// The frames whose window sticks out of the take: all of them in a short one.
+template <class Work>
+void for_each_end_frame(std::size_t frames, std::size_t half_window, const Work& work) {
+  const std::size_t first_end = std::min(half_window, frames);
+  const std::size_t last_begin = std::max(first_end, frames - first_end);
+  for (std::size_t t = 0; t < first_end; ++t) work(t);
+  for (std::size_t t = last_begin; t < frames; ++t) work(t);
+}
+
+double median_of(const PoseMatrix& matrix, std::size_t first, std::size_t last, std::size_t channel,
+                 std::vector<double>& scratch) {
+  scratch.clear();
+  for (std::size_t t = first; t <= last; ++t) scratch.push_back(matrix(t, channel));
+  return signal::median_in_place(scratch);
+}
+
+double median_of_three(double a, double b, double c) {
+  return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
+// Medians of centred windows that shrink towards the ends, in the order of `for_each_end_frame`.
+PoseMatrix shrinking_medians(const PoseMatrix& matrix, std::size_t half_window) {
+  PoseMatrix medians;
+  medians.channels = matrix.channels;
+  std::vector<double> scratch;
+  for_each_end_frame(matrix.frames, half_window, [&](std::size_t t) {
+    const std::size_t reach = std::min({half_window, t, matrix.frames - 1 - t});
+    for (std::size_t c = 0; c < matrix.channels; ++c) {
+      medians.values.push_back(median_of(matrix, t - reach, t + reach, c, scratch));
+    }
+    ++medians.frames;
+  });
+  return medians;
+}
+
+// Both ends at once, each from what stood there before.
+void end_point_rule(PoseMatrix& matrix) {
+  const std::size_t last = matrix.frames - 1;
+  for (std::size_t c = 0; c < matrix.channels; ++c) {
+    const double front = 3 * matrix(1, c) - 2 * matrix(2, c);
+    const double back = 3 * matrix(last - 1, c) - 2 * matrix(last - 2, c);
+    const double first = median_of_three(matrix(0, c), matrix(1, c), front);
+    matrix(last, c) = median_of_three(matrix(last, c), matrix(last - 1, c), back);
+    matrix(0, c) = first;
+  }
+}
+
+struct EndOutliers {
+  std::vector<std::size_t> samples;
+  std::vector<double> medians;
+};
+
+EndOutliers end_outliers(const PoseMatrix& matrix, std::size_t half_window,
+                         const signal::HampelLimits& limits) {
+  EndOutliers found;
+  std::vector<double> window;
+  for_each_end_frame(matrix.frames, half_window, [&](std::size_t t) {
+    const std::size_t first = t > half_window ? t - half_window : 0;
+    const std::size_t last = std::min(matrix.frames - 1 - t, half_window) + t;
+    for (std::size_t c = 0; c < matrix.channels; ++c) {
+      const double median = median_of(matrix, first, last, c, window);
+      for (double& x : window) x = std::abs(x - median);
+      const double deviation = signal::median_in_place(window);
+      const double limit = std::max(limits.scaled_threshold * deviation, limits.minimum_deviation);
+      if (std::abs(matrix(t, c) - median) > limit) {
+        found.samples.push_back(t * matrix.channels + c);
+        found.medians.push_back(median);
+      }
+    }
+  });
+  return found;
+}
+
+// Frames with a whole window: `work(centre, first, count)` for each run of them inside a chunk.
+template <class Work>
+void for_each_inner_chunk(PoseMatrix& matrix, std::size_t half_window, const Work& work) {
+  if (matrix.frames <= 2 * half_window) return;
+  signal::for_each_chunk(
+      matrix, half_window, [&](const double* centre, std::size_t first, std::size_t count) {
+        const std::size_t begin = std::max(first, half_window);
+        const std::size_t end = std::min(first + count, matrix.frames - half_window);
+        if (begin < end) work(centre + (begin - first) * matrix.channels, begin, end - begin);
+      });
+}
+
+}  // namespace
+
+void median_filter(PoseMatrix& matrix, std::size_t half_window) {
+  if (matrix.frames < 3 || matrix.channels == 0 || half_window == 0) return;
+  half_window = std::min(half_window, matrix.frames);
+  const PoseMatrix ends = shrinking_medians(matrix, half_window);
+  if (matrix.frames > 2 * half_window) {
+    const signal::SortingNetwork network = signal::median_network(2 * half_window + 1);
+    for_each_inner_chunk(matrix, half_window,
+                         [&](const double* centre, std::size_t first, std::size_t count) {
+                           signal::median_rows(centre, count, matrix.channels, half_window, network,
+                                               &matrix.values[first * matrix.channels]);
+                         });
+  }
+  std::size_t next = 0;
+  for_each_end_frame(matrix.frames, half_window, [&](std::size_t t) {
+    const auto row = ends.row(next++);
+    std::copy(row.begin(), row.end(), matrix.row(t).begin());
+  });
+  end_point_rule(matrix);
+}
+
+std::vector<std::uint8_t> hampel_filter(PoseMatrix& matrix, std::size_t half_window,
+                                        double threshold, double minimum_deviation) {
+  signal::require(threshold >= 0 && std::isfinite(threshold),
+                  fmt::format("a Hampel threshold of {} makes no sense", threshold));
+  signal::require(minimum_deviation >= 0,
+                  fmt::format("a minimum deviation of {} makes no sense", minimum_deviation));
+  std::vector<std::uint8_t> marks(matrix.frames * matrix.channels, 0);
+  if (marks.empty() || half_window == 0) return marks;
+  half_window = std::min(half_window, matrix.frames);
+  const signal::HampelLimits limits = {threshold * mad_to_sigma, minimum_deviation};
+  const EndOutliers ends = end_outliers(matrix, half_window, limits);
+  if (matrix.frames > 2 * half_window) {
+    const signal::SortingNetwork network = signal::sorting_network(2 * half_window + 1);
+    for_each_inner_chunk(matrix, half_window,
+                         [&](const double* centre, std::size_t first, std::size_t count) {
+                           const std::size_t offset = first * matrix.channels;
+                           signal::hampel_rows(centre, count, matrix.channels, half_window, network,
+                                               limits, &matrix.values[offset], &marks[offset]);
+                         });
+  }
+  for (std::size_t i = 0; i < ends.samples.size(); ++i) {
+    matrix.values[ends.samples[i]] = ends.medians[i];
+    marks[ends.samples[i]] = 1;
+  }
+  return marks;
+}
+
+}  // namespace kinemend

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+
+#include "kinemend/pose_matrix.hpp"
+
+namespace kinemend::signal {
+
+/// From a median absolute deviation to the standard deviation of a normal distribution: 1 /
+/// Phi^-1(3/4).
+inline constexpr double mad_to_sigma = 1.482602218505602;
+
+/// Reorders `values`; the mean of the two middle ones for an even count, 0 for none.
+double median_in_place(std::span<double> values);
+/// The median of |x - median(x)|; overwrites `values`.
+double median_deviation_in_place(std::span<double> values);
+
+/// Calls work(channel, values) for each channel with a contiguous copy of rows `first` to `first +
+/// count - 1`, which `work` may overwrite. `rows` is frame-major with `channels` columns. Channels
+/// are copied eight at a time.
+template <class Work>
+void for_each_column(const double* rows, std::size_t count, std::size_t channels,
+                     const Work& work) {
+  constexpr std::size_t block = 8;
+  std::vector<double> columns(block * count);
+  for (std::size_t first = 0; first < channels; first += block) {
+    const std::size_t width = channels - first < block ? channels - first : block;
+    for (std::size_t t = 0; t < count; ++t) {
+      for (std::size_t k = 0; k < width; ++k) {
+        columns[k * count + t] = rows[t * channels + first + k];
+      }
+    }
+    for (std::size_t k = 0; k < width; ++k) {
+      work(first + k, std::span<double>(columns.data() + k * count, count));
+    }
+  }
+}
+
+}  // namespace kinemend::signal
