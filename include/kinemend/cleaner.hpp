@@ -57,6 +57,7 @@ struct LiveFrame {
   Vec3 root_position;
   std::vector<Quat> rotations;           ///< J
   std::vector<Vec3> joint_translations;  ///< one a translated joint
+  std::vector<std::uint8_t> observed;    ///< J, 1 where a rotation was measured; empty means all
 };
 
 /// The state of a causal cleaner on one stream: each call takes frame t and returns it cleaned.
@@ -77,7 +78,12 @@ class Cleaner {
   /// depend on the number of threads.
   virtual CleanTrace clean(Clip& clip, const Selection& selection) const = 0;
 
+  /// What the method can do frame by frame at this rate; the default is nothing.
   virtual LiveSupport live_support(double frame_rate_hz) const;
+  /// Live, of a windowed cleaner: frame `frame` of what `clean` makes of `window`, all parts
+  /// selected. The default cleans a copy of the window; a cleaner that can do with less work
+  /// overrides it.
+  virtual LiveFrame clean_frame(const Clip& window, std::size_t frame) const;
   /// A new stream's state, of a causal cleaner; nullptr of any other. `clean` of a causal cleaner
   /// gives the same numbers.
   virtual std::unique_ptr<FrameFilter> make_frame_filter(const Skeleton& skeleton,

@@ -18,58 +18,59 @@ struct GaussianOptions {
 };
 std::unique_ptr<Cleaner> make_gaussian(const GaussianOptions& options = {});
 
-/// Low-pass Butterworth, forward and backward (zero phase); live it runs forward only.
+/// Low-pass Butterworth on quaternions with continued signs, forward and backward (zero phase).
 struct ButterworthOptions {
-  std::int64_t order = 4;  ///< of one direction
+  std::int64_t order = 4;  ///< of one direction, 1 to 12
   double cutoff_hz = 8;    ///< half power of one direction
+  bool causal = false;     ///< forward only: delays the motion, and runs live
 };
 std::unique_ptr<Cleaner> make_butterworth(const ButterworthOptions& options = {});
 
-/// Running median of rotations (the sample of the window with the least sum of distances) and of
-/// positions.
+/// Running median of rotations (the rotation with the least sum of chordal distances to the
+/// window's samples) and of positions.
 struct MedianOptions {
-  double window_s = 0.06;
+  double window_s = 0.06;  ///< whole window
 };
 std::unique_ptr<Cleaner> make_median(const MedianOptions& options = {});
 
-/// Hampel despiking: a sample further from its window's median than threshold times the spread is
-/// replaced.
+/// Hampel despiking: a sample further from its window's median than `threshold` times the spread is
+/// replaced by the median.
 struct HampelOptions {
-  double window_s = 0.15;
-  double threshold = 4;  ///< in robust standard deviations
+  double window_s = 0.15;    ///< whole window
+  double threshold = 4;      ///< in robust standard deviations per axis
+  double minimum_deg = 1.0;  ///< smaller deviations are no spikes
 };
 std::unique_ptr<Cleaner> make_hampel(const HampelOptions& options = {});
 
 /// Wavelet shrinkage on every channel.
-struct WaveletOptions {
+struct WaveletCleanerOptions {
   std::string family = "sym8";     ///< db1..db10, sym2..sym10
   std::string threshold = "sure";  ///< universal or sure
   std::string shrinkage = "soft";  ///< soft or hard
 };
-std::unique_ptr<Cleaner> make_wavelet(const WaveletOptions& options = {});
+std::unique_ptr<Cleaner> make_wavelet(const WaveletCleanerOptions& options = {});
 
-/// Blender's weighted moving mean (its graph editor's Smooth Keys), passes times.
+/// Blender's weighted moving mean (its graph editor's Smooth Keys), `passes` times.
 struct WeightedMeanOptions {
   std::int64_t passes = 4;
 };
 std::unique_ptr<Cleaner> make_weighted_mean(const WeightedMeanOptions& options = {});
 
-/// Kalman filter or Rauch-Tung-Striebel smoother.
+/// Error-state Kalman filter or Rauch-Tung-Striebel smoother on SO(3).
 struct KalmanOptions {
-  std::string model =
-      "velocity";        ///< position (Lou & Chai's baseline) or velocity (constant velocity)
-  bool smoother = true;  ///< off: the causal filter, which also runs live
-  double noise_deg = 0;  ///< measurement noise per axis; 0: estimated from the take
-  double agility = 1;    ///< process noise, relative to the default for human motion
+  std::string model = "velocity";  ///< position (Lou & Chai's baseline) or velocity
+  bool smoother = true;            ///< off: the causal filter, which also runs live
+  double noise_deg = 0;            ///< measurement noise per axis; 0: estimated from the take
+  double agility = 1;              ///< process noise, relative to the default for human motion
 };
 std::unique_ptr<Cleaner> make_kalman(const KalmanOptions& options = {});
 
 /// The 1-euro filter of Casiez et al. 2012, on SO(3): a causal low-pass whose cutoff grows with
 /// speed.
 struct OneEuroOptions {
-  double min_cutoff_hz = 2.0;
-  double speed_coefficient = 0.6;  ///< hertz of cutoff per radian per second
-  double speed_cutoff_hz = 2.0;
+  double min_cutoff_hz = 2.0;      ///< cutoff at rest
+  double speed_coefficient = 8.0;  ///< hertz of cutoff per radian per second
+  double speed_cutoff_hz = 2.0;    ///< low-pass on the speed itself
 };
 std::unique_ptr<Cleaner> make_one_euro(const OneEuroOptions& options = {});
 

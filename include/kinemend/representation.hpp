@@ -47,6 +47,19 @@ Encoding suitable_encoding(const Clip& clip, std::size_t joint);
 /// to `previous`.
 Vec3 continue_rotation_vector(Vec3 v, Vec3 previous);
 
+/// Continues the sign of a quaternion from frame to frame, so that noise and jumps leave it alone:
+/// a few frames that are thrown far off (more than 60 degrees) do not turn the sign of the motion
+/// that goes on after them.
+class SignContinuation {
+ public:
+  /// `q` or `-q`. The first one is taken as it is.
+  Quat next(Quat q);
+
+ private:
+  Quat previous_, steady_;
+  int frames_away_ = -1;  // -1: nothing came yet
+};
+
 /// The channels of the given joints (empty: all). Unobserved samples are encoded as they stand.
 /// Errors: `ErrorKind::usage` for a joint that is not there.
 EncodedClip encode(const Clip& clip, Encoding encoding, std::vector<std::size_t> joints = {},

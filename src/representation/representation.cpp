@@ -38,12 +38,11 @@ void encode_tangent(const Clip& clip, EncodedClip& encoded) {
 
 void encode_quaternion(const Clip& clip, EncodedClip& encoded) {
   const std::size_t count = encoded.joints.size();
-  std::vector<Quat> previous(count);
+  std::vector<SignContinuation> signs(count);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     double* row = encoded.poses.row(f).data();
     for (std::size_t i = 0; i < count; ++i) {
-      const Quat q = align_hemisphere(clip.rotation(f, encoded.joints[i]), previous[i]);
-      previous[i] = q;
+      const Quat q = signs[i].next(clip.rotation(f, encoded.joints[i]));
       row[4 * i] = q.w;
       row[4 * i + 1] = q.x;
       row[4 * i + 2] = q.y;
@@ -122,6 +121,23 @@ Vec3 continue_rotation_vector(Vec3 v, Vec3 previous) {
   }
   const double turns = std::round((dot(previous, v) / angle - angle) / (2 * pi));
   return turns == 0 ? v : ((angle + 2 * pi * turns) / angle) * v;
+}
+
+Quat SignContinuation::next(Quat q) {
+  constexpr double near = 0.866;  // cosine of half of 60 degrees
+  constexpr int patience_frames = 12;
+  if (frames_away_ < 0) {
+    frames_away_ = 0;
+    return previous_ = steady_ = q;
+  }
+  const double to_previous = dot(q, previous_), to_steady = dot(q, steady_);
+  const double nearest = std::fabs(to_steady) > std::fabs(to_previous) ? to_steady : to_previous;
+  previous_ = nearest < 0 ? -q : q;
+  if (std::fabs(to_steady) >= near || ++frames_away_ > patience_frames) {
+    steady_ = previous_;
+    frames_away_ = 0;
+  }
+  return previous_;
 }
 
 double largest_angle_from_mean(const Clip& clip, std::size_t joint) {

@@ -156,6 +156,29 @@ TEST(Representation, TheSignOfAQuaternionDoesNotMatter) {
   }
 }
 
+TEST(Representation, FramesThrownFarOffDoNotTurnTheSignOfWhatFollows) {
+  Random random(11);
+  const Clip clean = turning(0, 0.02, 300);
+  for (int trial = 0; trial < 20; ++trial) {
+    Clip clip = clean;
+    for (std::size_t f = 1; f < 300; ++f) {
+      if (random.chance(0.1)) clip.rotation(f, 0) = random_rotation(random);
+    }
+    const EncodedClip encoded = encode(clip, Encoding::quaternion);
+    for (std::size_t f = 0; f < 300; ++f) {  // the turn's own quaternion is continuous as it stands
+      if (angle_between(clip.rotation(f, 0), clean.rotation(f, 0)) > 1e-6) continue;
+      ASSERT_NEAR(encoded.poses(f, 0), clean.rotation(f, 0).w, 1e-12) << trial << " " << f;
+    }
+  }
+}
+
+TEST(Representation, ALongStayFarOffIsTheNewMotion) {
+  SignContinuation signs;
+  signs.next({1, 0, 0, 0});
+  for (int f = 0; f < 100; ++f) signs.next({0.1, std::sqrt(0.99), 0, 0});
+  EXPECT_GT(signs.next({-0.1, std::sqrt(0.99), 0, 0}).x, 0);
+}
+
 TEST(Representation, PositionsComeLastAboutTheirMeanAndComeBack) {
   Clip clip = chain(3, 10);
   clip.translated_joints = {2};
