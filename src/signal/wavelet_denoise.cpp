@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinemend/signal.hpp"
+#include "signal/checks.hpp"
+#include "signal/order_statistics.hpp"
+#include "signal/wavelet_transform.hpp"
+
+namespace kinemend {
+
+namespace {
+
+using signal::CoefficientRange;
+
+// While the coarsest level has as many coefficients as the filter is long; at least one level.
+int automatic_levels(std::size_t frames, std::size_t filter_length) {
+  int levels = 0;
+  std::size_t length = frames;
+  while (length / 2 >= std::max<std::size_t>(filter_length - 1, 2)) {
+    length /= 2;
+    ++levels;
+  }
+  return std::max(levels, 1);
+}
+
+double universal_threshold(std::size_t count) {
+  return std::sqrt(2 * std::log(static_cast<double>(std::max<std::size_t>(count, 2))));
+}
+
+// SureShrink's threshold for coefficients in units of the noise (Donoho & Johnstone 1995, eq. 11
+// and section 2.4). Stein's estimate of the risk at the k-th smallest square s_k is n - 2 (k + 1) +
+// sum_{i<=k} s_i + (n - 1 - k) s_k. Where the mean square hardly exceeds the noise the estimate is
+// too rough to be minimised, and the universal threshold stands in.
+double sure_threshold(std::span<double> coefficients) {
+  const std::size_t count = coefficients.size();
+  const auto n = static_cast<double>(count);
+  double energy = 0;
+  for (double& x : coefficients) {
+    x *= x;
+    energy += x;
+  }
+  const double universal = universal_threshold(count);
+  const double sparse = std::pow(std::log2(n), 1.5) / std::sqrt(n);
+  if (count < 2 || energy / n - 1 <= sparse) return universal;
+
+  std::sort(coefficients.begin(), coefficients.end());
+  double least_risk = n;  // of threshold 0
+  double best = 0;
+  double sum = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double square = coefficients[k];
+    if (square > universal * universal) break;
+    sum += square;
+    const auto kept = static_cast<double>(count - 1 - k);
+    const double risk = n - 2 * static_cast<double>(k + 1) + sum + kept * square;
+    if (risk < least_risk) {
+      least_risk = risk;
+      best = square;
+    }
+  }
+  return std::sqrt(best);
+}
+
+void shrink(PoseMatrix& details, const std::vector<double>& thresholds,
+            WaveletShrinkage shrinkage) {
+  const bool soft = shrinkage == WaveletShrinkage::soft;
+  for (std::size_t k = 0; k < details.frames; ++k) {
+    double* row = details.row(k).data();
+    for (std::size_t c = 0; c < details.channels; ++c) {
+      const double size = std::abs(row[c]);
+      const double left = soft ? size - thresholds[c] : size;
+      row[c] = size > thresholds[c] ? std::copysign(left, row[c]) : 0.0;
+    }
+  }
+}
+
+std::vector<double> noise_of(const PoseMatrix& finest, CoefficientRange range, double scale) {
+  std::vector<double> noise(finest.channels);
+  signal::for_each_column(finest.row(range.first).data(), range.count, finest.channels,
+                          [&](std::size_t channel, std::span<double> values) {
+                            for (double& x : values) x = std::abs(x);
+                            noise[channel] =
+                                scale * signal::mad_to_sigma * signal::median_in_place(values);
+                          });
+  return noise;
+}
+
+std::vector<double> thresholds_of(const PoseMatrix& details, CoefficientRange range,
+                                  const std::vector<double>& noise, std::size_t frames,
+                                  WaveletThreshold kind) {
+  std::vector<double> thresholds(details.channels, 0.0);
+  if (kind == WaveletThreshold::universal) {
+    const double factor = universal_threshold(frames);
+    for (std::size_t c = 0; c < noise.size(); ++c) thresholds[c] = factor * noise[c];
+    return thresholds;
+  }
+  signal::for_each_column(details.row(range.first).data(), range.count, details.channels,
+                          [&](std::size_t channel, std::span<double> values) {
+                            if (noise[channel] <= 0) return;
+                            for (double& x : values) x /= noise[channel];
+                            thresholds[channel] = noise[channel] * sure_threshold(values);
+                          });
+  return thresholds;
+}
+
+}  // namespace
+
+void wavelet_denoise(PoseMatrix& matrix, const WaveletOptions& options) {
+  const std::vector<double> h = wavelet_filter(options.family, options.vanishing_moments);
+  signal::require(options.levels >= 0 && options.levels <= 20,
+                  fmt::format("{} wavelet levels are outside 0 to 20", options.levels));
+  signal::require(options.noise_scale >= 0 && std::isfinite(options.noise_scale),
+                  fmt::format("a noise scale of {} makes no sense", options.noise_scale));
+  if (matrix.frames < 4 || matrix.channels == 0 || options.noise_scale == 0) return;
+
+  const int levels =
+      options.levels > 0 ? options.levels : automatic_levels(matrix.frames, h.size());
+  signal::WaveletTransform transform = signal::forward_transform(matrix, h, levels);
+  std::vector<double> noise;
+  for (std::size_t level = 0; level < transform.details.size(); ++level) {
+    PoseMatrix& details = transform.details[level];
+    const CoefficientRange range = signal::inner_coefficients(transform.lengths[level], h.size());
+    if (level == 0) noise = noise_of(details, range, options.noise_scale);
+    shrink(details, thresholds_of(details, range, noise, matrix.frames, options.threshold),
+           options.shrinkage);
+  }
+  signal::inverse_transform(std::move(transform), h, matrix);
+}
+
+}  // namespace kinemend

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "kinemend/pose_matrix.hpp"
+
+namespace kinemend::signal {
+
+/// A wavelet transform of all channels. Each level continues its input of n rows by point
+/// reflection and keeps every coefficient whose filter touches a row: floor((n + L - 1) / 2) of
+/// each band, so that the inverse is exact.
+struct WaveletTransform {
+  std::vector<PoseMatrix> details;  ///< finest first
+  PoseMatrix smooth;
+  std::vector<std::size_t> lengths;  ///< rows that went into each level
+};
+
+WaveletTransform forward_transform(const PoseMatrix& matrix, std::span<const double> scaling_filter,
+                                   int levels);
+/// Into `matrix`, which has the size it had.
+void inverse_transform(WaveletTransform transform, std::span<const double> scaling_filter,
+                       PoseMatrix& matrix);
+
+/// The coefficients of one level whose filters lie wholly inside the n rows that went in; all of
+/// them if none does.
+struct CoefficientRange {
+  std::size_t first;
+  std::size_t count;
+};
+CoefficientRange inner_coefficients(std::size_t length, std::size_t filter_length);
+
+}  // namespace kinemend::signal
