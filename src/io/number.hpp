@@ -1,0 +1,165 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+namespace kinemend {
+
+/// What a comma between digits means in one part of a file.
+enum class CommaStyle : std::uint8_t { none, decimal, separator };
+
+enum class TokenKind : std::uint8_t {
+  number,
+  not_finite,  ///< nan, inf, 1.#IND and the like, or a number beyond the range of a double
+  comment,     ///< starts with # or //
+  text,        ///< anything else
+};
+
+/// A token as `read_number` understands it.
+struct NumberToken {
+  TokenKind kind = TokenKind::text;
+  double value = 0;
+  const char* end = nullptr;
+  unsigned decimals = 0;  ///< digits after the point of a number without exponent
+};
+
+/// Any number in the notation of the C locale, whatever the locale is; correctly rounded. `begin` <
+/// `end` is the first byte of the token, which ends before white space (or before a comma that
+/// separates).
+NumberToken read_number(const char* begin, const char* end, CommaStyle commas = CommaStyle::none);
+
+/// How the commas of `line` are to be read when it holds `expected` numbers. `none` when it has no
+/// comma, or when both readings are possible or neither is.
+CommaStyle comma_style(std::string_view line, std::size_t expected);
+
+inline bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+inline bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+inline const char* skip_space(const char* p, const char* end) {
+  while (p != end && is_space(*p)) ++p;
+  return p;
+}
+
+/// One bit a byte, for the 16 bytes at an address.
+struct ByteMasks {
+  std::uint32_t blank = 0;  ///< control characters and the space
+  std::uint32_t digit = 0;
+  std::uint32_t dot = 0;
+  friend bool operator==(const ByteMasks&, const ByteMasks&) = default;
+};
+
+namespace detail {
+
+inline std::uint64_t load8(const char* p) {
+  std::uint64_t bytes;
+  std::memcpy(&bytes, p, sizeof bytes);
+  return bytes;
+}
+
+// The top bits of the eight bytes, first byte in bit 0.
+inline std::uint32_t top_bits(std::uint64_t bytes) {
+  return static_cast<std::uint32_t>((((bytes >> 7) & 0x0101010101010101u) * 0x0102040810204080u) >>
+                                    56);
+}
+
+// Sets a byte's top bit where the byte (of the seven low bits) is at least `low`.
+inline std::uint64_t at_least(std::uint64_t seven_bits, unsigned low) {
+  return seven_bits + 0x0101010101010101u * (0x80 - low);
+}
+
+inline ByteMasks byte_masks_of_eight(const char* p) {
+  constexpr std::uint64_t tops = 0x8080808080808080u;
+  const std::uint64_t bytes = load8(p), ascii = ~bytes & tops, low = bytes & ~tops;
+  const std::uint64_t digits = at_least(low, '0') & ~at_least(low, '9' + 1) & ascii;
+  const std::uint64_t dots = at_least(low, '.') & ~at_least(low, '.' + 1) & ascii;
+  const std::uint64_t blanks = ~at_least(low, ' ' + 1) & ascii;
+  return {top_bits(blanks), top_bits(digits), top_bits(dots)};
+}
+
+/// The same as `byte_masks`, for processors without SSE2.
+inline ByteMasks byte_masks_portable(const char* p) {
+  const ByteMasks first = byte_masks_of_eight(p), second = byte_masks_of_eight(p + 8);
+  return {first.blank | second.blank << 8, first.digit | second.digit << 8,
+          first.dot | second.dot << 8};
+}
+
+inline ByteMasks byte_masks(const char* p) {
+#if defined(__SSE2__)
+  const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
+  const auto bits = [](__m128i mask) {
+    return static_cast<std::uint32_t>(_mm_movemask_epi8(mask));
+  };
+  const auto at_most = [](__m128i value, char limit) {
+    return _mm_cmpeq_epi8(_mm_min_epu8(value, _mm_set1_epi8(limit)), value);
+  };
+  return {bits(at_most(bytes, ' ')), bits(at_most(_mm_sub_epi8(bytes, _mm_set1_epi8('0')), 9)),
+          bits(_mm_cmpeq_epi8(bytes, _mm_set1_epi8('.')))};
+#else
+  return byte_masks_portable(p);
+#endif
+}
+
+inline constexpr std::uint64_t integer_powers[] = {1,      10,      100,      1000,     10000,
+                                                   100000, 1000000, 10000000, 100000000};
+inline constexpr double powers[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};
+
+// The number that the first `count` (0 to 8) of eight digits make: pairs, then fours, then all in
+// one register.
+inline std::uint64_t join_digits(std::uint64_t digits, unsigned count) {
+  const unsigned half_shift = 4 * (8 - count);
+  digits = ((digits << half_shift) << half_shift) & 0x0F0F0F0F0F0F0F0Fu;
+  digits = (digits * 10 + (digits >> 8)) & 0x00FF00FF00FF00FFu;
+  digits = (digits * 100 + (digits >> 16)) & 0x0000FFFF0000FFFFu;
+  return (digits * 10000 + (digits >> 32)) & 0xFFFFFFFFu;
+}
+
+}  // namespace detail
+
+/// Bytes that must be readable from the start of a token for `read_plain_number`.
+inline constexpr std::ptrdiff_t plain_number_reach = 32;
+
+/// The common case without branches that depend on the token's length: an optional minus sign, up
+/// to eight digits, a point, up to eight digits, 15 in all. Both the digits and the power of ten
+/// are exact doubles, so the quotient is correctly rounded. False for any other token;
+/// little-endian processors only.
+inline bool read_plain_number(const char* p, NumberToken& token) {
+  if constexpr (std::endian::native != std::endian::little) return false;
+  const ByteMasks masks = detail::byte_masks(p);
+  const auto length = static_cast<unsigned>(std::countr_zero(masks.blank | 0x10000u));
+  const std::uint32_t negative = *p == '-' ? 1 : 0;
+  const std::uint32_t whole = (1u << length) - 1;
+  const std::uint32_t dots = masks.dot & whole;
+  const auto dot = static_cast<unsigned>(std::countr_zero(dots | 1u << length));
+  const unsigned before = dot - negative, after = length - dot - (dots != 0 ? 1 : 0),
+                 digits = before + after;
+  const bool plain = ((masks.digit | dots | negative) & whole) == whole && (dots & (dots - 1)) == 0;
+  if (!plain || before > 8 || after > 8 || digits - 1 > 14) return false;
+  const std::uint64_t integer = detail::join_digits(detail::load8(p + negative), before);
+  const std::uint64_t fraction = detail::join_digits(detail::load8(p + dot + 1), after);
+  const auto mantissa =
+      static_cast<std::int64_t>(integer * detail::integer_powers[after] + fraction);
+  const double value = static_cast<double>(mantissa) / detail::powers[after];
+  token.value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) ^
+                                      static_cast<std::uint64_t>(negative) << 63);
+  token.end = p + length;
+  token.decimals = after;
+  return true;
+}
+
+/// Room that `write_fixed` may need.
+inline constexpr std::size_t fixed_number_room = 352;
+
+/// Writes a finite number with so many decimals (0 to 9), never with an exponent and never as minus
+/// zero, correctly rounded. Returns the end of what was written.
+char* write_fixed(char* out, double value, unsigned decimals);
+
+/// The shortest digits that read back as the same number, without exponent.
+char* write_shortest(char* out, double value);
+
+}  // namespace kinemend

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "kinemend/diagnostics.hpp"
+#include "kinemend/error.hpp"
+
+namespace kinemend {
+
+/// Line (from 1) of byte `offset`. A line ends with LF, CR LF or CR, also mixed. Counted when
+/// asked, which is when something is wrong, so that reading costs nothing.
+std::size_t line_at(std::string_view text, std::size_t offset);
+
+/// What a file holds at some place, for a message: printable ASCII, quoted, cut at 40 characters;
+/// `the end of the file` when it is empty.
+std::string quote(std::string_view found);
+
+bool equal_ignoring_case(std::string_view a, std::string_view b);
+
+/// A text with its name, and what was repaired in it.
+struct SourceText {
+  std::string_view name;
+  std::string_view bytes;
+  bool strict = false;
+
+  Error error_at(std::size_t offset, std::string_view message) const;
+  Error error_at(const char* place, std::string_view message) const {
+    return error_at(static_cast<std::size_t>(place - bytes.data()), message);
+  }
+};
+
+/// Notes a repair; throws `ErrorKind::quality_limit` when the reading is strict.
+void note_repair(const SourceText& text, Diagnostics& diagnostics, std::string_view kind,
+                 std::size_t offset, std::string_view message, std::size_t count = 1);
+
+/// Walks over the words of a text: runs of bytes between white space, where each brace is a word of
+/// its own. Comments
+/// (# or //, to the end of the line) between words are passed over and counted.
+class TextScanner {
+ public:
+  TextScanner(std::string_view bytes, std::size_t position) : bytes_(bytes), position_(position) {}
+
+  /// The next word, empty at the end; stays before it.
+  std::string_view peek();
+  /// The next word, and moves behind it.
+  std::string_view next();
+  /// Takes the next word when it is `word` in any case.
+  bool accept(std::string_view word);
+  /// The rest of the line, or the next line when the rest is blank, up to a brace, without white
+  /// space at either end. Empty when a brace is next.
+  std::string_view name();
+  /// The rest of the line; stays before it.
+  std::string_view rest_of_line() const;
+
+  /// Of the next word, once it was peeked at.
+  std::size_t position() const { return position_; }
+  void move_to(std::size_t position) { position_ = position; }
+  std::size_t comments() const { return comments_; }
+  std::size_t first_comment() const { return first_comment_; }
+
+ private:
+  void skip_blanks();
+  std::size_t line_end(std::size_t from) const;
+
+  std::string_view bytes_;
+  std::size_t position_;
+  std::size_t comments_ = 0;
+  std::size_t first_comment_ = 0;
+};
+
+}  // namespace kinemend
