@@ -1,4 +1,5 @@
-#include <algorithm>
+#include "rotation/leading_eigenvector.hpp"
+
 #include <array>
 
 #include "kinemend/rotation.hpp"
@@ -28,34 +29,14 @@ Vec3 mean_tangent(Quat reference, std::span<const Quat> rotations,
 
 Quat chordal_mean(std::span<const Quat> rotations, std::span<const double> weights) {
   if (rotations.empty()) return {};
-  std::array<std::array<double, 4>, 4> moment{};
+  rotation::Matrix4 moment{};
   for (std::size_t i = 0; i < rotations.size(); ++i) {
     const std::array<double, 4> q{rotations[i].w, rotations[i].x, rotations[i].y, rotations[i].z};
     for (std::size_t r = 0; r < 4; ++r) {
       for (std::size_t c = 0; c < 4; ++c) moment[r][c] += weight_of(weights, i) * q[r] * q[c];
     }
   }
-  // Repeated squaring of the moment leaves the projection on its leading eigenvector.
-  for (int squaring = 0; squaring < 48; ++squaring) {
-    std::array<std::array<double, 4>, 4> square{};
-    double trace = 0;
-    for (std::size_t r = 0; r < 4; ++r) {
-      for (std::size_t c = 0; c < 4; ++c) {
-        for (std::size_t k = 0; k < 4; ++k) square[r][c] += moment[r][k] * moment[k][c];
-      }
-      trace += square[r][r];
-    }
-    if (!(trace > 0)) return normalized(rotations.front());
-    for (std::size_t r = 0; r < 4; ++r) {
-      for (std::size_t c = 0; c < 4; ++c) moment[r][c] = square[r][c] / trace;
-    }
-  }
-  std::size_t largest = 0;
-  for (std::size_t r = 1; r < 4; ++r) {
-    if (moment[r][r] > moment[largest][largest]) largest = r;
-  }
-  const auto& row = moment[largest];
-  return normalized({row[0], row[1], row[2], row[3]});
+  return rotation::leading_eigenvector(moment, rotations.front());
 }
 
 Quat log_mean(Quat reference, std::span<const Quat> rotations, std::span<const double> weights) {

@@ -1,0 +1,130 @@
+#include "corrupt/damage_kind.hpp"
+#include "corrupt/position_targets.hpp"
+#include "corrupt/targets.hpp"
+#include "kinemend/kinematics.hpp"
+
+namespace kinemend::corrupt {
+
+namespace {
+
+// q <- q Exp(n) for a share of the samples of every joint.
+template <class Jump>
+void hit_share(Clip& clip, const Random& random, const TargetOptions& options, double share,
+               Jump jump) {
+  for (const std::size_t j : target_joints(clip.skeleton, options)) {
+    Random own = random.fork(j);
+    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+      if (own.chance(share)) set_rotation(clip, f, j, jump(clip.rotation(f, j), own));
+    }
+  }
+}
+
+Vec3 normal_vector(Random& random) {
+  const double x = random.normal(), y = random.normal(), z = random.normal();
+  return {x, y, z};
+}
+
+struct Outliers {
+  static constexpr auto name = "outliers";
+  static constexpr auto summary = "random jumps of single samples";
+  static constexpr auto paper = "Lou & Chai 2010, section 4.2";
+  struct Options : TargetOptions {
+    double share = 0.004;
+    double std_deg = 25;
+  };
+  static const OptionTable<Options>& table() {
+    static const auto options = [] {
+      OptionTable<Options> t;
+      t.number(&Options::share, "share", "", 0, 1, "chance of a joint sample to be hit");
+      t.number(&Options::std_deg, "std_deg", "deg", 0, 360,
+               "standard deviation of the jump about each axis: q Exp(n)");
+      return add_target_options(t);
+    }();
+    return options;
+  }
+  static void damage(Clip& clip, const Random& random, const Options& options, Notes&) {
+    const double deviation = options.std_deg * radians_per_degree;
+    hit_share(clip, random, options, options.share,
+              [&](Quat q, Random& own) { return q * exp(deviation * normal_vector(own)); });
+  }
+};
+
+struct Impulse {
+  static constexpr auto name = "impulse";
+  static constexpr auto summary = "jumps of single samples by one angle about random axes";
+  static constexpr auto paper = "Dean 2016, table I";
+  struct Options : TargetOptions {
+    double share = 0.01;
+    double size_deg = 60;
+  };
+  static const OptionTable<Options>& table() {
+    static const auto options = [] {
+      OptionTable<Options> t;
+      t.number(&Options::share, "share", "", 0, 1, "chance of a joint sample to be hit");
+      t.number(&Options::size_deg, "size_deg", "deg", 0, 180, "angle of the jump");
+      return add_target_options(t);
+    }();
+    return options;
+  }
+  static void damage(Clip& clip, const Random& random, const Options& options, Notes&) {
+    const double size = options.size_deg * radians_per_degree;
+    hit_share(clip, random, options, options.share, [&](Quat q, Random& own) {
+      const Vec3 n = normal_vector(own);
+      return q * exp(size / norm(n) * n);
+    });
+  }
+};
+
+struct OutlierScale {
+  static constexpr auto name = "outlier-scale";
+  static constexpr auto summary = "single values multiplied by a factor";
+  static constexpr auto paper = "Xiao et al. 2015, section 4 (10 to 25 % of the entries x 1.4)";
+  struct Options : TargetOptions {
+    Options() { root = false; }
+    double share = 0.1;
+    double factor = 1.4;
+    std::string value = "position";
+  };
+  static const OptionTable<Options>& table() {
+    static const auto options = [] {
+      OptionTable<Options> t;
+      t.number(&Options::share, "share", "", 0, 1, "chance of a value to be hit");
+      t.number(&Options::factor, "factor", "", -100, 100, "what it is multiplied by");
+      t.choice(&Options::value, "value", {"position", "rotation"},
+               "position: coordinates of joints relative to the root (Xiao), then refitted; "
+               "rotation: rotation vectors");
+      return add_target_options(t);
+    }();
+    return options;
+  }
+  static void damage(Clip& clip, const Random& random, const Options& options, Notes&) {
+    if (options.value == "rotation") {
+      hit_share(clip, random, options, options.share,
+                [&](Quat q, Random&) { return exp(options.factor * log(q)); });
+      return;
+    }
+    std::vector<Vec3> targets = joint_positions(clip);
+    for (const std::size_t j : position_joints(clip.skeleton, options)) {
+      Random own = random.fork(j);
+      for (std::size_t i = 0; i < targets.size(); i += clip.joint_count()) {
+        const Vec3 root = targets[i];
+        Vec3 p = targets[i + j] - root;
+        for (double* coordinate : {&p.x, &p.y, &p.z}) {
+          if (own.chance(options.share)) *coordinate *= options.factor;
+        }
+        if (j > 0) targets[i + j] = root + p;
+      }
+    }
+    refit_to(clip, targets, options);
+  }
+};
+
+}  // namespace
+
+void add_outliers(std::vector<Damage>& table) {
+  table.push_back(entry<Outliers>());
+  table.push_back(entry<OutlierScale>());
+  table.push_back(entry<Impulse>());
+}
+
+}  // namespace kinemend::corrupt

@@ -1,0 +1,154 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "corrupt/damage_kind.hpp"
+#include "corrupt/position_targets.hpp"
+#include "kinemend/kinematics.hpp"
+
+namespace kinemend::corrupt {
+
+namespace {
+
+// Adds Gaussian noise with the given deviation at each joint; the same joint gets the same noise
+// whatever the others get.
+void add_noise(std::vector<Vec3>& positions, std::size_t joint_count,
+               const std::vector<double>& deviations, const Random& random) {
+  for (std::size_t j = 0; j < joint_count; ++j) {
+    if (deviations[j] == 0) continue;
+    Random own = random.fork(j);
+    for (std::size_t i = j; i < positions.size(); i += joint_count) {
+      const double x = own.normal(), y = own.normal(), z = own.normal();
+      positions[i] += deviations[j] * Vec3{x, y, z};
+    }
+  }
+}
+
+struct PositionNoise {
+  static constexpr auto name = "position-noise";
+  static constexpr auto summary =
+      "Gaussian noise on joint positions, refitted to rotations with bone lengths kept";
+  static constexpr auto paper = "Mall et al. 2017, section 4 (\"spatial\" noise, 0.5 cm)";
+  struct Options : TargetOptions {
+    Options() { root = false; }
+    double std_cm = 0.5;
+    double cm_per_unit = 0;
+    std::string spread = "same";
+    double ends_factor = 3;
+  };
+  static const OptionTable<Options>& table() {
+    static const auto options = [] {
+      OptionTable<Options> t;
+      t.number(&Options::std_cm, "std_cm", "cm", 0, 1e6, "standard deviation along each axis");
+      t.number(&Options::cm_per_unit, "cm_per_unit", "cm", 0, 1e9,
+               "length of a file unit; 0: such that the skeleton is 170 cm tall");
+      t.choice(&Options::spread, "spread", {"same", "ends"},
+               "same: the same noise at all joints; ends: larger at wrists and ankles");
+      t.number(&Options::ends_factor, "ends_factor", "", 0, 1000, "how many times larger there");
+      return add_target_options(t);
+    }();
+    return options;
+  }
+  static void damage(Clip& clip, const Random& random, const Options& options, Notes& notes) {
+    const double scale = cm_per_unit(clip.skeleton, options, notes);
+    std::vector<double> deviations(clip.joint_count(), 0.0);
+    for (const std::size_t j : position_joints(clip.skeleton, options))
+      deviations[j] = options.std_cm / scale;
+    if (options.spread == "ends") {
+      const auto ends = wrists_and_ankles(clip.skeleton);
+      if (ends.empty())
+        notes.emplace_back("no wrist or ankle found by name: the noise is the same at all joints");
+      for (const std::size_t j : ends) deviations[j] *= options.ends_factor;
+    }
+    std::vector<Vec3> targets = joint_positions(clip);
+    add_noise(targets, clip.joint_count(), deviations, random);
+    refit_to(clip, targets, options);
+  }
+  static double cm_per_unit(const Skeleton& skeleton, const Options& options, Notes& notes) {
+    if (options.cm_per_unit > 0) return options.cm_per_unit;
+    constexpr double usual_height_cm = 170;
+    const double height = rest_height(skeleton);
+    const double scale = height > 0 ? usual_height_cm / height : 1.0;
+    notes.push_back(fmt::format("a file unit is taken as {:.4g} cm", scale));
+    return scale;
+  }
+};
+
+// Mean square of a coordinate of the listed joints, relative to joint 0.
+double signal_power(const std::vector<Vec3>& positions, std::size_t joint_count,
+                    const std::vector<std::size_t>& joints) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t frame = 0; frame < positions.size(); frame += joint_count) {
+    for (const std::size_t j : joints) {
+      if (j == 0) continue;
+      const Vec3 p = positions[frame + j] - positions[frame];
+      sum += dot(p, p);
+      count += 3;
+    }
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0.0;
+}
+
+double realised_snr_db(double power, const std::vector<Vec3>& clean, const std::vector<Vec3>& noisy,
+                       std::size_t joint_count, const std::vector<std::size_t>& joints) {
+  double sum = 0;
+  for (std::size_t frame = 0; frame < clean.size(); frame += joint_count) {
+    for (const std::size_t j : joints) {
+      const Vec3 d = noisy[frame + j] - clean[frame + j];
+      sum += dot(d, d);
+    }
+  }
+  const auto terms = static_cast<double>(3 * joints.size() * (clean.size() / joint_count));
+  return 10 * std::log10(power * terms / sum);
+}
+
+struct Snr {
+  static constexpr auto name = "snr";
+  static constexpr auto summary =
+      "Gaussian noise on joint positions at a signal-to-noise ratio, refitted to rotations";
+  static constexpr auto paper = "Xiao et al. 2015, section 4 (40, 30, 20, 10 dB)";
+  struct Options : TargetOptions {
+    Options() { root = false; }
+    double snr_db = 20;
+  };
+  static const OptionTable<Options>& table() {
+    static const auto options = [] {
+      OptionTable<Options> t;
+      t.number(&Options::snr_db, "snr_db", "dB", -40, 200,
+               "10 log10 of the mean square of joint positions relative to the root over that of "
+               "the noise");
+      return add_target_options(t);
+    }();
+    return options;
+  }
+  static void damage(Clip& clip, const Random& random, const Options& options, Notes& notes) {
+    const auto joints = position_joints(clip.skeleton, options);
+    const std::vector<Vec3> clean = joint_positions(clip);
+    const double power = signal_power(clean, clip.joint_count(), joints);
+    if (power == 0) {
+      notes.emplace_back("all joints lie at the root: there is no signal to scale the noise by");
+      return;
+    }
+    std::vector<double> deviations(clip.joint_count(), 0.0);
+    for (const std::size_t j : joints)
+      deviations[j] = std::sqrt(power * std::pow(10, -options.snr_db / 10));
+    std::vector<Vec3> targets = clean;
+    add_noise(targets, clip.joint_count(), deviations, random);
+    refit_to(clip, targets, options);
+    notes.push_back(fmt::format(
+        "{:.2f} dB before the bones have their lengths again, {:.2f} dB after",
+        realised_snr_db(power, clean, targets, clip.joint_count(), joints),
+        realised_snr_db(power, clean, joint_positions(clip), clip.joint_count(), joints)));
+  }
+};
+
+}  // namespace
+
+void add_position_noise(std::vector<Damage>& table) {
+  table.push_back(entry<Snr>());
+  table.push_back(entry<PositionNoise>());
+}
+
+}  // namespace kinemend::corrupt

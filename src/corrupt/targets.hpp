@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemend/clip.hpp"
+#include "kinemend/options.hpp"
+
+namespace kinemend::corrupt {
+
+/// Which joints a damage may touch. Every damage has these options.
+struct TargetOptions {
+  TargetOptions() {}   // g++ 12 takes an implicit one for a use of uninitialised memory
+  std::string joints;  ///< names or shell patterns (`Left*`), separated by commas; empty: all
+  bool root = true;    ///< roots too
+};
+
+template <class Options>
+OptionTable<Options>& add_target_options(OptionTable<Options>& table) {
+  return table
+      .choice(&Options::joints, "joints", {},
+              "joints to damage: names or patterns (Left*), separated by commas; empty: all")
+      .flag(&Options::root, "root", "damage the root too");
+}
+
+/// `text` matches `pattern`, in which * stands for any characters and ? for one.
+bool matches_pattern(std::string_view text, std::string_view pattern);
+
+/// Joints that can be damaged, ascending: those asked for that have rotation channels (all of them
+/// where no joint of the skeleton has any, as in a clip made in memory). Errors: `ErrorKind::usage`
+/// for a pattern that no joint matches.
+std::vector<std::size_t> target_joints(const Skeleton& skeleton, const TargetOptions& options);
+
+/// The limb of each joint, as consecutive numbers: roots alone, then the parts between branchings.
+/// Only the first two branchings of a path divide it (hips and chest, not fingers), and a part of
+/// fewer than three joints belongs to its parent's.
+std::vector<std::size_t> limbs(const Skeleton& skeleton);
+
+/// What is damaged together: rotation channel `channel` of one joint, or (-1) whole joints.
+struct Unit {
+  std::vector<std::size_t> joints;
+  int channel = -1;
+};
+
+inline const std::vector<std::string> scopes{"channel", "joint", "limb", "all"};
+std::vector<Unit> units(const Skeleton& skeleton, const TargetOptions& options,
+                        std::string_view scope);
+
+/// Puts the new rotation of a sample in, as near as the joint's own channels can express it.
+void set_rotation(Clip& clip, std::size_t frame, std::size_t joint, Quat rotation);
+
+/// Euler angles (radians) of a joint over the whole clip, continued from frame to frame.
+std::vector<std::array<double, 3>> euler_track(const Clip& clip, std::size_t joint);
+
+}  // namespace kinemend::corrupt

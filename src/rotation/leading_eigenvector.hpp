@@ -1,0 +1,15 @@
+#pragma once
+
+#include <array>
+
+#include "kinemend/rotation.hpp"
+
+namespace kinemend::rotation {
+
+using Matrix4 = std::array<std::array<double, 4>, 4>;
+
+/// The unit eigenvector of the largest eigenvalue of a symmetric positive semidefinite matrix, up
+/// to sign. Where several are largest, one of their space. `fallback` when the matrix is zero.
+Quat leading_eigenvector(Matrix4 matrix, Quat fallback = {});
+
+}  // namespace kinemend::rotation
