@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+/// Whittaker smoothing: the x that minimises sum_t w[t] (y[t] - x[t])^2 + sum_t p[t] (D^d x)[t]^2,
+/// where D^d is the difference of order d. It is the posterior mean of a signal whose d-th
+/// differences are independent normal with variance 1 / p[t], seen through noise of variance 1 /
+/// w[t]. The banded systems are solved in O(F).
+namespace kinemend::signal {
+
+inline constexpr std::size_t block_channels = 8;
+inline constexpr std::size_t largest_order = 3;
+
+/// F frames of eight channels side by side, frame-major: what the solvers work on at once. Channels
+/// that are not used are zero.
+struct ChannelBlock {
+  std::size_t frames = 0;
+  std::vector<double> values;
+
+  explicit ChannelBlock(std::size_t frame_count, double value = 0)
+      : frames(frame_count), values(frame_count * block_channels, value) {}
+  double& operator()(std::size_t frame, std::size_t channel) {
+    return values[frame * block_channels + channel];
+  }
+  double operator()(std::size_t frame, std::size_t channel) const {
+    return values[frame * block_channels + channel];
+  }
+};
+
+using BlockRow = std::array<double, block_channels>;
+
+/// Binomial coefficients with alternating signs: (D^d x)[t] = sum_k c[k] x[t + k].
+std::array<double, largest_order + 1> difference_coefficients(std::size_t order);
+/// The strength p / w at which the smoother passes half the amplitude at `cutoff` cycles a frame
+/// (up to 1/2): (2 sin(pi cutoff))^(-2 order).
+double strength_of_cutoff(double cutoff, std::size_t order);
+
+/// I + strength (D^d)^T D^d = L D L^T for F frames, shared by all channels whose samples weigh the
+/// same.
+struct SharedFactor {
+  std::size_t order = 1;
+  std::vector<double> lower;             ///< F x order: L[t, t - k] at t * order + k - 1
+  std::vector<double> inverse_diagonal;  ///< F
+  double log_determinant = 0;
+};
+/// `order` is 1 to 3 and less than `frames`; `strength` is positive.
+SharedFactor factor_shared(std::size_t frames, std::size_t order, double strength);
+/// x = A^-1 y; returns sum_t y[t] x[t] of each channel.
+BlockRow solve_shared(const SharedFactor& factor, const ChannelBlock& y, ChannelBlock& x);
+/// The diagonal of A^-1: the weight of each sample in its own fit.
+std::vector<double> leverages(const SharedFactor& factor);
+
+/// diag(weight) + (D^d)^T diag(penalty) D^d for each channel by itself, with room for its solution
+/// and its inverse's band.
+class WeightedSystem {
+ public:
+  /// `order` is 1 to 3 and less than `frames`.
+  WeightedSystem(std::size_t frames, std::size_t order);
+
+  /// `weight`: F rows, not negative, at least `order` of them positive; `penalty`: F - order rows,
+  /// positive.
+  void factor(const ChannelBlock& weight, const ChannelBlock& penalty);
+  /// x = A^-1 (weight y).
+  void solve(const ChannelBlock& weight, const ChannelBlock& y, ChannelBlock& x);
+  /// The posterior variance of each difference, diag(D^d A^-1 (D^d)^T): F - order rows.
+  void difference_variances(ChannelBlock& variances);
+
+ private:
+  std::size_t frames_;
+  std::size_t order_;
+  std::vector<double> diagonal_;              // F x 8
+  std::vector<std::vector<double>> lower_;    // order of F x 8: L[t, t - k]
+  std::vector<std::vector<double>> inverse_;  // order + 1 of F x 8: A^-1[t, t + k]
+};
+
+}  // namespace kinemend::signal

@@ -1,0 +1,230 @@
+#include "signal/simd.hpp"
+#include "signal/whittaker.hpp"
+#include "signal/whittaker_kernels.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "signal/whittaker_kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace kinemend::signal::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Tag = hn::CappedTag<double, block_channels>;
+
+// Calls work(column) for each vector of columns of a block.
+template <class Work>
+HWY_INLINE void for_columns(const Work& work) {
+  for (std::size_t c = 0; c < block_channels; c += hn::Lanes(Tag())) work(c);
+}
+
+template <std::size_t order>
+HWY_INLINE void solve_shared_column(const double* lower, const double* inverse_diagonal,
+                                    std::size_t frames, const double* y, double* x,
+                                    double* product_sums) {
+  const Tag d;
+  const auto row = [](auto* data, std::size_t t) { return data + t * block_channels; };
+  for (std::size_t t = 0; t < frames; ++t) {
+    auto value = hn::LoadU(d, row(y, t));
+    for (std::size_t k = order; k >= 1; --k) {
+      if (k > t) continue;
+      value = hn::Sub(value,
+                      hn::Mul(hn::Set(d, lower[t * order + k - 1]), hn::LoadU(d, row(x, t - k))));
+    }
+    hn::StoreU(value, d, row(x, t));
+  }
+  auto sums = hn::Zero(d);
+  for (std::size_t t = frames; t-- > 0;) {
+    auto value = hn::Mul(hn::LoadU(d, row(x, t)), hn::Set(d, inverse_diagonal[t]));
+    for (std::size_t k = order; k >= 1; --k) {
+      if (t + k >= frames) continue;
+      value = hn::Sub(
+          value, hn::Mul(hn::Set(d, lower[(t + k) * order + k - 1]), hn::LoadU(d, row(x, t + k))));
+    }
+    hn::StoreU(value, d, row(x, t));
+    sums = hn::Add(sums, hn::Mul(value, hn::LoadU(d, row(y, t))));
+  }
+  hn::StoreU(sums, d, product_sums);
+}
+
+void solve_shared_rows(const double* lower, const double* inverse_diagonal, std::size_t order,
+                       std::size_t frames, const double* y, double* x, double* product_sums) {
+  for_columns([&](std::size_t c) {
+    if (order == 1)
+      solve_shared_column<1>(lower, inverse_diagonal, frames, y + c, x + c, product_sums + c);
+    if (order == 2)
+      solve_shared_column<2>(lower, inverse_diagonal, frames, y + c, x + c, product_sums + c);
+    if (order == 3)
+      solve_shared_column<3>(lower, inverse_diagonal, frames, y + c, x + c, product_sums + c);
+  });
+}
+
+// A[t, t - k] of the penalty: sum_u c[u] c[u + k] penalty[t - k - u].
+template <std::size_t order>
+HWY_INLINE auto penalty_entry(const double* penalty, const double* c, std::size_t frames,
+                              std::size_t t, std::size_t k) {
+  const Tag d;
+  auto sum = hn::Zero(d);
+  for (std::size_t u = 0; u + k <= order; ++u) {
+    if (t < k + u || t - k - u >= frames - order) continue;
+    sum = hn::Add(sum, hn::Mul(hn::Set(d, c[u] * c[u + k]),
+                               hn::LoadU(d, penalty + (t - k - u) * block_channels)));
+  }
+  return sum;
+}
+
+template <std::size_t order>
+HWY_INLINE void factor_column(const WeightedRows& rows, const double* weight, const double* penalty,
+                              std::size_t column) {
+  const Tag d;
+  const auto c = difference_coefficients(order);
+  const auto at = [column](const double* data, std::size_t t) {
+    return hn::LoadU(Tag(), data + t * block_channels + column);
+  };
+  for (std::size_t t = 0; t < rows.frames; ++t) {
+    auto pivot =
+        hn::Add(at(weight, t), penalty_entry<order>(penalty + column, c.data(), rows.frames, t, 0));
+    for (std::size_t k = order; k >= 1; --k) {
+      if (k > t) continue;
+      auto entry = penalty_entry<order>(penalty + column, c.data(), rows.frames, t, k);
+      for (std::size_t m = k + 1; m <= order && m <= t; ++m) {
+        entry = hn::Sub(entry, hn::Mul(hn::Mul(at(rows.lower[m - 1], t), at(rows.diagonal, t - m)),
+                                       at(rows.lower[m - k - 1], t - k)));
+      }
+      const auto before = at(rows.diagonal, t - k);
+      const auto lower = hn::Div(entry, before);
+      hn::StoreU(lower, d, rows.lower[k - 1] + t * block_channels + column);
+      pivot = hn::Sub(pivot, hn::Mul(hn::Mul(lower, lower), before));
+    }
+    hn::StoreU(pivot, d, rows.diagonal + t * block_channels + column);
+  }
+}
+
+void factor_weighted_rows(const WeightedRows& rows, const double* weight, const double* penalty) {
+  for_columns([&](std::size_t c) {
+    if (rows.order == 1) factor_column<1>(rows, weight, penalty, c);
+    if (rows.order == 2) factor_column<2>(rows, weight, penalty, c);
+    if (rows.order == 3) factor_column<3>(rows, weight, penalty, c);
+  });
+}
+
+template <std::size_t order>
+HWY_INLINE void solve_column(const WeightedRows& rows, const double* weight, const double* y,
+                             double* x, std::size_t column) {
+  const Tag d;
+  const auto at = [column](const double* data, std::size_t t) {
+    return hn::LoadU(Tag(), data + t * block_channels + column);
+  };
+  for (std::size_t t = 0; t < rows.frames; ++t) {
+    auto value = hn::Mul(at(weight, t), at(y, t));
+    for (std::size_t k = order; k >= 1; --k) {
+      if (k <= t) value = hn::Sub(value, hn::Mul(at(rows.lower[k - 1], t), at(x, t - k)));
+    }
+    hn::StoreU(value, d, x + t * block_channels + column);
+  }
+  for (std::size_t t = rows.frames; t-- > 0;) {
+    auto value = hn::Div(at(x, t), at(rows.diagonal, t));
+    for (std::size_t k = order; k >= 1; --k) {
+      if (t + k < rows.frames)
+        value = hn::Sub(value, hn::Mul(at(rows.lower[k - 1], t + k), at(x, t + k)));
+    }
+    hn::StoreU(value, d, x + t * block_channels + column);
+  }
+}
+
+void solve_weighted_rows(const WeightedRows& rows, const double* weight, const double* y,
+                         double* x) {
+  for_columns([&](std::size_t c) {
+    if (rows.order == 1) solve_column<1>(rows, weight, y, x, c);
+    if (rows.order == 2) solve_column<2>(rows, weight, y, x, c);
+    if (rows.order == 3) solve_column<3>(rows, weight, y, x, c);
+  });
+}
+
+// Takahashi's recursion: the band of A^-1 from its factor, from the last row up.
+template <std::size_t order>
+HWY_INLINE void invert_column(const WeightedRows& rows, std::size_t column) {
+  const Tag d;
+  const auto at = [column](const double* data, std::size_t t) {
+    return hn::LoadU(Tag(), data + t * block_channels + column);
+  };
+  for (std::size_t t = rows.frames; t-- > 0;) {
+    const std::size_t band = rows.frames - 1 - t < order ? rows.frames - 1 - t : order;
+    for (std::size_t k = band; k >= 1; --k) {
+      auto sum = hn::Zero(d);
+      for (std::size_t m = 1; m <= band; ++m) {
+        const std::size_t distance = m > k ? m - k : k - m;
+        const std::size_t first = t + (m < k ? m : k);
+        sum =
+            hn::Sub(sum, hn::Mul(at(rows.lower[m - 1], t + m), at(rows.inverse[distance], first)));
+      }
+      hn::StoreU(sum, d, rows.inverse[k] + t * block_channels + column);
+    }
+    auto sum = hn::Div(hn::Set(d, 1.0), at(rows.diagonal, t));
+    for (std::size_t m = 1; m <= band; ++m) {
+      sum = hn::Sub(sum, hn::Mul(at(rows.lower[m - 1], t + m), at(rows.inverse[m], t)));
+    }
+    hn::StoreU(sum, d, rows.inverse[0] + t * block_channels + column);
+  }
+}
+
+void invert_weighted_rows(const WeightedRows& rows) {
+  for_columns([&](std::size_t c) {
+    if (rows.order == 1) invert_column<1>(rows, c);
+    if (rows.order == 2) invert_column<2>(rows, c);
+    if (rows.order == 3) invert_column<3>(rows, c);
+  });
+}
+
+void difference_variance_rows(const WeightedRows& rows, double* variances) {
+  const Tag d;
+  const auto c = difference_coefficients(rows.order);
+  for_columns([&](std::size_t column) {
+    for (std::size_t t = 0; t + rows.order < rows.frames; ++t) {
+      auto sum = hn::Zero(d);
+      for (std::size_t u = 0; u <= rows.order; ++u) {
+        for (std::size_t v = u; v <= rows.order; ++v) {
+          const double factor = (u == v ? 1.0 : 2.0) * c[u] * c[v];
+          const double* entry = rows.inverse[v - u] + (t + u) * block_channels + column;
+          sum = hn::Add(sum, hn::Mul(hn::Set(d, factor), hn::LoadU(d, entry)));
+        }
+      }
+      hn::StoreU(sum, d, variances + t * block_channels + column);
+    }
+  });
+}
+
+}  // namespace kinemend::signal::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace kinemend::signal {
+
+HWY_EXPORT(solve_shared_rows);
+HWY_EXPORT(factor_weighted_rows);
+HWY_EXPORT(solve_weighted_rows);
+HWY_EXPORT(invert_weighted_rows);
+HWY_EXPORT(difference_variance_rows);
+
+void solve_shared_rows(const double* lower, const double* inverse_diagonal, std::size_t order,
+                       std::size_t frames, const double* y, double* x, double* product_sums) {
+  HWY_DYNAMIC_DISPATCH(solve_shared_rows)
+  (lower, inverse_diagonal, order, frames, y, x, product_sums);
+}
+void factor_weighted_rows(const WeightedRows& rows, const double* weight, const double* penalty) {
+  HWY_DYNAMIC_DISPATCH(factor_weighted_rows)(rows, weight, penalty);
+}
+void solve_weighted_rows(const WeightedRows& rows, const double* weight, const double* y,
+                         double* x) {
+  HWY_DYNAMIC_DISPATCH(solve_weighted_rows)(rows, weight, y, x);
+}
+void invert_weighted_rows(const WeightedRows& rows) {
+  HWY_DYNAMIC_DISPATCH(invert_weighted_rows)(rows);
+}
+void difference_variance_rows(const WeightedRows& rows, double* variances) {
+  HWY_DYNAMIC_DISPATCH(difference_variance_rows)(rows, variances);
+}
+
+}  // namespace kinemend::signal
+#endif
