@@ -1,0 +1,113 @@
+#include "clean/live_frames.hpp"
+#include "clean/method_list.hpp"
+#include "clean/track_kalman.hpp"
+#include "clean/tracks.hpp"
+#include "kinemend/methods.hpp"
+
+namespace kinemend {
+
+namespace {
+
+const OptionTable<OneEuroOptions>& table() {
+  static const auto options =
+      OptionTable<OneEuroOptions>()
+          .number(&OneEuroOptions::min_cutoff_hz, "min_cutoff_hz", "Hz", 0.01, 100,
+                  "cutoff at rest: lower steadies a pose that is held")
+          .number(&OneEuroOptions::speed_coefficient, "speed_coefficient", "", 0, 1000,
+                  "hertz of cutoff per radian per second: higher shortens the delay in motion")
+          .number(&OneEuroOptions::speed_cutoff_hz, "speed_cutoff_hz", "Hz", 0.01, 100,
+                  "low-pass on the measured speed");
+  return options;
+}
+
+// Share of the new sample in an exponential mean of this cutoff.
+double smoothing(double cutoff_hz, double rate_hz) {
+  const double time_constant_s = 1 / (2 * pi * cutoff_hz);
+  return 1 / (1 + time_constant_s * rate_hz);
+}
+
+template <class Sample>
+class OneEuroTrack {
+ public:
+  // `scale`: the distance that counts as one radian.
+  OneEuroTrack(const OneEuroOptions& options, double rate_hz, double scale)
+      : options_(options), rate_hz_(rate_hz), scale_(scale) {}
+
+  Sample step(Sample sample, bool seen) {
+    if (!seen) return started_ ? smooth_ : sample;
+    if (!started_) {
+      started_ = true;
+      return last_ = smooth_ = sample;
+    }
+    const Vec3 velocity = rate_hz_ * minus(sample, last_);
+    last_ = sample;
+    const double share = smoothing(options_.speed_cutoff_hz, rate_hz_);
+    velocity_ = (1 - share) * velocity_ + share * velocity;
+    const double speed = norm(velocity_) / scale_;
+    const double cutoff_hz = options_.min_cutoff_hz + options_.speed_coefficient * speed;
+    return smooth_ = plus(smooth_, smoothing(cutoff_hz, rate_hz_) * minus(sample, smooth_));
+  }
+
+ private:
+  OneEuroOptions options_;
+  double rate_hz_, scale_;
+  Sample last_, smooth_;
+  Vec3 velocity_;
+  bool started_ = false;
+};
+
+class OneEuroFrameFilter final : public FrameFilter {
+ public:
+  OneEuroFrameFilter(const OneEuroOptions& options, const Skeleton& skeleton, double rate_hz)
+      : position_(options, rate_hz, typical_bone_length(skeleton)),
+        rotations_(skeleton.joint_count(), {options, rate_hz, 1}) {}
+
+  void filter(LiveFrame& frame) override {
+    for (std::size_t j = 0; j < rotations_.size(); ++j) {
+      const bool seen = frame.observed.empty() || frame.observed[j] != 0;
+      frame.rotations[j] = rotations_[j].step(frame.rotations[j], seen);
+    }
+    positions_.resize(1 + frame.joint_translations.size(), position_);
+    frame.root_position = positions_[0].step(frame.root_position, true);
+    for (std::size_t i = 0; i < frame.joint_translations.size(); ++i) {
+      frame.joint_translations[i] = positions_[i + 1].step(frame.joint_translations[i], true);
+    }
+  }
+
+ private:
+  OneEuroTrack<Vec3> position_;
+  std::vector<OneEuroTrack<Quat>> rotations_;
+  std::vector<OneEuroTrack<Vec3>> positions_;
+};
+
+class OneEuro final : public Cleaner {
+ public:
+  explicit OneEuro(const OneEuroOptions& options) : options_(options) {}
+
+  CleanTrace clean(Clip& clip, const Selection& selection) const override {
+    return clean_causally(*this, clip, selection);
+  }
+  LiveSupport live_support(double) const override { return {LiveSupport::Kind::causal, 0}; }
+  std::unique_ptr<FrameFilter> make_frame_filter(const Skeleton& skeleton,
+                                                 double rate_hz) const override {
+    return std::make_unique<OneEuroFrameFilter>(options_, skeleton, rate_hz);
+  }
+
+ private:
+  OneEuroOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Cleaner> make_one_euro(const OneEuroOptions& options) {
+  table().validate(options);
+  return std::make_unique<OneEuro>(options);
+}
+
+Method one_euro_method() {
+  return {"one-euro", "live filter that smooths at rest and follows in motion",
+          "Casiez, Roussel & Vogel 2012", table().specs(),
+          [](const OptionValues& values) { return make_one_euro(table().parse(values)); }};
+}
+
+}  // namespace kinemend

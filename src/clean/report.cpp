@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "clean/changes.hpp"
+#include "clean/track_noise.hpp"
+#include "clean/tracks.hpp"
+
+namespace kinemend {
+
+namespace {
+
+bool repaired(Action action) {
+  return action == Action::despiked || action == Action::filled || action == Action::foot_adjusted;
+}
+
+// Frames of one thing done to one joint: `action(f)` and `change(f)` for f below `frames`.
+template <class ActionAt, class ChangeAt>
+void add_spans(std::int32_t joint, std::size_t frames, std::size_t first_frame,
+               const ActionAt& action, const ChangeAt& change, std::vector<ReportSpan>& spans) {
+  for (std::size_t f = 0; f < frames;) {
+    ReportSpan span{joint, first_frame + f, 0, action(f), 0, 0};
+    double squares = 0;
+    const std::size_t start = f;
+    for (; f < frames && action(f) == span.action; ++f) {
+      span.max_change = std::max(span.max_change, change(f));
+      squares += change(f) * change(f);
+    }
+    span.last_frame = first_frame + f - 1;
+    span.rms_change = std::sqrt(squares / static_cast<double>(f - start));
+    if (span.action != Action::kept) spans.push_back(span);
+  }
+}
+
+struct Peak {
+  double speed_deg_s = 0;
+  bool found = false;
+};
+
+// Largest turn within `gap` frames, as a speed. `left_out` marks samples that do not count.
+Peak peak_speed(const std::vector<Quat>& track, const std::vector<std::uint8_t>& left_out,
+                std::size_t gap, double rate_hz) {
+  double least = 2;
+  std::size_t at = 0;
+  for (std::size_t f = 0; f + gap < track.size(); ++f) {
+    if (left_out[f] || left_out[f + gap]) continue;
+    const double cosine = std::fabs(dot(track[f], track[f + gap]));
+    if (cosine < least) least = cosine, at = f;
+  }
+  if (least == 2) return {};
+  const double angle = angle_between(track[at], track[at + gap]) * degrees_per_radian;
+  return {angle * rate_hz / static_cast<double>(gap), true};
+}
+
+// Fills in the peaks and returns by how much noise may have raised the first one, degrees / s.
+double measure_peaks(const std::vector<Quat>& before, const std::vector<Quat>& after,
+                     const std::vector<std::uint8_t>& left_out, double rate_hz,
+                     JointSummary& summary) {
+  constexpr double longest_s = 0.05;
+  constexpr double noise_share = 0.1;
+  // Four standard deviations of the difference of two samples: the largest of many.
+  const double noise = 4 * std::sqrt(2.0) * track_noise(before) * degrees_per_radian;
+  const std::size_t most = frames_in(longest_s, rate_hz, 1);
+  double noise_speed = 0;
+  for (std::size_t gap = 1; gap <= most; ++gap) {
+    const Peak peak = peak_speed(before, left_out, gap, rate_hz);
+    if (!peak.found) break;
+    summary.peak_speed_before_deg_s = peak.speed_deg_s;
+    summary.peak_frames = gap;
+    noise_speed = noise * rate_hz / static_cast<double>(gap);
+    if (noise_speed <= noise_share * peak.speed_deg_s) break;
+  }
+  summary.peak_speed_after_deg_s =
+      peak_speed(after, left_out, summary.peak_frames, rate_hz).speed_deg_s;
+  return noise_speed;
+}
+
+struct JointReport {
+  JointSummary summary;
+  std::vector<ReportSpan> spans;
+  std::string warning;
+};
+
+std::string peak_warning(const JointSummary& summary, double noise_speed, double limit) {
+  constexpr double slow_deg_s = 60;  // peaks below this are no events
+  const double sure = summary.peak_speed_before_deg_s - noise_speed;
+  if (sure < slow_deg_s || summary.peak_speed_after_deg_s >= (1 - limit) * sure) return {};
+  const double loss = 1 - summary.peak_speed_after_deg_s / summary.peak_speed_before_deg_s;
+  return fmt::format("{}: peak speed falls from {:.0f} to {:.0f} deg/s ({:.0f} %, limit {:.0f} %)",
+                     summary.name, summary.peak_speed_before_deg_s, summary.peak_speed_after_deg_s,
+                     100 * loss, 100 * limit);
+}
+
+JointReport report_joint(const Clip& input, std::size_t first_frame, const Clip& cleaned,
+                         const Changes& changes, std::size_t joint, double limit) {
+  const std::size_t joints = input.joint_count(), frames = cleaned.frame_count();
+  JointReport report;
+  JointSummary& summary = report.summary;
+  summary.name = input.skeleton.names[joint];
+  std::vector<std::uint8_t> left_out(frames);
+  double squares = 0;
+  for (std::size_t f = 0; f < frames; ++f) {
+    const double change = changes.degrees[f * joints + joint];
+    squares += change * change;
+    summary.max_change_deg = std::max(summary.max_change_deg, change);
+    summary.frames_changed += change > 0;
+    left_out[f] =
+        repaired(changes.actions[f * joints + joint]) || !input.is_observed(first_frame + f, joint);
+    summary.frames_repaired += repaired(changes.actions[f * joints + joint]);
+  }
+  if (frames > 0) summary.rms_change_deg = std::sqrt(squares / static_cast<double>(frames));
+
+  std::vector<Quat> before(frames);
+  for (std::size_t f = 0; f < frames; ++f) before[f] = input.rotation(first_frame + f, joint);
+  const std::vector<Quat> after = summary.frames_changed > 0 ? joint_track(cleaned, joint) : before;
+  const double noise_speed = measure_peaks(before, after, left_out, input.frame_rate_hz, summary);
+  report.warning = peak_warning(summary, noise_speed, limit);
+
+  add_spans(
+      static_cast<std::int32_t>(joint), frames, first_frame,
+      [&](std::size_t f) { return changes.actions[f * joints + joint]; },
+      [&](std::size_t f) { return changes.degrees[f * joints + joint]; }, report.spans);
+  return report;
+}
+
+}  // namespace
+
+void write_report(const Clip& input, std::size_t first_frame, const Clip& cleaned,
+                  const Changes& changes, const CleanTrace& trace, const CleanSettings& settings,
+                  CleanReport& report) {
+  const std::size_t joints = input.joint_count(), frames = cleaned.frame_count();
+  std::vector<JointReport> parts(joints);
+  for_each_parallel(joints, joints * frames, [&](std::size_t j) {
+    parts[j] = report_joint(input, first_frame, cleaned, changes, j, settings.peak_loss_limit);
+  });
+
+  double squares = 0;
+  for (const double change : changes.root) {
+    squares += change * change;
+    report.root_max_change = std::max(report.root_max_change, change);
+  }
+  if (frames > 0) report.root_rms_change = std::sqrt(squares / static_cast<double>(frames));
+  add_spans(
+      -1, frames, first_frame, [&](std::size_t f) { return changes.root_actions[f]; },
+      [&](std::size_t f) { return changes.root[f]; }, report.spans);
+
+  report.warnings = trace.warnings;
+  for (std::size_t j = 0; j < joints; ++j) {
+    if (!trace.noise_deg.empty()) parts[j].summary.noise_deg = trace.noise_deg[j];
+    report.joints.push_back(std::move(parts[j].summary));
+    report.spans.insert(report.spans.end(), parts[j].spans.begin(), parts[j].spans.end());
+    if (!parts[j].warning.empty()) report.warnings.push_back(std::move(parts[j].warning));
+  }
+}
+
+}  // namespace kinemend

@@ -1,0 +1,212 @@
+#include "clean/tracks.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "kinemend/representation.hpp"
+
+namespace kinemend {
+
+namespace {
+
+bool moves(const Clip& clip, std::size_t joint) {
+  for (std::size_t f = 1; f < clip.frame_count(); ++f) {
+    if (clip.rotation(f, joint) != clip.rotation(0, joint)) return true;
+  }
+  return false;
+}
+
+std::vector<std::size_t> observed_frames(const Clip& clip, std::size_t joint) {
+  std::vector<std::size_t> frames;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    if (clip.is_observed(f, joint)) frames.push_back(f);
+  }
+  return frames;
+}
+
+void bridge(Clip& clip, std::size_t joint, std::size_t before, std::size_t after) {
+  const Quat a = clip.rotation(before, joint);
+  const Vec3 step =
+      (1.0 / static_cast<double>(after - before)) * log(conjugate(a) * clip.rotation(after, joint));
+  for (std::size_t f = before + 1; f < after; ++f) {
+    clip.rotation(f, joint) = normalized(a * exp(static_cast<double>(f - before) * step));
+  }
+}
+
+// Joints of one encoding that are filtered together: enough to fill vector registers, few enough
+// to spread over threads.
+struct Block {
+  Encoding encoding;
+  std::vector<std::size_t> joints;
+};
+
+std::vector<Block> make_blocks(const Clip& clip, std::span<const std::size_t> joints,
+                               ChannelChoice choice) {
+  constexpr std::size_t block_joints = 8;
+  std::vector<Encoding> encodings(joints.size(), Encoding::quaternion);
+  if (choice == ChannelChoice::suitable) {
+    for_each_parallel(joints.size(), joints.size() * clip.frame_count(),
+                      [&](std::size_t i) { encodings[i] = suitable_encoding(clip, joints[i]); });
+  }
+  std::vector<Block> blocks;
+  for (const Encoding encoding : {Encoding::quaternion, Encoding::tangent}) {
+    std::size_t in_block = block_joints;
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      if (encodings[i] != encoding) continue;
+      if (in_block == block_joints) blocks.push_back({encoding, {}}), in_block = 0;
+      blocks.back().joints.push_back(joints[i]);
+      ++in_block;
+    }
+  }
+  return blocks;
+}
+
+void filter_positions(Clip& clip, const Selection& selection,
+                      const std::function<void(PoseMatrix&)>& filter) {
+  const auto tracks = selected_positions(clip, selection);
+  if (tracks.empty()) return;
+  const std::size_t frames = clip.frame_count();
+  PoseMatrix matrix(frames, 3 * tracks.size());
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    for (std::size_t f = 0; f < frames; ++f) {
+      const Vec3 p = tracks[i].values[f * tracks[i].stride] - tracks[i].values[0];
+      matrix(f, 3 * i) = p.x;
+      matrix(f, 3 * i + 1) = p.y;
+      matrix(f, 3 * i + 2) = p.z;
+    }
+  }
+  filter(matrix);
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const Vec3 origin = tracks[i].values[0];
+    for (std::size_t f = 0; f < frames; ++f) {
+      const Vec3 p{matrix(f, 3 * i), matrix(f, 3 * i + 1), matrix(f, 3 * i + 2)};
+      tracks[i].values[f * tracks[i].stride] = origin + p;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::size_t> selected_joints(const Clip& clip, const Selection& selection) {
+  std::vector<std::size_t> joints;
+  for (std::size_t j = 0; j < clip.joint_count(); ++j) {
+    if (selection.joints[j] && moves(clip, j)) joints.push_back(j);
+  }
+  return joints;
+}
+
+bool translation_selected(const Clip& clip, const Selection& selection, std::size_t index) {
+  return selection.translations && selection.joints[clip.translated_joints[index]] != 0;
+}
+
+std::vector<PositionTrack> selected_positions(Clip& clip, const Selection& selection) {
+  std::vector<PositionTrack> tracks;
+  if (clip.frame_count() == 0) return tracks;
+  if (selection.root_position) tracks.push_back({clip.root_positions.data(), 1});
+  const std::size_t width = clip.translated_joints.size();
+  for (std::size_t i = 0; i < width; ++i) {
+    if (translation_selected(clip, selection, i)) {
+      tracks.push_back({clip.joint_translations.data() + i, width});
+    }
+  }
+  return tracks;
+}
+
+std::vector<Quat> joint_track(const Clip& clip, std::size_t joint) {
+  std::vector<Quat> track(clip.frame_count());
+  for (std::size_t f = 0; f < track.size(); ++f) track[f] = clip.rotation(f, joint);
+  return track;
+}
+
+void set_joint_track(Clip& clip, std::size_t joint, std::span<const Quat> track) {
+  for (std::size_t f = 0; f < track.size(); ++f) clip.rotation(f, joint) = track[f];
+}
+
+std::vector<Vec3> position_track(const PositionTrack& track, std::size_t frames) {
+  std::vector<Vec3> values(frames);
+  for (std::size_t f = 0; f < frames; ++f) values[f] = track.values[f * track.stride];
+  return values;
+}
+
+void set_position_track(const PositionTrack& track, std::span<const Vec3> values) {
+  for (std::size_t f = 0; f < values.size(); ++f) track.values[f * track.stride] = values[f];
+}
+
+void mark_gaps(const Clip& clip, std::span<const std::size_t> joints, CleanTrace& trace) {
+  if (clip.observed.empty()) return;
+  for (const std::size_t joint : joints) {
+    const std::vector<std::size_t> seen = observed_frames(clip, joint);
+    if (seen.empty() || seen.size() == clip.frame_count()) continue;
+    if (trace.actions.empty()) trace.actions.assign(clip.local_rotations.size(), Action::kept);
+    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+      if (!clip.is_observed(f, joint))
+        trace.actions[f * clip.joint_count() + joint] = Action::filled;
+    }
+  }
+}
+
+void bridge_gaps(Clip& clip, std::span<const std::size_t> joints, CleanTrace& trace) {
+  if (clip.observed.empty()) return;
+  mark_gaps(clip, joints, trace);
+  for (const std::size_t joint : joints) {
+    const std::vector<std::size_t> seen = observed_frames(clip, joint);
+    if (seen.empty()) continue;
+    for (std::size_t f = 0; f < seen.front(); ++f) {
+      clip.rotation(f, joint) = clip.rotation(seen.front(), joint);
+    }
+    for (std::size_t i = 1; i < seen.size(); ++i) bridge(clip, joint, seen[i - 1], seen[i]);
+    for (std::size_t f = seen.back() + 1; f < clip.frame_count(); ++f) {
+      clip.rotation(f, joint) = clip.rotation(seen.back(), joint);
+    }
+  }
+}
+
+double typical_bone_length(const Skeleton& skeleton) {
+  double sum = 0, count = 0;
+  for (const Vec3& offset : skeleton.offsets) {
+    const double length = norm(offset);
+    if (length > 0) sum += length, count += 1;
+  }
+  for (const EndSite& site : skeleton.end_sites) {
+    const double length = norm(site.offset);
+    if (length > 0) sum += length, count += 1;
+  }
+  return count > 0 ? sum / count : 1.0;
+}
+
+void for_each_parallel(std::size_t count, std::size_t samples,
+                       const std::function<void(std::size_t)>& work) {
+  constexpr std::size_t worth_threads = 4096;
+  if (samples < worth_threads || count < 2) {
+    for (std::size_t i = 0; i < count; ++i) work(i);
+    return;
+  }
+  tbb::parallel_for(std::size_t{0}, count, work);
+}
+
+std::size_t frames_in(double seconds, double frame_rate_hz, std::size_t least) {
+  const double frames = std::round(seconds * frame_rate_hz);
+  constexpr double most = 1e9;
+  return std::max(least, static_cast<std::size_t>(std::min(frames, most)));
+}
+
+CleanTrace clean_channels(Clip& clip, const Selection& selection, ChannelChoice choice,
+                          const std::function<void(PoseMatrix&)>& filter) {
+  CleanTrace trace;
+  const std::vector<std::size_t> joints = selected_joints(clip, selection);
+  bridge_gaps(clip, joints, trace);
+  const std::vector<Block> blocks = make_blocks(clip, joints, choice);
+  for_each_parallel(blocks.size() + 1, joints.size() * clip.frame_count(), [&](std::size_t i) {
+    if (i == blocks.size()) return filter_positions(clip, selection, filter);
+    EncodedClip encoded = encode(clip, blocks[i].encoding, blocks[i].joints, false);
+    filter(encoded.poses);
+    decode(encoded, clip);
+  });
+  return trace;
+}
+
+}  // namespace kinemend

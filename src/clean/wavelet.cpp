@@ -1,0 +1,66 @@
+#include "clean/method_list.hpp"
+#include "clean/tracks.hpp"
+#include "kinemend/methods.hpp"
+#include "kinemend/signal.hpp"
+
+namespace kinemend {
+
+namespace {
+
+std::vector<std::string> families() {
+  std::vector<std::string> names;
+  for (int n = 1; n <= 10; ++n) names.push_back("db" + std::to_string(n));
+  for (int n = 2; n <= 10; ++n) names.push_back("sym" + std::to_string(n));
+  return names;
+}
+
+const OptionTable<WaveletCleanerOptions>& table() {
+  static const auto options =
+      OptionTable<WaveletCleanerOptions>()
+          .choice(&WaveletCleanerOptions::family, "family", families(),
+                  "wavelet: Daubechies or symlet and its vanishing moments")
+          .choice(&WaveletCleanerOptions::threshold, "threshold", {"universal", "sure"},
+                  "universal removes most noise and small detail; sure adapts to each level")
+          .choice(&WaveletCleanerOptions::shrinkage, "shrinkage", {"soft", "hard"},
+                  "soft shrinks what it keeps, hard keeps it whole");
+  return options;
+}
+
+WaveletOptions signal_options(const WaveletCleanerOptions& options) {
+  const bool symlet = options.family.starts_with("sym");
+  WaveletOptions result;
+  result.family = symlet ? WaveletFamily::symlet : WaveletFamily::daubechies;
+  result.vanishing_moments = std::stoi(options.family.substr(symlet ? 3 : 2));
+  result.threshold =
+      options.threshold == "sure" ? WaveletThreshold::sure : WaveletThreshold::universal;
+  result.shrinkage = options.shrinkage == "soft" ? WaveletShrinkage::soft : WaveletShrinkage::hard;
+  return result;
+}
+
+class Wavelet final : public Cleaner {
+ public:
+  explicit Wavelet(const WaveletCleanerOptions& options) : options_(signal_options(options)) {}
+
+  CleanTrace clean(Clip& clip, const Selection& selection) const override {
+    return clean_channels(clip, selection, ChannelChoice::suitable,
+                          [this](PoseMatrix& channels) { wavelet_denoise(channels, options_); });
+  }
+
+ private:
+  WaveletOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Cleaner> make_wavelet(const WaveletCleanerOptions& options) {
+  table().validate(options);
+  return std::make_unique<Wavelet>(options);
+}
+
+Method wavelet_method() {
+  return {"wavelet", "wavelet shrinkage: adapts to the noise and to sudden motion",
+          "Donoho & Johnstone 1994, 1995", table().specs(),
+          [](const OptionValues& values) { return make_wavelet(table().parse(values)); }};
+}
+
+}  // namespace kinemend
