@@ -157,15 +157,17 @@ void kalman_smoother(PoseMatrix& matrix, const LinearGaussianModel& model,
 /// first sample keeps the value it was given.
 class KalmanState {
  public:
-  KalmanState(LinearGaussianModel model, std::size_t channels);
+  KalmanState(const LinearGaussianModel& model, std::size_t channels);
   /// Filters the next frame in place. `missing`: one mark a channel, or empty.
   void step(std::span<double> frame, std::span<const std::uint8_t> missing = {});
   void reset();
 
  private:
-  LinearGaussianModel model_;
-  std::size_t channels_ = 0;
+  std::size_t components_;
+  std::size_t channels_;
   std::vector<double> memory_;
+  std::size_t frame_ = 0;
+  bool settled_ = false;
 };
 
 /// Standard deviation of the white noise in each channel: 1.4826 * MAD of the differences of order

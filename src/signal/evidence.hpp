@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kinemend/pose_matrix.hpp"
+#include "signal/whittaker.hpp"
+
+/// Whittaker smoothing whose order and strength each channel chooses by its own evidence, then
+/// strength that follows the motion in time.
+namespace kinemend::signal {
+
+/// What a channel is taken to be: differences of this order are white, `strength` times smaller in
+/// variance than the noise.
+struct SmoothingModel {
+  std::size_t order = 0;  ///< 0: the take is too short for any
+  double strength = 0;    ///< noise variance over the variance of the differences
+};
+
+/// The models compared: orders 1 to 3, with cutoffs from 0.003 to 50 Hz (and below 0.45 of the
+/// rate) in equal ratios.
+class ModelGrid {
+ public:
+  ModelGrid(std::size_t frames, double frame_rate_hz);
+
+  std::size_t frames() const noexcept { return frames_; }
+  double frame_rate_hz() const noexcept { return frame_rate_hz_; }
+  const std::vector<SmoothingModel>& models() const noexcept { return models_; }
+  const SharedFactor& factor(std::size_t model) const { return factors_[model]; }
+
+ private:
+  std::size_t frames_;
+  double frame_rate_hz_;
+  std::vector<SmoothingModel> models_;
+  std::vector<SharedFactor> factors_;
+};
+
+/// Smooths the channels of `matrix` in place, each with its most likely model: the one with the
+/// largest marginal likelihood of the channel under white noise of variance `noise_variance[c]` (>
+/// 0). Returns the index of each channel's model in the grid's list; empty when there is no model
+/// for so few frames (and nothing is changed).
+std::vector<std::size_t> smooth_by_evidence(PoseMatrix& matrix,
+                                            std::span<const double> noise_variance,
+                                            const ModelGrid& grid);
+
+struct AdaptiveSettings {
+  double window_s = 0.1;  ///< over which the size of the differences is averaged, twice
+  double share_of_constant =
+      0.2;  ///< of the constant strength that stays, so that quiet spans are not frozen
+  int iterations = 2;
+};
+
+/// Smooths the channels of `matrix` in place with strengths that follow the motion: starting from
+/// each channel's `model`, the variance of the differences is estimated about each frame
+/// (expectation-maximisation: squared differences of the fit plus their posterior variances) and
+/// the fit is made again. `missing` is F x D, not 0 where a sample has no weight; empty: none.
+void smooth_adaptively(PoseMatrix& matrix, std::span<const std::uint8_t> missing,
+                       std::span<const double> noise_variance,
+                       std::span<const SmoothingModel> models, double frame_rate_hz,
+                       const AdaptiveSettings& settings = {});
+
+/// Columns `channels` of a matrix as a block; the rest of the block is zero.
+ChannelBlock gather(const PoseMatrix& matrix, std::span<const std::size_t> channels);
+void scatter(const ChannelBlock& block, std::span<const std::size_t> channels, PoseMatrix& matrix);
+
+}  // namespace kinemend::signal
