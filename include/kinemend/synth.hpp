@@ -16,11 +16,36 @@ struct SynthOptions {
   double duration_s = 6;        ///< 0.1 to 600
   double frame_rate_hz = 120;   ///< 1 to 1000
   std::uint64_t seed = 1;       ///< small differences between performers and strides
-  bool t_pose_first = false;    ///< puts a T-pose before the motion, as in the CMU files
+  bool t_pose_first =
+      false;  ///< puts a T-pose before the motion (one frame more), as in the CMU files
 };
 
+/// The names of the motions:
+/// - `walk`, `run`: straight on; `turn`: in circles, the heading passes 360 degrees within 6 s and
+/// goes on;
+///   `stroll`: walks, turns about by 195 degrees, waves on the way back, and again
+/// - `jump`: a counter-movement jump on the spot every 2.8 s; `landing`: one jump down from a box
+/// of 40 cm (0.3 to 2.6 s)
+/// - `wave`, `clap` (palms meet at about 4 m/s and rest on one another for 50 ms), `punch`
+/// (straight punches, 6 m/s),
+///   `still` (standing, swaying a little)
+/// - `spin`: no humanoid but a chain of five joints in ZYX order that turn through +-180 degrees of
+/// yaw again and again
+///   while their pitch swings to +-88 degrees
 std::span<const std::string_view> synth_motions();
-/// Errors: `ErrorKind::usage` for an unknown motion or a value out of range.
+
+/// Makes a take. Centimetres, y up, facing +z, x to the left; floor at y = 0; 31 joints in ZXY
+/// order, six channels at the root; segment lengths are shares of a stature of 172 +- 6 cm (Drillis
+/// and Contini 1966, in Winter's Biomechanics and Motor Control of Human Movement).
+///
+/// Walking and running follow published mean joint angles by percent of the stride (knee: Schwartz
+/// et al. 2008; hip, ankle, pelvis: Kadaba et al. 1990, Perry and Burnfield 2010; arms: Murray et
+/// al. 1967; running: Novacheck 1998), held as trigonometric interpolants. The pelvis moves so that
+/// the standing foot rests, and the legs take up what is left: in stance the foot turns about its
+/// heel, lies flat, and turns about its ball, each of which stays put. Everything is a function of
+/// continuous time with two continuous derivatives, so a take at any rate or of any duration shows
+/// the same motion, and the same options give the same clip. Errors: `ErrorKind::usage` for an
+/// unknown motion or a value out of range.
 Clip synthesize(const SynthOptions& options = {});
 
 }  // namespace kinemend

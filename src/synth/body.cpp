@@ -12,6 +12,9 @@ constexpr std::size_t leg_joints = 4, arm_joints = 8;
 
 Quat mirrored(Quat q) { return {q.w, q.x, -q.y, -q.z}; }
 Vec3 mirrored(Vec3 v) { return {-v.x, v.y, v.z}; }
+// A share of stature in whole tenths of a millimetre.
+double share(double part, double stature) { return std::round(100 * part * stature) / 100; }
+
 Vec3 direction(Vec3 v) { return (1 / norm(v)) * v; }
 
 // The rotation that takes the axes x, y, z to these three (orthonormal, right-handed).
@@ -71,12 +74,13 @@ void add_side(Skeleton& s, const Body& b, bool left, const std::vector<Channel>&
   const auto fore = s.add_joint(side + "ForeArm", upper, {m * b.upper_arm, 0, 0}, turn);
   const auto hand = s.add_joint(side + "Hand", fore, {m * b.fore_arm, 0, 0}, turn);
   const auto index1 = s.add_joint(side + "HandIndex1", hand, {m * b.palm_length, 0, m * 0}, turn);
-  const auto index2 = s.add_joint(side + "HandIndex2", index1, {m * 0.026 * h, 0, 0}, turn);
-  s.end_sites.push_back({index2, {m * 0.025 * h, 0, 0}, ""});
-  const auto thumb1 =
-      s.add_joint(side + "HandThumb1", hand, {m * 0.016 * h, -0.004 * h, 0.014 * h}, turn);
-  const auto thumb2 = s.add_joint(side + "HandThumb2", thumb1, {m * 0.018 * h, 0, 0.014 * h}, turn);
-  s.end_sites.push_back({thumb2, {m * 0.014 * h, 0, 0.008 * h}, ""});
+  const auto index2 = s.add_joint(side + "HandIndex2", index1, {m * share(0.026, h), 0, 0}, turn);
+  s.end_sites.push_back({index2, {m * share(0.025, h), 0, 0}, ""});
+  const auto thumb1 = s.add_joint(side + "HandThumb1", hand,
+                                  {m * share(0.016, h), -share(0.004, h), share(0.014, h)}, turn);
+  const auto thumb2 =
+      s.add_joint(side + "HandThumb2", thumb1, {m * share(0.018, h), 0, share(0.014, h)}, turn);
+  s.end_sites.push_back({thumb2, {m * share(0.014, h), 0, share(0.008, h)}, ""});
 }
 
 void add_leg(Skeleton& s, const Body& b, bool left, const std::vector<Channel>& turn) {
@@ -88,7 +92,7 @@ void add_leg(Skeleton& s, const Body& b, bool left, const std::vector<Channel>& 
   const auto foot = s.add_joint(side + "Foot", leg, {0, -b.shank, 0}, turn);
   const auto toe = s.add_joint(side + "ToeBase", foot,
                                {0, b.ball_height - b.ankle_height, b.ball_ahead_of_ankle}, turn);
-  s.end_sites.push_back({toe, {0, -0.008 * b.stature, 0.037 * b.stature}, ""});
+  s.end_sites.push_back({toe, {0, -share(0.008, b.stature), share(0.037, b.stature)}, ""});
 }
 
 Quat arm_rotation(const ArmAngles& a) {
@@ -147,33 +151,33 @@ Quat bend(double flexion, double lateral, double twist, double share) {
 // joints follows common BVH skeletons.
 Body::Body(double stature_cm)
     : stature(stature_cm),
-      thigh(0.245 * stature_cm),
-      shank(0.246 * stature_cm),
-      ankle_height(0.039 * stature_cm),
-      ball_height(0.012 * stature_cm),
-      heel_behind_ankle(0.035 * stature_cm),
-      ball_ahead_of_ankle(0.080 * stature_cm),
-      hip_half_width(0.050 * stature_cm),
-      hip_below_root(0.020 * stature_cm),
-      upper_arm(0.186 * stature_cm),
-      fore_arm(0.146 * stature_cm),
-      palm_length(0.056 * stature_cm),
-      palm_thickness(0.010 * stature_cm),
-      shoulder_offset{0.015 * stature_cm, 0.083 * stature_cm, 0.004 * stature_cm},
-      arm_offset{0.090 * stature_cm, 0, 0} {
+      thigh(share(0.245, stature_cm)),
+      shank(share(0.246, stature_cm)),
+      ankle_height(share(0.039, stature_cm)),
+      ball_height(share(0.012, stature_cm)),
+      heel_behind_ankle(share(0.035, stature_cm)),
+      ball_ahead_of_ankle(share(0.080, stature_cm)),
+      hip_half_width(share(0.050, stature_cm)),
+      hip_below_root(share(0.020, stature_cm)),
+      upper_arm(share(0.186, stature_cm)),
+      fore_arm(share(0.146, stature_cm)),
+      palm_length(share(0.056, stature_cm)),
+      palm_thickness(share(0.010, stature_cm)),
+      shoulder_offset{share(0.015, stature_cm), share(0.083, stature_cm), share(0.004, stature_cm)},
+      arm_offset{share(0.090, stature_cm), 0, 0} {
   const double h = stature_cm;
   const RotationOrder order = parse_rotation_order("ZXY");
   const std::vector<Channel> turn = make_channels(false, order);
   skeleton.add_joint("Hips", -1, {}, make_channels(true, order));
   add_leg(skeleton, *this, true, turn);
   add_leg(skeleton, *this, false, turn);
-  std::int32_t last = skeleton.add_joint("Spine", 0, {0, 0.045 * h, -0.004 * h}, turn);
-  last = skeleton.add_joint("Spine1", last, {0, 0.062 * h, 0}, turn);
-  const auto chest = skeleton.add_joint("Spine2", last, {0, 0.062 * h, 0}, turn);
-  last = skeleton.add_joint("Neck", chest, {0, 0.108 * h, 0}, turn);
-  last = skeleton.add_joint("Neck1", last, {0, 0.030 * h, 0.004 * h}, turn);
-  last = skeleton.add_joint("Head", last, {0, 0.030 * h, 0.004 * h}, turn);
-  skeleton.end_sites.push_back({last, {0, 0.105 * h, 0}, ""});
+  std::int32_t last = skeleton.add_joint("Spine", 0, {0, share(0.045, h), -share(0.004, h)}, turn);
+  last = skeleton.add_joint("Spine1", last, {0, share(0.062, h), 0}, turn);
+  const auto chest = skeleton.add_joint("Spine2", last, {0, share(0.062, h), 0}, turn);
+  last = skeleton.add_joint("Neck", chest, {0, share(0.108, h), 0}, turn);
+  last = skeleton.add_joint("Neck1", last, {0, share(0.030, h), share(0.004, h)}, turn);
+  last = skeleton.add_joint("Head", last, {0, share(0.030, h), share(0.004, h)}, turn);
+  skeleton.end_sites.push_back({last, {0, share(0.105, h), 0}, ""});
   add_side(skeleton, *this, true, turn);
   add_side(skeleton, *this, false, turn);
 }

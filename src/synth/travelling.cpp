@@ -39,7 +39,7 @@ Motion turn(const Body& body, double duration_s, Random random) {
 }
 
 Motion stroll(const Body& body, double duration_s, Random random) {
-  constexpr double straight_cm = 300, bend_cm = 330, turn_deg = 195;
+  constexpr double straight_cm = 250, bend_cm = 400, turn_deg = 195;
   const Wander drift(random, 1.5, 0.0004, 0.002);
   const auto heading = [drift](double s) {
     const double lap = straight_cm + bend_cm;
@@ -52,7 +52,7 @@ Motion stroll(const Body& body, double duration_s, Random random) {
     constexpr double period_s = 9;
     Posture p = gait->posture(time_s);
     const double t = time_s - period_s * std::floor(time_s / period_s);
-    const double weight = ramp(t, 4.6, 5.4) * ramp(t, 8.0, 7.2);
+    const double weight = ramp(t, 4.8, 5.6) * ramp(t, 8.2, 7.4);
     p.arms[1] = waving_arm(p.arms[1], time_s, weight);
     return p;
   };
