@@ -36,8 +36,8 @@ std::unique_ptr<Cleaner> make_median(const MedianOptions& options = {});
 /// Hampel despiking: a sample further from its window's median than `threshold` times the spread is
 /// replaced by the median.
 struct HampelOptions {
-  double window_s = 0.15;    ///< whole window
-  double threshold = 4;      ///< in robust standard deviations per axis
+  double window_s = 0.10;    ///< whole window
+  double threshold = 5;      ///< in robust standard deviations per axis
   double minimum_deg = 1.0;  ///< smaller deviations are no spikes
 };
 std::unique_ptr<Cleaner> make_hampel(const HampelOptions& options = {});
@@ -68,9 +68,9 @@ std::unique_ptr<Cleaner> make_kalman(const KalmanOptions& options = {});
 /// The 1-euro filter of Casiez et al. 2012, on SO(3): a causal low-pass whose cutoff grows with
 /// speed.
 struct OneEuroOptions {
-  double min_cutoff_hz = 2.0;      ///< cutoff at rest
-  double speed_coefficient = 8.0;  ///< hertz of cutoff per radian per second
-  double speed_cutoff_hz = 2.0;    ///< low-pass on the speed itself
+  double min_cutoff_hz = 1.5;       ///< cutoff at rest
+  double speed_coefficient = 10.0;  ///< hertz of cutoff per radian per second
+  double speed_cutoff_hz = 4.0;     ///< low-pass on the speed itself
 };
 std::unique_ptr<Cleaner> make_one_euro(const OneEuroOptions& options = {});
 
@@ -79,6 +79,7 @@ struct BilateralOptions {
   double sigma_t_s = 0.03;  ///< temporal width
   double sigma_g_deg = 6;   ///< width in rotation angle (geodesic distance |Log(a^-1 b)|)
   std::int64_t passes = 5;
+  std::string ends = "mirror";  ///< mirror (the paper's) or reflect (a steady turn goes on)
 };
 std::unique_ptr<Cleaner> make_bilateral(const BilateralOptions& options = {});
 

@@ -1,0 +1,70 @@
+#include <memory>
+
+#include "clean/bilateral_filter.hpp"
+#include "clean/method_list.hpp"
+#include "clean/rotation_track.hpp"
+#include "clean/tracks.hpp"
+#include "kinemend/methods.hpp"
+
+namespace kinemend {
+
+namespace {
+
+const OptionTable<BilateralOptions>& table() {
+  static const OptionTable<BilateralOptions> result =
+      OptionTable<BilateralOptions>()
+          .number(&BilateralOptions::sigma_t_s, "sigma_t_s", "s", 0.001, 1, "temporal width")
+          .number(&BilateralOptions::sigma_g_deg, "sigma_g_deg", "deg", 0.01, 1000,
+                  "width in rotation angle: turns much larger than this are kept as edges")
+          .integer(&BilateralOptions::passes, "passes", "", 1, 100, "how many times it is applied")
+          .choice(&BilateralOptions::ends, "ends", {"reflect", "mirror"},
+                  "how the signal goes on beyond its ends: straight on, or back in time");
+  return result;
+}
+
+class BilateralCleaner final : public Cleaner {
+ public:
+  explicit BilateralCleaner(const BilateralOptions& options) : options_(options) {
+    table().validate(options);
+  }
+
+  CleanTrace clean(Clip& clip, const Selection& selection) const override {
+    const double sigma_t = options_.sigma_t_s * clip.frame_rate_hz;
+    const double sigma_g = options_.sigma_g_deg * radians_per_degree;
+    const auto passes = static_cast<std::size_t>(options_.passes);
+    const BilateralEnds ends =
+        options_.ends == "mirror" ? BilateralEnds::mirror : BilateralEnds::reflect;
+    const BilateralKernel turns = bilateral_kernel(sigma_t, sigma_g);
+    // A bone of the usual length, turned by sigma_g, moves its end by this much.
+    const BilateralKernel moves =
+        bilateral_kernel(sigma_t, sigma_g * typical_bone_length(clip.skeleton));
+    return filter_tracks(
+        clip, selection,
+        [&](RotationTrack& track, const std::vector<double>& weights) {
+          bilateral_filter(track, weights, turns, passes, ends);
+        },
+        [&](VectorTrack& track) { bilateral_filter(track, {}, moves, passes, ends); });
+  }
+
+  LiveSupport live_support(double frame_rate_hz) const override {
+    const std::size_t k = bilateral_kernel(options_.sigma_t_s * frame_rate_hz, 1).half_width();
+    return {LiveSupport::Kind::windowed, k * static_cast<std::size_t>(options_.passes)};
+  }
+
+ private:
+  BilateralOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Cleaner> make_bilateral(const BilateralOptions& options) {
+  return std::make_unique<BilateralCleaner>(options);
+}
+
+Method bilateral_method() {
+  return {"bilateral", "edge-preserving filter on the rotations themselves",
+          "Courty 2008, Bilateral Human Motion Filtering", table().specs(),
+          [](const OptionValues& values) { return make_bilateral(table().parse(values)); }};
+}
+
+}  // namespace kinemend

@@ -1,0 +1,137 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "clean/method_list.hpp"
+#include "clean/orientation_filter.hpp"
+#include "clean/rotation_track.hpp"
+#include "kinemend/methods.hpp"
+
+namespace kinemend {
+
+namespace {
+
+// Beyond this many standard deviations the mask is cut.
+constexpr double mask_reach = 4;
+
+const OptionTable<GaussianOptions>& table() {
+  static const OptionTable<GaussianOptions> result = OptionTable<GaussianOptions>().number(
+      &GaussianOptions::width_s, "width_s", "s", 0, 1, "standard deviation of the mask");
+  return result;
+}
+
+// exp(-j^2 / (2 sigma^2)) for j = -k .. k.
+std::vector<double> gaussian_values(double sigma_frames) {
+  const auto k = static_cast<std::size_t>(std::lround(mask_reach * sigma_frames));
+  std::vector<double> values(2 * k + 1, 1.0);
+  for (std::size_t j = 1; j <= k; ++j) {
+    const double steps = static_cast<double>(j) / sigma_frames;
+    values[k - j] = values[k + j] = std::exp(-0.5 * steps * steps);
+  }
+  return values;
+}
+
+// The mask about frame i out of `frames`: the weights of a local straight-line fit, which leave a
+// straight line as it is also where the window is cut. Where nothing is cut they are the normalised
+// Gaussian.
+std::vector<double> mask_at(std::span<const double> values, std::span<const double> observed,
+                            std::size_t i, std::size_t frames) {
+  const std::size_t k = values.size() / 2;
+  std::vector<double> mask(values.size(), 0.0);
+  double s0 = 0, s1 = 0, s2 = 0;
+  for (std::size_t m = 0; m < mask.size(); ++m) {
+    if (i + m < k || i + m >= frames + k) continue;
+    mask[m] = values[m] * (observed.empty() ? 1.0 : observed[i + m - k]);
+    const double j = static_cast<double>(m) - static_cast<double>(k);
+    s0 += mask[m];
+    s1 += mask[m] * j;
+    s2 += mask[m] * j * j;
+  }
+  const double determinant = s0 * s2 - s1 * s1;
+  const bool line = determinant > 1e-9 * s0 * s2;
+  for (std::size_t m = 0; m < mask.size(); ++m) {
+    const double j = static_cast<double>(m) - static_cast<double>(k);
+    if (line) {
+      mask[m] *= (s2 - s1 * j) / determinant;
+    } else if (s0 > 0) {
+      mask[m] /= s0;
+    }
+  }
+  return mask;
+}
+
+// sum_r b_r w_{i+r}; b_r is zero where w is not there.
+Vec3 weigh_at(const VectorTrack& increments, std::span<const double> b, std::size_t i) {
+  const std::size_t k = b.size() / 2;
+  Vec3 sum;
+  for (std::size_t r = 0; r < b.size(); ++r) {
+    if (i + r >= k && i + r - k + 1 < increments.frames) sum += b[r] * increments[i + r - k];
+  }
+  return sum;
+}
+
+bool whole_window(std::span<const double> observed, std::size_t i, std::size_t k,
+                  std::size_t frames) {
+  if (i < k || i + k >= frames) return false;
+  const auto cut = [](double weight) { return weight == 0; };
+  return observed.empty() ||
+         std::none_of(observed.begin() + static_cast<std::ptrdiff_t>(i - k),
+                      observed.begin() + static_cast<std::ptrdiff_t>(i + k + 1), cut);
+}
+
+class GaussianCleaner final : public Cleaner {
+ public:
+  explicit GaussianCleaner(const GaussianOptions& options) : options_(options) {
+    table().validate(options);
+  }
+
+  CleanTrace clean(Clip& clip, const Selection& selection) const override {
+    const std::vector<double> values = gaussian_values(options_.width_s * clip.frame_rate_hz);
+    const std::size_t k = values.size() / 2;
+    if (k == 0) return {};
+    const std::vector<double> inner = increment_weights(mask_at(values, {}, k, 2 * k + 1));
+    // Masks at the ends are the same for all joints that were measured throughout.
+    std::vector<std::vector<double>> ends(clip.frame_count());
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      if (!whole_window({}, i, k, ends.size())) {
+        ends[i] = increment_weights(mask_at(values, {}, i, ends.size()));
+      }
+    }
+    const auto filter = [&](auto& track, const std::vector<double>& observed) {
+      const VectorTrack steps = increments(track);
+      VectorTrack moves = weigh_increments(steps, inner);
+      for (std::size_t i = 0; i < track.frames; ++i) {
+        if (whole_window(observed, i, k, track.frames)) continue;
+        moves.set(
+            i, observed.empty()
+                   ? weigh_at(steps, ends[i], i)
+                   : weigh_at(steps, increment_weights(mask_at(values, observed, i, track.frames)),
+                              i));
+      }
+      turn(track, moves);
+    };
+    return filter_tracks(clip, selection, filter, [&](VectorTrack& track) { filter(track, {}); });
+  }
+
+  LiveSupport live_support(double frame_rate_hz) const override {
+    return {LiveSupport::Kind::windowed,
+            gaussian_values(options_.width_s * frame_rate_hz).size() / 2};
+  }
+
+ private:
+  GaussianOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Cleaner> make_gaussian(const GaussianOptions& options) {
+  return std::make_unique<GaussianCleaner>(options);
+}
+
+Method gaussian_method() {
+  return {"gaussian", "orientation filter with a Gaussian mask",
+          "Lee & Shin 2002; Courty 2008, eq. 2-3", table().specs(),
+          [](const OptionValues& values) { return make_gaussian(table().parse(values)); }};
+}
+
+}  // namespace kinemend

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "clean/tracks.hpp"
+#include "kinemend/cleaner.hpp"
+#include "kinemend/clip.hpp"
+#include "kinemend/rotation.hpp"
+
+namespace kinemend {
+
+/// Room behind the last frame of a track, so that the last vector may be loaded and stored whole.
+inline constexpr std::size_t lane_room = 8;
+
+/// Vectors over time, one array a component. The arrays are `lane_room` longer than `frames`.
+struct VectorTrack {
+  std::size_t frames = 0;
+  std::vector<double> x, y, z;
+
+  explicit VectorTrack(std::size_t frame_count = 0);
+  Vec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+  void set(std::size_t i, Vec3 v) { x[i] = v.x, y[i] = v.y, z[i] = v.z; }
+};
+
+/// Rotations of one joint over time, one array a component, identity at first. The arrays are
+/// `lane_room` longer than `frames`.
+struct RotationTrack {
+  std::size_t frames = 0;
+  std::vector<double> w, x, y, z;
+
+  explicit RotationTrack(std::size_t frame_count = 0);
+  Quat operator[](std::size_t i) const { return {w[i], x[i], y[i], z[i]}; }
+  void set(std::size_t i, Quat q) { w[i] = q.w, x[i] = q.x, y[i] = q.y, z[i] = q.z; }
+};
+
+RotationTrack load_rotations(const Clip& clip, std::size_t joint);
+void store_rotations(const RotationTrack& track, Clip& clip, std::size_t joint);
+VectorTrack load_positions(const PositionTrack& positions, std::size_t frames);
+void store_positions(const VectorTrack& track, const PositionTrack& positions);
+
+/// 1 where the joint's rotation was measured and 0 where not, with `lane_room` zeros behind. Empty
+/// when all of them were.
+std::vector<double> observed_weights(const Clip& clip, std::size_t joint);
+
+/// Runs `filter_rotations(track, observed_weights)` on each selected joint and
+/// `filter_positions(track)` on each selected position track. The filter sees unobserved samples
+/// interpolated, with weight 0; they come out interpolated between the filtered ones.
+template <class FilterRotations, class FilterPositions>
+CleanTrace filter_tracks(Clip& clip, const Selection& selection,
+                         const FilterRotations& filter_rotations,
+                         const FilterPositions& filter_positions) {
+  CleanTrace trace;
+  const std::vector<std::size_t> joints = selected_joints(clip, selection);
+  bridge_gaps(clip, joints, trace);
+  for_each_parallel(joints.size(), joints.size() * clip.frame_count(), [&](std::size_t i) {
+    RotationTrack track = load_rotations(clip, joints[i]);
+    filter_rotations(track, observed_weights(clip, joints[i]));
+    store_rotations(track, clip, joints[i]);
+  });
+  bridge_gaps(clip, joints, trace);
+  for (const PositionTrack& positions : selected_positions(clip, selection)) {
+    VectorTrack track = load_positions(positions, clip.frame_count());
+    filter_positions(track);
+    store_positions(track, positions);
+  }
+  return trace;
+}
+
+}  // namespace kinemend
