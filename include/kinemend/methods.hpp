@@ -14,7 +14,7 @@ namespace kinemend {
 
 /// Orientation filter of Lee & Shin's construction with a Gaussian mask (Courty 2008, eq. 2-3).
 struct GaussianOptions {
-  double width_s = 0.04;  ///< standard deviation of the mask
+  double width_s = 0.02;  ///< standard deviation of the mask
 };
 std::unique_ptr<Cleaner> make_gaussian(const GaussianOptions& options = {});
 
@@ -74,12 +74,13 @@ struct OneEuroOptions {
 };
 std::unique_ptr<Cleaner> make_one_euro(const OneEuroOptions& options = {});
 
-/// Bilateral filter on SO(3) (Courty 2008).
+/// Bilateral filter on SO(3) (Courty 2008): averages samples that are near in time and in angle, so
+/// that quick moves stay.
 struct BilateralOptions {
-  double sigma_t_s = 0.03;  ///< temporal width
-  double sigma_g_deg = 6;   ///< width in rotation angle (geodesic distance |Log(a^-1 b)|)
+  double sigma_t_s = 0.01;  ///< temporal width of one pass
+  double sigma_g_deg = 8;   ///< width in rotation angle (geodesic distance |Log(a^-1 b)|)
   std::int64_t passes = 5;
-  std::string ends = "mirror";  ///< mirror (the paper's) or reflect (a steady turn goes on)
+  std::string ends = "reflect";  ///< reflect (a steady turn goes on) or mirror (the paper's)
 };
 std::unique_ptr<Cleaner> make_bilateral(const BilateralOptions& options = {});
 

@@ -31,40 +31,61 @@ struct Rule {
   double least_distance = 0;  // radians or file units
 };
 
-// The sample at `t`, or its window's median where it is a spike. The window is cut at the ends of
-// the take: there the first and last samples are far from the median in every motion, so they are
-// spikes only if the sample beside them is far off as well.
 template <class Sample>
-bool despike_at(std::span<const Sample> track, std::size_t t, const Rule& rule,
-                MedianScratch& scratch, std::vector<double>& distances, Sample& replacement) {
-  const std::size_t first = t - std::min(t, rule.half);
-  const std::size_t last = std::min(track.size() - 1, t + rule.half);
-  const auto window = track.subspan(first, last - first + 1);
-  if (window.size() < 5) return false;
-  const Sample middle = window[medoid(window, scratch)];
-  const double own = chord(middle, track[t]);
-  if (own <= rule.least_distance) return false;
+using Track = std::span<const Sample>;
 
-  distances.clear();
-  for (const Sample& sample : window) distances.push_back(chord(middle, sample));
-  const auto half = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), half, distances.end());
-  if (own <= rule.threshold * *half / median_length) return false;
+template <class Sample>
+class Despiker {
+ public:
+  Despiker(Track<Sample> track, const Rule& rule)
+      : track_(track), rule_(rule), medoids_(track, 2 * rule.half + 1) {}
 
-  const std::size_t reach = std::min(t - first, last - t);
-  if (reach < rule.half) {
-    const std::size_t beside = t == first             ? t + 1
-                               : t == last            ? t - 1
-                               : t - first < last - t ? t - 1
-                                                      : t + 1;
-    if (chord(track[beside], track[t]) < own / 2) return false;
+  /// Puts the median of the samples about `t` into `sample` if the one at `t` is a spike. `t` only
+  /// grows from call to call.
+  bool despike(std::size_t t, Sample& sample) {
+    const std::size_t first = t - std::min(t, rule_.half);
+    const std::size_t last = std::min(track_.size() - 1, t + rule_.half);
+    if (!is_spike(t, first, last)) return false;
+    const std::size_t near = std::max<std::size_t>(std::min(t - first, last - t), 2);
+    const std::size_t from = std::max(first, t - std::min(t, near));
+    const std::size_t to = std::min(last, t + near);
+    const auto window = track_.subspan(from, to - from + 1);
+    sample = l1_median(window, medoid(window, scratch_), scratch_);
+    return true;
   }
-  const std::size_t near = std::max<std::size_t>(reach, 2);
-  const std::size_t from = std::max(first, t - std::min(t, near));
-  const std::size_t to = std::min(last, t + near);
-  replacement = l1_median(track.subspan(from, to - from + 1), scratch);
-  return true;
-}
+
+ private:
+  bool is_spike(std::size_t t, std::size_t first, std::size_t last) {
+    constexpr std::size_t least_frames = 5;
+    if (last - first + 1 < least_frames) return false;
+    const std::size_t middle = medoids_.find(first, last);
+    const double own = medoids_.distance(middle, t);
+    if (own <= rule_.least_distance) return false;
+    distances_.clear();
+    for (std::size_t f = first; f <= last; ++f) distances_.push_back(medoids_.distance(middle, f));
+    const auto half = distances_.begin() + static_cast<std::ptrdiff_t>(distances_.size() / 2);
+    std::nth_element(distances_.begin(), half, distances_.end());
+    if (own <= rule_.threshold * *half / median_length) return false;
+    return last - first == 2 * rule_.half || stands_alone(t, first, last, own);
+  }
+
+  // Where the take's end cuts the window, the outermost samples are far from the median in every
+  // motion. They are spikes only if the sample beside them, towards the end or inwards, is far off
+  // as well.
+  bool stands_alone(std::size_t t, std::size_t first, std::size_t last, double own) const {
+    const bool at_start = t - first < last - t;
+    const std::size_t outer =
+        at_start ? t - std::min<std::size_t>(t - first, 1) : std::min(t + 1, last);
+    const std::size_t beside = outer != t ? outer : at_start ? t + 1 : t - 1;
+    return medoids_.distance(beside, t) >= own / 2;
+  }
+
+  Track<Sample> track_;
+  Rule rule_;
+  MovingMedoid<Sample> medoids_;
+  MedianScratch scratch_;
+  std::vector<double> distances_;
+};
 
 class Hampel final : public Cleaner {
  public:
@@ -101,17 +122,15 @@ class Hampel final : public Cleaner {
     const Selection all = Selection::all(copy);
     const std::vector<std::size_t> joints = selected_joints(copy, all);
     bridge_gaps(copy, joints, trace);
-    MedianScratch scratch;
-    std::vector<double> distances;
     const Rule turn = rotation_rule(copy), shift = position_rule(copy);
     for (const std::size_t j : joints) {
       const std::vector<Quat> track = joint_track(copy, j);
-      despike_at<Quat>(track, frame, turn, scratch, distances, copy.rotation(frame, j));
+      Despiker<Quat>(track, turn).despike(frame, copy.rotation(frame, j));
     }
     for (const PositionTrack& positions : selected_positions(copy, all)) {
       const std::vector<Vec3> track = position_track(positions, copy.frame_count());
-      despike_at<Vec3>(track, frame, shift, scratch, distances,
-                       positions.values[frame * positions.stride]);
+      Vec3& value = positions.values[frame * positions.stride];
+      Despiker<Vec3>(track, shift).despike(frame, value);
     }
     return frame_of(copy, frame);
   }
@@ -131,11 +150,10 @@ class Hampel final : public Cleaner {
   }
 
   static void despike_joint(Clip& clip, std::size_t joint, const Rule& rule, CleanTrace& trace) {
-    MedianScratch scratch;
-    std::vector<double> distances;
     const std::vector<Quat> track = joint_track(clip, joint);
+    Despiker<Quat> despiker(track, rule);
     for (std::size_t t = 0; t < track.size(); ++t) {
-      if (!despike_at<Quat>(track, t, rule, scratch, distances, clip.rotation(t, joint))) continue;
+      if (!despiker.despike(t, clip.rotation(t, joint))) continue;
       Action& action = trace.actions[t * clip.joint_count() + joint];
       if (action == Action::kept) action = Action::despiked;
     }
@@ -143,12 +161,11 @@ class Hampel final : public Cleaner {
 
   static void despike_positions(const PositionTrack& positions, std::size_t frames,
                                 const Rule& rule, std::vector<Action>* actions) {
-    MedianScratch scratch;
-    std::vector<double> distances;
     const std::vector<Vec3> track = position_track(positions, frames);
+    Despiker<Vec3> despiker(track, rule);
     for (std::size_t t = 0; t < frames; ++t) {
       Vec3& value = positions.values[t * positions.stride];
-      if (despike_at<Vec3>(track, t, rule, scratch, distances, value) && actions) {
+      if (despiker.despike(t, value) && actions) {
         (*actions)[t] = Action::despiked;
       }
     }

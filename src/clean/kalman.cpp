@@ -27,9 +27,9 @@ const OptionTable<KalmanOptions>& table() {
 }
 
 // Standard deviations of the driving noise of everyday motion: chosen so that 1.5 degrees of noise
-// at 120 Hz are smoothed at about 5 Hz.
-constexpr double acceleration_noise = 3.0;  // rad / s^1.5
-constexpr double velocity_noise = 0.12;     // rad / s^0.5
+// at 120 Hz are smoothed at about 8 Hz.
+constexpr double acceleration_noise = 9.0;  // rad / s^1.5
+constexpr double velocity_noise = 0.2;      // rad / s^0.5
 constexpr double least_noise = 1e-7;        // rad
 
 // `scale` is 1 for rotations, the typical bone length for positions.

@@ -23,7 +23,9 @@ using Track = std::span<const Sample>;
 template <class Sample>
 Sample inner_median(Track<Sample> track, std::size_t t, std::size_t half, MedianScratch& scratch) {
   const std::size_t h = std::min({half, t, track.size() - 1 - t});
-  return h == 0 ? track[t] : l1_median(track.subspan(t - h, 2 * h + 1), scratch);
+  if (h == 0) return track[t];
+  const auto window = track.subspan(t - h, 2 * h + 1);
+  return l1_median(window, medoid(window, scratch), scratch);
 }
 
 Quat extrapolated(Quat near, Quat far) {
@@ -36,7 +38,8 @@ Vec3 extrapolated(Vec3 near, Vec3 far) { return near + 2.0 * (near - far); }
 template <class Sample>
 Sample end_median(Sample end, Sample near, Sample far, MedianScratch& scratch) {
   const Sample three[3] = {end, near, extrapolated(near, far)};
-  return l1_median(Track<Sample>(three), scratch);
+  const Track<Sample> samples(three);
+  return l1_median(samples, medoid(samples, scratch), scratch);
 }
 
 template <class Sample>
@@ -51,11 +54,19 @@ Sample median_at(Track<Sample> track, std::size_t t, std::size_t half, MedianScr
 }
 
 template <class Sample>
-std::vector<Sample> median_track(const std::vector<Sample>& track, std::size_t half) {
+std::vector<Sample> median_track(const std::vector<Sample>& samples, std::size_t half) {
+  const Track<Sample> track(samples);
   MedianScratch scratch;
+  MovingMedoid<Sample> medoids(track, 2 * half + 1);
   std::vector<Sample> result(track.size());
   for (std::size_t t = 0; t < track.size(); ++t) {
-    result[t] = median_at(Track<Sample>(track), t, half, scratch);
+    const std::size_t h = std::min({half, t, track.size() - 1 - t});
+    if (h == 0) {
+      result[t] = median_at(track, t, half, scratch);
+    } else {
+      const std::size_t middle = medoids.find(t - h, t + h);
+      result[t] = l1_median(track.subspan(t - h, 2 * h + 1), middle - (t - h), scratch);
+    }
   }
   return result;
 }

@@ -71,17 +71,20 @@ double sum_of(const std::vector<double>& values) {
   return sum;
 }
 
-template <class Sample>
-std::size_t find_medoid(std::span<const Sample> samples, MedianScratch& scratch) {
-  spread_out(samples, scratch);
-  std::size_t best = 0;
-  double least = 0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    measure(coordinates_of(samples[i]), scratch);
-    const double sum = sum_of(scratch.distances);
-    if (i == 0 || sum < least) least = sum, best = i;
+// How strongly the samples that are not met pull at `point`: the sum of their unit directions.
+template <std::size_t width>
+double pull_at(const std::array<double, width>& point, const MedianScratch& scratch, double tiny) {
+  const std::size_t count = scratch.distances.size();
+  std::array<double, width> pull{};
+  for (std::size_t i = 0; i < count; ++i) {
+    if (scratch.distances[i] <= tiny) continue;
+    for (std::size_t c = 0; c < width; ++c) {
+      pull[c] += (scratch.coordinates[c * count + i] - point[c]) / scratch.distances[i];
+    }
   }
-  return best;
+  double squares = 0;
+  for (const double p : pull) squares += p * p;
+  return std::sqrt(squares);
 }
 
 // One step of Weiszfeld's iteration with the correction of Vardi & Zhang. Returns how far it went.
@@ -89,27 +92,21 @@ template <std::size_t width>
 double weiszfeld_step(std::array<double, width>& point, MedianScratch& scratch, double tiny) {
   measure(point, scratch);
   const std::size_t count = scratch.distances.size();
-  std::array<double, width> mean{}, pull{};
+  std::array<double, width> mean{};
   double total = 0, met = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const double distance = scratch.distances[i];
-    if (distance <= tiny) {
-      met += 1;
-      continue;
-    }
-    const double weight = 1 / distance;
+    const double weight = distance > tiny ? 1 / distance : 0;
+    met += distance > tiny ? 0 : 1;
     total += weight;
-    for (std::size_t c = 0; c < width; ++c) {
-      const double value = scratch.coordinates[c * count + i];
-      mean[c] += weight * value;
-      pull[c] += weight * (value - point[c]);
-    }
+    for (std::size_t c = 0; c < width; ++c) mean[c] += weight * scratch.coordinates[c * count + i];
   }
   if (total == 0) return 0;
-  double strength = 0;
-  for (const double p : pull) strength += p * p;
-  strength = std::sqrt(strength);
-  const double stay = strength > 0 ? std::min(1.0, met / strength) : 1.0;
+  double stay = 0;
+  if (met > 0) {
+    const double pull = pull_at(point, scratch, tiny);
+    stay = pull > met ? met / pull : 1;
+  }
   double moved = 0;
   for (std::size_t c = 0; c < width; ++c) {
     const double next = (1 - stay) * mean[c] / total + stay * point[c];
@@ -120,9 +117,10 @@ double weiszfeld_step(std::array<double, width>& point, MedianScratch& scratch, 
 }
 
 template <class Sample>
-Sample find_l1_median(std::span<const Sample> samples, MedianScratch& scratch) {
-  constexpr int most_steps = 60;
-  const std::size_t start = find_medoid(samples, scratch);
+Sample find_l1_median(std::span<const Sample> samples, std::size_t start, MedianScratch& scratch) {
+  constexpr int most_steps = 20;
+  constexpr double near_enough = 1e-4;
+  spread_out(samples, scratch);
   align_samples(samples, start, scratch);
   auto point = coordinates_of(samples[start]);
   measure(point, scratch);
@@ -132,29 +130,72 @@ Sample find_l1_median(std::span<const Sample> samples, MedianScratch& scratch) {
     const double moved = weiszfeld_step(point, scratch, 1e-12 * spread);
     if (moved == 0 && step == 0) return samples[start];
     if constexpr (std::is_same_v<Sample, Quat>) point = coordinates_of(from_coordinates(point));
-    if (moved <= 1e-9 * spread) break;
+    if (moved <= near_enough * spread) break;
   }
   return from_coordinates(point);
 }
 
+// Twice |a - b| of the nearer signs; points: |a - b|.
+double distance_of(Quat a, Quat b) {
+  const Quat d{a.w - b.w, a.x - b.x, a.y - b.y, a.z - b.z};
+  const double same = dot(d, d);
+  return 2 * std::sqrt(std::min(same, std::max(0.0, 4 - same)));
+}
+double distance_of(Vec3 a, Vec3 b) { return norm(a - b); }
+
 }  // namespace
 
-double chord(Quat a, Quat b) {
-  const Quat nearest = align_hemisphere(b, a);
-  return 2 * norm(Quat{a.w - nearest.w, a.x - nearest.x, a.y - nearest.y, a.z - nearest.z});
+double chord(Quat a, Quat b) { return distance_of(a, b); }
+
+std::size_t medoid(std::span<const Quat> samples, MedianScratch&) {
+  return MovingMedoid<Quat>(samples, samples.size()).find(0, samples.size() - 1);
+}
+std::size_t medoid(std::span<const Vec3> samples, MedianScratch&) {
+  return MovingMedoid<Vec3>(samples, samples.size()).find(0, samples.size() - 1);
+}
+Quat l1_median(std::span<const Quat> samples, std::size_t start, MedianScratch& scratch) {
+  return find_l1_median(samples, start, scratch);
+}
+Vec3 l1_median(std::span<const Vec3> samples, std::size_t start, MedianScratch& scratch) {
+  return find_l1_median(samples, start, scratch);
 }
 
-std::size_t medoid(std::span<const Quat> samples, MedianScratch& scratch) {
-  return find_medoid(samples, scratch);
+template <class Sample>
+MovingMedoid<Sample>::MovingMedoid(std::span<const Sample> track, std::size_t longest)
+    : track_(track),
+      longest_(std::min(longest, track.size())),
+      distances_(longest_ * longest_),
+      sums_(longest_) {}
+
+template <class Sample>
+void MovingMedoid<Sample>::take_in(std::size_t frame) {
+  const std::size_t row = frame % longest_;
+  for (std::size_t other = std::max(first_, frame + 1 - std::min(frame + 1, longest_));
+       other <= frame; ++other) {
+    const double d = distance_of(track_[frame], track_[other]);
+    distances_[row * longest_ + other % longest_] = d;
+    distances_[(other % longest_) * longest_ + row] = d;
+  }
 }
-std::size_t medoid(std::span<const Vec3> samples, MedianScratch& scratch) {
-  return find_medoid(samples, scratch);
+
+template <class Sample>
+std::size_t MovingMedoid<Sample>::find(std::size_t first, std::size_t last) {
+  first_ = first;
+  for (next_ = std::max(next_, first); next_ <= last; ++next_) take_in(next_);
+  // Summed in the order of frames, so that a window gives the same wherever it lies in the track.
+  std::fill(sums_.begin(), sums_.end(), 0.0);
+  for (std::size_t s = first; s <= last; ++s) {
+    const double* row = distances_.data() + (s % longest_) * longest_;
+    for (std::size_t i = 0; i < longest_; ++i) sums_[i] += row[i];
+  }
+  std::size_t best = first;
+  for (std::size_t f = first + 1; f <= last; ++f) {
+    if (sums_[f % longest_] < sums_[best % longest_]) best = f;
+  }
+  return best;
 }
-Quat l1_median(std::span<const Quat> samples, MedianScratch& scratch) {
-  return find_l1_median(samples, scratch);
-}
-Vec3 l1_median(std::span<const Vec3> samples, MedianScratch& scratch) {
-  return find_l1_median(samples, scratch);
-}
+
+template class MovingMedoid<Quat>;
+template class MovingMedoid<Vec3>;
 
 }  // namespace kinemend

@@ -25,10 +25,36 @@ struct MedianScratch {
 std::size_t medoid(std::span<const Quat> samples, MedianScratch& scratch);
 std::size_t medoid(std::span<const Vec3> samples, MedianScratch& scratch);
 
-/// The point with the least sum of distances to the samples, by Weiszfeld's iteration from the
-/// medoid with the step of Vardi & Zhang 2000 where a sample is met; rotations are projected back
-/// to the sphere. To 1e-9 of the spread. Not empty.
-Quat l1_median(std::span<const Quat> samples, MedianScratch& scratch);
-Vec3 l1_median(std::span<const Vec3> samples, MedianScratch& scratch);
+/// The point with the least sum of distances to the samples, by Weiszfeld's iteration from sample
+/// `start` (their medoid) with the step of Vardi & Zhang 2000 where a sample is met; rotations are
+/// projected back to the sphere. Stops at steps below 1e-4 of the mean distance, or after 20.
+Quat l1_median(std::span<const Quat> samples, std::size_t start, MedianScratch& scratch);
+Vec3 l1_median(std::span<const Vec3> samples, std::size_t start, MedianScratch& scratch);
+
+/// The medoids of windows that move along a track: each distance is measured once. The same
+/// numbers as `medoid` of each window.
+template <class Sample>
+class MovingMedoid {
+ public:
+  /// No window is longer than `longest`.
+  MovingMedoid(std::span<const Sample> track, std::size_t longest);
+
+  /// Frame of the medoid of the window [first, last]; neither ever goes back.
+  std::size_t find(std::size_t first, std::size_t last);
+  /// Distance of two frames of the window found last.
+  double distance(std::size_t a, std::size_t b) const {
+    return distances_[(a % longest_) * longest_ + b % longest_];
+  }
+
+ private:
+  void take_in(std::size_t frame);
+
+  std::span<const Sample> track_;
+  std::size_t longest_;
+  std::size_t next_ = 0;           // the first frame that was not taken in yet
+  std::size_t first_ = 0;          // of the window
+  std::vector<double> distances_;  // longest x longest, frames modulo longest
+  std::vector<double> sums_;
+};
 
 }  // namespace kinemend

@@ -33,6 +33,21 @@ void add_spans(std::int32_t joint, std::size_t frames, std::size_t first_frame,
   }
 }
 
+// Marks samples that lie far off the path of their neighbours: out and back within two frames is no
+// motion of a person, and spikes that the method left in are no peaks.
+void leave_out_spikes(const std::vector<Quat>& track, double noise_rad,
+                      std::vector<std::uint8_t>& left_out) {
+  constexpr double clear_noise = 8, clear_detour = 3;
+  for (std::size_t f = 1; f + 1 < track.size(); ++f) {
+    if (second_difference(track[f - 1], track[f], track[f + 1]) < 2 * clear_noise * noise_rad)
+      continue;
+    const double step =
+        std::min(angle_between(track[f - 1], track[f]), angle_between(track[f], track[f + 1]));
+    const double past = angle_between(track[f - 1], track[f + 1]);
+    if (step > clear_noise * noise_rad && step > clear_detour * past) left_out[f] = 1;
+  }
+}
+
 struct Peak {
   double speed_deg_s = 0;
   bool found = false;
@@ -55,12 +70,13 @@ Peak peak_speed(const std::vector<Quat>& track, const std::vector<std::uint8_t>&
 
 // Fills in the peaks and returns by how much noise may have raised the first one, degrees / s.
 double measure_peaks(const std::vector<Quat>& before, const std::vector<Quat>& after,
-                     const std::vector<std::uint8_t>& left_out, double rate_hz,
-                     JointSummary& summary) {
+                     std::vector<std::uint8_t> left_out, double rate_hz, JointSummary& summary) {
   constexpr double longest_s = 0.05;
   constexpr double noise_share = 0.1;
   // Four standard deviations of the difference of two samples: the largest of many.
-  const double noise = 4 * std::sqrt(2.0) * track_noise(before) * degrees_per_radian;
+  const double noise_rad = track_noise(before);
+  const double noise = 4 * std::sqrt(2.0) * noise_rad * degrees_per_radian;
+  leave_out_spikes(before, noise_rad, left_out);
   const std::size_t most = frames_in(longest_s, rate_hz, 1);
   double noise_speed = 0;
   for (std::size_t gap = 1; gap <= most; ++gap) {
