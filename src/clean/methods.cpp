@@ -61,6 +61,7 @@ void check_option_names(const Method& method, const OptionValues& values) {
 std::span<const Method> methods() {
   static const std::vector<Method> table = [] {
     std::vector<Method> list;
+    list.push_back(auto_method());
     list.push_back(butterworth_method());
     list.push_back(median_method());
     list.push_back(hampel_method());

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace kinemend::signal {
 
@@ -20,19 +21,20 @@ constexpr double largest_strength = 1e10;      // beyond it the factor loses its
 
 using Channels = std::vector<std::size_t>;
 
-// Splits channels into groups of eight at most.
-std::vector<Channels> groups_of_eight(const Channels& channels) {
-  std::vector<Channels> groups;
-  for (std::size_t first = 0; first < channels.size(); first += block_channels) {
-    const std::size_t last = std::min(first + block_channels, channels.size());
-    groups.emplace_back(channels.begin() + static_cast<std::ptrdiff_t>(first),
+// Splits channels into blocks of eight at most, none of which parts channels of one group.
+std::vector<Channels> in_blocks(const Channels& channels, std::size_t group = 1) {
+  std::vector<Channels> blocks;
+  const std::size_t width = block_channels - block_channels % group;
+  for (std::size_t first = 0; first < channels.size(); first += width) {
+    const std::size_t last = std::min(first + width, channels.size());
+    blocks.emplace_back(channels.begin() + static_cast<std::ptrdiff_t>(first),
                         channels.begin() + static_cast<std::ptrdiff_t>(last));
   }
-  return groups;
+  return blocks;
 }
 
-void for_each_group(const std::vector<Channels>& groups, const auto& work) {
-  tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) { work(groups[g]); });
+void for_each_block(const std::vector<Channels>& blocks, const auto& work) {
+  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) { work(blocks[b]); });
 }
 
 // -2 log p(y), but for what is the same for all models: y^T (I - A^-1) y / s + log |A| - (F - d)
@@ -45,20 +47,24 @@ double misfit(const SmoothingModel& model, const SharedFactor& factor, std::size
          order * std::log(variance);
 }
 
-std::vector<std::size_t> most_likely_models(const ChannelBlock& y, const Channels& group,
+// The model of each channel of `block`; `group` neighbours share theirs.
+std::vector<std::size_t> most_likely_models(const ChannelBlock& y, const Channels& block,
                                             std::span<const double> noise_variance,
-                                            const ModelGrid& grid) {
+                                            const ModelGrid& grid, std::size_t group) {
   ChannelBlock x(y.frames);
-  std::vector<double> least(group.size(), std::numeric_limits<double>::infinity());
-  std::vector<std::size_t> best(group.size(), 0);
+  std::vector<double> least(block.size(), std::numeric_limits<double>::infinity());
+  std::vector<std::size_t> best(block.size(), 0);
   for (std::size_t m = 0; m < grid.models().size(); ++m) {
     const BlockRow explained = solve_shared(grid.factor(m), y, x);
-    for (std::size_t i = 0; i < group.size(); ++i) {
-      const double value = misfit(grid.models()[m], grid.factor(m), y.frames, explained[i],
-                                  noise_variance[group[i]]);
-      if (value < least[i]) {
-        least[i] = value;
-        best[i] = m;
+    for (std::size_t first = 0; first < block.size(); first += group) {
+      double value = 0;
+      for (std::size_t i = first; i < first + group; ++i) {
+        value += misfit(grid.models()[m], grid.factor(m), y.frames, explained[i],
+                        noise_variance[block[i]]);
+      }
+      if (value < least[first]) {
+        least[first] = value;
+        std::fill_n(best.begin() + static_cast<std::ptrdiff_t>(first), group, m);
       }
     }
   }
@@ -162,26 +168,26 @@ ModelGrid::ModelGrid(std::size_t frames, double frame_rate_hz)
 
 std::vector<std::size_t> smooth_by_evidence(PoseMatrix& matrix,
                                             std::span<const double> noise_variance,
-                                            const ModelGrid& grid) {
+                                            const ModelGrid& grid, std::size_t group) {
   assert(noise_variance.size() == matrix.channels && grid.frames() == matrix.frames);
+  assert(group >= 1 && group <= block_channels && matrix.channels % group == 0);
   if (grid.models().empty()) return {};
   Channels all(matrix.channels);
-  for (std::size_t c = 0; c < all.size(); ++c) all[c] = c;
+  std::iota(all.begin(), all.end(), std::size_t{0});
   std::vector<std::size_t> chosen(matrix.channels);
-  for_each_group(groups_of_eight(all), [&](const Channels& group) {
-    const ChannelBlock y = gather(matrix, group);
-    const std::vector<std::size_t> best = most_likely_models(y, group, noise_variance, grid);
+  for_each_block(in_blocks(all, group), [&](const Channels& block) {
+    const ChannelBlock y = gather(matrix, block);
+    const std::vector<std::size_t> best = most_likely_models(y, block, noise_variance, grid, group);
     ChannelBlock x(matrix.frames);
-    for (std::size_t i = 0; i < group.size(); ++i) {
-      chosen[group[i]] = best[i];
-      if (std::find(best.begin(), best.begin() + static_cast<std::ptrdiff_t>(i), best[i]) !=
-          best.begin() + static_cast<std::ptrdiff_t>(i)) {
-        continue;  // solved with an earlier channel of the same model
-      }
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      chosen[block[i]] = best[i];
+      const auto here = best.begin() + static_cast<std::ptrdiff_t>(i);
+      if (std::find(best.begin(), here, best[i]) != here)
+        continue;  // solved with an earlier channel
       solve_shared(grid.factor(best[i]), y, x);
-      for (std::size_t k = i; k < group.size(); ++k) {
+      for (std::size_t k = i; k < block.size(); ++k) {
         if (best[k] != best[i]) continue;
-        for (std::size_t t = 0; t < matrix.frames; ++t) matrix(t, group[k]) = x(t, k);
+        for (std::size_t t = 0; t < matrix.frames; ++t) matrix(t, block[k]) = x(t, k);
       }
     }
   });
@@ -201,18 +207,18 @@ void smooth_adaptively(PoseMatrix& matrix, std::span<const std::uint8_t> missing
     for (std::size_t c = 0; c < matrix.channels; ++c) {
       if (models[c].order == order) channels.push_back(c);
     }
-    for_each_group(groups_of_eight(channels), [&](const Channels& group) {
-      AdaptiveBlock block{gather(matrix, group), ChannelBlock(matrix.frames, 1), {}, order};
+    for_each_block(in_blocks(channels), [&](const Channels& members) {
+      AdaptiveBlock block{gather(matrix, members), ChannelBlock(matrix.frames, 1), {}, order};
       block.variance.fill(1);
-      for (std::size_t i = 0; i < group.size(); ++i) {
-        const std::size_t c = group[i];
+      for (std::size_t i = 0; i < members.size(); ++i) {
+        const std::size_t c = members[i];
         block.variance[i] = noise_variance[c] / models[c].strength;
         for (std::size_t t = 0; t < matrix.frames; ++t) {
           const bool lost = !missing.empty() && missing[t * matrix.channels + c] != 0;
           block.weight(t, i) = lost ? 0 : 1 / noise_variance[c];
         }
       }
-      scatter(smooth_block(block, half_window, settings), group, matrix);
+      scatter(smooth_block(block, half_window, settings), members, matrix);
     });
   }
 }

@@ -39,12 +39,14 @@ class ModelGrid {
 };
 
 /// Smooths the channels of `matrix` in place, each with its most likely model: the one with the
-/// largest marginal likelihood of the channel under white noise of variance `noise_variance[c]` (>
-/// 0). Returns the index of each channel's model in the grid's list; empty when there is no model
-/// for so few frames (and nothing is changed).
+/// largest marginal likelihood of the channel under white noise of variance `noise_variance[c]`
+/// (> 0). With `group` above 1 that many neighbouring channels (a divisor of their number, at most
+/// 8) share the model that is most likely for all of them. Returns the index of each channel's
+/// model in the grid's list; empty when there is no model for so few frames (and nothing is
+/// changed).
 std::vector<std::size_t> smooth_by_evidence(PoseMatrix& matrix,
                                             std::span<const double> noise_variance,
-                                            const ModelGrid& grid);
+                                            const ModelGrid& grid, std::size_t group = 1);
 
 struct AdaptiveSettings {
   double window_s = 0.1;  ///< over which the size of the differences is averaged, twice

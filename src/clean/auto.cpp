@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <cmath>
+
+#include "clean/method_list.hpp"
+#include "clean/moving_chart.hpp"
+#include "clean/spikes.hpp"
+#include "clean/track_smoother.hpp"
+#include "clean/tracks.hpp"
+#include "clean/vector_tracks.hpp"
+#include "kinemend/methods.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr std::size_t fewest_frames = 4;
+
+const OptionTable<AutoOptions>& table() {
+  static const auto options =
+      OptionTable<AutoOptions>()
+          .number(&AutoOptions::sensitivity, "sensitivity", "", 0, 4,
+                  "scales the estimated noise: above 1 smooths more, below 1 less, 0 not at all")
+          .flag(&AutoOptions::despike, "despike", "finds and repairs spikes");
+  return options;
+}
+
+// Spikes found and noise smoothed on a set of tracks; `always_missing` samples are gaps already
+// bridged.
+SpikeVerdicts clean_tracks(VectorTracks& tracks, const SampleMarks& suspects,
+                           const SampleMarks& always_missing,
+                           const std::vector<std::vector<std::size_t>>& nearby,
+                           double frame_rate_hz, const AutoOptions& options) {
+  SpikeVerdicts verdicts{SampleMarks(tracks.frames(), tracks.tracks()), {}, {}};
+  if (options.despike) {
+    verdicts = find_spikes(tracks, suspects, nearby, frame_rate_hz);
+  } else {
+    verdicts.noise = noise_levels(tracks, always_missing);
+  }
+  for (double& level : verdicts.noise) level *= options.sensitivity;
+  verdicts.shares = cleaning_shares(verdicts.noise, frame_rate_hz);
+  SampleMarks missing = verdicts.marked;
+  for (std::size_t i = 0; i < missing.marks.size(); ++i)
+    missing.marks[i] |= always_missing.marks[i];
+  // A track that was hardly seen keeps its bridges.
+  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
+    std::size_t seen = 0;
+    for (std::size_t t = 0; t < tracks.frames(); ++t) seen += missing(t, n) == 0;
+    if (seen < 2 * fewest_frames) verdicts.shares[n] = 0;
+  }
+  smooth_tracks(tracks, missing, verdicts.noise, verdicts.shares, frame_rate_hz);
+  return verdicts;
+}
+
+class Auto final : public Cleaner {
+ public:
+  explicit Auto(const AutoOptions& options) : options_(options) {}
+
+  CleanTrace clean(Clip& clip, const Selection& selection) const override {
+    CleanTrace trace;
+    const std::vector<std::size_t> joints = selected_joints(clip, selection);
+    bridge_gaps(clip, joints, trace);
+    if (clip.frame_count() < fewest_frames) return trace;
+    clean_rotations(clip, joints, trace);
+    clean_positions(clip, selected_positions(clip, selection), trace);
+    return trace;
+  }
+
+ private:
+  void clean_rotations(Clip& clip, const std::vector<std::size_t>& joints,
+                       CleanTrace& trace) const {
+    const std::size_t frames = clip.frame_count(), count = joints.size();
+    VectorTracks tracks(frames, count);
+    SampleMarks suspects(frames, count), gaps(frames, count);
+    std::vector<MovingChart> charts(count);
+    for_each_parallel(count, frames * count, [&](std::size_t n) {
+      std::vector<Quat> steady = joint_track(clip, joints[n]);
+      const std::vector<std::uint8_t> gross = replace_gross_spikes(steady);
+      charts[n] = make_moving_chart(steady, clip.frame_rate_hz);
+      for (std::size_t t = 0; t < frames; ++t) {
+        tracks.set(t, n, degrees_per_radian * charts[n].vector_of(t, clip.rotation(t, joints[n])));
+        suspects(t, n) = gross[t];
+        gaps(t, n) = !clip.is_observed(t, joints[n]);
+      }
+    });
+
+    const SpikeVerdicts verdicts = clean_tracks(
+        tracks, suspects, gaps, tracks_nearby(clip.skeleton, joints), clip.frame_rate_hz, options_);
+
+    if (trace.actions.empty()) trace.actions.assign(clip.local_rotations.size(), Action::kept);
+    trace.noise_deg.assign(clip.joint_count(), 0);
+    for_each_parallel(count, frames * count, [&](std::size_t n) {
+      const std::size_t joint = joints[n];
+      trace.noise_deg[joint] = verdicts.noise[n];
+      for (std::size_t t = 0; t < frames; ++t) {
+        const bool spike = verdicts.marked(t, n) != 0;
+        if (verdicts.shares[n] == 0 && !spike) continue;
+        clip.rotation(t, joint) = charts[n].rotation_of(t, radians_per_degree * tracks.at(t, n));
+        Action& action = trace.actions[t * clip.joint_count() + joint];
+        if (spike && action == Action::kept) action = Action::despiked;
+      }
+    });
+  }
+
+  // Positions go the same way, on the scale at which a degree moves the end of a typical bone.
+  void clean_positions(Clip& clip, const std::vector<PositionTrack>& positions,
+                       CleanTrace& trace) const {
+    if (positions.empty()) return;
+    const std::size_t frames = clip.frame_count(), count = positions.size();
+    const double degrees_per_unit = degrees_per_radian / typical_bone_length(clip.skeleton);
+    VectorTracks tracks(frames, count);
+    for (std::size_t n = 0; n < count; ++n) {
+      for (std::size_t t = 0; t < frames; ++t) {
+        tracks.set(t, n, degrees_per_unit * positions[n].values[t * positions[n].stride]);
+      }
+    }
+    const SampleMarks none(frames, count);
+    const SpikeVerdicts verdicts =
+        clean_tracks(tracks, none, none, std::vector<std::vector<std::size_t>>(count),
+                     clip.frame_rate_hz, options_);
+    for (std::size_t n = 0; n < count; ++n) {
+      const bool root = positions[n].values == clip.root_positions.data();
+      if (root) {
+        trace.root_noise = verdicts.noise[n] / degrees_per_unit;
+        trace.root_actions.assign(frames, Action::kept);
+      }
+      for (std::size_t t = 0; t < frames; ++t) {
+        const bool spike = verdicts.marked(t, n) != 0;
+        if (verdicts.shares[n] == 0 && !spike) continue;
+        positions[n].values[t * positions[n].stride] = (1 / degrees_per_unit) * tracks.at(t, n);
+        if (root && spike) trace.root_actions[t] = Action::despiked;
+      }
+    }
+  }
+
+  // The tracks of the joints that are near each joint, where they are cleaned too.
+  static std::vector<std::vector<std::size_t>> tracks_nearby(
+      const Skeleton& skeleton, const std::vector<std::size_t>& joints) {
+    const auto joints_near = joints_nearby(skeleton.parents);
+    std::vector<std::vector<std::size_t>> result(joints.size());
+    for (std::size_t n = 0; n < joints.size(); ++n) {
+      for (const std::size_t other : joints_near[joints[n]]) {
+        const auto found = std::lower_bound(joints.begin(), joints.end(), other);
+        if (found != joints.end() && *found == other) {
+          result[n].push_back(static_cast<std::size_t>(found - joints.begin()));
+        }
+      }
+    }
+    return result;
+  }
+
+  AutoOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Cleaner> make_auto(const AutoOptions& options) {
+  table().validate(options);
+  return std::make_unique<Auto>(options);
+}
+
+Method auto_method() {
+  return {"auto",
+          "measures each joint's noise, repairs spikes, smooths as much as the noise asks and "
+          "leaves clean takes alone",
+          "Kinemend; smoothing by evidence after Eilers 2003 and Wahba 1985", table().specs(),
+          [](const OptionValues& values) { return make_auto(table().parse(values)); }};
+}
+
+}  // namespace kinemend

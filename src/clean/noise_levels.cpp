@@ -1,0 +1,135 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "clean/tracks.hpp"
+#include "clean/vector_tracks.hpp"
+
+namespace kinemend {
+
+namespace {
+
+// Rank `share` (0..1) of values, by reordering them.
+double quantile(std::vector<double>& values, double share) {
+  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  return values[static_cast<std::size_t>(rank)];
+}
+
+double squared(double x) { return x * x; }
+
+// Mean square over the axes of the difference of some order at each frame where no sample of it is
+// marked, divided by what white noise of variance 1 would give.
+std::vector<double> mean_squared_differences(const VectorTracks& tracks, const SampleMarks& marked,
+                                             std::size_t track,
+                                             std::span<const double> coefficients) {
+  const std::size_t order = coefficients.size() - 1;
+  double gain = 0;
+  for (const double c : coefficients) gain += c * c;
+  std::vector<double> squares;
+  squares.reserve(tracks.frames());
+  for (std::size_t t = 0; t + order < tracks.frames(); ++t) {
+    Vec3 difference;
+    bool whole = true;
+    for (std::size_t k = 0; k <= order; ++k) {
+      difference += coefficients[k] * tracks.at(t + k, track);
+      whole = whole && marked(t + k, track) == 0;
+    }
+    if (whole) squares.push_back(dot(difference, difference) / (3 * gain));
+  }
+  return squares;
+}
+
+constexpr double median_of_chi3 = 1.5381722544550522;  // of the length of a standard normal vector
+constexpr double chance_excess = 1.01;  // the least of several estimates is a little low
+
+// Averages over ten differences in a row; their lower quartile is 0.853^2 of the mean for white
+// noise.
+double quiet_quarter(const std::vector<double>& squares) {
+  constexpr std::size_t window = 10;
+  constexpr double quartile_bias = 0.853 / 1.05;
+  std::vector<double> averages;
+  double sum = 0;
+  for (std::size_t i = 0; i < squares.size(); ++i) {
+    sum += squares[i];
+    if (i >= window) sum -= squares[i - window];
+    if (i + 1 >= window) averages.push_back(std::max(0.0, sum / window));
+  }
+  return std::sqrt(quantile(averages, 0.25)) / quartile_bias;
+}
+
+double noise_level(const VectorTracks& tracks, const SampleMarks& marked, std::size_t track) {
+  static constexpr double third[] = {-1, 3, -3, 1};
+  static constexpr double fifth[] = {-1, 5, -10, 10, -5, 1};
+  const std::size_t frames = tracks.frames();
+  double least = std::numeric_limits<double>::infinity();
+  std::vector<double> squares = mean_squared_differences(tracks, marked, track, third);
+  if (squares.size() >= 3) {
+    if (squares.size() >= 30) least = quiet_quarter(squares);
+    least = std::min(least, std::sqrt(3 * quantile(squares, 0.5)) / median_of_chi3);
+  }
+  if (frames >= 20) {
+    squares = mean_squared_differences(tracks, marked, track, fifth);
+    if (squares.size() >= 3)
+      least = std::min(least, std::sqrt(3 * quantile(squares, 0.5)) / median_of_chi3);
+  }
+  return std::isfinite(least) ? chance_excess * least : 0;
+}
+
+}  // namespace
+
+void fill_marked(VectorTracks& tracks, const SampleMarks& marked) {
+  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
+    std::ptrdiff_t before = -1;
+    const auto frames = static_cast<std::ptrdiff_t>(tracks.frames());
+    for (std::ptrdiff_t t = 0; t < frames; ++t) {
+      if (marked(static_cast<std::size_t>(t), n) == 0) {
+        before = t;
+        continue;
+      }
+      std::ptrdiff_t after = t;
+      while (after < frames && marked(static_cast<std::size_t>(after), n) != 0) ++after;
+      if (before < 0 && after == frames) break;
+      for (; t < after; ++t) {
+        const std::ptrdiff_t from = before < 0 ? after : before,
+                             to = after == frames ? before : after;
+        const Vec3 start = tracks.at(static_cast<std::size_t>(from), n),
+                   end = tracks.at(static_cast<std::size_t>(to), n);
+        const double share =
+            to > from ? static_cast<double>(t - from) / static_cast<double>(to - from) : 0;
+        tracks.set(static_cast<std::size_t>(t), n, start + share * (end - start));
+      }
+      before = after;
+    }
+  }
+}
+
+std::vector<double> noise_levels(const VectorTracks& tracks, const SampleMarks& marked) {
+  std::vector<double> levels(tracks.tracks(), 0);
+  if (tracks.frames() < 6) return levels;
+  for_each_parallel(tracks.tracks(), tracks.values.values.size(),
+                    [&](std::size_t n) { levels[n] = noise_level(tracks, marked, n); });
+  return levels;
+}
+
+std::vector<double> cleaning_shares(const std::vector<double>& noise, double frame_rate_hz) {
+  if (noise.empty()) return {};
+  // Degrees of noise where smoothing starts and where it is whole, in a noisy take and in a clean
+  // one.
+  constexpr double start_noisy = 0.15, whole_noisy = 0.35, start_clean = 0.35, whole_clean = 0.7;
+  const double folding = std::max(1.0, std::pow(120 / frame_rate_hz, 0.75));
+  std::vector<double> sorted = noise;
+  const double median = quantile(sorted, 0.5) / folding;
+  const double noisy = std::clamp((median - 0.15) / 0.15, 0.0, 1.0);
+  const double start = start_clean + (start_noisy - start_clean) * noisy;
+  const double whole = whole_clean + (whole_noisy - whole_clean) * noisy;
+  std::vector<double> shares(noise.size());
+  for (std::size_t n = 0; n < noise.size(); ++n) {
+    const double r = std::clamp((noise[n] / folding - start) / (whole - start), 0.0, 1.0);
+    shares[n] = squared(r) * (3 - 2 * r);
+  }
+  return shares;
+}
+
+}  // namespace kinemend

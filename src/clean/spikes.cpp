@@ -1,0 +1,331 @@
+#include "clean/spikes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "clean/tracks.hpp"
+#include "signal/whittaker.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr double least_noise =
+    0.25;  // degrees: what a spike is measured against on a noiseless track
+constexpr double accused_ratio = 6.5;    // prediction error over its standard deviation
+constexpr double accused_deviation = 6;  // degrees
+constexpr double robust_cap = 6;  // errors count for no more than this many standard deviations
+constexpr double median_of_chi3 = 1.54;  // of the length of a standard normal vector
+constexpr int rounds = 5;
+
+// Second-order smoothers over a coarse grid of cutoffs, and the weight of each sample in its own
+// fit.
+struct LeaveOneOutGrid {
+  std::vector<signal::SharedFactor> factors;
+  std::vector<std::vector<double>> own_shares;  // 1 - leverage
+
+  LeaveOneOutGrid(std::size_t frames, double frame_rate_hz) {
+    constexpr std::size_t order = 2, cutoffs = 10;
+    constexpr double lowest_hz = 0.3, highest_hz = 30, largest_strength = 1e10;
+    if (frames <= order + 1) return;
+    for (std::size_t i = 0; i < cutoffs; ++i) {
+      const double cutoff =
+          lowest_hz * std::pow(highest_hz / lowest_hz, static_cast<double>(i) / (cutoffs - 1));
+      const double strength =
+          signal::strength_of_cutoff(std::min(cutoff / frame_rate_hz, 0.49), order);
+      if (strength > largest_strength) continue;
+      factors.push_back(signal::factor_shared(frames, order, strength));
+      own_shares.push_back(signal::leverages(factors.back()));
+      for (double& share : own_shares.back()) share = std::max(1 - share, 1e-3);
+    }
+  }
+};
+
+// How far each sample is from where the others of its track put it.
+struct Predictions {
+  PoseMatrix errors;      // F x N, degrees
+  PoseMatrix own_shares;  // F x N: variance of a sample over that of its prediction error
+};
+
+constexpr std::size_t tracks_in_block = signal::block_channels / 3;
+
+signal::ChannelBlock gather_tracks(const VectorTracks& tracks, std::size_t first,
+                                   std::size_t count) {
+  signal::ChannelBlock block(tracks.frames());
+  for (std::size_t t = 0; t < tracks.frames(); ++t) {
+    const double* row = tracks.values.values.data() + t * tracks.values.channels + 3 * first;
+    for (std::size_t i = 0; i < 3 * count; ++i) block(t, i) = row[i];
+  }
+  return block;
+}
+
+Vec3 block_vector(const signal::ChannelBlock& block, std::size_t frame, std::size_t track) {
+  return {block(frame, 3 * track), block(frame, 3 * track + 1), block(frame, 3 * track + 2)};
+}
+
+// `filled` is the measured tracks with marked samples interpolated: a marked sample's fit is its
+// prediction.
+Predictions predict(const VectorTracks& measured, const VectorTracks& filled,
+                    const SampleMarks& marked, const std::vector<double>& noise,
+                    const LeaveOneOutGrid& grid) {
+  const std::size_t frames = measured.frames(), tracks = measured.tracks();
+  Predictions result{PoseMatrix(frames, tracks), PoseMatrix(frames, tracks, 1.0)};
+  const std::size_t blocks = (tracks + tracks_in_block - 1) / tracks_in_block;
+  for_each_parallel(blocks, measured.values.values.size(), [&](std::size_t b) {
+    const std::size_t first = b * tracks_in_block,
+                      count = std::min(tracks_in_block, tracks - first);
+    const signal::ChannelBlock y = gather_tracks(filled, first, count);
+    signal::ChannelBlock x(frames);
+    std::array<double, tracks_in_block> least;
+    least.fill(std::numeric_limits<double>::infinity());
+    for (std::size_t g = 0; g < grid.factors.size(); ++g) {
+      signal::solve_shared(grid.factors[g], y, x);
+      const std::vector<double>& own = grid.own_shares[g];
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t n = first + i;
+        const double scale = std::max({noise[n], 0.1, least_noise});
+        const double cap = robust_cap * scale * robust_cap * scale;
+        double score = 0;
+        for (std::size_t t = 0; t < frames; ++t) {
+          const Vec3 error = (1 / own[t]) * (block_vector(y, t, i) - block_vector(x, t, i));
+          score += std::min(dot(error, error), cap);
+        }
+        if (score >= least[i]) continue;
+        least[i] = score;
+        for (std::size_t t = 0; t < frames; ++t) {
+          const Vec3 fit = block_vector(x, t, i), given = block_vector(y, t, i);
+          const Vec3 predicted = marked(t, n) != 0 ? fit : given - (1 / own[t]) * (given - fit);
+          result.errors(t, n) = norm(measured.at(t, n) - predicted);
+          result.own_shares(t, n) = own[t];
+        }
+      }
+    }
+  });
+  return result;
+}
+
+// Median of a track of values about each frame, the take mirrored at its ends.
+std::vector<double> running_median(const std::vector<double>& values, std::size_t half) {
+  const auto frames = static_cast<std::ptrdiff_t>(values.size());
+  const auto reach = std::min(static_cast<std::ptrdiff_t>(half), (frames - 1) / 2);
+  const auto mirrored = [&](std::ptrdiff_t t) {
+    if (t < 0) t = -t;
+    if (t >= frames) t = 2 * (frames - 1) - t;
+    return values[static_cast<std::size_t>(t)];
+  };
+  std::vector<double> window, result(values.size());
+  for (std::ptrdiff_t t = -reach; t <= reach; ++t) window.push_back(mirrored(t));
+  std::sort(window.begin(), window.end());
+  for (std::ptrdiff_t t = 0; t < frames; ++t) {
+    result[static_cast<std::size_t>(t)] = window[static_cast<std::size_t>(reach)];
+    if (t + 1 == frames) break;
+    window.erase(std::lower_bound(window.begin(), window.end(), mirrored(t - reach)));
+    const double next = mirrored(t + 1 + reach);
+    window.insert(std::lower_bound(window.begin(), window.end(), next), next);
+  }
+  return result;
+}
+
+// The next round's suspects: of those accused before, whoever still does not fit; of the others,
+// the worst within two frames.
+SampleMarks accuse(const Predictions& predictions, const SampleMarks& accused,
+                   const std::vector<double>& noise, double frame_rate_hz) {
+  SampleMarks next(accused.frames, accused.tracks);
+  const auto half = static_cast<std::size_t>(std::lround(0.08 * frame_rate_hz));
+  for_each_parallel(accused.tracks, accused.marks.size(), [&](std::size_t n) {
+    const double scale = std::max(noise[n], least_noise);
+    std::vector<double> ratio(accused.frames), unaccused(accused.frames);
+    for (std::size_t t = 0; t < accused.frames; ++t) {
+      ratio[t] = predictions.errors(t, n) * std::sqrt(predictions.own_shares(t, n)) / scale;
+      unaccused[t] = accused(t, n) != 0 ? 0 : ratio[t];
+    }
+    const std::vector<double> usual = running_median(unaccused, half);
+    for (std::size_t t = 0; t < accused.frames; ++t) {
+      const bool stands_out = ratio[t] > accused_ratio * std::max(1.0, usual[t] / median_of_chi3) &&
+                              predictions.errors(t, n) > accused_deviation;
+      if (!stands_out) continue;
+      const std::size_t first = t < 2 ? 0 : t - 2, last = std::min(t + 3, accused.frames);
+      const auto from = unaccused.begin();
+      const double worst = *std::max_element(from + static_cast<std::ptrdiff_t>(first),
+                                             from + static_cast<std::ptrdiff_t>(last));
+      next(t, n) = accused(t, n) != 0 || unaccused[t] >= worst;
+    }
+  });
+  return next;
+}
+
+// Between what is asked on a clean track (share 0) and on a noisy one (share 1).
+double between(double clean, double noisy, double share) { return clean + (noisy - clean) * share; }
+
+struct Verdict {
+  bool guilty = false;
+  bool blatant = false;  // would stand even as the only odd sample of a quiet take
+};
+
+Verdict judge(const Predictions& predictions, const SampleMarks& accused, std::size_t t,
+              std::size_t n, double share, const std::vector<std::size_t>& nearby) {
+  constexpr std::size_t reach = 12;
+  constexpr double blatant_deviation = 30;
+  const double error = predictions.errors(t, n);
+  // The largest error about the sample, its neighbours left out. On a noisy track other suspects
+  // are no witnesses; on a quiet one at most one of them may be set aside.
+  const std::size_t first = t < reach ? 0 : t - reach,
+                    last = std::min(t + reach + 1, accused.frames);
+  const auto close = [](std::size_t a, std::size_t b) { return (a > b ? a - b : b - a) <= 1; };
+  std::vector<double> about;
+  for (std::size_t k = first; k < last; ++k) {
+    const bool left_out = close(k, t) || (share >= 1 && accused(k, n) != 0);
+    about.push_back(left_out ? 0 : predictions.errors(k, n));
+  }
+  if (share < 1) {
+    const auto aside =
+        static_cast<std::size_t>(std::max_element(about.begin(), about.end()) - about.begin());
+    for (std::size_t k = 0; k < about.size(); ++k) {
+      if (close(k, aside)) about[k] = 0;
+    }
+  }
+  const double largest = *std::max_element(about.begin(), about.end());
+  Verdict verdict;
+  verdict.guilty =
+      error > between(15, accused_deviation, share) && error > between(6, 2, share) * largest;
+  if (!verdict.guilty || share >= 1) {
+    verdict.blatant = verdict.guilty;
+    return verdict;
+  }
+  for (const std::size_t other : nearby) {
+    // What moves several joints at once is motion.
+    if (predictions.errors(t, other) > error / 3 * (1 + 10 * share)) return {};
+  }
+  verdict.blatant = error > blatant_deviation * std::min(1.0, 4 * (1 - share));
+  const bool extrapolated = t < 3 || t + 4 > accused.frames;
+  if (extrapolated) verdict.blatant = verdict.blatant && error > 2 * blatant_deviation;
+  return verdict;
+}
+
+double poisson_tail(double mean, std::size_t at_least) {
+  double term = std::exp(-mean), below = 0;
+  for (std::size_t k = 0; k < at_least; ++k) {
+    below += term;
+    term *= mean / static_cast<double>(k + 1);
+  }
+  return 1 - below;
+}
+
+// Acquits clusters of more verdicts than chance would put together: they are fast motion.
+void acquit_clusters(SampleMarks& marked) {
+  constexpr std::size_t lonely = 8, usual_cluster = 3, largest_cluster = 50;
+  const auto total = std::count(marked.marks.begin(), marked.marks.end(), 1);
+  if (total == 0) return;
+  const double rate =
+      std::min(0.05, static_cast<double>(total) / static_cast<double>(marked.marks.size()));
+  for (std::size_t n = 0; n < marked.tracks; ++n) {
+    std::vector<std::size_t> frames;
+    for (std::size_t t = 0; t < marked.frames; ++t) {
+      if (marked(t, n) != 0) frames.push_back(t);
+    }
+    for (std::size_t first = 0; first < frames.size();) {
+      std::size_t last = first;
+      while (last + 1 < frames.size() && frames[last + 1] - frames[last] <= lonely) ++last;
+      const double expected = rate * static_cast<double>(frames[last] - frames[first] + 2 * lonely);
+      std::size_t allowed = usual_cluster;
+      while (allowed < largest_cluster && poisson_tail(expected, allowed + 1) > 1e-4) ++allowed;
+      if (last - first + 1 > allowed) {
+        for (std::size_t i = first; i <= last; ++i) marked(frames[i], n) = 0;
+      }
+      first = last + 1;
+    }
+  }
+}
+
+SampleMarks judge_all(const Predictions& predictions, const SampleMarks& accused,
+                      const std::vector<double>& shares,
+                      const std::vector<std::vector<std::size_t>>& nearby) {
+  SampleMarks guilty(accused.frames, accused.tracks), blatant = guilty;
+  std::size_t quiet_tracks = 0, quiet_verdicts = 0;
+  for (std::size_t n = 0; n < accused.tracks; ++n) {
+    quiet_tracks += shares[n] < 1;
+    for (std::size_t t = 0; t < accused.frames; ++t) {
+      if (accused(t, n) == 0) continue;
+      const Verdict verdict = judge(predictions, accused, t, n, shares[n], nearby[n]);
+      guilty(t, n) = verdict.guilty;
+      blatant(t, n) = verdict.blatant;
+      quiet_verdicts += shares[n] < 1 && verdict.guilty;
+    }
+  }
+  // A few odd samples in a quiet take are its own; many are damage.
+  const double damage = std::max(5.0, 0.001 * static_cast<double>(accused.frames * quiet_tracks));
+  if (static_cast<double>(quiet_verdicts) < damage) {
+    for (std::size_t n = 0; n < accused.tracks; ++n) {
+      if (shares[n] >= 1) continue;
+      for (std::size_t t = 0; t < accused.frames; ++t) guilty(t, n) = blatant(t, n);
+    }
+  }
+  acquit_clusters(guilty);
+  return guilty;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::size_t>> joints_nearby(std::span<const std::int32_t> parents) {
+  const std::size_t count = parents.size();
+  std::vector<std::vector<std::size_t>> neighbours(count), nearby(count);
+  for (std::size_t j = 0; j < count; ++j) {
+    if (parents[j] < 0) continue;
+    const auto parent = static_cast<std::size_t>(parents[j]);
+    neighbours[j].push_back(parent);
+    neighbours[parent].push_back(j);
+  }
+  for (std::size_t j = 0; j < count; ++j) {
+    std::vector<std::uint8_t> seen(count);
+    seen[j] = 1;
+    std::vector<std::size_t> ring{j};
+    for (int bones = 0; bones < 3; ++bones) {
+      std::vector<std::size_t> next;
+      for (const std::size_t from : ring) {
+        for (const std::size_t to : neighbours[from]) {
+          if (std::exchange(seen[to], std::uint8_t{1}) == 0) next.push_back(to);
+        }
+      }
+      nearby[j].insert(nearby[j].end(), next.begin(), next.end());
+      ring = std::move(next);
+    }
+  }
+  return nearby;
+}
+
+SpikeVerdicts find_spikes(VectorTracks& tracks, const SampleMarks& suspects,
+                          const std::vector<std::vector<std::size_t>>& nearby,
+                          double frame_rate_hz) {
+  const std::size_t frames = tracks.frames(), count = tracks.tracks();
+  if (frames < 6) {
+    return {SampleMarks(frames, count), std::vector<double>(count), std::vector<double>(count)};
+  }
+  const LeaveOneOutGrid grid(frames, frame_rate_hz);
+  const VectorTracks measured = tracks;
+  SampleMarks accused = suspects;
+  const auto refill = [&] {
+    tracks = measured;
+    fill_marked(tracks, accused);
+  };
+  refill();
+  for (int round = 0; round < rounds; ++round) {
+    const std::vector<double> noise = noise_levels(measured, accused);
+    const Predictions predictions = predict(measured, tracks, accused, noise, grid);
+    SampleMarks next = accuse(predictions, accused, noise, frame_rate_hz);
+    if (next == accused) break;
+    accused = std::move(next);
+    refill();
+  }
+  std::vector<double> noise = noise_levels(measured, accused);
+  const std::vector<double> shares = cleaning_shares(noise, frame_rate_hz);
+  accused = judge_all(predict(measured, tracks, accused, noise, grid), accused, shares, nearby);
+  refill();
+  noise = noise_levels(measured, accused);
+  std::vector<double> final_shares = cleaning_shares(noise, frame_rate_hz);
+  return {std::move(accused), std::move(noise), std::move(final_shares)};
+}
+
+}  // namespace kinemend

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "clean/vector_tracks.hpp"
+#include "kinemend/rotation.hpp"
+
+namespace kinemend {
+
+/// Samples of one joint that stand far off the middle of their neighbours: more than 6 times what
+/// is usual about them and more than 6 degrees. They are replaced in `track` by that middle, so
+/// that a smooth reference can be laid through it. Takes under 5 frames have none. Returns F marks.
+std::vector<std::uint8_t> replace_gross_spikes(std::vector<Quat>& track);
+
+/// The joints within three bones of each joint, itself left out.
+std::vector<std::vector<std::size_t>> joints_nearby(std::span<const std::int32_t> parents);
+
+struct SpikeVerdicts {
+  SampleMarks marked;
+  std::vector<double> noise;   ///< of each track without its spikes, degrees
+  std::vector<double> shares;  ///< `cleaning_shares` of that noise
+};
+
+/// Which samples are spikes. Each is predicted from the others of its track by a robust smoother;
+/// the worst of their neighbourhood are accused and the smoother fitted again without them, until
+/// nothing changes. On tracks that are quiet a verdict needs more: a spike there is large, alone,
+/// and no joint nearby moves with it. `suspects` are the first accused; `nearby[n]` the tracks that
+/// move with track n. Marked samples of `tracks` come back interpolated.
+SpikeVerdicts find_spikes(VectorTracks& tracks, const SampleMarks& suspects,
+                          const std::vector<std::vector<std::size_t>>& nearby,
+                          double frame_rate_hz);
+
+}  // namespace kinemend
