@@ -3,8 +3,8 @@
 #include "clean/bilateral_filter.hpp"
 #include "clean/method_list.hpp"
 #include "clean/rotation_track.hpp"
-#include "clean/tracks.hpp"
 #include "kinemend/methods.hpp"
+#include "kinemend/metrics.hpp"
 
 namespace kinemend {
 
@@ -22,6 +22,13 @@ const OptionTable<BilateralOptions>& table() {
   return result;
 }
 
+// A body turned by sigma_g moves its far end by sigma_g times this: the width for positions. Travel
+// is no edge, as it would be for the length of a bone.
+double reach(const Skeleton& skeleton) {
+  const double height = skeleton_height(skeleton);
+  return height > 0 ? height : 1.0;
+}
+
 class BilateralCleaner final : public Cleaner {
  public:
   explicit BilateralCleaner(const BilateralOptions& options) : options_(options) {
@@ -35,9 +42,7 @@ class BilateralCleaner final : public Cleaner {
     const BilateralEnds ends =
         options_.ends == "mirror" ? BilateralEnds::mirror : BilateralEnds::reflect;
     const BilateralKernel turns = bilateral_kernel(sigma_t, sigma_g);
-    // A bone of the usual length, turned by sigma_g, moves its end by this much.
-    const BilateralKernel moves =
-        bilateral_kernel(sigma_t, sigma_g * typical_bone_length(clip.skeleton));
+    const BilateralKernel moves = bilateral_kernel(sigma_t, sigma_g * reach(clip.skeleton));
     return filter_tracks(
         clip, selection,
         [&](RotationTrack& track, const std::vector<double>& weights) {

@@ -130,6 +130,10 @@ void find_moves(const VectorTrack& track, const VectorTrack& steps, const double
 
 Quat reflected(Quat end, Quat sample) { return end * conjugate(sample) * end; }
 Vec3 reflected(Vec3 end, Vec3 sample) { return end + (end - sample); }
+Vec3 difference(Quat from, Quat to) { return log(conjugate(from) * to); }
+Vec3 difference(Vec3 from, Vec3 to) { return to - from; }
+Quat moved(Quat from, Vec3 by) { return from * exp(by); }
+Vec3 moved(Vec3 from, Vec3 by) { return from + by; }
 
 // Index of the sample that a mirrored signal shows at i, for any i.
 std::size_t mirrored_index(std::ptrdiff_t i, std::size_t frames) {
@@ -139,10 +143,37 @@ std::size_t mirrored_index(std::ptrdiff_t i, std::size_t frames) {
   return static_cast<std::size_t>(std::min(phase, period - phase));
 }
 
+// What the straight line of least squares through the samples first, first + direction, ..., with
+// the kernel's weights, shows at `first`: an end with less noise than its own sample.
+template <class Track>
+auto end_estimate(const Track& padded, const double* sample_weights, std::size_t first,
+                  int direction, std::size_t frames, const BilateralKernel& kernel) {
+  const auto end = padded[first];
+  const std::size_t reach = std::min(kernel.half_width(), frames - 1);
+  double s0 = 0, s1 = 0, s2 = 0;
+  Vec3 m0, m1;
+  for (std::size_t r = 0; r <= reach; ++r) {
+    const std::size_t i = direction > 0 ? first + r : first - r;
+    const Vec3 d = difference(end, padded[i]);
+    const double weight = sample_weights[i] * kernel.temporal_weights[r] *
+                          std::exp(-kernel.distance_scale * dot(d, d));
+    const double t = static_cast<double>(r);
+    s0 += weight, s1 += weight * t, s2 += weight * t * t;
+    m0 += weight * d, m1 += weight * t * d;
+  }
+  const double determinant = s0 * s2 - s1 * s1;
+  if (!(determinant > 1e-9 * s0 * s2)) return end;
+  return moved(end, (1 / determinant) * (s2 * m0 - s1 * m1));
+}
+
 // Fills `pad` samples on either side of the `frames` that stand in the middle.
 template <class Track>
-void continue_ends(Track& padded, std::size_t pad, std::size_t frames, BilateralEnds ends) {
+void continue_ends(Track& padded, const double* sample_weights, std::size_t frames,
+                   const BilateralKernel& kernel, BilateralEnds ends) {
+  const std::size_t pad = kernel.half_width();
   const std::size_t last = pad + frames - 1;
+  const auto front = end_estimate(padded, sample_weights, pad, 1, frames, kernel);
+  const auto back = end_estimate(padded, sample_weights, last, -1, frames, kernel);
   for (std::size_t i = 1; i <= pad; ++i) {
     if (ends == BilateralEnds::mirror) {
       const auto offset = static_cast<std::ptrdiff_t>(i);
@@ -152,8 +183,8 @@ void continue_ends(Track& padded, std::size_t pad, std::size_t frames, Bilateral
           padded[pad + mirrored_index(offset + static_cast<std::ptrdiff_t>(frames) - 1, frames)]);
     } else {
       // Of a short signal the far side has been filled already by smaller i.
-      padded.set(pad - i, reflected(padded[pad], padded[pad + i]));
-      padded.set(last + i, reflected(padded[last], padded[last - i]));
+      padded.set(pad - i, reflected(front, padded[pad + i]));
+      padded.set(last + i, reflected(back, padded[last - i]));
     }
   }
 }
@@ -179,7 +210,7 @@ void run_passes(Track& track, const std::vector<double>& sample_weights,
   VectorTrack moves(track.frames);
   for (std::size_t pass = 0; pass < passes; ++pass) {
     for (std::size_t i = 0; i < track.frames; ++i) padded.set(k + i, track[i]);
-    continue_ends(padded, k, track.frames, ends);
+    continue_ends(padded, weights.data(), track.frames, kernel, ends);
     find_moves(padded, increments(padded), weights.data(), kernel, moves);
     turn(track, moves);
   }
