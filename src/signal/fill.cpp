@@ -57,14 +57,26 @@ double spline_value(const Knots& knots, std::size_t k, std::size_t frame) {
   return a * knots.values[k] + b * knots.values[k + 1] + bend * (h * h / 6);
 }
 
+std::vector<std::uint8_t> marked_channels(const PoseMatrix& matrix,
+                                          std::span<const std::uint8_t> missing) {
+  std::vector<std::uint8_t> marked(matrix.channels, 0);
+  for (std::size_t t = 0; t < matrix.frames; ++t) {
+    const std::uint8_t* row = missing.data() + t * matrix.channels;
+    for (std::size_t c = 0; c < matrix.channels; ++c) marked[c] |= row[c];
+  }
+  return marked;
+}
+
 void fill(PoseMatrix& matrix, std::span<const std::uint8_t> missing, bool cubic) {
   signal::require_marks(matrix, missing);
   if (missing.empty()) return;
   Knots knots;
+  const std::vector<std::uint8_t> touched = marked_channels(matrix, missing);
   for (std::size_t c = 0; c < matrix.channels; ++c) {
+    if (!touched[c]) continue;
     find_knots(matrix, missing, c, knots);
     const std::size_t count = knots.frames.size();
-    if (count == 0 || count == matrix.frames) continue;
+    if (count == 0) continue;
     if (cubic) {
       find_curvatures(knots);
     } else {

@@ -90,4 +90,12 @@ void kalman_forward_rows(KalmanLanes& lanes, const KalmanRows& rows, KalmanTrace
 void kalman_backward_rows(const KalmanLanes& lanes, const KalmanRows& rows,
                           const KalmanTrace& trace);
 
+struct Ranked {
+  double value;
+  double next;  ///< of the next higher rank; infinite at the end
+};
+/// The value that would stand at `rank` were the `count` values sorted. Overwrites `values` and
+/// `scratch`, which is as large.
+Ranked select_rank(double* values, std::size_t count, std::size_t rank, double* scratch);
+
 }  // namespace kinemend::signal

@@ -28,7 +28,7 @@ double median_of(const PoseMatrix& matrix, std::size_t first, std::size_t last, 
                  std::vector<double>& scratch) {
   scratch.clear();
   for (std::size_t t = first; t <= last; ++t) scratch.push_back(matrix(t, channel));
-  return signal::median_in_place(scratch);
+  return signal::median(scratch);
 }
 
 double median_of_three(double a, double b, double c) {
@@ -77,7 +77,7 @@ EndOutliers end_outliers(const PoseMatrix& matrix, std::size_t half_window,
     for (std::size_t c = 0; c < matrix.channels; ++c) {
       const double median = median_of(matrix, first, last, c, window);
       for (double& x : window) x = std::abs(x - median);
-      const double deviation = signal::median_in_place(window);
+      const double deviation = signal::median(window);
       const double limit = std::max(limits.scaled_threshold * deviation, limits.minimum_deviation);
       if (std::abs(matrix(t, c) - median) > limit) {
         found.samples.push_back(t * matrix.channels + c);

@@ -29,8 +29,7 @@ std::vector<double> estimate_noise(const PoseMatrix& matrix, int difference_orde
                               for (std::size_t t = 0; t + 1 < count; ++t)
                                 values[t] = values[t + 1] - values[t];
                             }
-                            noise[channel] =
-                                scale * signal::median_deviation_in_place(values.first(count));
+                            noise[channel] = scale * signal::median_deviation(values.first(count));
                           });
   return noise;
 }

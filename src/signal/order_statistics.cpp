@@ -2,21 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+
+#include "signal/kernels.hpp"
 
 namespace kinemend::signal {
 
-double median_in_place(std::span<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return (*std::max_element(values.begin(), middle) + *middle) / 2;
+double median(std::span<const double> values) {
+  const std::size_t count = values.size();
+  if (count == 0) return 0;
+  const std::unique_ptr<double[]> copies(new double[2 * count]);
+  std::copy(values.begin(), values.end(), copies.get());
+  const Ranked middle = select_rank(copies.get(), count, (count - 1) / 2, copies.get() + count);
+  return count % 2 == 1 ? middle.value : (middle.value + middle.next) / 2;
 }
 
-double median_deviation_in_place(std::span<double> values) {
-  const double median = median_in_place(values);
-  for (double& value : values) value = std::abs(value - median);
-  return median_in_place(values);
+double median_deviation(std::span<double> values) {
+  const double middle = median(values);
+  for (double& value : values) value = std::abs(value - middle);
+  return median(values);
 }
 
 }  // namespace kinemend::signal

@@ -81,8 +81,7 @@ std::vector<double> noise_of(const PoseMatrix& finest, CoefficientRange range, d
   signal::for_each_column(finest.row(range.first).data(), range.count, finest.channels,
                           [&](std::size_t channel, std::span<double> values) {
                             for (double& x : values) x = std::abs(x);
-                            noise[channel] =
-                                scale * signal::mad_to_sigma * signal::median_in_place(values);
+                            noise[channel] = scale * signal::mad_to_sigma * signal::median(values);
                           });
   return noise;
 }
@@ -105,6 +104,20 @@ std::vector<double> thresholds_of(const PoseMatrix& details, CoefficientRange ra
   return thresholds;
 }
 
+void denoise_group(PoseMatrix& group, std::span<const double> h, int levels,
+                   const WaveletOptions& options) {
+  signal::WaveletTransform transform = signal::forward_transform(group, h, levels);
+  std::vector<double> noise;
+  for (std::size_t level = 0; level < transform.details.size(); ++level) {
+    PoseMatrix& details = transform.details[level];
+    const CoefficientRange range = signal::inner_coefficients(transform.lengths[level], h.size());
+    if (level == 0) noise = noise_of(details, range, options.noise_scale);
+    shrink(details, thresholds_of(details, range, noise, group.frames, options.threshold),
+           options.shrinkage);
+  }
+  signal::inverse_transform(std::move(transform), h, group);
+}
+
 }  // namespace
 
 void wavelet_denoise(PoseMatrix& matrix, const WaveletOptions& options) {
@@ -117,16 +130,21 @@ void wavelet_denoise(PoseMatrix& matrix, const WaveletOptions& options) {
 
   const int levels =
       options.levels > 0 ? options.levels : automatic_levels(matrix.frames, h.size());
-  signal::WaveletTransform transform = signal::forward_transform(matrix, h, levels);
-  std::vector<double> noise;
-  for (std::size_t level = 0; level < transform.details.size(); ++level) {
-    PoseMatrix& details = transform.details[level];
-    const CoefficientRange range = signal::inner_coefficients(transform.lengths[level], h.size());
-    if (level == 0) noise = noise_of(details, range, options.noise_scale);
-    shrink(details, thresholds_of(details, range, noise, matrix.frames, options.threshold),
-           options.shrinkage);
+  // A few channels at a time, so that all levels of a take of some minutes stay in the cache.
+  constexpr std::size_t group_width = 16;
+  PoseMatrix group;
+  for (std::size_t first = 0; first < matrix.channels; first += group_width) {
+    const std::size_t width = std::min(group_width, matrix.channels - first);
+    const auto offset = static_cast<std::ptrdiff_t>(first);
+    if (group.channels != width) group = PoseMatrix(matrix.frames, width);
+    for (std::size_t t = 0; t < matrix.frames; ++t) {
+      std::copy_n(matrix.row(t).begin() + offset, width, group.row(t).begin());
+    }
+    denoise_group(group, h, levels, options);
+    for (std::size_t t = 0; t < matrix.frames; ++t) {
+      std::copy_n(group.row(t).begin(), width, matrix.row(t).begin() + offset);
+    }
   }
-  signal::inverse_transform(std::move(transform), h, matrix);
 }
 
 }  // namespace kinemend
