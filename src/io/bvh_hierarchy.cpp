@@ -117,8 +117,7 @@ class HierarchyParser {
     if (std::exchange(block.has_offset, true))
       throw text_.error_at(scanner_.position(), "a second OFFSET");
     scanner_.peek();
-    const std::string_view line = scanner_.rest_of_line();
-    const CommaStyle commas = comma_style(line.substr(0, line.find_first_of("{}")), 3);
+    const CommaStyle commas = comma_style(scanner_.rest_of_line(), 3);
     std::array<double, 3> values{};
     for (double& value : values) value = parse_offset_value(commas);
     if (commas == CommaStyle::separator) skip_commas();

@@ -22,10 +22,10 @@ namespace {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double rate_when_unknown_hz = 30;
 
-// A take never needs more memory than this; what claims to is a hostile file, such as one channel
-// and 10,000 fixed joints.
+// A take needs no more memory than this; what claims to is a hostile file, such as one channel and
+// 10,000 fixed joints.
 std::size_t memory_limit(std::size_t file_bytes) {
-  return (std::size_t{16} << 20) + 64 * file_bytes;
+  return (std::size_t{16} << 20) + 24 * file_bytes;
 }
 
 class MotionReader {
@@ -55,7 +55,7 @@ class MotionReader {
     end_ = text_.bytes.data() + text_.bytes.size();
     document_.commas = find_comma_style();
     MotionRows rows(begin_, end_, document_.commas);
-    reserve();
+    reserve(header_.frames.value_or(0));
     const std::size_t rest = read_rows(rows);
     check_end(rows, rest);
     note_repairs(rows);
@@ -104,13 +104,14 @@ class MotionReader {
     return style;
   }
 
-  void reserve() {
+  // For `expected` frames, but never for more than the file can hold.
+  void reserve(std::size_t expected) {
     const auto most = static_cast<std::size_t>(end_ - begin_) / (2 * columns_.count()) + 1;
     const std::size_t affordable = memory_limit(text_.bytes.size()) / bytes_per_frame();
-    const std::size_t expected = std::min({header_.frames.value_or(0), most, affordable});
-    clip_.local_rotations.reserve(expected * joints_);
-    clip_.root_positions.reserve(expected);
-    clip_.joint_translations.reserve(expected * clip_.translated_joints.size());
+    const std::size_t count = std::min({expected, most, affordable});
+    clip_.local_rotations.reserve(count * joints_);
+    clip_.root_positions.reserve(count);
+    clip_.joint_translations.reserve(count * clip_.translated_joints.size());
   }
 
   // Returns how many values are left over after the last whole frame.
@@ -140,6 +141,10 @@ class MotionReader {
           header_.data_begin,
           fmt::format("{} joints with {} channels: too much memory for a file of {} bytes", joints_,
                       columns_.count(), text_.bytes.size()));
+    }
+    // More frames than declared: room for all there can be, at once rather than by doubling.
+    if ((first + count) * joints_ > clip_.local_rotations.capacity()) {
+      reserve(std::numeric_limits<std::size_t>::max());
     }
     clip_.local_rotations.resize((first + count) * joints_);
     Quat* const rotations = clip_.local_rotations.data() + first * joints_;

@@ -17,7 +17,12 @@ class TextBuffer {
 
   void append(std::string_view piece) {
     make_room(piece.size());
-    piece.copy(text_.data() + used_, piece.size());
+    // Mostly the one space between two numbers.
+    if (piece.size() == 1) {
+      text_[used_] = piece[0];
+    } else {
+      piece.copy(text_.data() + used_, piece.size());
+    }
     used_ += piece.size();
   }
   void append_fixed(double value, unsigned decimals, CommaStyle commas = CommaStyle::none);

@@ -5,7 +5,13 @@
 namespace kinemend {
 
 MotionRows::MotionRows(const char* begin, const char* end, CommaStyle commas)
-    : position_(begin), end_(end), last_end_(begin), commas_(commas) {}
+    : begin_(begin),
+      end_(end),
+      position_(begin),
+      last_end_(begin),
+      plain_starts_(
+          std::max<std::ptrdiff_t>(0, end - begin - plain_number_lead - plain_number_reach + 1)),
+      commas_(commas) {}
 
 const char* MotionRows::skip(const char* p) const {
   p = skip_space(p, end_);
@@ -36,21 +42,34 @@ bool MotionRows::read_rare(const char*& p, NumberToken& token) {
 template <bool keep_tokens>
 std::size_t MotionRows::read(double* values, std::size_t count, TokenSpan* tokens) {
   const char* p = skip(position_);
-  const char* const end = end_;
+  const char* last_end = last_end_;
   unsigned most_decimals = most_decimals_;
   std::size_t i = 0;
   for (; i < count; ++i) {
-    NumberToken token;
-    const bool plain = end - p >= plain_number_reach && read_plain_number(p, token);
-    if (!plain && !read_rare(p, token)) break;
-    values[i] = token.value;
-    most_decimals = std::max(most_decimals, token.decimals);
-    if constexpr (keep_tokens) tokens[i] = {p, token.end};
-    p = token.end;
-    last_end_ = p;
-    const bool single_space = plain && p[0] == ' ' && p[1] > ' ';
-    p = single_space ? p + 1 : skip(p);
+    PlainNumber number;
+    if (may_be_plain(p) && read_plain_number(p, number)) [[likely]] {
+      last_end = p + number.length;
+      if constexpr (keep_tokens) tokens[i] = {p, last_end};
+      values[i] = number.value;
+      most_decimals = std::max(most_decimals, number.decimals);
+      if (last_end[0] == ' ' && last_end[1] > ' ') [[likely]] {
+        p = last_end + 1;
+        continue;
+      }
+    } else {
+      const char* begin = p;
+      NumberToken token;
+      const bool found = read_rare(begin, token);
+      p = begin;
+      if (!found) break;
+      last_end = token.end;
+      if constexpr (keep_tokens) tokens[i] = {p, last_end};
+      values[i] = token.value;
+      most_decimals = std::max(most_decimals, token.decimals);
+    }
+    p = skip(last_end);
   }
+  last_end_ = last_end;
   most_decimals_ = most_decimals;
   position_ = p;
   return i;

@@ -91,6 +91,8 @@ CommaStyle comma_style(std::string_view line, std::size_t expected) {
 namespace {
 
 constexpr std::array<double, 10> scales{1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
+constexpr std::array<std::uint32_t, 10> integer_scales{
+    1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000, 1000000000};
 
 constexpr auto digit_pairs = [] {
   std::array<char, 200> pairs{};
@@ -101,17 +103,36 @@ constexpr auto digit_pairs = [] {
   return pairs;
 }();
 
-// Writes `value` backwards, with at least `least` digits, so that it ends at `end`.
-char* write_digits_before(char* end, std::uint64_t value, unsigned least) {
-  char* p = end;
-  while (value >= 10) {
+// 0 to 999 without leading zeros, and the length in the fourth byte: angles need no more.
+constexpr auto small_integers = [] {
+  std::array<char, 4000> texts{};
+  for (std::size_t i = 0; i < 1000; ++i) {
+    char* text = &texts[4 * i];
+    std::size_t length = 0;
+    if (i >= 100) text[length++] = static_cast<char>('0' + i / 100);
+    if (i >= 10) text[length++] = static_cast<char>('0' + i / 10 % 10);
+    text[length++] = static_cast<char>('0' + i % 10);
+    text[3] = static_cast<char>(length);
+  }
+  return texts;
+}();
+
+char* write_integer(char* out, std::uint64_t value) {
+  if (value >= 1000) return std::to_chars(out, out + fixed_number_room, value).ptr;
+  const char* text = &small_integers[4 * value];
+  std::memcpy(out, text, 4);
+  return out + text[3];
+}
+
+// Exactly `count` digits.
+char* write_digits(char* out, std::uint32_t value, unsigned count) {
+  char* p = out + count;
+  for (; p - out >= 2; value /= 100) {
     p -= 2;
     std::memcpy(p, &digit_pairs[2 * (value % 100)], 2);
-    value /= 100;
   }
-  if (value > 0) *--p = static_cast<char>('0' + value);
-  while (end - p < static_cast<std::ptrdiff_t>(least)) *--p = '0';
-  return p;
+  if (p != out) *out = static_cast<char>('0' + value);
+  return out + count;
 }
 
 char* write_with_library(char* out, double value, unsigned decimals) {
@@ -138,18 +159,12 @@ char* write_fixed(char* out, double value, unsigned decimals) {
   if (std::fabs(beyond_tie) <= scaled * 0x1p-52) return write_with_library(out, value, decimals);
   integer += beyond_tie > 0 ? 1 : 0;
   if (value < 0 && integer > 0) *out++ = '-';
-  std::array<char, 24> buffer;
-  char* const end = buffer.data() + buffer.size();
-  const char* digits = write_digits_before(end, integer, decimals + 1);
-  const char* point = end - decimals;
-  std::memcpy(out, digits, static_cast<std::size_t>(point - digits));
-  out += point - digits;
-  if (decimals > 0) {
-    *out++ = '.';
-    std::memcpy(out, point, decimals);
-    out += decimals;
-  }
-  return out;
+  const std::uint32_t scale = integer_scales[decimals];
+  const std::uint64_t whole = integer / scale;
+  out = write_integer(out, whole);
+  if (decimals == 0) return out;
+  *out++ = '.';
+  return write_digits(out, static_cast<std::uint32_t>(integer - whole * scale), decimals);
 }
 
 char* write_shortest(char* out, double value) {

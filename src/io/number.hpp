@@ -109,46 +109,92 @@ inline constexpr std::uint64_t integer_powers[] = {1,      10,      100,      10
                                                    100000, 1000000, 10000000, 100000000};
 inline constexpr double powers[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};
 
-// The number that the first `count` (0 to 8) of eight digits make: pairs, then fours, then all in
-// one register.
-inline std::uint64_t join_digits(std::uint64_t digits, unsigned count) {
-  const unsigned half_shift = 4 * (8 - count);
-  digits = ((digits << half_shift) << half_shift) & 0x0F0F0F0F0F0F0F0Fu;
-  digits = (digits * 10 + (digits >> 8)) & 0x00FF00FF00FF00FFu;
-  digits = (digits * 100 + (digits >> 16)) & 0x0000FFFF0000FFFFu;
-  return (digits * 10000 + (digits >> 32)) & 0xFFFFFFFFu;
+// The digits' values in the last `count` of eight bytes (the highest ones, read little-endian);
+// nothing elsewhere.
+inline constexpr std::uint64_t last_digits[] = {
+    0,
+    0x0F00000000000000u,
+    0x0F0F000000000000u,
+    0x0F0F0F0000000000u,
+    0x0F0F0F0F00000000u,
+    0x0F0F0F0F0F000000u,
+    0x0F0F0F0F0F0F0000u,
+    0x0F0F0F0F0F0F0F00u,
+    0x0F0F0F0F0F0F0F0Fu,
+};
+
+struct DigitGroups {
+  std::uint32_t first = 0;
+  std::uint32_t second = 0;
+  friend bool operator==(const DigitGroups&, const DigitGroups&) = default;
+};
+
+// The numbers that two groups of eight digit values make: pairs, then fours, then all in one
+// register.
+inline DigitGroups join_digits_portable(std::uint64_t first, std::uint64_t second) {
+  const auto join = [](std::uint64_t digits) {
+    digits = (digits * 10 + (digits >> 8)) & 0x00FF00FF00FF00FFu;
+    digits = (digits * 100 + (digits >> 16)) & 0x0000FFFF0000FFFFu;
+    return static_cast<std::uint32_t>(digits * 10000 + (digits >> 32));
+  };
+  return {join(first), join(second)};
+}
+
+inline DigitGroups join_digits(std::uint64_t first, std::uint64_t second) {
+#if defined(__SSE2__)
+  const __m128i digits =
+      _mm_set_epi64x(static_cast<std::int64_t>(second), static_cast<std::int64_t>(first));
+  const __m128i tens =
+      _mm_and_si128(_mm_mullo_epi16(digits, _mm_set1_epi16(10)), _mm_set1_epi16(0xFF));
+  const __m128i pairs = _mm_add_epi16(tens, _mm_srli_epi16(digits, 8));
+  const __m128i fours = _mm_madd_epi16(pairs, _mm_set1_epi32(1 << 16 | 100));
+  const __m128i eights =
+      _mm_madd_epi16(_mm_packs_epi32(fours, fours), _mm_set1_epi32(1 << 16 | 10000));
+  const auto both = static_cast<std::uint64_t>(_mm_cvtsi128_si64(eights));
+  return {static_cast<std::uint32_t>(both), static_cast<std::uint32_t>(both >> 32)};
+#else
+  return join_digits_portable(first, second);
+#endif
 }
 
 }  // namespace detail
 
-/// Bytes that must be readable from the start of a token for `read_plain_number`.
+/// Bytes that must be readable before and after the start of a token for `read_plain_number`.
+inline constexpr std::ptrdiff_t plain_number_lead = 8;
 inline constexpr std::ptrdiff_t plain_number_reach = 32;
+
+struct PlainNumber {
+  double value = 0;
+  unsigned length = 0;
+  unsigned decimals = 0;
+};
 
 /// The common case without branches that depend on the token's length: an optional minus sign, up
 /// to eight digits, a point, up to eight digits, 15 in all. Both the digits and the power of ten
 /// are exact doubles, so the quotient is correctly rounded. False for any other token;
 /// little-endian processors only.
-inline bool read_plain_number(const char* p, NumberToken& token) {
+inline bool read_plain_number(const char* p, PlainNumber& number) {
   if constexpr (std::endian::native != std::endian::little) return false;
   const ByteMasks masks = detail::byte_masks(p);
   const auto length = static_cast<unsigned>(std::countr_zero(masks.blank | 0x10000u));
   const std::uint32_t negative = *p == '-' ? 1 : 0;
-  const std::uint32_t whole = (1u << length) - 1;
+  const std::uint32_t beyond = 1u << length, whole = beyond - 1;
   const std::uint32_t dots = masks.dot & whole;
-  const auto dot = static_cast<unsigned>(std::countr_zero(dots | 1u << length));
-  const unsigned before = dot - negative, after = length - dot - (dots != 0 ? 1 : 0),
-                 digits = before + after;
+  const auto dot = static_cast<unsigned>(std::countr_zero(dots | beyond));
+  const unsigned before = dot - negative, after = length - dot - (dots != 0 ? 1 : 0);
   const bool plain = ((masks.digit | dots | negative) & whole) == whole && (dots & (dots - 1)) == 0;
-  if (!plain || before > 8 || after > 8 || digits - 1 > 14) return false;
-  const std::uint64_t integer = detail::join_digits(detail::load8(p + negative), before);
-  const std::uint64_t fraction = detail::join_digits(detail::load8(p + dot + 1), after);
+  if (!plain || before > 8 || after > 8 || before + after == 0 || length == 16) return false;
+  // Each part is loaded so that it ends with the eight bytes.
+  const std::uint64_t integer = detail::load8(p + dot - 8) & detail::last_digits[before];
+  const std::uint64_t fraction = detail::load8(p + length - 8) & detail::last_digits[after];
+  const detail::DigitGroups parts = detail::join_digits(integer, fraction);
   const auto mantissa =
-      static_cast<std::int64_t>(integer * detail::integer_powers[after] + fraction);
+      static_cast<std::int64_t>(parts.first * detail::integer_powers[after] + parts.second);
   const double value = static_cast<double>(mantissa) / detail::powers[after];
-  token.value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) ^
-                                      static_cast<std::uint64_t>(negative) << 63);
-  token.end = p + length;
-  token.decimals = after;
+  number.value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) |
+                                       static_cast<std::uint64_t>(negative) << 63);
+  number.length = length;
+  number.decimals = after;
   return true;
 }
 

@@ -8,6 +8,12 @@
 
 namespace kinemend {
 
+namespace {
+
+bool is_brace(char c) { return c == '{' || c == '}'; }
+
+}  // namespace
+
 std::size_t line_at(std::string_view text, std::size_t offset) {
   offset = std::min(offset, text.size());
   std::size_t line = 1;
@@ -22,7 +28,7 @@ std::string quote(std::string_view found) {
   constexpr std::size_t longest = 40;
   if (found.empty()) return "the end of the file";
   std::string text = "\"";
-  for (const char c : found.substr(0, longest)) text += c >= ' ' && c <= '~' ? c : '?';
+  for (const char c : found.substr(0, longest)) text += c >= ' ' && c <= '~' ? c : '.';
   return text + (found.size() > longest ? "...\"" : "\"");
 }
 
@@ -64,7 +70,6 @@ void TextScanner::skip_blanks() {
 
 std::string_view TextScanner::peek() {
   skip_blanks();
-  const auto is_brace = [](char c) { return c == '{' || c == '}'; };
   std::size_t end = position_;
   if (end < bytes_.size() && is_brace(bytes_[end])) return bytes_.substr(end, 1);
   while (end < bytes_.size() && !is_space(bytes_[end]) && !is_brace(bytes_[end])) ++end;
@@ -84,13 +89,14 @@ bool TextScanner::accept(std::string_view word) {
 }
 
 std::string_view TextScanner::rest_of_line() const {
-  return bytes_.substr(position_, line_end(position_) - position_);
+  std::size_t end = position_;
+  while (end < bytes_.size() && !is_line_end(bytes_[end]) && !is_brace(bytes_[end])) ++end;
+  return bytes_.substr(position_, end - position_);
 }
 
 std::string_view TextScanner::name() {
   while (position_ < bytes_.size() && is_space(bytes_[position_])) ++position_;
   std::string_view line = rest_of_line();
-  line = line.substr(0, line.find_first_of("{}"));
   position_ += line.size();
   while (!line.empty() && is_space(line.back())) line.remove_suffix(1);
   return line;

@@ -13,8 +13,8 @@ namespace kinemend {
 /// asked, which is when something is wrong, so that reading costs nothing.
 std::size_t line_at(std::string_view text, std::size_t offset);
 
-/// What a file holds at some place, for a message: printable ASCII, quoted, cut at 40 characters;
-/// `the end of the file` when it is empty.
+/// What a file holds at some place, for a message: printable ASCII (a dot for the rest), quoted,
+/// cut at 40 characters; `the end of the file` when it is empty.
 std::string quote(std::string_view found);
 
 bool equal_ignoring_case(std::string_view a, std::string_view b);
@@ -51,7 +51,7 @@ class TextScanner {
   /// The rest of the line, or the next line when the rest is blank, up to a brace, without white
   /// space at either end. Empty when a brace is next.
   std::string_view name();
-  /// The rest of the line; stays before it.
+  /// The rest of the line, up to a brace; stays before it.
   std::string_view rest_of_line() const;
 
   /// Of the next word, once it was peeked at.
