@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+#include "config.hpp"
+#include "frame_range.hpp"
+#include "kinemend/clean.hpp"
+
+namespace kinemend::cli {
+
+/// One take on its way.
+struct CleanJob {
+  std::string input;
+  std::string output;
+};
+
+/// All that `clean` was asked for, checked.
+struct CleanPlan {
+  std::vector<CleanJob> jobs;
+  std::string method;
+  OptionValues options;  ///< every option of the method with its value
+  std::unique_ptr<Cleaner> cleaner;
+  CleanSettings settings;
+  std::optional<FrameRange> range;
+  std::string format;       ///< of the input; empty: by content
+  std::string report_path;  ///< empty: none
+  bool strict = false;
+  bool force = false;
+  bool dry_run = false;
+  bool json = false;
+  bool verbose = false;
+  bool quiet = false;
+  int threads = 0;  ///< 0: as many as there are cores
+};
+
+/// Defaults, under the preset, under the configuration file, under the command line.
+Settings merged_settings(const Arguments& arguments);
+/// Errors: `ErrorKind::usage`.
+CleanPlan make_clean_plan(const Arguments& arguments);
+
+}  // namespace kinemend::cli

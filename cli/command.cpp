@@ -1,0 +1,154 @@
+#include "command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "commands.hpp"
+
+namespace kinemend::cli {
+
+const std::vector<Command>& commands() {
+  static const std::vector<Command> table = {
+      clean_command(),   info_command(),       compare_command(),
+      methods_command(), convert_command(),    corrupt_command(),
+      synth_command(),   completion_command(), man_command()};
+  return table;
+}
+
+const Command* find_command(std::string_view name) {
+  for (const Command& command : commands()) {
+    if (command.name == name) return &command;
+  }
+  return nullptr;
+}
+
+OptionValue Arguments::value(std::string_view name) const {
+  if (const auto found = values.find(name); found != values.end()) return found->second;
+  for (const Flag& flag : command->flags) {
+    if (flag.spec.name == name) return flag.spec.default_value;
+  }
+  throw std::logic_error("no flag is called " + std::string(name));
+}
+
+std::vector<std::string> Arguments::list(std::string_view name) const {
+  const auto found = lists.find(name);
+  return found == lists.end() ? std::vector<std::string>() : found->second;
+}
+
+Flag switch_flag(std::string name, std::string group, std::string help, std::string details) {
+  Flag flag;
+  flag.spec = {std::move(name), "", false, 0, 1, {}, std::move(help)};
+  flag.takes = Takes::nothing;
+  flag.group = std::move(group);
+  flag.details = std::move(details);
+  return flag;
+}
+
+Flag number_flag(std::string name, std::string unit, double default_value, double minimum,
+                 double maximum, std::string group, std::string help, std::string details) {
+  Flag flag;
+  flag.spec = {std::move(name), std::move(unit), default_value, minimum, maximum, {},
+               std::move(help)};
+  flag.group = std::move(group);
+  flag.details = std::move(details);
+  return flag;
+}
+
+Flag whole_flag(std::string name, std::int64_t default_value, double minimum, double maximum,
+                std::string group, std::string help, std::string details) {
+  Flag flag;
+  flag.spec = {std::move(name), "", default_value, minimum, maximum, {}, std::move(help)};
+  flag.group = std::move(group);
+  flag.details = std::move(details);
+  return flag;
+}
+
+Flag text_flag(std::string name, std::string value_name, std::string group, std::string help,
+               std::string details) {
+  Flag flag;
+  flag.spec = {std::move(name), "", std::string(), 0, 0, {}, std::move(help)};
+  flag.value_name = std::move(value_name);
+  flag.group = std::move(group);
+  flag.details = std::move(details);
+  flag.has_default = false;
+  return flag;
+}
+
+bool is_on_by_default(const Flag& flag) {
+  const bool* is_on = std::get_if<bool>(&flag.spec.default_value);
+  return is_on && *is_on;
+}
+
+std::string dashed(std::string_view name) {
+  std::string result(name);
+  std::replace(result.begin(), result.end(), '_', '-');
+  return result;
+}
+
+std::string value_name(const Flag& flag) {
+  if (flag.takes == Takes::nothing) return "";
+  if (!flag.value_name.empty()) return flag.value_name;
+  if (!flag.spec.choices.empty()) return fmt::format("{}", fmt::join(flag.spec.choices, "|"));
+  if (std::holds_alternative<std::int64_t>(flag.spec.default_value)) return "N";
+  if (std::holds_alternative<double>(flag.spec.default_value)) return "X";
+  return "TEXT";
+}
+
+std::string range_text(const OptionSpec& spec, bool has_default) {
+  const bool is_number = std::holds_alternative<double>(spec.default_value) ||
+                         std::holds_alternative<std::int64_t>(spec.default_value);
+  std::string text;
+  if (!spec.choices.empty()) text = fmt::format("{}", fmt::join(spec.choices, ", "));
+  if (is_number) {
+    const std::string unit = spec.unit.empty() ? "" : " " + spec.unit;
+    if (std::isfinite(spec.maximum)) {
+      text = fmt::format("{} to {}{}", spec.minimum, spec.maximum, unit);
+    } else if (std::isfinite(spec.minimum)) {
+      text = fmt::format("{}{} or more", spec.minimum, unit);
+    } else if (!spec.unit.empty()) {
+      text = "in " + spec.unit;
+    }
+  }
+  const std::string value = to_string(spec.default_value);
+  if (!has_default || value.empty()) return text;
+  return fmt::format("{}{}default {}", text, text.empty() ? "" : "; ", value);
+}
+
+namespace {
+
+// Levenshtein's distance, one row at a time.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string nearest(std::string_view name, const std::vector<std::string>& candidates) {
+  if (name.size() > 60) return "";
+  std::string best;
+  std::size_t best_distance = std::max<std::size_t>(2, name.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    const bool begins = name.size() >= 3 && candidate.compare(0, name.size(), name) == 0;
+    const std::size_t distance = begins ? 1 : edit_distance(name, candidate);
+    if (distance < best_distance) {
+      best = candidate;
+      best_distance = distance;
+    }
+  }
+  return best;
+}
+
+}  // namespace kinemend::cli

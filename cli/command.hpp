@@ -1,0 +1,123 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemend/options.hpp"
+
+// The tables from which parser, help, manual page, shell completion and configuration files all
+// come.
+namespace kinemend::cli {
+
+/// How often a flag takes a value.
+enum class Takes : std::uint8_t {
+  nothing,  ///< a switch
+  value,    ///< one value; of several the last holds
+  list,     ///< comma-separated values, and as many times as one likes
+  repeated  ///< one value a time, as many times as one likes
+};
+
+/// What a shell offers for a value; the choices of the flag's spec come first.
+enum class Completion : std::uint8_t { none, file, folder };
+
+/// One flag of a command, defined once. Its spec holds name (`max_change_deg` is
+/// `--max-change-deg`), unit, default, range, choices and the one-line help.
+struct Flag {
+  OptionSpec spec;
+  Takes takes = Takes::value;
+  char letter = 0;         ///< `-o`; 0 for none
+  std::string value_name;  ///< "FILE"; empty: made from the spec
+  std::string group;       ///< heading in the help
+  std::string details;     ///< further sentences of the long help
+  Completion completion = Completion::none;
+  bool configurable = false;  ///< may stand in a configuration file
+  bool has_default = true;    ///< false: no default is shown and none applies
+};
+
+struct Positional {
+  std::string name;  ///< "IN"
+  std::string help;
+  std::size_t minimum = 1;
+  std::size_t maximum = 1;
+  std::vector<std::string> choices;  ///< for shells; empty: files
+};
+
+/// Options that belong to an entry of a library table: a method's or a damage's.
+struct OptionGroup {
+  std::string name;     ///< "bilateral"
+  std::string summary;  ///< one line
+  std::string paper;
+  std::vector<OptionSpec> options;
+};
+
+struct Example {
+  std::string command;
+  std::string explanation;
+};
+
+class Arguments;
+
+struct Command {
+  std::string name;
+  std::string summary;      ///< one line
+  std::string description;  ///< paragraphs, separated by blank lines
+  std::vector<Positional> positionals;
+  std::vector<Flag> flags;
+  std::string group_heading;        ///< "Options of --method %"
+  std::vector<OptionGroup> groups;  ///< options of the entries of a table
+  bool groups_are_flags = false;    ///< each option of a group is a flag of its own
+  std::vector<Example> examples;
+  int (*run)(const Arguments& arguments) = nullptr;
+};
+
+/// Every command, in the order of the help.
+const std::vector<Command>& commands();
+const Command* find_command(std::string_view name);
+
+/// A checked command line.
+class Arguments {
+ public:
+  const Command* command = nullptr;
+  std::vector<std::string> positionals;
+  OptionValues values;  ///< given flags with one value
+  std::map<std::string, std::vector<std::string>, std::less<>> lists;  ///< given lists
+  std::map<std::string, std::string, std::less<>> group_texts;         ///< given flags of groups
+
+  bool given(std::string_view name) const {
+    return values.find(name) != values.end() || lists.find(name) != lists.end();
+  }
+  /// The value given, else the default.
+  double number(std::string_view name) const { return std::get<double>(value(name)); }
+  std::int64_t whole(std::string_view name) const { return std::get<std::int64_t>(value(name)); }
+  bool flag(std::string_view name) const { return std::get<bool>(value(name)); }
+  std::string text(std::string_view name) const { return std::get<std::string>(value(name)); }
+  std::vector<std::string> list(std::string_view name) const;
+
+ private:
+  OptionValue value(std::string_view name) const;
+};
+
+/// Flags in the words of a table.
+Flag switch_flag(std::string name, std::string group, std::string help, std::string details = {});
+Flag number_flag(std::string name, std::string unit, double default_value, double minimum,
+                 double maximum, std::string group, std::string help, std::string details = {});
+Flag whole_flag(std::string name, std::int64_t default_value, double minimum, double maximum,
+                std::string group, std::string help, std::string details = {});
+Flag text_flag(std::string name, std::string value_name, std::string group, std::string help,
+               std::string details = {});
+
+/// A switch that is on unless `--no-...` turns it off.
+bool is_on_by_default(const Flag& flag);
+/// `max_change_deg` to `max-change-deg`.
+std::string dashed(std::string_view name);
+/// What a value is called in the help: "FILE", "X", "N", "a|b".
+std::string value_name(const Flag& flag);
+/// "0 to 180 deg, default 180"; empty where there is nothing to say.
+std::string range_text(const OptionSpec& spec, bool has_default = true);
+/// The name of `candidates` that looks most like `name`; empty when none is near.
+std::string nearest(std::string_view name, const std::vector<std::string>& candidates);
+
+}  // namespace kinemend::cli

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "command.hpp"
+
+// Each command's file defines its entry in the table of commands; `command.cpp` lists them.
+namespace kinemend::cli {
+
+Command clean_command();
+Command info_command();
+Command compare_command();
+Command methods_command();
+Command convert_command();
+Command corrupt_command();
+Command synth_command();
+Command completion_command();
+Command man_command();
+
+}  // namespace kinemend::cli

@@ -1,0 +1,175 @@
+// kinemend corrupt: seeded damage, for tests and comparisons.
+
+#include "kinemend/corrupt.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "command_line.hpp"
+#include "commands.hpp"
+#include "json.hpp"
+#include "kinemend/io.hpp"
+#include "table.hpp"
+#include "takes.hpp"
+#include "terminal.hpp"
+
+namespace kinemend::cli {
+
+namespace {
+
+struct DamageRequest {
+  std::string name;
+  OptionValues values;
+};
+
+const Damage& damage_or_refuse(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Damage& damage : damages()) {
+    if (damage.name == name) return damage;
+    names.push_back(damage.name);
+  }
+  const std::string guess = nearest(name, names);
+  throw Error(
+      ErrorKind::usage,
+      guess.empty()
+          ? fmt::format("--damage: unknown damage {}; there are {}", name, fmt::join(names, ", "))
+          : fmt::format("--damage: unknown damage {} (did you mean {}?)", name, guess));
+}
+
+const OptionSpec& option_or_refuse(const Damage& damage, std::string name) {
+  std::replace(name.begin(), name.end(), '-', '_');
+  std::vector<std::string> names;
+  for (const OptionSpec& spec : damage.options) {
+    if (spec.name == name) return spec;
+    names.push_back(spec.name);
+  }
+  throw Error(ErrorKind::usage, fmt::format("--damage: {} has no option {}; it has {}", damage.name,
+                                            name, fmt::join(names, ", ")));
+}
+
+/// "a=1,b=x,y" to {a=1, b=x,y}: a part without = goes on with the value before it.
+std::vector<std::string> split_options(const std::string& text) {
+  std::vector<std::string> parts;
+  for (const std::string& part : split_list({text})) {
+    if (part.find('=') == std::string::npos && !parts.empty()) {
+      parts.back() += "," + part;
+    } else {
+      parts.push_back(part);
+    }
+  }
+  return parts;
+}
+
+/// "gaussian:std_deg=1.5,joints=Left*"
+DamageRequest parse_damage(const std::string& text) {
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const Damage& damage = damage_or_refuse(text.substr(0, colon));
+  DamageRequest request{damage.name, {}};
+  for (const std::string& part : split_options(text.substr(std::min(colon + 1, text.size())))) {
+    const std::size_t equals = part.find('=');
+    const OptionSpec& spec = option_or_refuse(damage, part.substr(0, equals));
+    if (equals == std::string::npos && !std::holds_alternative<bool>(spec.default_value))
+      throw Error(ErrorKind::usage, fmt::format("--damage: {} needs a value", part));
+    try {
+      request.values[spec.name] =
+          parse_option(spec, equals == std::string::npos ? "true" : part.substr(equals + 1));
+    } catch (const Error& error) {
+      throw Error(ErrorKind::usage, fmt::format("--damage {}: {}", damage.name, error.what()));
+    }
+  }
+  return request;
+}
+
+Json json_of_damage(const DamageReport& report) {
+  return {{"damage", report.kind},
+          {"samples", report.samples},
+          {"samples_damaged", report.samples_damaged},
+          {"rms_deg", report.rms_deg},
+          {"max_deg", report.max_deg},
+          {"rms_position", report.rms_position},
+          {"notes", report.notes}};
+}
+
+std::string text_of_damages(const std::vector<DamageReport>& reports) {
+  Table table({Align::left, Align::right, Align::right, Align::right, Align::right, Align::right});
+  table.add({"damage", "samples", "damaged", "rms deg", "max deg", "rms position"});
+  std::string notes;
+  for (const DamageReport& report : reports) {
+    table.add({report.kind, grouped(report.samples), grouped(report.samples_damaged),
+               figure(report.rms_deg), figure(report.max_deg), figure(report.rms_position)});
+    for (const std::string& note : report.notes)
+      notes += fmt::format("  {}: {}\n", report.kind, printable(note));
+  }
+  return table.text() + notes;
+}
+
+int run(const Arguments& arguments) {
+  const std::string input = arguments.positionals[0];
+  const std::string output = arguments.text("output");
+  const bool json = arguments.flag("json");
+  const bool force = arguments.flag("force");
+  if (output.empty())
+    throw Error(ErrorKind::usage, "corrupt: --output is missing (see kinemend corrupt -h)");
+  std::vector<DamageRequest> requests;
+  for (const std::string& text : arguments.list("damage")) requests.push_back(parse_damage(text));
+  if (requests.empty())
+    throw Error(ErrorKind::usage, "corrupt: --damage is missing (see kinemend corrupt -h)");
+  check_single_use({input}, {output}, json);
+  check_free(output, force);
+  ReadResult take = read_clip(std::filesystem::path(input), read_options(arguments));
+  warn_of_repairs(input_name(input), take.diagnostics);
+  Random random(static_cast<std::uint64_t>(arguments.whole("seed")));
+  std::vector<DamageReport> reports;
+  for (const DamageRequest& request : requests)
+    reports.push_back(apply_damage(take.clip, request.name, request.values, random));
+  write_output(output, write_clip(take.clip, take.clip.source.format), force);
+  if (json) {
+    Json list = Json::array();
+    for (const DamageReport& report : reports) list.push_back(json_of_damage(report));
+    write_out(json_text({{"input", input},
+                         {"output", output},
+                         {"seed", arguments.whole("seed")},
+                         {"damages", std::move(list)}}));
+  } else if (output == "-") {
+    write_err(text_of_damages(reports));
+  } else {
+    write_out(text_of_damages(reports));
+  }
+  return 0;
+}
+
+}  // namespace
+
+Command corrupt_command() {
+  Flag damage = text_flag("damage", "NAME:OPTION=VALUE,...", "Work",
+                          "what to do to the take, in the order given",
+                          "Give it again for several damages, one after the other.");
+  damage.takes = Takes::repeated;
+  Command command;
+  command.name = "corrupt";
+  command.summary = "damage a take in a known way, for tests";
+  command.description =
+      "Applies controlled damage and prints how much of it came out. The same seed gives the same "
+      "bytes on every machine. A calibration pose at the start stays as it is.";
+  command.positionals = {{"IN", "take to read; - is standard input", 1, 1, {}}};
+  command.flags = {output_flag("where to write; - is standard output"),
+                   force_flag(),
+                   json_flag("print what was done as JSON"),
+                   damage,
+                   seed_flag("seed of the random numbers"),
+                   from_flag(),
+                   strict_flag("what needs a repair becomes an error")};
+  for (const Damage& entry : damages()) {
+    command.groups.push_back({entry.name, entry.summary, entry.paper, entry.options});
+    command.flags[3].spec.choices.push_back(entry.name);
+  }
+  command.group_heading = "Options of --damage %";
+  command.examples = {
+      {"kinemend corrupt walk.bvh -o noisy.bvh --damage gaussian:std_deg=1.5 --seed 7",
+       "jitter on every joint"}};
+  command.run = run;
+  return command;
+}
+
+}  // namespace kinemend::cli

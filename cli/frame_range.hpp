@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "kinemend/clip.hpp"
+
+namespace kinemend::cli {
+
+/// `--range`: "121:240" are frames counted from 1, "1.5s:2s" seconds from the start; either end may
+/// be left out.
+struct FrameRange {
+  bool in_seconds = false;
+  std::optional<double> first;
+  std::optional<double> last;
+};
+
+/// Errors: `ErrorKind::usage`.
+FrameRange parse_range(const std::string& text);
+
+/// Frames [first, last] of this clip, counted from 0. Errors: `ErrorKind::usage` when the range
+/// leaves the clip or holds no frame.
+std::pair<std::size_t, std::size_t> frames_of(const FrameRange& range, const Clip& clip);
+
+}  // namespace kinemend::cli

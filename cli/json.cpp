@@ -1,0 +1,43 @@
+#include "json.hpp"
+
+#include <cmath>
+
+namespace kinemend::cli {
+
+std::string json_text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json json_of(const OptionValue& value) {
+  return std::visit([](const auto& v) { return Json(v); }, value);
+}
+
+Json json_of(const OptionValues& values) {
+  Json json = Json::object();
+  for (const auto& [name, value] : values) json[name] = json_of(value);
+  return json;
+}
+
+Json json_of(const OptionSpec& spec) {
+  Json json = {{"name", spec.name}, {"help", spec.help}, {"default", json_of(spec.default_value)}};
+  if (!spec.unit.empty()) json["unit"] = spec.unit;
+  if (!spec.choices.empty()) json["choices"] = spec.choices;
+  const bool is_number = std::holds_alternative<double>(spec.default_value) ||
+                         std::holds_alternative<std::int64_t>(spec.default_value);
+  if (is_number && std::isfinite(spec.minimum)) json["minimum"] = spec.minimum;
+  if (is_number && std::isfinite(spec.maximum)) json["maximum"] = spec.maximum;
+  return json;
+}
+
+Json json_of(const Diagnostics& diagnostics) {
+  Json list = Json::array();
+  for (const Diagnostic& entry : diagnostics.entries()) {
+    list.push_back({{"name", entry.name},
+                    {"message", entry.message},
+                    {"first_line", entry.first_line},
+                    {"count", entry.count}});
+  }
+  return list;
+}
+
+}  // namespace kinemend::cli

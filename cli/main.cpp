@@ -1,0 +1,61 @@
+// The program: parses the command line, runs the command, turns errors into one line and a code.
+
+#include <fmt/format.h>
+
+#include <csignal>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "command_line.hpp"
+#include "help.hpp"
+#include "kinemend/version.hpp"
+#include "terminal.hpp"
+
+namespace {
+
+using namespace kinemend;
+using namespace kinemend::cli;
+
+int run(const std::vector<std::string>& words) {
+  const Request request = parse_command_line(words);
+  const Command* command = request.arguments.command;
+  const bool is_long = request.kind == Request::Kind::long_help;
+  switch (request.kind) {
+    case Request::Kind::version:
+      write_out(fmt::format("kinemend {}\n", version()));
+      return 0;
+    case Request::Kind::short_help:
+    case Request::Kind::long_help:
+      write_out(command ? command_help(*command, is_long) : program_help(is_long));
+      return 0;
+    case Request::Kind::run:
+      break;
+  }
+  return command->run(request.arguments);
+}
+
+int fail(const std::string& message, ErrorKind kind) {
+  say_error(message);
+  return static_cast<int>(kind);
+}
+
+}  // namespace
+
+// The locale is never set: the C library keeps to "C", and numbers look alike everywhere.
+int main(int argc, char** argv) {
+  // A reader that has gone shows as an error of the write, not as a signal.
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    return run({argv + 1, argv + argc});
+  } catch (const ClosedPipe&) {
+    return 0;
+  } catch (const Error& error) {
+    return fail(error.what(), error.kind());
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory", ErrorKind::unreadable_input);
+  } catch (const std::exception& error) {
+    return fail(fmt::format("internal error: {}", error.what()), ErrorKind::unreadable_input);
+  }
+}

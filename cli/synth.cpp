@@ -1,0 +1,60 @@
+// kinemend synth: writes a synthetic take, for tests and trials.
+
+#include "kinemend/synth.hpp"
+
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "kinemend/io.hpp"
+#include "takes.hpp"
+#include "terminal.hpp"
+
+namespace kinemend::cli {
+
+namespace {
+
+int run(const Arguments& arguments) {
+  const std::string output = arguments.text("output");
+  if (output.empty())
+    throw Error(ErrorKind::usage, "synth: --output is missing (see kinemend synth -h)");
+  check_free(output, arguments.flag("force"));
+  SynthOptions options;
+  options.motion = arguments.positionals[0];
+  options.duration_s = arguments.number("duration_s");
+  options.frame_rate_hz = arguments.number("frame_rate_hz");
+  options.seed = static_cast<std::uint64_t>(arguments.whole("seed"));
+  options.t_pose_first = arguments.flag("t_pose_first");
+  const Clip clip = synthesize(options);
+  const Format* format = format_of_path(output);
+  write_output(output, write_clip(clip, format ? format->name : "bvh"), arguments.flag("force"));
+  return 0;
+}
+
+}  // namespace
+
+Command synth_command() {
+  const SynthOptions defaults;
+  Command command;
+  command.name = "synth";
+  command.summary = "write a synthetic take of a full humanoid";
+  command.description =
+      "Clean truth for tests and trials: the joint curves follow published normative gait data. "
+      "The "
+      "same seed gives the same bytes.";
+  Positional motion{"MOTION", "what is done", 1, 1, {}};
+  for (const std::string_view name : synth_motions()) motion.choices.emplace_back(name);
+  motion.help = fmt::format("one of {}", fmt::join(motion.choices, ", "));
+  command.positionals = {motion};
+  command.flags = {
+      output_flag("where to write; - is standard output"),
+      force_flag(),
+      number_flag("duration_s", "s", defaults.duration_s, 0.1, 600, "Work", "length of the take"),
+      number_flag("frame_rate_hz", "Hz", defaults.frame_rate_hz, 1, 1000, "Work", "frame rate"),
+      switch_flag("t_pose_first", "Work", "put a T-pose before the motion, as in the CMU files"),
+      seed_flag("seed of the performer's build and strides")};
+  command.examples = {{"kinemend synth walk -o walk.bvh", "six seconds of walking at 120 Hz"}};
+  command.run = run;
+  return command;
+}
+
+}  // namespace kinemend::cli

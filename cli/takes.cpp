@@ -1,0 +1,114 @@
+#include "takes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "table.hpp"
+#include "terminal.hpp"
+
+namespace kinemend::cli {
+
+std::string input_name(const std::string& input) { return input == "-" ? "standard input" : input; }
+
+void check_free(const std::string& output, bool force) {
+  std::error_code ignored;
+  if (output == "-" || force || !std::filesystem::is_regular_file(output, ignored)) return;
+  throw Error(ErrorKind::cannot_write,
+              fmt::format("{}: exists already (--force replaces it)", output));
+}
+
+void write_output(const std::string& output, std::string_view bytes, bool force) {
+  if (output == "-") return write_out(bytes);
+  check_free(output, force);
+  write_file(output, bytes, force);
+}
+
+void check_single_use(const std::vector<std::string>& inputs,
+                      const std::vector<std::string>& outputs, bool json) {
+  if (std::count(inputs.begin(), inputs.end(), "-") > 1)
+    throw Error(ErrorKind::usage, "standard input can be read only once");
+  if (std::count(outputs.begin(), outputs.end(), "-") + (json ? 1 : 0) > 1) {
+    throw Error(ErrorKind::usage,
+                "standard output holds one thing: a take, a report or --json, not several");
+  }
+}
+
+std::string diagnostic_line(const std::string& name, const Diagnostic& diagnostic) {
+  std::string line = name;
+  if (diagnostic.first_line > 0) line += fmt::format(":{}", diagnostic.first_line);
+  line += ": " + diagnostic.message;
+  if (diagnostic.count > 1) line += fmt::format(" ({} times)", grouped(diagnostic.count));
+  return line;
+}
+
+void warn_of_repairs(const std::string& name, const Diagnostics& diagnostics) {
+  for (const Diagnostic& diagnostic : diagnostics.entries())
+    say_warning(diagnostic_line(name, diagnostic));
+}
+
+std::string grouped(std::size_t count) {
+  const std::string digits = fmt::format("{}", count);
+  std::string result;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) result += ',';
+    result += digits[i];
+  }
+  return result;
+}
+
+std::string counted(std::size_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
+}
+
+std::string length_text(std::size_t frames, double frame_rate_hz) {
+  return fmt::format("{} at {:.6g} Hz ({:.2f} s)", counted(frames, "frame"), frame_rate_hz,
+                     frame_rate_hz > 0 ? static_cast<double>(frames) / frame_rate_hz : 0.0);
+}
+
+Flag force_flag() {
+  return switch_flag("force", "Output", "replace outputs that exist",
+                     "Without it an output that exists is left alone, with exit code 4.");
+}
+
+Flag json_flag(std::string help) {
+  return switch_flag("json", "Output", std::move(help),
+                     "Frames count from 1 there too; a figure that is not finite is null.");
+}
+
+Flag output_flag(std::string help) {
+  Flag flag = text_flag("output", "OUT", "Output", std::move(help));
+  flag.letter = 'o';
+  flag.completion = Completion::file;
+  return flag;
+}
+
+Flag seed_flag(std::string help) { return whole_flag("seed", 1, 0, 9e15, "Work", std::move(help)); }
+
+Flag from_flag() {
+  Flag flag =
+      text_flag("from", "", "Input", "format of the input, where its content does not tell");
+  flag.spec.choices = format_names();
+  return flag;
+}
+
+Flag strict_flag(std::string help) {
+  return switch_flag("strict", "Input", std::move(help),
+                     "A file that is odd but usable is read with a warning otherwise.");
+}
+
+std::vector<std::string> format_names() {
+  std::vector<std::string> names;
+  for (const Format& format : formats()) names.emplace_back(format.name);
+  return names;
+}
+
+ReadOptions read_options(const Arguments& arguments) {
+  ReadOptions options;
+  options.format = arguments.text("from");
+  options.strict = arguments.flag("strict");
+  return options;
+}
+
+}  // namespace kinemend::cli

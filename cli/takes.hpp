@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "command.hpp"
+#include "kinemend/io.hpp"
+
+// What the commands that read and write takes have in common.
+namespace kinemend::cli {
+
+/// "standard input" for "-".
+std::string input_name(const std::string& input);
+/// Refuses an output that exists, before work is spent on it. Errors: `ErrorKind::cannot_write`.
+void check_free(const std::string& output, bool force);
+/// To a file, or to standard output for "-".
+void write_output(const std::string& output, std::string_view bytes, bool force);
+/// Refuses a second use of standard input or standard output. Errors: `ErrorKind::usage`.
+void check_single_use(const std::vector<std::string>& inputs,
+                      const std::vector<std::string>& outputs, bool json);
+/// A line a kind of repair, as a warning.
+std::string diagnostic_line(const std::string& name, const Diagnostic& diagnostic);
+void warn_of_repairs(const std::string& name, const Diagnostics& diagnostics);
+
+/// "1 frame", "2 frames", "2,404 frames".
+std::string counted(std::size_t count, std::string_view noun);
+/// Digits in groups of three.
+std::string grouped(std::size_t count);
+/// "2,404 frames at 120 Hz (20.03 s)".
+std::string length_text(std::size_t frames, double frame_rate_hz);
+
+/// Flags that several commands share.
+Flag force_flag();
+Flag json_flag(std::string help);
+Flag output_flag(std::string help);
+Flag seed_flag(std::string help);
+/// The flags of reading: --from, --strict.
+Flag from_flag();
+Flag strict_flag(std::string help);
+std::vector<std::string> format_names();
+ReadOptions read_options(const Arguments& arguments);
+
+}  // namespace kinemend::cli

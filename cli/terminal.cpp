@@ -1,0 +1,119 @@
+#include "terminal.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+namespace kinemend::cli {
+
+namespace {
+
+bool is_colourful(int stream) {
+  const char* no_color = std::getenv("NO_COLOR");
+  const char* terminal = std::getenv("TERM");
+  return isatty(stream) && !(no_color && *no_color) && terminal &&
+         std::strcmp(terminal, "dumb") != 0;
+}
+
+/// 0, or the error's number.
+int write_all(int stream, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = ::write(stream, text.data(), text.size());
+    if (count >= 0) {
+      text.remove_prefix(static_cast<std::size_t>(count));
+    } else if (errno != EINTR) {
+      return errno;
+    }
+  }
+  return 0;
+}
+
+std::string_view code_of(Paint paint) {
+  switch (paint) {
+    case Paint::bold:
+      return "1";
+    case Paint::dim:
+      return "2";
+    case Paint::red:
+      return "1;31";
+    case Paint::green:
+      return "32";
+    case Paint::yellow:
+      return "33";
+  }
+  return "0";
+}
+
+void say_as(Paint paint, std::string_view kind, std::string_view text) {
+  write_err(fmt::format("kinemend: {}{}\n", Colours::of_err().paint(paint, kind), printable(text)));
+}
+
+}  // namespace
+
+void write_out(std::string_view text) {
+  const int error = write_all(STDOUT_FILENO, text);
+  if (error == EPIPE) throw ClosedPipe();
+  if (error != 0)
+    throw Error(ErrorKind::cannot_write, fmt::format("standard output: {}", std::strerror(error)));
+}
+
+void write_err(std::string_view text) { write_all(STDERR_FILENO, text); }
+
+void say(std::string_view text) { say_as(Paint::bold, "", text); }
+void say_warning(std::string_view text) { say_as(Paint::yellow, "warning: ", text); }
+void say_error(std::string_view text) { say_as(Paint::red, "", text); }
+
+Colours Colours::of_out() { return Colours(is_colourful(STDOUT_FILENO)); }
+Colours Colours::of_err() { return Colours(is_colourful(STDERR_FILENO)); }
+
+std::string Colours::paint(Paint paint, std::string_view text) const {
+  if (!on_ || text.empty()) return std::string(text);
+  return fmt::format("\033[{}m{}\033[0m", code_of(paint), text);
+}
+
+std::string printable(std::string_view text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0;
+    // U+0080 to U+009F are control characters too.
+    const bool is_c1 = byte == 0xC2 && next >= 0x80 && next <= 0x9F;
+    if (byte < 0x20 || byte == 0x7F || is_c1) {
+      result += fmt::format("\\x{:02x}", is_c1 ? next : byte);
+      i += is_c1 ? 1 : 0;
+    } else {
+      result += text[i];
+    }
+  }
+  return result;
+}
+
+ProgressBar::ProgressBar(std::size_t total)
+    : total_(total), on_(total > 1 && isatty(STDERR_FILENO)) {
+  draw();
+}
+
+ProgressBar::~ProgressBar() { clear(); }
+
+void ProgressBar::step() {
+  const std::lock_guard lock(mutex_);
+  ++done_;
+  draw();
+}
+
+void ProgressBar::clear() {
+  if (on_) write_err("\r\033[K");
+}
+
+void ProgressBar::draw() {
+  if (!on_) return;
+  constexpr std::size_t width = 30;
+  const std::size_t full = done_ * width / total_;
+  write_err(fmt::format("\r\033[K[{:=<{}}{:<{}}] {}/{} takes", "", full, "", width - full, done_,
+                        total_));
+}
+
+}  // namespace kinemend::cli

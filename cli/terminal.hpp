@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include "kinemend/error.hpp"
+
+namespace kinemend::cli {
+
+/// The reader of standard output is gone, which is no failure: `head` has seen enough.
+struct ClosedPipe {};
+
+/// Throws `ClosedPipe`, or `Error` of kind `cannot_write`.
+void write_out(std::string_view text);
+/// Never fails: there is nobody left to tell.
+void write_err(std::string_view text);
+/// `kinemend: text` on standard error, on one line whatever is in the text.
+void say(std::string_view text);
+void say_warning(std::string_view text);
+void say_error(std::string_view text);
+
+enum class Paint { bold, dim, red, green, yellow };
+
+/// Colours for one of the standard streams: none unless it is a terminal and NO_COLOR is not set.
+class Colours {
+ public:
+  static Colours of_out();
+  static Colours of_err();
+  explicit Colours(bool on) : on_(on) {}
+  std::string paint(Paint paint, std::string_view text) const;
+
+ private:
+  bool on_;
+};
+
+/// Control characters as \xNN, so that a name in a file can neither break a line nor command the
+/// terminal.
+std::string printable(std::string_view text);
+
+/// A bar on standard error, on a terminal only. Calls may come from any thread.
+class ProgressBar {
+ public:
+  explicit ProgressBar(std::size_t total);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void step();
+  /// Takes the bar off the line so that other text can be printed; `step` draws it again.
+  void clear();
+
+ private:
+  void draw();
+
+  std::mutex mutex_;
+  std::size_t total_;
+  std::size_t done_ = 0;
+  bool on_;
+};
+
+}  // namespace kinemend::cli
