@@ -22,8 +22,8 @@ bool counts_in_rms(const Skeleton& skeleton, std::size_t joint) {
   return skeleton.parents[joint] >= 0 && skeleton.rotation_order(joint).count > 0;
 }
 
-// Squared wrapped differences of one joint's moving channels, added to `sums` frame by frame.
-// Returns the channels.
+// Squared differences (wrapped, as the other clip's angles are the nearest) of one joint's moving
+// channels, added to `sums` frame by frame. Returns the channels.
 std::size_t add_channel_errors(const Clip& reference, const Clip& other, std::size_t joint,
                                std::size_t first_frame, std::vector<double>& sums) {
   const RotationOrder order = reference.skeleton.rotation_order(joint);
@@ -48,7 +48,7 @@ std::size_t add_channel_errors(const Clip& reference, const Clip& other, std::si
     const Angles found = to_euler_near(other.rotation(first_frame + f, joint), order, wanted[f]);
     for (std::size_t c = 0; c < order.count; ++c) {
       if (!moves[c]) continue;
-      const double difference = degrees_per_radian * wrap_angle(found[c] - wanted[f][c], pi);
+      const double difference = degrees_per_radian * (found[c] - wanted[f][c]);
       sums[f] += difference * difference;
     }
   }

@@ -139,7 +139,9 @@ Angles to_euler_near(Quat q, RotationOrder order, const Angles& previous) {
   const double plus = std::atan2(b, a);
   const double minus = std::atan2(d, c);
 
-  constexpr double locked = 1e-7;
+  // Nearer to the lock than this, rounding decides between first and last; what is lost is twice
+  // this.
+  constexpr double locked = 1e-9;
   Angles angles;
   angles[1] = middle;
   if (middle < locked || pi - middle < locked) {

@@ -6,7 +6,15 @@
 namespace kinemend {
 
 Quat normalized(Quat q) {
-  const double length = norm(q);
+  double length = norm(q);
+  if (!(length > 1e-150 && length < 1e150)) {
+    // The squares may have left the range of numbers.
+    const double largest =
+        std::max({std::fabs(q.w), std::fabs(q.x), std::fabs(q.y), std::fabs(q.z)});
+    if (!(largest > 0 && std::isfinite(largest))) return {};
+    q = {q.w / largest, q.x / largest, q.y / largest, q.z / largest};
+    length = norm(q);
+  }
   return length > 0 ? (1.0 / length) * q : Quat{};
 }
 
@@ -35,7 +43,8 @@ Vec3 log(Quat q) {
 
 double angle_between(Quat a, Quat b) {
   // The vector part of a^-1 b, its terms paired so that it is exactly zero for equal quaternions.
-  const Vec3 d{(a.w * b.x - a.x * b.w) - (a.y * b.z - a.z * b.y), (a.w * b.y - a.y * b.w) - (a.z * b.x - a.x * b.z),
+  const Vec3 d{(a.w * b.x - a.x * b.w) - (a.y * b.z - a.z * b.y),
+               (a.w * b.y - a.y * b.w) - (a.z * b.x - a.x * b.z),
                (a.w * b.z - a.z * b.w) - (a.x * b.y - a.y * b.x)};
   return 2 * std::atan2(norm(d), std::fabs(dot(a, b)));
 }
