@@ -84,15 +84,19 @@ struct BilateralOptions {
 };
 std::unique_ptr<Cleaner> make_bilateral(const BilateralOptions& options = {});
 
-/// Non-local pose means (Dean 2016).
+/// Non-local pose means (Dean 2016): a pose becomes the mean of the poses about it in time whose
+/// patches, the poses around them, are like its own. Causal, it leaves the root position alone.
+/// Errors, beside values out of range: `causal` with the whole take as window.
 struct NonlocalOptions {
   double window_s = 0.175;      ///< whole learning window (21 poses at 120 Hz); 0: the whole take
   double patch_s = 0.092;       ///< whole patch (11 poses at 120 Hz)
   std::int64_t neighbours = 0;  ///< the k most similar patches; 0: all in the window
-  double bandwidth_deg =
-      0;  ///< the paper's sigma per channel, as a rotation angle; 0: from the estimated noise
-  std::string boundary = "dirichlet";  ///< mirror, neumann or dirichlet
-  bool causal = false;                 ///< past poses only, for live use
+  /// The paper's sigma, as the rotation angle of a channel: patches whose root mean square
+  /// difference per channel is this weigh exp(-1/2). 0: from the estimated noise, which needs the
+  /// take (or, causal, its past).
+  double bandwidth_deg = 0;
+  std::string boundary = "neumann";  ///< neumann, mirror or dirichlet
+  bool causal = false;               ///< past poses only, for live use
 };
 std::unique_ptr<Cleaner> make_nonlocal(const NonlocalOptions& options = {});
 

@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "clean/live_frames.hpp"
+#include "clean/method_list.hpp"
+#include "clean/nonlocal_causal.hpp"
+#include "clean/nonlocal_filter.hpp"
+#include "clean/rotation_track.hpp"
+#include "clean/track_noise.hpp"
+#include "clean/tracks.hpp"
+#include "kinemend/methods.hpp"
+
+namespace kinemend {
+
+namespace {
+
+// The automatic bandwidth, as a share of the noise. Over a whole take many dissimilar poses of
+// small weights would add up, so that weights have to fall more steeply.
+constexpr double noise_share_window = 0.8;
+constexpr double noise_share_take = 0.4;
+// How far the root position is averaged when the window is the whole take: beyond, the body is
+// elsewhere.
+constexpr double travel_window_s = NonlocalOptions{}.window_s;
+
+const OptionTable<NonlocalOptions>& table() {
+  static const OptionTable<NonlocalOptions> result =
+      OptionTable<NonlocalOptions>()
+          .number(&NonlocalOptions::window_s, "window_s", "s", 0, 60,
+                  "whole learning window; 0: the whole take")
+          .number(&NonlocalOptions::patch_s, "patch_s", "s", 0, 10, "whole patch")
+          .integer(&NonlocalOptions::neighbours, "neighbours", "", 0, 1e6,
+                   "average the k most similar poses only; 0: all of the window")
+          .number(&NonlocalOptions::bandwidth_deg, "bandwidth_deg", "deg", 0, 180,
+                  "difference per channel that makes poses dissimilar; 0: from the noise")
+          .choice(&NonlocalOptions::boundary, "boundary", {"neumann", "mirror", "dirichlet"},
+                  "beyond the ends: the gradient goes on, time turns back, or the pose is held")
+          .flag(&NonlocalOptions::causal, "causal", "past poses only, for live use");
+  return result;
+}
+
+// Joints that turn at all; all of them where the skeleton names no channels.
+std::vector<std::size_t> pose_joints(const Skeleton& skeleton) {
+  std::vector<std::size_t> joints;
+  for (std::size_t j = 0; j < skeleton.joint_count(); ++j) {
+    const auto& channels = skeleton.channels[j];
+    if (std::any_of(channels.begin(), channels.end(), is_rotation)) joints.push_back(j);
+  }
+  if (!joints.empty()) return joints;
+  for (std::size_t j = 0; j < skeleton.joint_count(); ++j) joints.push_back(j);
+  return joints;
+}
+
+// Half of a whole window of so many seconds, in frames: 2 r + 1 of them are nearest to it.
+std::size_t radius_frames(double seconds, double frame_rate_hz, std::size_t least) {
+  const auto radius = std::lround((seconds * frame_rate_hz - 1) / 2);
+  return std::max(least, static_cast<std::size_t>(std::max(radius, 0L)));
+}
+
+class NonlocalCleaner final : public Cleaner {
+ public:
+  explicit NonlocalCleaner(const NonlocalOptions& options) : options_(options) {
+    table().validate(options);
+    if (options.causal && options.window_s == 0) {
+      throw Error(ErrorKind::usage, "window_s: 0 (the whole take) is not to be had with causal");
+    }
+  }
+
+  CleanTrace clean(Clip& clip, const Selection& selection) const override {
+    if (options_.causal) return clean_causally(*this, clip, selection);
+    CleanTrace trace;
+    if (clip.frame_count() < 2) return trace;
+    const std::vector<std::size_t> joints = pose_joints(clip.skeleton);
+    Clip bridged = clip;  // joints that stay as they are count in the pose, too
+    CleanTrace unselected;
+    bridge_gaps(bridged, joints, unselected);
+    NonlocalTake take = make_take(bridged, joints, selection);
+    NonlocalSettings settings = settings_for(clip.frame_rate_hz);
+    if (options_.bandwidth_deg == 0 && !measure_noise(bridged, joints, settings, trace)) {
+      return trace;
+    }
+    nonlocal_filter(take, settings);
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      if (take.wanted[i]) store_rotations(take.rotations[i], clip, joints[i]);
+    }
+    const auto tracks = selected_positions(clip, selection);
+    for (std::size_t p = 0; p < tracks.size(); ++p) store_positions(take.positions[p], tracks[p]);
+    mark_gaps(clip, selected_joints(clip, selection), trace);
+    return trace;
+  }
+
+  LiveSupport live_support(double frame_rate_hz) const override {
+    if (options_.causal) return {LiveSupport::Kind::causal, 0};
+    // The noise of a whole take and the whole take itself are not known live.
+    if (options_.bandwidth_deg == 0 || options_.window_s == 0) return {};
+    const NonlocalSettings settings = settings_for(frame_rate_hz);
+    return {LiveSupport::Kind::windowed, settings.window_radius + settings.patch_radius};
+  }
+
+  std::unique_ptr<FrameFilter> make_frame_filter(const Skeleton& skeleton,
+                                                 double frame_rate_hz) const override {
+    if (!options_.causal) return nullptr;
+    const NonlocalSettings offline = settings_for(frame_rate_hz);
+    CausalNonlocalSettings settings;
+    settings.window = 2 * offline.window_radius;
+    settings.patch = 2 * offline.patch_radius + 1;
+    settings.neighbours = offline.neighbours;
+    settings.bandwidth = offline.bandwidth;
+    settings.noise_share = noise_share_window;
+    return make_causal_nonlocal(settings, pose_joints(skeleton));
+  }
+
+ private:
+  NonlocalSettings settings_for(double frame_rate_hz) const {
+    NonlocalSettings settings;
+    settings.whole_take = options_.window_s == 0;
+    settings.window_radius = radius_frames(options_.window_s, frame_rate_hz, 1);
+    settings.patch_radius = radius_frames(options_.patch_s, frame_rate_hz, 0);
+    settings.neighbours = static_cast<std::size_t>(options_.neighbours);
+    settings.bandwidth = options_.bandwidth_deg * radians_per_degree;
+    settings.boundary = options_.boundary == "mirror"      ? NonlocalBoundary::mirror
+                        : options_.boundary == "dirichlet" ? NonlocalBoundary::dirichlet
+                                                           : NonlocalBoundary::neumann;
+    settings.travel_radius = settings.whole_take ? radius_frames(travel_window_s, frame_rate_hz, 1)
+                                                 : settings.window_radius;
+    return settings;
+  }
+
+  static NonlocalTake make_take(Clip& clip, const std::vector<std::size_t>& joints,
+                                const Selection& selection) {
+    NonlocalTake take;
+    for (const std::size_t joint : joints) {
+      take.rotations.push_back(load_rotations(clip, joint));
+      take.observed.push_back(observed_weights(clip, joint));
+      take.wanted.push_back(selection.joints[joint]);
+    }
+    for (const PositionTrack& positions : selected_positions(clip, selection)) {
+      take.positions.push_back(load_positions(positions, clip.frame_count()));
+      take.travels.push_back(positions.values == clip.root_positions.data());
+    }
+    return take;
+  }
+
+  // Bandwidth and distance of noise from the take; false when there is no noise to remove.
+  static bool measure_noise(const Clip& clip, const std::vector<std::size_t>& joints,
+                            NonlocalSettings& settings, CleanTrace& trace) {
+    trace.noise_deg.assign(clip.joint_count(), 0.0);
+    double sum = 0;
+    for (const std::size_t joint : joints) {
+      const double noise = track_noise(joint_track(clip, joint));
+      trace.noise_deg[joint] = noise * degrees_per_radian;
+      sum += noise * noise;
+    }
+    if (sum == 0) return false;
+    const double variance = sum / static_cast<double>(joints.size());
+    const double share = settings.whole_take ? noise_share_take : noise_share_window;
+    settings.noise_distance = 2 * variance;
+    settings.bandwidth = share * std::sqrt(variance);
+    return true;
+  }
+
+  NonlocalOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Cleaner> make_nonlocal(const NonlocalOptions& options) {
+  return std::make_unique<NonlocalCleaner>(options);
+}
+
+Method nonlocal_method() {
+  return {"nonlocal", "averages poses whose surroundings in time are alike",
+          "Dean 2016, Non-local Pose Means for Denoising Motion Capture Data", table().specs(),
+          [](const OptionValues& values) { return make_nonlocal(table().parse(values)); }};
+}
+
+}  // namespace kinemend

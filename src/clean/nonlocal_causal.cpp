@@ -1,0 +1,192 @@
+#include "clean/nonlocal_causal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <utility>
+
+#include "kinemend/rotation.hpp"
+
+namespace kinemend {
+
+namespace {
+
+// The noise of the frames so far, from second differences of whole poses: their median over frames
+// does not see the few in which something jumps.
+class RunningNoise {
+ public:
+  // Sum over joints of the squared second difference of three successive poses.
+  void add(double squared_difference, std::size_t joints) {
+    // The mean is 3 channels x 6 noise^2 a joint; the median of a chi-square distribution of n
+    // degrees is about n (1 - 2 / (9 n))^3.
+    const double degrees = 3 * static_cast<double>(joints);
+    const double median_share = std::pow(1 - 2 / (9 * degrees), 3);
+    values_.push_back(squared_difference / (6 * degrees * median_share));
+    if (values_.size() > most_frames) values_.pop_front();
+  }
+  bool known() const { return values_.size() >= least_frames; }
+  double variance() const {
+    std::vector<double> sorted(values_.begin(), values_.end());
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    return *middle;
+  }
+
+ private:
+  static constexpr std::size_t least_frames = 8;
+  static constexpr std::size_t most_frames = 256;
+  std::deque<double> values_;
+};
+
+class CausalNonlocal final : public FrameFilter {
+ public:
+  CausalNonlocal(const CausalNonlocalSettings& settings, std::vector<std::size_t> joints)
+      : settings_(settings), joints_(std::move(joints)) {}
+
+  void filter(LiveFrame& frame) override {
+    remember(frame);
+    const std::vector<double> weights = find_weights();
+    const LiveFrame& present = past_.front();
+    for (const std::size_t joint : joints_) {
+      frame.rotations[joint] = present.rotations[joint] * exp(mean_turn(joint, weights));
+    }
+    for (std::size_t i = 0; i < frame.joint_translations.size(); ++i) {
+      frame.joint_translations[i] = present.joint_translations[i] + mean_move(i, weights);
+    }
+  }
+
+ private:
+  // Of one frame: per lag, the squared angles to the frame so far back, over joints measured in
+  // both.
+  struct Distances {
+    std::vector<double> sums, pairs;
+  };
+
+  static bool is_observed(const LiveFrame& frame, std::size_t joint) {
+    return frame.observed.empty() || frame.observed[joint] != 0;
+  }
+
+  // Puts the frame before the past ones. What was not measured is held.
+  void remember(const LiveFrame& frame) {
+    past_.push_front(frame);
+    if (past_.size() > settings_.window + 1) past_.pop_back();
+    for (const std::size_t joint : joints_) {
+      if (past_.size() > 1 && !is_observed(frame, joint)) {
+        past_[0].rotations[joint] = past_[1].rotations[joint];
+      }
+    }
+    Distances row;
+    for (std::size_t lag = 1; lag < past_.size(); ++lag) {
+      double sum = 0, pairs = 0;
+      for (const std::size_t joint : joints_) {
+        if (!is_observed(frame, joint) || !is_observed(past_[lag], joint)) continue;
+        const double angle = angle_between(frame.rotations[joint], past_[lag].rotations[joint]);
+        sum += angle * angle;
+        pairs += 1;
+      }
+      row.sums.push_back(sum);
+      row.pairs.push_back(pairs);
+    }
+    distances_.push_front(std::move(row));
+    if (distances_.size() > settings_.patch) distances_.pop_back();
+    if (past_.size() >= 3) measure_noise();
+  }
+
+  void measure_noise() {
+    double sum = 0;
+    std::size_t count = 0;
+    for (const std::size_t joint : joints_) {
+      if (!is_observed(past_[0], joint) || !is_observed(past_[1], joint) ||
+          !is_observed(past_[2], joint)) {
+        continue;
+      }
+      const Quat middle = conjugate(past_[1].rotations[joint]);
+      const Vec3 bend =
+          log(middle * past_[0].rotations[joint]) + log(middle * past_[2].rotations[joint]);
+      sum += dot(bend, bend);
+      ++count;
+    }
+    if (count > 0) noise_.add(sum, count);
+  }
+
+  // sum_s w_s Log(q^-1 q_s) / (1 + sum_s w_s) over the measured samples.
+  Vec3 mean_turn(std::size_t joint, const std::vector<double>& weights) const {
+    const Quat present = conjugate(past_.front().rotations[joint]);
+    Vec3 sum;
+    double total = is_observed(past_.front(), joint) ? 1 : 0;
+    for (std::size_t lag = 1; lag <= weights.size(); ++lag) {
+      const double weight = weights[lag - 1];
+      if (weight == 0 || !is_observed(past_[lag], joint)) continue;
+      sum += weight * log(present * past_[lag].rotations[joint]);
+      total += weight;
+    }
+    return total > 0 ? (1 / total) * sum : Vec3{};
+  }
+
+  Vec3 mean_move(std::size_t column, const std::vector<double>& weights) const {
+    Vec3 sum;
+    double total = 1;
+    for (std::size_t lag = 1; lag <= weights.size(); ++lag) {
+      sum += weights[lag - 1] *
+             (past_[lag].joint_translations[column] - past_.front().joint_translations[column]);
+      total += weights[lag - 1];
+    }
+    return (1 / total) * sum;
+  }
+
+  // Mean squared difference per channel of the patches that end now and `lag` frames ago.
+  double patch_distance(std::size_t lag) const {
+    double sum = 0, pairs = 0;
+    for (const Distances& row : distances_) {
+      if (row.sums.size() < lag) break;
+      sum += row.sums[lag - 1];
+      pairs += row.pairs[lag - 1];
+    }
+    return pairs > 0 ? sum / (3 * pairs) : std::numeric_limits<double>::infinity();
+  }
+
+  // Of the poses 1, 2, ... frames ago; the present one weighs 1.
+  std::vector<double> find_weights() const {
+    const bool automatic = settings_.bandwidth == 0;
+    const double variance = automatic && noise_.known() ? noise_.variance() : 0;
+    if (automatic && variance == 0) return {};
+    std::vector<double> weights(past_.size() - 1);
+    for (std::size_t lag = 1; lag < past_.size(); ++lag) weights[lag - 1] = patch_distance(lag);
+    keep_nearest(weights);
+    const double bandwidth2 = automatic ? settings_.noise_share * settings_.noise_share * variance
+                                        : settings_.bandwidth * settings_.bandwidth;
+    double floor = 2 * variance;
+    if (!automatic && !weights.empty()) floor = *std::min_element(weights.begin(), weights.end());
+    if (std::isinf(floor)) floor = 0;
+    for (double& value : weights) {
+      value = std::exp(-std::max(0.0, value - floor) / (2 * bandwidth2));
+    }
+    return weights;
+  }
+
+  void keep_nearest(std::vector<double>& distances) const {
+    if (settings_.neighbours == 0 || settings_.neighbours >= distances.size()) return;
+    std::vector<double> sorted = distances;
+    const auto limit = sorted.begin() + static_cast<std::ptrdiff_t>(settings_.neighbours - 1);
+    std::nth_element(sorted.begin(), limit, sorted.end());
+    for (double& value : distances) {
+      if (value > *limit) value = std::numeric_limits<double>::infinity();
+    }
+  }
+
+  CausalNonlocalSettings settings_;
+  std::vector<std::size_t> joints_;
+  RunningNoise noise_;
+  std::deque<LiveFrame> past_;       // the present frame first
+  std::deque<Distances> distances_;  // of the frames of a patch, the present one first
+};
+
+}  // namespace
+
+std::unique_ptr<FrameFilter> make_causal_nonlocal(const CausalNonlocalSettings& settings,
+                                                  std::vector<std::size_t> joints) {
+  return std::make_unique<CausalNonlocal>(settings, std::move(joints));
+}
+
+}  // namespace kinemend

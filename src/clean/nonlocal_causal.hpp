@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "kinemend/cleaner.hpp"
+
+namespace kinemend {
+
+/// Non-local pose means of the past alone: patches end at their pose, and only earlier poses are
+/// averaged.
+struct CausalNonlocalSettings {
+  std::size_t window = 20;     ///< poses before the present one
+  std::size_t patch = 11;      ///< poses of a patch
+  std::size_t neighbours = 0;  ///< the most similar patches alone; 0: all of the window
+  /// The paper's sigma, radians; 0: `noise_share` times the noise measured in the frames so far.
+  double bandwidth = 0;
+  double noise_share = 0.8;
+};
+
+/// `joints` are those that belong to the pose. The root position stays as it is: where a body was
+/// says nothing of where it is.
+std::unique_ptr<FrameFilter> make_causal_nonlocal(const CausalNonlocalSettings& settings,
+                                                  std::vector<std::size_t> joints);
+
+}  // namespace kinemend

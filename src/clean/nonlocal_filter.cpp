@@ -1,0 +1,317 @@
+#include "clean/nonlocal_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "clean/nonlocal_kernels.hpp"
+#include "clean/orientation_filter.hpp"
+#include "clean/tracks.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// Index of the sample that stands at i, which may lie beyond the ends.
+std::size_t source_index(std::ptrdiff_t i, std::size_t frames, NonlocalBoundary boundary) {
+  const auto last = static_cast<std::ptrdiff_t>(frames) - 1;
+  if (boundary != NonlocalBoundary::mirror || last == 0) {
+    return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, last));
+  }
+  const std::ptrdiff_t phase = ((i % (2 * last)) + 2 * last) % (2 * last);
+  return static_cast<std::size_t>(std::min(phase, 2 * last - phase));
+}
+
+Vec3 difference(Quat from, Quat to) { return log(conjugate(from) * to); }
+Vec3 difference(Vec3 from, Vec3 to) { return to - from; }
+Quat moved(Quat from, Vec3 by) { return from * exp(by); }
+Vec3 moved(Vec3 from, Vec3 by) { return from + by; }
+
+// The straight line of least squares through `count` samples from an end inwards, about the end.
+struct EndLine {
+  Vec3 value, slope;
+};
+
+template <class Track>
+EndLine fit_end(const Track& track, bool front, std::size_t count) {
+  const std::size_t end = front ? 0 : track.frames - 1;
+  const double n = static_cast<double>(count);
+  const double middle = (n - 1) / 2;
+  Vec3 sum, moment;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 d = difference(track[end], track[front ? i : end - i]);
+    sum += d;
+    moment += (static_cast<double>(i) - middle) * d;
+  }
+  const Vec3 slope = count < 2 ? Vec3{} : (12 / (n * (n * n - 1))) * moment;
+  return {(1 / n) * sum - middle * slope, slope};
+}
+
+// The track with `pad` samples on either side.
+template <class Track>
+Track pad_ends(const Track& track, std::size_t pad, const NonlocalSettings& settings) {
+  const std::size_t frames = track.frames;
+  Track padded(frames + 2 * pad);
+  for (std::size_t i = 0; i < padded.frames; ++i) {
+    const auto from = static_cast<std::ptrdiff_t>(i) - static_cast<std::ptrdiff_t>(pad);
+    padded.set(i, track[source_index(from, frames, settings.boundary)]);
+  }
+  if (settings.boundary != NonlocalBoundary::neumann) return padded;
+  const std::size_t count = std::min(frames, 2 * settings.patch_radius + 1);
+  for (const bool front : {true, false}) {
+    const EndLine line = fit_end(track, front, count);
+    for (std::size_t i = 1; i <= pad; ++i) {
+      const Vec3 by = line.value - static_cast<double>(i) * line.slope;
+      padded.set(front ? pad - i : pad + frames - 1 + i, moved(track[front ? 0 : frames - 1], by));
+    }
+  }
+  return padded;
+}
+
+std::vector<double> pad_weights(const std::vector<double>& weights, std::size_t frames,
+                                std::size_t pad, NonlocalBoundary boundary) {
+  if (weights.empty()) return {};
+  std::vector<double> padded(frames + 2 * pad + lane_room);
+  for (std::size_t i = 0; i < frames + 2 * pad; ++i) {
+    const auto from = static_cast<std::ptrdiff_t>(i) - static_cast<std::ptrdiff_t>(pad);
+    padded[i] = weights[source_index(from, frames, boundary)];
+  }
+  return padded;
+}
+
+// A take with its ends continued, and the filter's work on one block of frames.
+class Averager {
+ public:
+  Averager(const NonlocalTake& take, const NonlocalSettings& settings)
+      : settings_(settings),
+        frames_(take.rotations.empty() ? take.positions.front().frames
+                                       : take.rotations.front().frames),
+        pad_(std::max(settings.patch_radius + (settings.whole_take ? 0 : settings.window_radius),
+                      lane_room)) {
+    for (const auto& track : take.rotations) {
+      rotations_.push_back(pad_ends(track, pad_, settings));
+    }
+    for (const auto& track : take.positions) {
+      positions_.push_back(pad_ends(track, pad_, settings));
+    }
+    for (const auto& weights : take.observed) {
+      observed_.push_back(pad_weights(weights, frames_, pad_, settings.boundary));
+      gaps_ = gaps_ || !weights.empty();
+    }
+  }
+
+  std::size_t frames() const { return frames_; }
+  // Frames of a block: so few that the distances to all neighbours stay in the cache.
+  std::size_t block_frames() const {
+    if (!settings_.whole_take) return 256;
+    return std::clamp<std::size_t>((std::size_t{1} << 20) / frames_, 16, 256);
+  }
+
+  struct Moves {
+    std::vector<VectorTrack> turns;  ///< one a rotation track; empty where it is not wanted
+    std::vector<VectorTrack> shifts;
+  };
+
+  // What frames first .. first + count - 1 are turned and moved by.
+  Moves run(std::size_t first, std::size_t count, const NonlocalTake& take) const {
+    const Weights weights = find_weights(first, count);
+    Moves moves;
+    for (std::size_t j = 0; j < rotations_.size(); ++j) {
+      moves.turns.emplace_back(take.wanted[j] ? count : 0);
+      if (!take.wanted[j]) continue;
+      mean_turn(rotations_[j], observed_[j].empty() ? nullptr : observed_[j].data(), first + pad_,
+                count, weights.neighbours, moves.turns.back());
+    }
+    std::vector<Neighbour> near;
+    for (const Neighbour& n : weights.neighbours) {
+      if (static_cast<std::size_t>(std::abs(n.offset)) <= settings_.travel_radius)
+        near.push_back(n);
+    }
+    for (std::size_t p = 0; p < positions_.size(); ++p) {
+      moves.shifts.emplace_back(count);
+      mean_move(positions_[p], first + pad_, count, take.travels[p] ? near : weights.neighbours,
+                moves.shifts.back());
+    }
+    return moves;
+  }
+
+ private:
+  struct Weights {
+    std::vector<double> values;
+    std::vector<Neighbour> neighbours;
+  };
+
+  // Mean squared difference per channel of the patches about frames `from` + i and `from` + lag +
+  // i, for i < count.
+  void patch_distances(std::ptrdiff_t from, std::ptrdiff_t lag, std::size_t count,
+                       double* out) const {
+    const std::size_t patch = 2 * settings_.patch_radius + 1;
+    const std::size_t wide = count + patch - 1;
+    std::vector<double> sums(wide + lane_room), pairs(gaps_ ? wide + lane_room : 0);
+    const auto a = static_cast<std::size_t>(from + static_cast<std::ptrdiff_t>(pad_) -
+                                            static_cast<std::ptrdiff_t>(settings_.patch_radius));
+    const std::size_t b = a + static_cast<std::size_t>(lag);
+    double whole = 0;  // joints without gaps
+    for (std::size_t j = 0; j < rotations_.size(); ++j) {
+      if (observed_[j].empty()) {
+        add_squared_angles(rotations_[j], a, b, wide, sums.data());
+        whole += 1;
+      } else {
+        add_observed_angles(rotations_[j], observed_[j].data(), a, b, wide, sums.data(),
+                            pairs.data());
+      }
+    }
+    std::vector<double> counts(count, whole * static_cast<double>(patch));
+    std::fill(out, out + count, 0.0);
+    for (std::size_t o = 0; o < patch; ++o) {
+      for (std::size_t i = 0; i < count; ++i) out[i] += sums[i + o];
+      if (!gaps_) continue;
+      for (std::size_t i = 0; i < count; ++i) counts[i] += pairs[i + o];
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      out[i] = counts[i] > 0 ? out[i] / (3 * counts[i]) : rotations_.empty() ? 0.0 : infinite;
+    }
+  }
+
+  // Distances of the block's frames to each neighbour, turned into weights.
+  Weights find_weights(std::size_t first, std::size_t count) const {
+    Weights result =
+        settings_.whole_take ? whole_take_distances(first, count) : window_distances(first, count);
+    if (settings_.neighbours > 0) keep_nearest(count, result);
+    const double scale = 1 / (2 * settings_.bandwidth * settings_.bandwidth);
+    const std::vector<double> floors = nearest_distances(count, result);
+    const std::size_t stride = count + lane_room;
+    for (std::size_t n = 0; n < result.neighbours.size(); ++n) {
+      decay(scale, floors.data(), count, &result.values[n * stride]);
+      std::fill_n(&result.values[n * stride + count], lane_room, 0.0);
+    }
+    return result;
+  }
+
+  void add_neighbours(const std::vector<std::ptrdiff_t>& offsets, std::size_t stride,
+                      Weights& weights) const {
+    weights.values.assign(offsets.size() * stride, infinite);
+    for (std::size_t n = 0; n < offsets.size(); ++n) {
+      weights.neighbours.push_back({offsets[n], &weights.values[n * stride]});
+    }
+  }
+
+  // Each pair is measured once: what is ahead of one frame is behind the other.
+  Weights window_distances(std::size_t first, std::size_t count) const {
+    const std::size_t stride = count + lane_room;
+    std::vector<std::ptrdiff_t> offsets;
+    for (std::size_t lag = 1; lag <= settings_.window_radius; ++lag) {
+      offsets.push_back(static_cast<std::ptrdiff_t>(lag));
+      offsets.push_back(-static_cast<std::ptrdiff_t>(lag));
+    }
+    Weights result;
+    add_neighbours(offsets, stride, result);
+    std::vector<double> distances(count + settings_.window_radius);
+    for (std::size_t lag = 1; lag <= settings_.window_radius; ++lag) {
+      const auto step = static_cast<std::ptrdiff_t>(lag);
+      patch_distances(static_cast<std::ptrdiff_t>(first) - step, step, count + lag,
+                      distances.data());
+      double* row = &result.values[2 * (lag - 1) * stride];
+      std::copy_n(distances.begin() + step, count, row);
+      std::copy_n(distances.begin(), count, row + stride);
+    }
+    return result;
+  }
+
+  Weights whole_take_distances(std::size_t first, std::size_t count) const {
+    const std::size_t stride = count + lane_room;
+    const auto begin = static_cast<std::ptrdiff_t>(first);
+    const auto end = static_cast<std::ptrdiff_t>(first + count);
+    const auto all = static_cast<std::ptrdiff_t>(frames_);
+    std::vector<std::ptrdiff_t> offsets;
+    for (std::ptrdiff_t lag = 1 - end; lag < all - begin; ++lag) {
+      if (lag != 0) offsets.push_back(lag);
+    }
+    Weights result;
+    add_neighbours(offsets, stride, result);
+    for (std::size_t n = 0; n < offsets.size(); ++n) {
+      const std::ptrdiff_t from = std::max(begin, -offsets[n]);
+      const std::ptrdiff_t to = std::min(end, all - offsets[n]);
+      if (from < to) {
+        patch_distances(from, offsets[n], static_cast<std::size_t>(to - from),
+                        &result.values[n * stride + static_cast<std::size_t>(from - begin)]);
+      }
+    }
+    return result;
+  }
+
+  // Neighbours beyond the nearest few, ties kept, are moved infinitely far away.
+  void keep_nearest(std::size_t count, Weights& weights) const {
+    if (settings_.neighbours >= weights.neighbours.size()) return;
+    const std::size_t stride = count + lane_room;
+    const auto limit = static_cast<std::ptrdiff_t>(settings_.neighbours) - 1;
+    std::vector<double> column(weights.neighbours.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t n = 0; n < column.size(); ++n) column[n] = weights.values[n * stride + i];
+      std::nth_element(column.begin(), column.begin() + limit, column.end());
+      const double farthest = column[settings_.neighbours - 1];
+      for (std::size_t n = 0; n < column.size(); ++n) {
+        double& value = weights.values[n * stride + i];
+        if (value > farthest) value = infinite;
+      }
+    }
+  }
+
+  // The distance of weight 1. Measured from the nearest neighbour, the largest neighbour's weight
+  // is the 1 that the pose itself weighs, as the paper has it, and a common factor of all weights
+  // makes no difference.
+  std::vector<double> nearest_distances(std::size_t count, const Weights& weights) const {
+    const std::size_t stride = count + lane_room;
+    if (settings_.noise_distance > 0) {
+      return std::vector<double>(stride, settings_.noise_distance);
+    }
+    std::vector<double> least(stride, infinite);
+    for (std::size_t n = 0; n < weights.neighbours.size(); ++n) {
+      for (std::size_t i = 0; i < count; ++i) {
+        least[i] = std::min(least[i], weights.values[n * stride + i]);
+      }
+    }
+    for (double& value : least) value = value < infinite ? value : 0.0;
+    return least;
+  }
+
+  NonlocalSettings settings_;
+  std::size_t frames_;
+  std::size_t pad_;
+  bool gaps_ = false;
+  std::vector<RotationTrack> rotations_;
+  std::vector<std::vector<double>> observed_;
+  std::vector<VectorTrack> positions_;
+};
+
+void copy_into(const VectorTrack& part, std::size_t first, VectorTrack& whole) {
+  for (std::size_t i = 0; i < part.frames; ++i) whole.set(first + i, part[i]);
+}
+
+}  // namespace
+
+void nonlocal_filter(NonlocalTake& take, const NonlocalSettings& settings) {
+  if (take.rotations.empty() && take.positions.empty()) return;
+  const Averager averager(take, settings);
+  const std::size_t frames = averager.frames();
+  std::vector<VectorTrack> turns, shifts;
+  for (const std::uint8_t wanted : take.wanted) turns.emplace_back(wanted ? frames : 0);
+  shifts.assign(take.positions.size(), VectorTrack(frames));
+
+  const std::size_t block = averager.block_frames();
+  const std::size_t blocks = (frames + block - 1) / block;
+  for_each_parallel(blocks, frames * (1 + take.rotations.size()), [&](std::size_t b) {
+    const std::size_t first = b * block;
+    const auto moves = averager.run(first, std::min(block, frames - first), take);
+    for (std::size_t j = 0; j < turns.size(); ++j) copy_into(moves.turns[j], first, turns[j]);
+    for (std::size_t p = 0; p < shifts.size(); ++p) copy_into(moves.shifts[p], first, shifts[p]);
+  });
+  for (std::size_t j = 0; j < turns.size(); ++j) {
+    if (take.wanted[j]) turn(take.rotations[j], turns[j]);
+  }
+  for (std::size_t p = 0; p < shifts.size(); ++p) turn(take.positions[p], shifts[p]);
+}
+
+}  // namespace kinemend
