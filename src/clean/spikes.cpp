@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "clean/spike_trial.hpp"
 #include "clean/tracks.hpp"
 #include "signal/whittaker.hpp"
 
@@ -15,10 +16,8 @@ namespace {
 
 constexpr double least_noise =
     0.25;  // degrees: what a spike is measured against on a noiseless track
-constexpr double accused_ratio = 6.5;    // prediction error over its standard deviation
-constexpr double accused_deviation = 6;  // degrees
+constexpr double accused_ratio = 6.5;  // prediction error over its standard deviation
 constexpr double robust_cap = 6;  // errors count for no more than this many standard deviations
-constexpr double median_of_chi3 = 1.54;  // of the length of a standard normal vector
 constexpr int rounds = 5;
 
 // Second-order smoothers over a coarse grid of cutoffs, and the weight of each sample in its own
@@ -42,12 +41,6 @@ struct LeaveOneOutGrid {
       for (double& share : own_shares.back()) share = std::max(1 - share, 1e-3);
     }
   }
-};
-
-// How far each sample is from where the others of its track put it.
-struct Predictions {
-  PoseMatrix errors;      // F x N, degrees
-  PoseMatrix own_shares;  // F x N: variance of a sample over that of its prediction error
 };
 
 constexpr std::size_t tracks_in_block = signal::block_channels / 3;
@@ -86,7 +79,7 @@ Predictions predict(const VectorTracks& measured, const VectorTracks& filled,
       const std::vector<double>& own = grid.own_shares[g];
       for (std::size_t i = 0; i < count; ++i) {
         const std::size_t n = first + i;
-        const double scale = std::max({noise[n], 0.1, least_noise});
+        const double scale = std::max(noise[n], least_noise);
         const double cap = robust_cap * scale * robust_cap * scale;
         double score = 0;
         for (std::size_t t = 0; t < frames; ++t) {
@@ -145,7 +138,7 @@ SampleMarks accuse(const Predictions& predictions, const SampleMarks& accused,
     const std::vector<double> usual = running_median(unaccused, half);
     for (std::size_t t = 0; t < accused.frames; ++t) {
       const bool stands_out = ratio[t] > accused_ratio * std::max(1.0, usual[t] / median_of_chi3) &&
-                              predictions.errors(t, n) > accused_deviation;
+                              predictions.errors(t, n) > least_deviation;
       if (!stands_out) continue;
       const std::size_t first = t < 2 ? 0 : t - 2, last = std::min(t + 3, accused.frames);
       const auto from = unaccused.begin();
@@ -155,116 +148,6 @@ SampleMarks accuse(const Predictions& predictions, const SampleMarks& accused,
     }
   });
   return next;
-}
-
-// Between what is asked on a clean track (share 0) and on a noisy one (share 1).
-double between(double clean, double noisy, double share) { return clean + (noisy - clean) * share; }
-
-struct Verdict {
-  bool guilty = false;
-  bool blatant = false;  // would stand even as the only odd sample of a quiet take
-};
-
-Verdict judge(const Predictions& predictions, const SampleMarks& accused, std::size_t t,
-              std::size_t n, double share, const std::vector<std::size_t>& nearby) {
-  constexpr std::size_t reach = 12;
-  constexpr double blatant_deviation = 30;
-  const double error = predictions.errors(t, n);
-  // The largest error about the sample, its neighbours left out. On a noisy track other suspects
-  // are no witnesses; on a quiet one at most one of them may be set aside.
-  const std::size_t first = t < reach ? 0 : t - reach,
-                    last = std::min(t + reach + 1, accused.frames);
-  const auto close = [](std::size_t a, std::size_t b) { return (a > b ? a - b : b - a) <= 1; };
-  std::vector<double> about;
-  for (std::size_t k = first; k < last; ++k) {
-    const bool left_out = close(k, t) || (share >= 1 && accused(k, n) != 0);
-    about.push_back(left_out ? 0 : predictions.errors(k, n));
-  }
-  if (share < 1) {
-    const auto aside =
-        static_cast<std::size_t>(std::max_element(about.begin(), about.end()) - about.begin());
-    for (std::size_t k = 0; k < about.size(); ++k) {
-      if (close(k, aside)) about[k] = 0;
-    }
-  }
-  const double largest = *std::max_element(about.begin(), about.end());
-  Verdict verdict;
-  verdict.guilty =
-      error > between(15, accused_deviation, share) && error > between(6, 2, share) * largest;
-  if (!verdict.guilty || share >= 1) {
-    verdict.blatant = verdict.guilty;
-    return verdict;
-  }
-  for (const std::size_t other : nearby) {
-    // What moves several joints at once is motion.
-    if (predictions.errors(t, other) > error / 3 * (1 + 10 * share)) return {};
-  }
-  verdict.blatant = error > blatant_deviation * std::min(1.0, 4 * (1 - share));
-  const bool extrapolated = t < 3 || t + 4 > accused.frames;
-  if (extrapolated) verdict.blatant = verdict.blatant && error > 2 * blatant_deviation;
-  return verdict;
-}
-
-double poisson_tail(double mean, std::size_t at_least) {
-  double term = std::exp(-mean), below = 0;
-  for (std::size_t k = 0; k < at_least; ++k) {
-    below += term;
-    term *= mean / static_cast<double>(k + 1);
-  }
-  return 1 - below;
-}
-
-// Acquits clusters of more verdicts than chance would put together: they are fast motion.
-void acquit_clusters(SampleMarks& marked) {
-  constexpr std::size_t lonely = 8, usual_cluster = 3, largest_cluster = 50;
-  const auto total = std::count(marked.marks.begin(), marked.marks.end(), 1);
-  if (total == 0) return;
-  const double rate =
-      std::min(0.05, static_cast<double>(total) / static_cast<double>(marked.marks.size()));
-  for (std::size_t n = 0; n < marked.tracks; ++n) {
-    std::vector<std::size_t> frames;
-    for (std::size_t t = 0; t < marked.frames; ++t) {
-      if (marked(t, n) != 0) frames.push_back(t);
-    }
-    for (std::size_t first = 0; first < frames.size();) {
-      std::size_t last = first;
-      while (last + 1 < frames.size() && frames[last + 1] - frames[last] <= lonely) ++last;
-      const double expected = rate * static_cast<double>(frames[last] - frames[first] + 2 * lonely);
-      std::size_t allowed = usual_cluster;
-      while (allowed < largest_cluster && poisson_tail(expected, allowed + 1) > 1e-4) ++allowed;
-      if (last - first + 1 > allowed) {
-        for (std::size_t i = first; i <= last; ++i) marked(frames[i], n) = 0;
-      }
-      first = last + 1;
-    }
-  }
-}
-
-SampleMarks judge_all(const Predictions& predictions, const SampleMarks& accused,
-                      const std::vector<double>& shares,
-                      const std::vector<std::vector<std::size_t>>& nearby) {
-  SampleMarks guilty(accused.frames, accused.tracks), blatant = guilty;
-  std::size_t quiet_tracks = 0, quiet_verdicts = 0;
-  for (std::size_t n = 0; n < accused.tracks; ++n) {
-    quiet_tracks += shares[n] < 1;
-    for (std::size_t t = 0; t < accused.frames; ++t) {
-      if (accused(t, n) == 0) continue;
-      const Verdict verdict = judge(predictions, accused, t, n, shares[n], nearby[n]);
-      guilty(t, n) = verdict.guilty;
-      blatant(t, n) = verdict.blatant;
-      quiet_verdicts += shares[n] < 1 && verdict.guilty;
-    }
-  }
-  // A few odd samples in a quiet take are its own; many are damage.
-  const double damage = std::max(5.0, 0.001 * static_cast<double>(accused.frames * quiet_tracks));
-  if (static_cast<double>(quiet_verdicts) < damage) {
-    for (std::size_t n = 0; n < accused.tracks; ++n) {
-      if (shares[n] >= 1) continue;
-      for (std::size_t t = 0; t < accused.frames; ++t) guilty(t, n) = blatant(t, n);
-    }
-  }
-  acquit_clusters(guilty);
-  return guilty;
 }
 
 }  // namespace
@@ -321,7 +204,8 @@ SpikeVerdicts find_spikes(VectorTracks& tracks, const SampleMarks& suspects,
   }
   std::vector<double> noise = noise_levels(measured, accused);
   const std::vector<double> shares = cleaning_shares(noise, frame_rate_hz);
-  accused = judge_all(predict(measured, tracks, accused, noise, grid), accused, shares, nearby);
+  const Predictions predictions = predict(measured, tracks, accused, noise, grid);
+  accused = judge_spikes({measured, predictions, accused, noise, shares, nearby, frame_rate_hz});
   refill();
   noise = noise_levels(measured, accused);
   std::vector<double> final_shares = cleaning_shares(noise, frame_rate_hz);

@@ -49,10 +49,10 @@ std::vector<std::size_t> smooth_by_evidence(PoseMatrix& matrix,
                                             const ModelGrid& grid, std::size_t group = 1);
 
 struct AdaptiveSettings {
-  double window_s = 0.1;  ///< over which the size of the differences is averaged, twice
+  double window_s = 0.05;  ///< over which the size of the differences is averaged, twice
   double share_of_constant =
       0.2;  ///< of the constant strength that stays, so that quiet spans are not frozen
-  int iterations = 2;
+  int iterations = 4;
 };
 
 /// Smooths the channels of `matrix` in place with strengths that follow the motion: starting from

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "clean/vector_tracks.hpp"
+#include "kinemend/pose_matrix.hpp"
+
+namespace kinemend {
+
+inline constexpr double least_noise =
+    0.25;  // degrees: what a spike is measured against on a noiseless track
+inline constexpr double least_deviation =
+    6;  // degrees: what is nearer to its prediction is no spike
+inline constexpr double median_of_chi3 = 1.54;  // of the length of a standard normal vector
+
+/// How far each sample is from where the others of its track put it.
+struct Predictions {
+  PoseMatrix errors;      ///< F x N, degrees
+  PoseMatrix own_shares;  ///< F x N: variance of a sample over that of its prediction error
+};
+
+/// What is known of the accused samples.
+struct SpikeTrial {
+  const VectorTracks& measured;
+  const Predictions& predictions;
+  const SampleMarks& accused;
+  const std::vector<double>& noise;   ///< of each track, degrees
+  const std::vector<double>& shares;  ///< 0: a quiet track, 1: a noisy one
+  const std::vector<std::vector<std::size_t>>& nearby;
+  double frame_rate_hz;
+};
+
+/// Which of the accused are spikes. On a noisy track: whoever stands clear of the errors about it
+/// and does not go on where one of its sides is heading. On a quiet track it stands clearer still,
+/// and no joint nearby moves with it; and where a quiet take holds only a few of those, they are
+/// what no body can do: leaps faster than any joint turns, there and back within two frames. More
+/// verdicts in a cluster than chance puts together are acquitted: they are fast motion.
+SampleMarks judge_spikes(const SpikeTrial& trial);
+
+}  // namespace kinemend
