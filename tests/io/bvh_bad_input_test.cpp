@@ -72,6 +72,20 @@ TEST(BadBvh, EachFileGetsOneLineThatNamesThePlace) {
   EXPECT_EQ(seen, expected_messages().size());
 }
 
+TEST(BadBvh, LinesAreCountedAlikeWhateverEndsThem) {
+  for (const char* name :
+       {"short_line.bvh", "word_in_data.bvh", "unknown_channel.bvh", "truncated_frame.bvh",
+        "missing_opening_brace.bvh", "end_of_something.bvh", "all_nan.bvh"}) {
+    for (const char* line_end : {"\r\n", "\r", "\n"}) {
+      std::string text;
+      for (const char c : read_file(fixture(std::string("bad/") + name))) {
+        c == '\n' ? text += line_end : text += c;
+      }
+      EXPECT_EQ(read_error(text), "take.bvh:" + expected_messages().at(name));
+    }
+  }
+}
+
 TEST(BadBvh, AMessageIsOnePrintableLine) {
   const std::string message = read_error("HIERARCHY\nROOT a\n{\n\x01\x1b[31m\xff");
   EXPECT_EQ(message,

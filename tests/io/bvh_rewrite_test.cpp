@@ -230,10 +230,40 @@ TEST(BvhRewriter, NothingJumpsNearGimbalLock) {
 }
 
 TEST(BvhRewriter, HugeSourceAnglesDoNoHarm) {
-  Clip clip = read_text(spinner_text({{1, 2, 3}, {1e15, 2, 3}, {1, 2, 3}}));
+  const Clip source = read_text(spinner_text({{1, 2, 3}, {1e15, 2, 3}, {1, 2, 3}}));
+  source.validate();
+  for (std::size_t f = 1; f < 3; ++f) {
+    Clip clip = source;
+    clip.rotation(f, 0) = rotation_of({1.5, 2, 3}, "ZXY");
+    EXPECT_LT(angle_between(read_text(write_clip(clip)).rotation(f, 0), clip.rotation(f, 0)), 1e-5);
+  }
+}
+
+TEST(BvhRewriter, LongTakesWithGapsKeepTheirDigits) {
+  std::string text =
+      "HIERARCHY\nROOT a\n{\n OFFSET 0 0 0\n CHANNELS 4 Xposition Zrotation Xrotation "
+      "Yrotation\n}\nMOTION\n"
+      "Frames: 5000\nFrame Time: 0.01\n";
+  for (int f = 0; f < 5000; ++f) {
+    const bool gap = f % 1024 < 2 || f % 97 == 0;
+    text += gap ? "nan 1.0 nan 2.0\n"
+                : std::to_string(f) + ".25 1.5 " + std::to_string(f % 90) + ".125 2.0\n";
+  }
+  Clip clip = read_text(text);
   clip.validate();
-  clip.rotation(1, 0) = rotation_of({1.5, 2, 3}, "ZXY");
-  EXPECT_LT(angle_between(read_text(write_clip(clip)).rotation(1, 0), clip.rotation(1, 0)), 1e-5);
+  EXPECT_EQ(clip.root_positions[0].x, 2.25);
+  EXPECT_EQ(clip.root_positions[2049].x, 2047.25);
+  EXPECT_LT(angle_between(clip.rotation(2049, 0), rotation_of({1.5, 67.125, 2}, "ZXY")), 1e-14);
+  EXPECT_TRUE(write_clip(clip) == text);
+  clip.rotation(4000, 0) = clip.rotation(4000, 0) * exp({0.1, 0, 0});
+  const std::string changed = write_clip(clip);
+  std::size_t different = 0;
+  ASSERT_EQ(changed.size() > text.size(), true);
+  const auto before = words_of(text), after = words_of(changed);
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t w = 0; w < before.size(); ++w) different += before[w] != after[w] ? 1 : 0;
+  EXPECT_GE(different, 1u);
+  EXPECT_LE(different, 3u);
 }
 
 }  // namespace

@@ -1,0 +1,83 @@
+// The bytes after the first eight are a take; those eight choose what is changed in it. What is
+// written must read back as the clip that was written, whatever the layout, and samples that were
+// not changed must keep their value exactly.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include "kinemend/error.hpp"
+#include "kinemend/io.hpp"
+#include "kinemend/random.hpp"
+
+namespace {
+
+using namespace kinemend;
+
+// Angles and positions of a size for which four decimals say enough.
+bool is_sensible(const Clip& clip) {
+  const auto sensible = [](Vec3 v) { return norm(v) < 1e6; };
+  return std::all_of(clip.root_positions.begin(), clip.root_positions.end(), sensible) &&
+         std::all_of(clip.joint_translations.begin(), clip.joint_translations.end(), sensible);
+}
+
+void check(bool condition) {
+  if (!condition) std::abort();
+}
+
+// `source`: unless null, what keeps its exact value where the clip has it.
+void check_round_trip(const Clip& clip, const Clip* source, const std::string& text) {
+  const Clip again = read_clip(text, "again.bvh").clip;
+  again.validate();
+  check(again.frame_count() == clip.frame_count() && again.joint_count() == clip.joint_count());
+  if (!is_sensible(clip)) return;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    for (std::size_t j = 0; j < clip.joint_count(); ++j) {
+      const Quat now = clip.rotation(f, j);
+      if (source != nullptr && now == source->rotation(f, j)) {
+        check(again.rotation(f, j) == now || !clip.observed.empty());
+      } else if (clip.skeleton.rotation_order(j).count == 3) {
+        check(angle_between(again.rotation(f, j), now) < 1e-4);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::uint64_t seed = 0;
+  if (size < sizeof seed) return 0;
+  std::memcpy(&seed, data, sizeof seed);
+  const std::string bytes(reinterpret_cast<const char*>(data) + sizeof seed, size - sizeof seed);
+  Clip clip;
+  try {
+    clip = read_clip(bytes, "fuzz.bvh").clip;
+  } catch (const Error&) {
+    return 0;
+  }
+  const Clip source = clip;
+  Random random(seed);
+  const double share = random.uniform(), size_rad = std::pow(10.0, random.uniform(-6, 0.5));
+  for (Quat& q : clip.local_rotations) {
+    if (!random.chance(share)) continue;
+    q = normalized(q * exp({size_rad * random.normal(), size_rad * random.normal(),
+                            size_rad * random.normal()}));
+  }
+  if (random.chance(0.3)) {
+    for (Vec3& p : clip.root_positions) p += {0.5, 0.25, -0.125};
+  }
+  check_round_trip(clip, &source, write_clip(clip));
+  if (random.chance(0.2) && clip.frame_count() > 0) {
+    clip.source.document.reset();
+    try {
+      check_round_trip(clip, nullptr, write_clip(clip));
+    } catch (const Error& error) {
+      // The plain layout refuses motion that no channel can hold.
+      check(error.kind() == ErrorKind::usage);
+    }
+  }
+  return 0;
+}
