@@ -40,13 +40,16 @@ Quat turned_within_axes(Quat from, Quat to, double weight, double limit, JointBl
     }
     return from_euler(angles, joint.order);
   };
-  Quat result = at(weight);
+  constexpr double rounding = 1 + 1e-12;
   double share = weight;
-  for (int step = 0; step < 50 && angle_between(from, result) > limit; ++step) {
-    share *= std::min(0.999, limit / angle_between(from, result));
+  Quat result = at(share);
+  for (int step = 0; step < 50; ++step) {
+    const double angle = angle_between(from, result);
+    if (angle <= limit * rounding) return result;
+    share *= limit / angle;
     result = at(share);
   }
-  return angle_between(from, result) > limit ? from : result;
+  return from;
 }
 
 Action action_of(const std::vector<Action>& actions, std::size_t sample, bool changed) {

@@ -62,6 +62,9 @@ std::span<const Method> methods() {
   static const std::vector<Method> table = [] {
     std::vector<Method> list;
     list.push_back(auto_method());
+    list.push_back(bilateral_method());
+    list.push_back(nonlocal_method());
+    list.push_back(gaussian_method());
     list.push_back(butterworth_method());
     list.push_back(median_method());
     list.push_back(hampel_method());
