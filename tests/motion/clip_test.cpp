@@ -1,0 +1,204 @@
+#include "kinemend/clip.hpp"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "kinemend/error.hpp"
+#include "motion/clips.hpp"
+
+namespace kinemend {
+namespace {
+
+using testing::about_x;
+using testing::about_z;
+using ::testing::AllOf;
+using testing::chain_clip;
+using testing::chain_skeleton;
+using testing::degree;
+using testing::moving_chain;
+using ::testing::Property;
+using testing::random_vector;
+using ::testing::Throws;
+using ::testing::ThrowsMessage;
+
+auto usage(const char* message) {
+  return AllOf(Throws<Error>(Property(&Error::kind, ErrorKind::usage)),
+               ThrowsMessage<Error>(message));
+}
+
+Clip full_clip() {
+  Clip clip = moving_chain(3, 5);
+  clip.translated_joints = {1};
+  for (std::size_t f = 0; f < 5; ++f)
+    clip.joint_translations.push_back({static_cast<double>(f), 1, 2});
+  clip.observed.assign(15, 1);
+  clip.observed[7] = 0;
+  clip.source = {"walk.bvh", "bvh", std::make_shared<SourceDocument>()};
+  return clip;
+}
+
+template <class Change>
+auto validating(Change change) {
+  Clip clip = full_clip();
+  change(clip);
+  return [clip] { clip.validate(); };
+}
+
+TEST(ClipRules, AcceptGoodClips) {
+  EXPECT_NO_THROW(full_clip().validate());
+  EXPECT_NO_THROW(chain_clip(2, 0).validate());
+}
+
+TEST(ClipRules, NameTheFirstFrameAndJointThatBreaksOne) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(validating([](Clip& c) { c.skeleton.parents[0] = 1; }),
+              usage("joint 0 is not a root"));
+  EXPECT_THAT(validating([](Clip& c) { c.frame_rate_hz = 0; }),
+              usage("frame rate 0 Hz is not positive"));
+  EXPECT_THAT(validating([&](Clip& c) { c.frame_rate_hz = infinity; }),
+              usage("frame rate inf Hz is not positive"));
+  EXPECT_THAT(validating([](Clip& c) { c.local_rotations.pop_back(); }),
+              usage("local rotations: 14 values, expected 15"));
+  EXPECT_THAT(validating([](Clip& c) { c.joint_translations.pop_back(); }),
+              usage("joint translations: 4 values, expected 5"));
+  EXPECT_THAT(validating([](Clip& c) { c.observed.pop_back(); }),
+              usage("observed mask: 14 values, expected 15"));
+  const auto bad_joints = usage("translated joints are not ascending joint numbers above 0");
+  EXPECT_THAT(validating([](Clip& c) { c.translated_joints = {0}; }), bad_joints);
+  EXPECT_THAT(validating([](Clip& c) { c.translated_joints = {3}; }), bad_joints);
+  EXPECT_THAT(validating([](Clip& c) {
+                c.translated_joints = {2, 1};
+                c.joint_translations.resize(10);
+              }),
+              bad_joints);
+  EXPECT_THAT(validating([&](Clip& c) { c.root_positions[2].z = nan; }),
+              usage("frame 2: root position is not finite"));
+  EXPECT_THAT(validating([](Clip& c) { c.rotation(3, 1).w += 0.01; }),
+              usage("frame 3, joint \"joint1\": rotation is not a unit quaternion"));
+  EXPECT_THAT(validating([&](Clip& c) { c.rotation(4, 2).x = nan; }),
+              usage("frame 4, joint \"joint2\": rotation is not a unit quaternion"));
+  EXPECT_THAT(validating([&](Clip& c) { c.joint_translations[1].x = infinity; }),
+              usage("a joint translation is not finite"));
+}
+
+TEST(Clip, KnowsItsSizesAndWhatWasObserved) {
+  const Clip clip = full_clip();
+  EXPECT_EQ(clip.frame_count(), 5u);
+  EXPECT_EQ(clip.joint_count(), 3u);
+  EXPECT_NEAR(clip.duration_s(), 0.05, 1e-15);
+  EXPECT_FALSE(clip.is_observed(2, 1));
+  EXPECT_TRUE(clip.is_observed(2, 2));
+  EXPECT_TRUE(chain_clip(2, 2).is_observed(1, 1)) << "no mask: all of them";
+}
+
+TEST(Slice, HoldsTheFramesAskedForAndNoSourceDocument) {
+  const Clip clip = full_clip();
+  const Clip part = slice(clip, 1, 4);
+  part.validate();
+  EXPECT_EQ(part.frame_count(), 3u);
+  EXPECT_EQ(part.frame_rate_hz, clip.frame_rate_hz);
+  EXPECT_EQ(part.source.name, "walk.bvh");
+  EXPECT_EQ(part.source.document, nullptr);
+  for (std::size_t f = 0; f < 3; ++f) {
+    EXPECT_EQ(part.root_positions[f], clip.root_positions[f + 1]);
+    EXPECT_EQ(part.joint_translations[f], clip.joint_translations[f + 1]);
+    for (std::size_t j = 0; j < 3; ++j) {
+      EXPECT_EQ(part.rotation(f, j), clip.rotation(f + 1, j));
+      EXPECT_EQ(part.is_observed(f, j), clip.is_observed(f + 1, j));
+    }
+  }
+  EXPECT_EQ(slice(clip, 2, 2).frame_count(), 0u);
+  EXPECT_TRUE(slice(moving_chain(2, 4), 1, 3).observed.empty());
+}
+
+// A chain that moves about a pose far from rest, as a person's take does; `pose_frames` frames of
+// T-pose before it.
+Clip take_with_pose(std::size_t pose_frames, std::size_t frames) {
+  const Clip motion = moving_chain(8, frames, 120);
+  Clip clip = testing::resting_clip(motion.skeleton, pose_frames + frames, 120);
+  for (std::size_t f = 0; f < frames; ++f) {
+    for (std::size_t j = 0; j < 8; ++j)
+      clip.rotation(pose_frames + f, j) = about_z(0.7) * motion.rotation(f, j);
+  }
+  return clip;
+}
+
+TEST(LeadingCalibrationFrames, FindsATPoseFirst) {
+  EXPECT_EQ(leading_calibration_frames(take_with_pose(1, 300)), 1u);
+  EXPECT_EQ(leading_calibration_frames(take_with_pose(1, 2)), 1u);
+}
+
+TEST(LeadingCalibrationFrames, FindsATPoseWithATurnedRootAndHips) {
+  Clip clip = take_with_pose(1, 300);
+  clip.rotation(0, 0) = testing::about_y(2);
+  clip.rotation(0, 1) = about_z(21 * degree);
+  clip.rotation(0, 2) = about_z(-21 * degree);
+  EXPECT_EQ(leading_calibration_frames(clip), 1u);
+}
+
+TEST(LeadingCalibrationFrames, FindsATPoseOfSomeFrames) {
+  EXPECT_EQ(leading_calibration_frames(take_with_pose(5, 300)), 5u);
+}
+
+TEST(LeadingCalibrationFrames, FindsItInANoisyTakeWithSpikes) {
+  Clip clip = take_with_pose(1, 300);
+  Random random(1);
+  for (std::size_t i = 8; i < clip.local_rotations.size(); ++i) {
+    Quat& q = clip.local_rotations[i];
+    q = q * exp(random_vector(random, 1.5 * degree));
+    if (random.chance(0.01)) q = q * exp(random_vector(random, 40 * degree));
+  }
+  EXPECT_EQ(leading_calibration_frames(clip), 1u);
+}
+
+TEST(LeadingCalibrationFrames, FindsNoneInACleanTake) {
+  EXPECT_EQ(leading_calibration_frames(take_with_pose(0, 300)), 0u);
+  EXPECT_EQ(leading_calibration_frames(moving_chain(8, 300)), 0u);
+  EXPECT_EQ(leading_calibration_frames(chain_clip(8, 300)), 0u) << "at rest throughout";
+}
+
+TEST(LeadingCalibrationFrames, FindsNoneWhereMotionStartsFromTheRestPose) {
+  // From rest with constant acceleration, fast: 40 degrees a frame at the end.
+  for (const double speed : {0.5, 2.0, 5.0}) {
+    Clip clip = chain_clip(6, 20, 30);
+    for (std::size_t f = 0; f < 20; ++f) {
+      const double t = static_cast<double>(f);
+      for (std::size_t j = 1; j < 6; ++j) clip.rotation(f, j) = about_x(speed * t * t / 2 * degree);
+    }
+    EXPECT_EQ(leading_calibration_frames(clip), 0u) << speed;
+  }
+  // At constant speed from the first frame on, as hand-keyed takes do.
+  Clip clip = chain_clip(6, 20, 30);
+  for (std::size_t f = 0; f < 20; ++f) {
+    for (std::size_t j = 1; j < 6; ++j)
+      clip.rotation(f, j) = about_x(30.0 * degree * static_cast<double>(f));
+  }
+  EXPECT_EQ(leading_calibration_frames(clip), 0u);
+}
+
+TEST(LeadingCalibrationFrames, FindsNoneInAFrozenFirstFrame) {
+  Clip clip = take_with_pose(0, 300);
+  for (std::size_t f = 1; f < 4; ++f) {
+    for (std::size_t j = 0; j < 8; ++j) clip.rotation(f, j) = clip.rotation(0, j);
+  }
+  EXPECT_EQ(leading_calibration_frames(clip), 0u);
+}
+
+TEST(LeadingCalibrationFrames, FindsNoneInAPersonStandingInTPoseForLong) {
+  EXPECT_EQ(leading_calibration_frames(take_with_pose(60, 300)), 0u);
+}
+
+TEST(LeadingCalibrationFrames, NeverTakesAllFrames) {
+  EXPECT_EQ(leading_calibration_frames(chain_clip(8, 0)), 0u);
+  EXPECT_EQ(leading_calibration_frames(chain_clip(8, 1)), 0u);
+  EXPECT_EQ(leading_calibration_frames(chain_clip(8, 2)), 0u);
+  EXPECT_EQ(leading_calibration_frames(chain_clip(8, 5)), 0u);
+  EXPECT_EQ(leading_calibration_frames(take_with_pose(1, 1)), 0u);
+  EXPECT_EQ(leading_calibration_frames(take_with_pose(2, 0)), 0u);
+  EXPECT_EQ(leading_calibration_frames(chain_clip(1, 5)), 0u) << "roots only";
+}
+
+}  // namespace
+}  // namespace kinemend
