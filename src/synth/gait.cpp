@@ -36,7 +36,7 @@ Gait::Gait(const Body& body, const GaitData& data, std::function<double(double)>
       stride_s_(data.stride_s * std::sqrt(body.stature / 172) * random.uniform(0.97, 1.03)),
       first_strides_(random.uniform()),
       tempo_(random, 0.006, 0.05, 0.3),
-      knee_wander_(random, 0.015, 0.05, 0.4),
+      knee_wander_(random, 0.02, 0.05, 0.4),
       trunk_wander_(random, 0.5, 0.1, 0.8),
       twist_wander_(random, 0.6, 0.1, 0.8),
       nod_wander_(random, 1.2, 0.05, 0.5),
@@ -112,7 +112,7 @@ Vec3 Gait::normative_ankle(double strides, std::size_t side, const Posture& pelv
   const double phase = strides - side_offset(side);
   const Quat thigh =
       pelvis_rotation(pelvis) * about_x(-hip_(phase)) * about_z(-pelvis.obliquity_deg);
-  const Quat shank = thigh * about_x(knee_(phase));
+  const Quat shank = thigh * about_x(knee_(phase) * (1 + knee_wander_(strides)));
   return hip_position(body_, pelvis, side) + rotate(thigh, {0, -body_.thigh, 0}) +
          rotate(shank, {0, -body_.shank, 0});
 }
