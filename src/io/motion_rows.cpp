@@ -47,7 +47,8 @@ std::size_t MotionRows::read(double* values, std::size_t count, TokenSpan* token
   std::size_t i = 0;
   for (; i < count; ++i) {
     PlainNumber number;
-    if (may_be_plain(p) && read_plain_number(p, number)) [[likely]] {
+    // A number ends with white space, not with any control character.
+    if (may_be_plain(p) && read_plain_number(p, number) && is_space(p[number.length])) [[likely]] {
       last_end = p + number.length;
       if constexpr (keep_tokens) tokens[i] = {p, last_end};
       values[i] = number.value;

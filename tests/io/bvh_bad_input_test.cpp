@@ -92,6 +92,16 @@ TEST(BadBvh, AMessageIsOnePrintableLine) {
             "take.bvh:4: expected OFFSET, CHANNELS, JOINT, End Site or }, found \"..[31m.\"");
 }
 
+TEST(BadBvh, ANumberEndsWithWhiteSpaceOnly) {
+  const std::string text = read_file(fixture("good/plain.bvh"));
+  for (const char after : {'\x03', '\x1b', '\0', '\x80'}) {
+    std::string bad = text;
+    bad[text.find("21.0000") + 7] = after;
+    EXPECT_EQ(read_error(bad).substr(0, 48), "take.bvh:20: expected a number, found \"-21.0000.")
+        << int{after};
+  }
+}
+
 TEST(BadBvh, AFileThatCannotBeOpenedIsNamed) {
   EXPECT_EQ(message_of([] { read_clip(std::filesystem::path("no/such/take.bvh")); },
                        ErrorKind::unreadable_input),
