@@ -27,13 +27,15 @@ struct GaitData {
 /// Walking at a free speed.
 /// Knee: mean curve of Schwartz, Rozumalski and Trost, J. Biomech. 41 (2008) 1639-1650. Hip and
 /// ankle: after the mean curves of Kadaba, Ramakrishnan and Wootten, J. Orthop. Res. 8 (1990)
-/// 383-392, and Perry and Burnfield, Gait Analysis, 2nd ed. (2010), ch. 4, read to about 2 degrees,
-/// as are pelvis and trunk. Arms: Murray, Sepic and Barnard, Phys. Ther. 47 (1967) 272-284. Stride
-/// time and stance: Winter, Biomechanics and Motor Control of Human Gait (1991).
+/// 383-392, and Perry and Burnfield, Gait Analysis, 2nd ed. (2010), ch. 4: their key values,
+/// tabulated by hand, as are pelvis and trunk. Arms: Murray, Sepic and Barnard, Phys. Ther. 47
+/// (1967) 272-284. Stride time and stance: Winter, Biomechanics and Motor Control of Human Gait
+/// (1991).
 const GaitData& walk_data();
 
 /// Running at about 3.2 m/s, after the mean curves of Novacheck, Gait and Posture 7 (1998) 77-95,
-/// read to about 3 degrees; arms after Hinrichs, Int. J. Sport Biomech. 3 (1987) 222-241.
+/// key values tabulated by hand and shifted by up to 7 degrees so that stance and flight agree;
+/// arms after Hinrichs, Int. J. Sport Biomech. 3 (1987) 222-241.
 const GaitData& run_data();
 
 }  // namespace kinemend::synth
