@@ -1,20 +1,22 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "kinemend/clean.hpp"
 #include "kinemend/cleaner.hpp"
 #include "kinemend/clip.hpp"
 
+// What the pipeline does with a track (a joint's rotations, or positions) once the cleaner is done:
+// blend it with its input, and report on it. Frames are those of the motion, without calibration.
 namespace kinemend {
 
-/// What became of every sample of the take's motion (calibration frames left out).
-struct Changes {
-  std::vector<double> degrees;       ///< F x J
-  std::vector<Action> actions;       ///< F x J
-  std::vector<double> root;          ///< F, file units
-  std::vector<Action> root_actions;  ///< F
+/// What became of every sample of a track.
+struct TrackChanges {
+  std::vector<double> amounts;  ///< degrees; file units for positions
+  std::vector<Action> actions;
 };
 
 /// How far frame f goes from its input to the cleaned value, 0..1: the strength, and the range with
@@ -22,15 +24,37 @@ struct Changes {
 std::vector<double> frame_weights(const CleanSettings& settings, std::size_t frames,
                                   std::size_t first_frame, double frame_rate_hz);
 
-/// Blends `cleaned` (the motion after the cleaner) with the same frames of `input`, in place, and
-/// says what changed. Whatever may not change, and whatever hardly did, gets its input value back.
-Changes blend_changes(const Clip& input, std::size_t first_frame, const Selection& selection,
-                      const CleanSettings& settings, const std::vector<double>& weights,
-                      const CleanTrace& trace, Clip& cleaned);
+/// One joint's rotations before and after the cleaner.
+struct JointTracks {
+  std::vector<Quat> before, after;
+  std::vector<std::uint8_t> observed;  ///< empty means all
+  std::vector<Action> stated;  ///< what the cleaner says it did; empty: nothing in particular
+};
 
-/// Fills in the report's joints, root figures, spans and peak-loss warnings.
-void write_report(const Clip& input, std::size_t first_frame, const Clip& cleaned,
-                  const Changes& changes, const CleanTrace& trace, const CleanSettings& settings,
-                  CleanReport& report);
+/// Blends `after` with `before` in place and says what changed. Samples that hardly changed get
+/// their input value back. Joints of one or two axes are turned about these only.
+TrackChanges blend_rotations(JointTracks& tracks, RotationOrder order,
+                             const CleanSettings& settings, const std::vector<double>& weights);
+
+/// The same of the positions of one joint; axes without a channel stay. Changes below `least` are
+/// none.
+TrackChanges blend_positions(std::span<const Vec3> before, std::span<Vec3> after,
+                             const std::vector<Channel>& channels,
+                             const std::vector<double>& weights, const std::vector<Action>& stated,
+                             double least);
+
+/// What the report says of one joint.
+struct JointReport {
+  JointSummary summary;
+  std::vector<ReportSpan> spans;
+  std::string warning;  ///< of a lost peak; empty when there is none
+};
+JointReport report_joint(const std::string& name, std::size_t joint, const JointTracks& tracks,
+                         const TrackChanges& changes, std::size_t first_frame, double frame_rate_hz,
+                         double peak_loss_limit);
+
+/// The spans of one track, `kept` left out.
+std::vector<ReportSpan> spans_of(std::int32_t joint, const TrackChanges& changes,
+                                 std::size_t first_frame);
 
 }  // namespace kinemend

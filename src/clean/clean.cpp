@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <span>
 #include <utility>
 
 #include "clean/changes.hpp"
+#include "clean/tracks.hpp"
 #include "kinemend/error.hpp"
 
 namespace kinemend {
@@ -71,6 +74,94 @@ void put_back(std::vector<T>& whole, const std::vector<T>& part, std::size_t fir
             whole.begin() + static_cast<std::ptrdiff_t>(first_frame * width));
 }
 
+// The tracks of a joint of the take (from `first` on) and of the cleaned motion.
+JointTracks tracks_of(const Clip& clip, const Clip& motion, const CleanTrace& trace,
+                      std::size_t first, std::size_t joint) {
+  JointTracks tracks;
+  const std::size_t frames = motion.frame_count(), joints = clip.joint_count();
+  tracks.before.resize(frames);
+  for (std::size_t f = 0; f < frames; ++f) tracks.before[f] = clip.rotation(first + f, joint);
+  tracks.after = joint_track(motion, joint);
+  if (!clip.observed.empty()) {
+    tracks.observed.resize(frames);
+    for (std::size_t f = 0; f < frames; ++f) {
+      tracks.observed[f] = clip.is_observed(first + f, joint);
+    }
+  }
+  if (!trace.actions.empty()) {
+    tracks.stated.resize(frames);
+    for (std::size_t f = 0; f < frames; ++f) tracks.stated[f] = trace.actions[f * joints + joint];
+  }
+  return tracks;
+}
+
+// The input and the motion after the cleaner, on their way to the result.
+struct Work {
+  const Clip& clip;
+  const CleanSettings& settings;
+  const Selection& selection;
+  const CleanTrace& trace;
+  std::size_t first;  // frame of the motion: the number of calibration frames
+  std::vector<double> weights, nothing;
+
+  double least_shift() const { return 1e-11 * typical_bone_length(clip.skeleton); }
+};
+
+void finish_rotations(const Work& work, Clip& motion, CleanReport& report) {
+  const std::size_t joints = motion.joint_count();
+  std::vector<JointReport> parts(joints);
+  for_each_parallel(joints, motion.local_rotations.size(), [&](std::size_t j) {
+    JointTracks tracks = tracks_of(work.clip, motion, work.trace, work.first, j);
+    // The rotation of a joint without rotation channels has no place in a file.
+    const RotationOrder order = motion.skeleton.rotation_order(j);
+    const bool may_turn = work.selection.joints[j] && order.count > 0;
+    const TrackChanges changes =
+        blend_rotations(tracks, order, work.settings, may_turn ? work.weights : work.nothing);
+    set_joint_track(motion, j, tracks.after);
+    parts[j] = report_joint(motion.skeleton.names[j], j, tracks, changes, work.first,
+                            motion.frame_rate_hz, work.settings.peak_loss_limit);
+  });
+  for (std::size_t j = 0; j < joints; ++j) {
+    if (!work.trace.noise_deg.empty()) parts[j].summary.noise_deg = work.trace.noise_deg[j];
+    report.joints.push_back(std::move(parts[j].summary));
+    report.spans.insert(report.spans.end(), parts[j].spans.begin(), parts[j].spans.end());
+    if (!parts[j].warning.empty()) report.warnings.push_back(std::move(parts[j].warning));
+  }
+}
+
+void finish_root(const Work& work, Clip& motion, CleanReport& report) {
+  const auto before = std::span(work.clip.root_positions).subspan(work.first);
+  const TrackChanges changes =
+      blend_positions(before, motion.root_positions, motion.skeleton.channels[0],
+                      work.selection.root_position ? work.weights : work.nothing,
+                      work.trace.root_actions, work.least_shift());
+  double squares = 0;
+  for (const double change : changes.amounts) {
+    squares += change * change;
+    report.root_max_change = std::max(report.root_max_change, change);
+  }
+  if (!before.empty())
+    report.root_rms_change = std::sqrt(squares / static_cast<double>(before.size()));
+  report.spans = spans_of(-1, changes, work.first);
+}
+
+void finish_translations(const Work& work, Clip& motion) {
+  const std::size_t width = motion.translated_joints.size(), frames = motion.frame_count();
+  for (std::size_t i = 0; i < width && frames > 0; ++i) {
+    std::vector<Vec3> before(frames);
+    for (std::size_t f = 0; f < frames; ++f) {
+      before[f] = work.clip.joint_translations[(work.first + f) * width + i];
+    }
+    const PositionTrack track{motion.joint_translations.data() + i, width};
+    std::vector<Vec3> after = position_track(track, frames);
+    const bool selected = translation_selected(motion, work.selection, i);
+    const auto joint = static_cast<std::size_t>(motion.translated_joints[i]);
+    blend_positions(before, after, motion.skeleton.channels[joint],
+                    selected ? work.weights : work.nothing, {}, work.least_shift());
+    set_position_track(track, after);
+  }
+}
+
 }  // namespace
 
 CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner, const CleanSettings& settings,
@@ -89,9 +180,18 @@ CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner, const CleanSett
 
   Clip motion = slice(clip, first, clip.frame_count());
   const CleanTrace trace = cleaner.clean(motion, selection);
-  const auto weights = frame_weights(settings, clip.frame_count(), first, clip.frame_rate_hz);
-  const Changes changes = blend_changes(clip, first, selection, settings, weights, trace, motion);
-  write_report(clip, first, motion, changes, trace, settings, report);
+  report.warnings = trace.warnings;
+  const std::size_t frames = motion.frame_count();
+  const Work work{clip,
+                  settings,
+                  selection,
+                  trace,
+                  first,
+                  frame_weights(settings, clip.frame_count(), first, clip.frame_rate_hz),
+                  std::vector<double>(frames, 0.0)};
+  finish_root(work, motion, report);
+  finish_translations(work, motion);
+  finish_rotations(work, motion, report);
 
   if (first == 0) {
     motion.source = clip.source;

@@ -50,7 +50,7 @@ class Despiker {
     const std::size_t from = std::max(first, t - std::min(t, near));
     const std::size_t to = std::min(last, t + near);
     const auto window = track_.subspan(from, to - from + 1);
-    sample = l1_median(window, medoid(window, scratch_), scratch_);
+    sample = l1_median(window, medoid(window), scratch_);
     return true;
   }
 
@@ -83,7 +83,7 @@ class Despiker {
   Track<Sample> track_;
   Rule rule_;
   MovingMedoid<Sample> medoids_;
-  MedianScratch scratch_;
+  std::vector<Vec3> scratch_;
   std::vector<double> distances_;
 };
 

@@ -21,11 +21,12 @@ using Track = std::span<const Sample>;
 
 // Median of the window about `t`, which shrinks towards the ends and stays centred.
 template <class Sample>
-Sample inner_median(Track<Sample> track, std::size_t t, std::size_t half, MedianScratch& scratch) {
+Sample inner_median(Track<Sample> track, std::size_t t, std::size_t half,
+                    std::vector<Vec3>& scratch) {
   const std::size_t h = std::min({half, t, track.size() - 1 - t});
   if (h == 0) return track[t];
   const auto window = track.subspan(t - h, 2 * h + 1);
-  return l1_median(window, medoid(window, scratch), scratch);
+  return l1_median(window, medoid(window), scratch);
 }
 
 Quat extrapolated(Quat near, Quat far) {
@@ -36,14 +37,14 @@ Vec3 extrapolated(Vec3 near, Vec3 far) { return near + 2.0 * (near - far); }
 // Tukey's rule for the last sample at either end: the median of it, of the median beside it, and of
 // the point that the medians beside it lead to.
 template <class Sample>
-Sample end_median(Sample end, Sample near, Sample far, MedianScratch& scratch) {
+Sample end_median(Sample end, Sample near, Sample far, std::vector<Vec3>& scratch) {
   const Sample three[3] = {end, near, extrapolated(near, far)};
   const Track<Sample> samples(three);
-  return l1_median(samples, medoid(samples, scratch), scratch);
+  return l1_median(samples, medoid(samples), scratch);
 }
 
 template <class Sample>
-Sample median_at(Track<Sample> track, std::size_t t, std::size_t half, MedianScratch& scratch) {
+Sample median_at(Track<Sample> track, std::size_t t, std::size_t half, std::vector<Vec3>& scratch) {
   const std::size_t last = track.size() - 1;
   if (track.size() < 4 || half == 0 || (t > 0 && t < last)) {
     return inner_median(track, t, half, scratch);
@@ -56,7 +57,7 @@ Sample median_at(Track<Sample> track, std::size_t t, std::size_t half, MedianScr
 template <class Sample>
 std::vector<Sample> median_track(const std::vector<Sample>& samples, std::size_t half) {
   const Track<Sample> track(samples);
-  MedianScratch scratch;
+  std::vector<Vec3> scratch;
   MovingMedoid<Sample> medoids(track, 2 * half + 1);
   std::vector<Sample> result(track.size());
   for (std::size_t t = 0; t < track.size(); ++t) {
@@ -106,7 +107,7 @@ class Median final : public Cleaner {
     const std::vector<std::size_t> joints = selected_joints(copy, all);
     bridge_gaps(copy, joints, trace);
     const std::size_t half = half_frames(copy.frame_rate_hz), frames = copy.frame_count();
-    MedianScratch scratch;
+    std::vector<Vec3> scratch;
     for (const std::size_t j : joints) {
       const std::vector<Quat> track = joint_track(copy, j);
       copy.rotation(frame, j) = median_at(Track<Quat>(track), frame, half, scratch);

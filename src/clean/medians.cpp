@@ -1,138 +1,89 @@
 #include "clean/medians.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <type_traits>
 
 namespace kinemend {
 
 namespace {
 
-constexpr std::size_t coordinate_count(Quat) { return 4; }
-constexpr std::size_t coordinate_count(Vec3) { return 3; }
-std::array<double, 4> coordinates_of(Quat q) { return {q.w, q.x, q.y, q.z}; }
-std::array<double, 3> coordinates_of(Vec3 p) { return {p.x, p.y, p.z}; }
-Quat from_coordinates(const std::array<double, 4>& c) {
-  return normalized({c[0], c[1], c[2], c[3]});
-}
-Vec3 from_coordinates(const std::array<double, 3>& c) { return {c[0], c[1], c[2]}; }
+// What pulls at a point: the sums over the samples it has not met.
+struct Pull {
+  double distances = 0;  // sum of |p - y|
+  double weights = 0;    // sum of 1 / |p - y|
+  double met = 0;        // samples at the point itself
+  Vec3 direction;        // sum of (p - y) / |p - y|
+  // Sum of (I - u u^T) / |p - y|, the curvature of the sum of distances.
+  double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
+};
 
-// Coordinate c of sample i at [c * count + i], so that the loops over samples vectorise.
-template <class Sample>
-void spread_out(std::span<const Sample> samples, MedianScratch& scratch) {
-  constexpr std::size_t width = coordinate_count(Sample{});
-  const std::size_t count = samples.size();
-  scratch.coordinates.resize(width * count);
-  scratch.distances.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto values = coordinates_of(samples[i]);
-    for (std::size_t c = 0; c < width; ++c) scratch.coordinates[c * count + i] = values[c];
-  }
-}
-
-// Distance of every sample from `point`, into scratch.distances. Quaternions (width 4) are taken
-// with the nearer of their signs: |a + b|^2 = 4 - |a - b|^2.
-template <std::size_t width>
-void measure(const std::array<double, width>& point, MedianScratch& scratch) {
-  const std::size_t count = scratch.distances.size();
-  double* distances = scratch.distances.data();
-  for (std::size_t i = 0; i < count; ++i) distances[i] = 0;
-  for (std::size_t c = 0; c < width; ++c) {
-    const double* values = scratch.coordinates.data() + c * count;
-    const double own = point[c];
-    for (std::size_t i = 0; i < count; ++i) {
-      const double d = values[i] - own;
-      distances[i] += d * d;
+Pull pull_at(Vec3 y, std::span<const Vec3> points, double tiny) {
+  Pull pull;
+  for (const Vec3& p : points) {
+    const Vec3 d = p - y;
+    const double distance = norm(d);
+    if (distance <= tiny) {
+      pull.met += 1;
+      continue;
     }
+    const double weight = 1 / distance;
+    const Vec3 u = weight * d;
+    pull.distances += distance;
+    pull.weights += weight;
+    pull.direction += u;
+    pull.xx += weight * (1 - u.x * u.x);
+    pull.yy += weight * (1 - u.y * u.y);
+    pull.zz += weight * (1 - u.z * u.z);
+    pull.xy -= weight * u.x * u.y;
+    pull.xz -= weight * u.x * u.z;
+    pull.yz -= weight * u.y * u.z;
   }
-  if constexpr (width == 4) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const double other = std::max(0.0, 4 - distances[i]);
-      distances[i] = distances[i] < other ? distances[i] : other;
-    }
-  }
-  for (std::size_t i = 0; i < count; ++i) distances[i] = std::sqrt(distances[i]);
+  return pull;
 }
 
-// Gives every sample the sign that is nearest to sample `middle`.
-void align_samples(std::span<const Quat> samples, std::size_t middle, MedianScratch& scratch) {
-  const std::size_t count = samples.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    if (dot(samples[i], samples[middle]) >= 0) continue;
-    for (std::size_t c = 0; c < 4; ++c) scratch.coordinates[c * count + i] *= -1;
-  }
-}
-void align_samples(std::span<const Vec3>, std::size_t, MedianScratch&) {}
-
-double sum_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double v : values) sum += v;
-  return sum;
+// Newton's step, by Cramer's rule; Weiszfeld's where the curvature is degenerate.
+Vec3 newton_step(const Pull& p) {
+  const Vec3 g = p.direction;
+  const double a = p.yy * p.zz - p.yz * p.yz, b = p.xz * p.yz - p.xy * p.zz;
+  const double c = p.xy * p.yz - p.xz * p.yy;
+  const double determinant = p.xx * a + p.xy * b + p.xz * c;
+  if (!(determinant > 1e-9 * p.weights * p.weights * p.weights)) return (1 / p.weights) * g;
+  const double d = p.xx * p.zz - p.xz * p.xz, e = p.xy * p.xz - p.xx * p.yz;
+  const double f = p.xx * p.yy - p.xy * p.xy;
+  return (1 / determinant) * Vec3{a * g.x + b * g.y + c * g.z, b * g.x + d * g.y + e * g.z,
+                                  c * g.x + e * g.y + f * g.z};
 }
 
-// How strongly the samples that are not met pull at `point`: the sum of their unit directions.
-template <std::size_t width>
-double pull_at(const std::array<double, width>& point, const MedianScratch& scratch, double tiny) {
-  const std::size_t count = scratch.distances.size();
-  std::array<double, width> pull{};
-  for (std::size_t i = 0; i < count; ++i) {
-    if (scratch.distances[i] <= tiny) continue;
-    for (std::size_t c = 0; c < width; ++c) {
-      pull[c] += (scratch.coordinates[c * count + i] - point[c]) / scratch.distances[i];
-    }
-  }
-  double squares = 0;
-  for (const double p : pull) squares += p * p;
-  return std::sqrt(squares);
-}
-
-// One step of Weiszfeld's iteration with the correction of Vardi & Zhang. Returns how far it went.
-template <std::size_t width>
-double weiszfeld_step(std::array<double, width>& point, MedianScratch& scratch, double tiny) {
-  measure(point, scratch);
-  const std::size_t count = scratch.distances.size();
-  std::array<double, width> mean{};
-  double total = 0, met = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double distance = scratch.distances[i];
-    const double weight = distance > tiny ? 1 / distance : 0;
-    met += distance > tiny ? 0 : 1;
-    total += weight;
-    for (std::size_t c = 0; c < width; ++c) mean[c] += weight * scratch.coordinates[c * count + i];
-  }
-  if (total == 0) return 0;
-  double stay = 0;
-  if (met > 0) {
-    const double pull = pull_at(point, scratch, tiny);
-    stay = pull > met ? met / pull : 1;
-  }
-  double moved = 0;
-  for (std::size_t c = 0; c < width; ++c) {
-    const double next = (1 - stay) * mean[c] / total + stay * point[c];
-    moved += (next - point[c]) * (next - point[c]);
-    point[c] = next;
-  }
-  return std::sqrt(moved);
-}
-
-template <class Sample>
-Sample find_l1_median(std::span<const Sample> samples, std::size_t start, MedianScratch& scratch) {
-  constexpr int most_steps = 20;
-  constexpr double near_enough = 1e-4;
-  spread_out(samples, scratch);
-  align_samples(samples, start, scratch);
-  auto point = coordinates_of(samples[start]);
-  measure(point, scratch);
-  const double spread = sum_of(scratch.distances) / static_cast<double>(samples.size());
-  if (spread == 0) return samples[start];
+Vec3 spatial_median(std::span<const Vec3> points, std::size_t start) {
+  constexpr int most_steps = 16;
+  constexpr double near_enough = 1e-6;
+  Vec3 best = points[start];
+  double spread = 0;
+  for (const Vec3& p : points) spread += norm(p - best) / static_cast<double>(points.size());
+  if (spread == 0) return best;
+  const double tiny = 1e-12 * spread;
+  Pull pull = pull_at(best, points, tiny);
+  const double strength = norm(pull.direction);
+  if (strength <= pull.met) return best;
+  // Vardi & Zhang: leave the sample, by Weiszfeld's step made shorter.
+  Vec3 next = best + ((1 - pull.met / strength) / pull.weights) * pull.direction;
   for (int step = 0; step < most_steps; ++step) {
-    const double moved = weiszfeld_step(point, scratch, 1e-12 * spread);
-    if (moved == 0 && step == 0) return samples[start];
-    if constexpr (std::is_same_v<Sample, Quat>) point = coordinates_of(from_coordinates(point));
-    if (moved <= near_enough * spread) break;
+    const Pull there = pull_at(next, points, tiny);
+    if (there.met > 0) return next;
+    if (step > 0 && there.distances > pull.distances) {
+      // Newton's step went too far; Weiszfeld's never does.
+      next = best + (1 / pull.weights) * pull.direction;
+      pull = pull_at(next, points, tiny);
+      if (pull.met > 0) return next;
+    } else {
+      pull = there;
+    }
+    best = next;
+    const Vec3 move = newton_step(pull);
+    next = best + move;
+    if (norm(move) <= near_enough * spread) break;
   }
-  return from_coordinates(point);
+  return best;
 }
 
 // Twice |a - b| of the nearer signs; points: |a - b|.
@@ -147,17 +98,30 @@ double distance_of(Vec3 a, Vec3 b) { return norm(a - b); }
 
 double chord(Quat a, Quat b) { return distance_of(a, b); }
 
-std::size_t medoid(std::span<const Quat> samples, MedianScratch&) {
+std::size_t medoid(std::span<const Quat> samples) {
   return MovingMedoid<Quat>(samples, samples.size()).find(0, samples.size() - 1);
 }
-std::size_t medoid(std::span<const Vec3> samples, MedianScratch&) {
+std::size_t medoid(std::span<const Vec3> samples) {
   return MovingMedoid<Vec3>(samples, samples.size()).find(0, samples.size() - 1);
 }
-Quat l1_median(std::span<const Quat> samples, std::size_t start, MedianScratch& scratch) {
-  return find_l1_median(samples, start, scratch);
+
+Quat l1_median(std::span<const Quat> samples, std::size_t start, std::vector<Vec3>& scratch) {
+  const Quat middle = samples[start], back = conjugate(middle);
+  scratch.clear();
+  for (const Quat& sample : samples) {
+    const Quat d = back * sample;
+    const double twice = d.w < 0 ? -2 : 2;
+    scratch.push_back({twice * d.x, twice * d.y, twice * d.z});
+  }
+  scratch[start] = {};
+  const Vec3 half = 0.5 * spatial_median(scratch, start);
+  if (half == Vec3{}) return middle;
+  return normalized(middle *
+                    Quat{std::sqrt(std::max(0.0, 1 - dot(half, half))), half.x, half.y, half.z});
 }
-Vec3 l1_median(std::span<const Vec3> samples, std::size_t start, MedianScratch& scratch) {
-  return find_l1_median(samples, start, scratch);
+
+Vec3 l1_median(std::span<const Vec3> samples, std::size_t start, std::vector<Vec3>&) {
+  return spatial_median(samples, start);
 }
 
 template <class Sample>
@@ -170,8 +134,8 @@ MovingMedoid<Sample>::MovingMedoid(std::span<const Sample> track, std::size_t lo
 template <class Sample>
 void MovingMedoid<Sample>::take_in(std::size_t frame) {
   const std::size_t row = frame % longest_;
-  for (std::size_t other = std::max(first_, frame + 1 - std::min(frame + 1, longest_));
-       other <= frame; ++other) {
+  const std::size_t oldest = std::max(first_, frame + 1 - std::min(frame + 1, longest_));
+  for (std::size_t other = oldest; other <= frame; ++other) {
     const double d = distance_of(track_[frame], track_[other]);
     distances_[row * longest_ + other % longest_] = d;
     distances_[(other % longest_) * longest_ + row] = d;

@@ -15,21 +15,16 @@ namespace kinemend {
 double chord(Quat a, Quat b);
 inline double chord(Vec3 a, Vec3 b) { return norm(a - b); }
 
-/// Room for the medians' sums, so that a run over many windows allocates once.
-struct MedianScratch {
-  std::vector<double> coordinates;
-  std::vector<double> distances;
-};
-
 /// Index of the sample with the least sum of distances to all (the first of equals). Not empty.
-std::size_t medoid(std::span<const Quat> samples, MedianScratch& scratch);
-std::size_t medoid(std::span<const Vec3> samples, MedianScratch& scratch);
+std::size_t medoid(std::span<const Quat> samples);
+std::size_t medoid(std::span<const Vec3> samples);
 
-/// The point with the least sum of distances to the samples, by Weiszfeld's iteration from sample
-/// `start` (their medoid) with the step of Vardi & Zhang 2000 where a sample is met; rotations are
-/// projected back to the sphere. Stops at steps below 1e-4 of the mean distance, or after 20.
-Quat l1_median(std::span<const Quat> samples, std::size_t start, MedianScratch& scratch);
-Vec3 l1_median(std::span<const Vec3> samples, std::size_t start, MedianScratch& scratch);
+/// The point with the least sum of distances to the samples, from sample `start` (their medoid): it
+/// stays there if that is the median, and else goes on by Newton's steps, or Weiszfeld's where
+/// those do worse (Vardi & Zhang 2000), to 1e-6 of the mean distance. Rotations are taken as the
+/// vectors 2 sin(angle / 2) about the medoid. `scratch` saves allocations.
+Quat l1_median(std::span<const Quat> samples, std::size_t start, std::vector<Vec3>& scratch);
+Vec3 l1_median(std::span<const Vec3> samples, std::size_t start, std::vector<Vec3>& scratch);
 
 /// The medoids of windows that move along a track: each distance is measured once. The same
 /// numbers as `medoid` of each window.

@@ -15,24 +15,6 @@ bool repaired(Action action) {
   return action == Action::despiked || action == Action::filled || action == Action::foot_adjusted;
 }
 
-// Frames of one thing done to one joint: `action(f)` and `change(f)` for f below `frames`.
-template <class ActionAt, class ChangeAt>
-void add_spans(std::int32_t joint, std::size_t frames, std::size_t first_frame,
-               const ActionAt& action, const ChangeAt& change, std::vector<ReportSpan>& spans) {
-  for (std::size_t f = 0; f < frames;) {
-    ReportSpan span{joint, first_frame + f, 0, action(f), 0, 0};
-    double squares = 0;
-    const std::size_t start = f;
-    for (; f < frames && action(f) == span.action; ++f) {
-      span.max_change = std::max(span.max_change, change(f));
-      squares += change(f) * change(f);
-    }
-    span.last_frame = first_frame + f - 1;
-    span.rms_change = std::sqrt(squares / static_cast<double>(f - start));
-    if (span.action != Action::kept) spans.push_back(span);
-  }
-}
-
 // Marks samples that lie far off the path of their neighbours: out and back within two frames is no
 // motion of a person, and spikes that the method left in are no peaks.
 void leave_out_spikes(const std::vector<Quat>& track, double noise_rad,
@@ -73,8 +55,9 @@ double measure_peaks(const std::vector<Quat>& before, const std::vector<Quat>& a
                      std::vector<std::uint8_t> left_out, double rate_hz, JointSummary& summary) {
   constexpr double longest_s = 0.05;
   constexpr double noise_share = 0.1;
+  constexpr std::size_t noise_samples = 1024;
   // Four standard deviations of the difference of two samples: the largest of many.
-  const double noise_rad = track_noise(before);
+  const double noise_rad = track_noise(before, noise_samples);
   const double noise = 4 * std::sqrt(2.0) * noise_rad * degrees_per_radian;
   leave_out_spikes(before, noise_rad, left_out);
   const std::size_t most = frames_in(longest_s, rate_hz, 1);
@@ -92,12 +75,6 @@ double measure_peaks(const std::vector<Quat>& before, const std::vector<Quat>& a
   return noise_speed;
 }
 
-struct JointReport {
-  JointSummary summary;
-  std::vector<ReportSpan> spans;
-  std::string warning;
-};
-
 std::string peak_warning(const JointSummary& summary, double noise_speed, double limit) {
   constexpr double slow_deg_s = 60;  // peaks below this are no events
   const double sure = summary.peak_speed_before_deg_s - noise_speed;
@@ -108,66 +85,51 @@ std::string peak_warning(const JointSummary& summary, double noise_speed, double
                      100 * loss, 100 * limit);
 }
 
-JointReport report_joint(const Clip& input, std::size_t first_frame, const Clip& cleaned,
-                         const Changes& changes, std::size_t joint, double limit) {
-  const std::size_t joints = input.joint_count(), frames = cleaned.frame_count();
+}  // namespace
+
+std::vector<ReportSpan> spans_of(std::int32_t joint, const TrackChanges& changes,
+                                 std::size_t first_frame) {
+  std::vector<ReportSpan> spans;
+  const std::size_t frames = changes.amounts.size();
+  for (std::size_t f = 0; f < frames;) {
+    ReportSpan span{joint, first_frame + f, 0, changes.actions[f], 0, 0};
+    double squares = 0;
+    const std::size_t start = f;
+    for (; f < frames && changes.actions[f] == span.action; ++f) {
+      span.max_change = std::max(span.max_change, changes.amounts[f]);
+      squares += changes.amounts[f] * changes.amounts[f];
+    }
+    span.last_frame = first_frame + f - 1;
+    span.rms_change = std::sqrt(squares / static_cast<double>(f - start));
+    if (span.action != Action::kept) spans.push_back(span);
+  }
+  return spans;
+}
+
+JointReport report_joint(const std::string& name, std::size_t joint, const JointTracks& tracks,
+                         const TrackChanges& changes, std::size_t first_frame, double frame_rate_hz,
+                         double peak_loss_limit) {
+  const std::size_t frames = tracks.before.size();
   JointReport report;
   JointSummary& summary = report.summary;
-  summary.name = input.skeleton.names[joint];
+  summary.name = name;
   std::vector<std::uint8_t> left_out(frames);
   double squares = 0;
   for (std::size_t f = 0; f < frames; ++f) {
-    const double change = changes.degrees[f * joints + joint];
+    const double change = changes.amounts[f];
     squares += change * change;
     summary.max_change_deg = std::max(summary.max_change_deg, change);
     summary.frames_changed += change > 0;
-    left_out[f] =
-        repaired(changes.actions[f * joints + joint]) || !input.is_observed(first_frame + f, joint);
-    summary.frames_repaired += repaired(changes.actions[f * joints + joint]);
+    summary.frames_repaired += repaired(changes.actions[f]);
+    const bool seen = tracks.observed.empty() || tracks.observed[f] != 0;
+    left_out[f] = repaired(changes.actions[f]) || !seen;
   }
   if (frames > 0) summary.rms_change_deg = std::sqrt(squares / static_cast<double>(frames));
-
-  std::vector<Quat> before(frames);
-  for (std::size_t f = 0; f < frames; ++f) before[f] = input.rotation(first_frame + f, joint);
-  const std::vector<Quat> after = summary.frames_changed > 0 ? joint_track(cleaned, joint) : before;
-  const double noise_speed = measure_peaks(before, after, left_out, input.frame_rate_hz, summary);
-  report.warning = peak_warning(summary, noise_speed, limit);
-
-  add_spans(
-      static_cast<std::int32_t>(joint), frames, first_frame,
-      [&](std::size_t f) { return changes.actions[f * joints + joint]; },
-      [&](std::size_t f) { return changes.degrees[f * joints + joint]; }, report.spans);
+  const double noise_speed =
+      measure_peaks(tracks.before, tracks.after, left_out, frame_rate_hz, summary);
+  report.warning = peak_warning(summary, noise_speed, peak_loss_limit);
+  report.spans = spans_of(static_cast<std::int32_t>(joint), changes, first_frame);
   return report;
-}
-
-}  // namespace
-
-void write_report(const Clip& input, std::size_t first_frame, const Clip& cleaned,
-                  const Changes& changes, const CleanTrace& trace, const CleanSettings& settings,
-                  CleanReport& report) {
-  const std::size_t joints = input.joint_count(), frames = cleaned.frame_count();
-  std::vector<JointReport> parts(joints);
-  for_each_parallel(joints, joints * frames, [&](std::size_t j) {
-    parts[j] = report_joint(input, first_frame, cleaned, changes, j, settings.peak_loss_limit);
-  });
-
-  double squares = 0;
-  for (const double change : changes.root) {
-    squares += change * change;
-    report.root_max_change = std::max(report.root_max_change, change);
-  }
-  if (frames > 0) report.root_rms_change = std::sqrt(squares / static_cast<double>(frames));
-  add_spans(
-      -1, frames, first_frame, [&](std::size_t f) { return changes.root_actions[f]; },
-      [&](std::size_t f) { return changes.root[f]; }, report.spans);
-
-  report.warnings = trace.warnings;
-  for (std::size_t j = 0; j < joints; ++j) {
-    if (!trace.noise_deg.empty()) parts[j].summary.noise_deg = trace.noise_deg[j];
-    report.joints.push_back(std::move(parts[j].summary));
-    report.spans.insert(report.spans.end(), parts[j].spans.begin(), parts[j].spans.end());
-    if (!parts[j].warning.empty()) report.warnings.push_back(std::move(parts[j].warning));
-  }
 }
 
 }  // namespace kinemend
