@@ -107,6 +107,20 @@ TEST(Causal, GivesTheNumbersOfSciPysSosfiltFromItsSteadyState) {
   }
 }
 
+TEST(Causal, StartsSectionsOfAnyGainAtRest) {
+  const std::vector<Biquad> sections = {
+      {0.5, 0.25, 0, -0.5, 0}, {1, 2, 3, 0.2, 0.3}, {0, 0.7, 0, 0, 0}};
+  const double gain = 0.75 / 0.5 * 6 / 1.5 * 0.7;
+  for (const auto& filter : std::vector<std::function<void(PoseMatrix&)>>{
+           [&](PoseMatrix& m) { filter_causal(m, sections); },
+           [&](PoseMatrix& m) { filter_zero_phase(m, sections); }}) {
+    for (const double value : filtered(PoseMatrix(40, 9, 2.0), filter).values) {
+      const double once = 2 * gain;
+      ASSERT_NEAR(value < 1.5 * once ? value : value / gain, once, 1e-12);
+    }
+  }
+}
+
 TEST(Causal, GivesTheSameBitsFrameByFrame) {
   const auto sections = butterworth_lowpass(5, 8, 100);
   const PoseMatrix input = noisy_sines(60, 21, 1);

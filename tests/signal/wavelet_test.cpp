@@ -224,10 +224,19 @@ TEST(WaveletTransform, KnowsWhichCoefficientsSeeNoReflection) {
 
 TEST(WaveletDenoise, ThresholdsAsDonohoAndJohnstoneDo) {
   // The whole method in its plainest form, on top of the transform.
+  // Jumps here and there, so that all levels hold signal as well as noise.
+  PoseMatrix input = noisy_sines(200, 1, 21, 0.1);
+  Random random(22);
+  double jump = 0;
+  for (double& value : input.values) {
+    if (random.chance(0.05)) jump = random.uniform(-1, 1);
+    value += jump;
+  }
+  std::size_t minimised = 0;
+  std::size_t kept = 0;
   for (const auto threshold : {WaveletThreshold::universal, WaveletThreshold::sure}) {
     for (const auto shrinkage : {WaveletShrinkage::soft, WaveletShrinkage::hard}) {
       const auto h = wavelet_filter(symlet, 4);
-      const PoseMatrix input = noisy_sines(200, 1, 21, 0.1);
       auto transform = signal::forward_transform(input, h, 3);
       double sigma = 0;
       for (std::size_t level = 0; level < 3; ++level) {
@@ -253,6 +262,7 @@ TEST(WaveletDenoise, ThresholdsAsDonohoAndJohnstoneDo) {
           limit = universal;
           if (energy / n - 1 > std::pow(std::log2(n), 1.5) / std::sqrt(n)) {
             // SURE(t) = n - 2 #{|x| <= t} + sum min(|x|, t)^2, at 0 and at each |x|.
+            ++minimised;
             double least = n;
             limit = 0;
             for (const double candidate : inner) {
@@ -275,6 +285,7 @@ TEST(WaveletDenoise, ThresholdsAsDonohoAndJohnstoneDo) {
           if (std::abs(x) <= limit * sigma) {
             x = 0;
           } else if (shrinkage == WaveletShrinkage::soft) {
+            ++kept;
             x -= std::copysign(limit * sigma, x);
           }
         }
@@ -290,6 +301,8 @@ TEST(WaveletDenoise, ThresholdsAsDonohoAndJohnstoneDo) {
       EXPECT_LT(largest_difference(result.values, expected.values), 1e-11);
     }
   }
+  EXPECT_GE(minimised, 4u);
+  EXPECT_GE(kept, 20u);
 }
 
 TEST(WaveletDenoise, LeavesASignalWithoutNoiseNearlyAlone) {
