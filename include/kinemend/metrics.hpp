@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "kinemend/clip.hpp"
@@ -109,19 +108,6 @@ struct FootSlide {
 /// Zero for no contact.
 FootSlide foot_slide(const Clip& reference, const Clip& other,
                      const FootSlideSettings& settings = {}, std::size_t first_frame = 0);
-
-/// Largest extent of the rest pose along an axis (end sites included), file units: the height, or
-/// the arm span of a T-pose, which is about the same.
-double skeleton_height(const Skeleton& skeleton);
-
-/// A length unit that files are written in.
-struct LengthUnit {
-  std::string_view name;  ///< "cm"
-  double metres = 1;
-};
-/// The unit in which a skeleton of this height is a person of 1.2 to 2.5 m: m, mm, cm, inch, or that
-/// of the CMU files (1 / 0.45 inch); none when no unit fits.
-std::optional<LengthUnit> guess_length_unit(const Skeleton& skeleton);
 
 struct ComparisonSettings {
   std::size_t first_frame = 0;

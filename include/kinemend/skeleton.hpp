@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,6 +58,19 @@ struct Skeleton {
   /// that breaks a rule.
   void validate() const;
 };
+
+/// Largest extent of the rest pose along an axis (end sites included), file units: the height, or
+/// the arm span of a T-pose, which is about the same.
+double skeleton_height(const Skeleton& skeleton);
+
+/// A length unit that files are written in.
+struct LengthUnit {
+  std::string_view name;  ///< "cm"
+  double metres = 1;
+};
+/// The unit in which a skeleton of this height is a person of 1.2 to 2.5 m: m, mm, cm, inch, or
+/// that of the CMU files (1 / 0.45 inch); none when no unit fits.
+std::optional<LengthUnit> guess_length_unit(const Skeleton& skeleton);
 
 /// Position channels in the order x, y, z where asked for, then rotations in the given order.
 std::vector<Channel> make_channels(bool with_position, RotationOrder order);

@@ -42,7 +42,8 @@ struct PositionNoise {
       OptionTable<Options> t;
       t.number(&Options::std_cm, "std_cm", "cm", 0, 1e6, "standard deviation along each axis");
       t.number(&Options::cm_per_unit, "cm_per_unit", "cm", 0, 1e9,
-               "length of a file unit; 0: such that the skeleton is 170 cm tall");
+               "length of a file unit; 0: the usual unit that makes the skeleton a person, else "
+               "such that it is 170 cm tall");
       t.choice(&Options::spread, "spread", {"same", "ends"},
                "same: the same noise at all joints; ends: larger at wrists and ankles");
       t.number(&Options::ends_factor, "ends_factor", "", 0, 1000, "how many times larger there");
@@ -68,8 +69,9 @@ struct PositionNoise {
   static double cm_per_unit(const Skeleton& skeleton, const Options& options, Notes& notes) {
     if (options.cm_per_unit > 0) return options.cm_per_unit;
     constexpr double usual_height_cm = 170;
-    const double height = rest_height(skeleton);
-    const double scale = height > 0 ? usual_height_cm / height : 1.0;
+    const double height = skeleton_height(skeleton);
+    double scale = height > 0 ? usual_height_cm / height : 1.0;
+    if (const auto unit = guess_length_unit(skeleton)) scale = 100 * unit->metres;
     notes.push_back(fmt::format("a file unit is taken as {:.4g} cm", scale));
     return scale;
   }

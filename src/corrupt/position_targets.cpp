@@ -52,20 +52,4 @@ std::vector<std::size_t> wrists_and_ankles(const Skeleton& skeleton) {
   return found;
 }
 
-double rest_height(const Skeleton& skeleton) {
-  Clip rest;
-  rest.skeleton = skeleton;
-  rest.root_positions.resize(1);
-  rest.local_rotations.resize(skeleton.joint_count());
-  const auto points = joint_positions(rest, true);
-  const auto extent = [&](auto coordinate) {
-    const auto [low, high] = std::minmax_element(points.begin(), points.end(), [&](Vec3 a, Vec3 b) {
-      return coordinate(a) < coordinate(b);
-    });
-    return coordinate(*high) - coordinate(*low);
-  };
-  return std::max({extent([](Vec3 v) { return v.x; }), extent([](Vec3 v) { return v.y; }),
-                   extent([](Vec3 v) { return v.z; })});
-}
-
 }  // namespace kinemend::corrupt

@@ -17,7 +17,4 @@ void refit_to(Clip& clip, std::span<const Vec3> targets, const TargetOptions& op
 /// Wrists and ankles, by their names (`hand`, `wrist`, `foot`, `ankle`; not fingers and toes).
 std::vector<std::size_t> wrists_and_ankles(const Skeleton& skeleton);
 
-/// Height of the rest pose: its largest extent along an axis, end sites included, in file units.
-double rest_height(const Skeleton& skeleton);
-
 }  // namespace kinemend::corrupt

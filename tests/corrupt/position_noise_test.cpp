@@ -60,11 +60,19 @@ TEST(PositionNoise, KeepsBoneLengthsRootAndLeafRotations) {
                   norm(clean.skeleton.offsets[j]), 1e-9);
     }
   }
-  EXPECT_EQ(report.notes, std::vector<std::string>{"a file unit is taken as 0.9884 cm"})
-      << "its arms span 172 units";
+  EXPECT_EQ(report.notes, std::vector<std::string>{"a file unit is taken as 1 cm"})
+      << "a person of 172 units";
   // Noise of 1 cm per axis; what remains after the refit is of that order.
   EXPECT_GT(report.rms_position, 0.8);
   EXPECT_LT(report.rms_position, 1.9);
+}
+
+TEST(PositionNoise, TakesASkeletonOfNoUsualUnitAsATallPerson) {
+  Clip clip = star_clip(3);
+  for (Vec3& offset : clip.skeleton.offsets)
+    offset = 5.0 * offset;  // 500 units: in no usual unit a person
+  const auto report = damaged(clip, "position-noise").report;
+  EXPECT_EQ(report.notes, std::vector<std::string>{"a file unit is taken as 0.34 cm"});
 }
 
 TEST(PositionNoise, MovesTheRootToo) {

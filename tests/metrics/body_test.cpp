@@ -74,23 +74,5 @@ TEST(FootJoints, AreFoundByPartsOfTheirNames) {
   EXPECT_EQ(foot_joints(skeleton), (std::vector<std::size_t>{1, 2, 3}));
 }
 
-TEST(LengthUnit, IsGuessedFromTheHeight) {
-  Skeleton skeleton = one_legged();
-  EXPECT_NEAR(skeleton_height(skeleton), 170, 1e-12);
-  const auto guess_at = [&](double scale) {
-    Skeleton scaled = skeleton;
-    for (Vec3& offset : scaled.offsets) offset = scale * offset;
-    for (EndSite& site : scaled.end_sites) site.offset = scale * site.offset;
-    return guess_length_unit(scaled);
-  };
-  EXPECT_EQ(guess_at(1)->name, "cm");
-  EXPECT_EQ(guess_at(0.01)->name, "m");
-  EXPECT_EQ(guess_at(10)->name, "mm");
-  EXPECT_EQ(guess_at(1 / 2.54)->name, "inch");
-  EXPECT_EQ(guess_at(0.45 / 2.54)->name, "CMU unit");
-  EXPECT_FALSE(guess_at(3));
-  EXPECT_FALSE(guess_at(0));
-}
-
 }  // namespace
 }  // namespace kinemend
