@@ -233,12 +233,13 @@ Flag method_flag() {
 
 Flag preset_flag() {
   Flag flag = text_flag("preset", "", "Cleaning", "settings for a kind of motion");
-  flag.details = "Goes under --config and the command line. ";
+  std::vector<std::string> summaries;
   for (const Preset& preset : presets()) {
     flag.spec.choices.emplace_back(preset.name);
-    flag.details += fmt::format("{}: {} ", preset.name, preset_summary(preset));
+    summaries.push_back(fmt::format("{} ({})", preset.name, preset_summary(preset)));
   }
-  flag.details.pop_back();
+  flag.details = fmt::format("Goes under --config and the command line. There are {}.",
+                             fmt::join(summaries, "; "));
   return flag;
 }
 

@@ -112,8 +112,7 @@ Settings merged_settings(const Arguments& arguments) {
   if (const std::string path = arguments.text("config"); !path.empty())
     put_over(settings, parse_settings(*arguments.command, read_file(path), input_name(path)));
   put_over(settings, command_line_settings(arguments));
-  const Method& method =
-      method_or_refuse(std::get<std::string>(settings.values.find("method")->second));
+  const Method& method = find_method(std::get<std::string>(settings.values.find("method")->second));
   const OptionValues given = parse_method_options(method, arguments.group_texts);
   if (!given.empty()) put_over(settings, {{}, {}, {{method.name, given}}});
   return settings;
@@ -123,8 +122,7 @@ CleanPlan make_clean_plan(const Arguments& arguments) {
   const Settings settings = merged_settings(arguments);
   CleanPlan plan;
   plan.jobs = make_jobs(arguments);
-  const Method& method =
-      method_or_refuse(std::get<std::string>(settings.values.find("method")->second));
+  const Method& method = find_method(std::get<std::string>(settings.values.find("method")->second));
   plan.method = method.name;
   plan.options = all_options(method, settings);
   pass_seed(arguments, method, plan.options);

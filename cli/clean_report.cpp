@@ -77,8 +77,8 @@ std::string joint_table(const CleanReport& report, bool all_joints) {
   if (joints.empty()) return "";
   Table table({Align::left, Align::right, Align::right, Align::right, Align::right, Align::right,
                Align::right});
-  table.add({"joint", "noise deg", "change rms deg", "max deg", "repaired", "peak deg/s before",
-             "after"});
+  table.add({"joint", "noise deg", "change rms deg", "max deg", "frames repaired",
+             "peak deg/s before", "after"});
   const std::size_t shown = all_joints ? joints.size() : std::min(joints.size(), short_list);
   for (std::size_t i = 0; i < shown; ++i) {
     const JointSummary& joint = *joints[i];
@@ -102,7 +102,8 @@ Json joint_json(const JointSummary& joint) {
           {"frames_changed", joint.frames_changed},
           {"frames_repaired", joint.frames_repaired},
           {"peak_speed_before_deg_s", joint.peak_speed_before_deg_s},
-          {"peak_speed_after_deg_s", joint.peak_speed_after_deg_s}};
+          {"peak_speed_after_deg_s", joint.peak_speed_after_deg_s},
+          {"peak_frames", joint.peak_frames}};
 }
 
 /// The root position's changes are in file units, and its span says so by its keys.

@@ -168,6 +168,14 @@ Request parse_program_flag(const std::string& word) {
 OptionValue parse_flag_value(const OptionSpec& spec, const std::string& text) {
   OptionSpec typed = spec;
   typed.name = "--" + dashed(spec.name);
+  const auto& choices = spec.choices;
+  if (!choices.empty() && std::find(choices.begin(), choices.end(), text) == choices.end()) {
+    const std::string guess = nearest(text, choices);
+    if (!guess.empty()) {
+      throw Error(ErrorKind::usage,
+                  fmt::format("{}: unknown name {} (did you mean {}?)", typed.name, text, guess));
+    }
+  }
   return parse_option(typed, text);
 }
 

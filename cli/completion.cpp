@@ -193,7 +193,10 @@ std::string zsh_script() {
       "fi\n"
       "  local name=$words[2]\n  shift words\n  (( CURRENT-- ))\n  case $name in\n";
   for (const Command& command : commands()) text += zsh_command(command);
-  return text + "  esac\n}\ncompdef _kinemend kinemend\n";
+  // As a function of $fpath the file is run to complete; sourced, it only registers.
+  return text +
+         "  esac\n}\nif [[ $funcstack[1] == _kinemend ]]; then\n  _kinemend \"$@\"\nelse\n"
+         "  compdef _kinemend kinemend\nfi\n";
 }
 
 std::string fish_script() {

@@ -48,11 +48,19 @@ const OptionSpec& option_or_refuse(const Damage& damage, std::string name) {
                                             name, fmt::join(names, ", ")));
 }
 
-/// "a=1,b=x,y" to {a=1, b=x,y}: a part without = goes on with the value before it.
-std::vector<std::string> split_options(const std::string& text) {
+bool is_switch_of(const Damage& damage, const std::string& name) {
+  return std::any_of(damage.options.begin(), damage.options.end(), [&](const OptionSpec& spec) {
+    return spec.name == name && std::holds_alternative<bool>(spec.default_value);
+  });
+}
+
+/// "a=1,b=x,y,c" to {a=1, b=x,y, c}: a part without = is a switch, or goes on with the value before
+/// it.
+std::vector<std::string> split_options(const Damage& damage, const std::string& text) {
   std::vector<std::string> parts;
   for (const std::string& part : split_list({text})) {
-    if (part.find('=') == std::string::npos && !parts.empty()) {
+    const bool goes_on = part.find('=') == std::string::npos && !is_switch_of(damage, part);
+    if (goes_on && !parts.empty()) {
       parts.back() += "," + part;
     } else {
       parts.push_back(part);
@@ -66,7 +74,8 @@ DamageRequest parse_damage(const std::string& text) {
   const std::size_t colon = std::min(text.find(':'), text.size());
   const Damage& damage = damage_or_refuse(text.substr(0, colon));
   DamageRequest request{damage.name, {}};
-  for (const std::string& part : split_options(text.substr(std::min(colon + 1, text.size())))) {
+  for (const std::string& part :
+       split_options(damage, text.substr(std::min(colon + 1, text.size())))) {
     const std::size_t equals = part.find('=');
     const OptionSpec& spec = option_or_refuse(damage, part.substr(0, equals));
     if (equals == std::string::npos && !std::holds_alternative<bool>(spec.default_value))

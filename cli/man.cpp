@@ -63,7 +63,6 @@ std::string group_section(const Command& command, const OptionGroup& group) {
 std::string command_section(const Command& command) {
   std::string text = fmt::format(".SH \"KINEMEND {}\"\n.B kinemend\n{}\n", roff(command.name),
                                  roff(usage_line(command)));
-  text += paragraphs(fmt::format("Task: {}.", command.summary));
   text += paragraphs(command.description);
   for (const Positional& positional : command.positionals)
     text += item(positional.name, positional.help);

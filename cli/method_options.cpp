@@ -48,16 +48,6 @@ const Method* method_called(std::string_view name) {
   return nullptr;
 }
 
-const Method& method_or_refuse(std::string_view name) {
-  if (const Method* method = method_called(name)) return *method;
-  const std::vector<std::string> names = method_names();
-  const std::string guess = nearest(name, names);
-  throw Error(ErrorKind::usage,
-              guess.empty()
-                  ? fmt::format("unknown method {}; there are {}", name, fmt::join(names, ", "))
-                  : fmt::format("unknown method {} (did you mean {}?)", name, guess));
-}
-
 OptionValues parse_method_options(const Method& method,
                                   const std::map<std::string, std::string, std::less<>>& texts) {
   OptionValues values;

@@ -15,8 +15,6 @@ std::vector<OptionGroup> method_groups();
 std::vector<std::string> method_names();
 /// nullptr when there is none.
 const Method* method_called(std::string_view name);
-/// Errors: `ErrorKind::usage` with the name that was perhaps meant.
-const Method& method_or_refuse(std::string_view name);
 
 /// Texts of method options from the command line, as values of this method. Errors:
 /// `ErrorKind::usage` for an option of another method or a value out of range.

@@ -43,7 +43,7 @@ std::string text_of_method(const Method& method) {
 
 int run(const Arguments& arguments) {
   std::vector<const Method*> chosen;
-  for (const std::string& name : arguments.positionals) chosen.push_back(&method_or_refuse(name));
+  for (const std::string& name : arguments.positionals) chosen.push_back(&find_method(name));
   if (chosen.empty()) {
     for (const Method& method : methods()) chosen.push_back(&method);
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 
 #include "table.hpp"
 #include "terminal.hpp"
@@ -84,7 +85,9 @@ Flag output_flag(std::string help) {
   return flag;
 }
 
-Flag seed_flag(std::string help) { return whole_flag("seed", 1, 0, 9e15, "Work", std::move(help)); }
+Flag seed_flag(std::string help) {
+  return whole_flag("seed", 1, 0, std::numeric_limits<double>::infinity(), "Work", std::move(help));
+}
 
 Flag from_flag() {
   Flag flag =

@@ -1,0 +1,211 @@
+#include <cmath>
+
+#include "cli/program.hpp"
+
+// What `kinemend clean` does to a take and says of it.
+namespace kinemend::test {
+namespace {
+
+using Clean = Program;
+using testing::HasSubstr;
+
+/// The words of the motion lines, frame by frame.
+std::vector<std::vector<std::string>> motion_words(const std::string& bvh) {
+  std::vector<std::vector<std::string>> frames;
+  const auto lines = lines_of(bvh.substr(bvh.find("Frame Time")));
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    std::istringstream words(lines[i]);
+    frames.push_back({std::istream_iterator<std::string>(words), {}});
+  }
+  return frames;
+}
+
+double geodesic_rms_deg(const Ran& compared) {
+  return Json::parse(compared.out)["geodesic_rms_deg"];
+}
+
+TEST_F(Clean, ANoisyTakeComesNearerToTheTruth) {
+  noisy("walk.bvh");
+  const Ran ran = run({"clean", "walk.bvh"});
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_THAT(lines_of(ran.out)[0],
+              testing::MatchesRegex("walk.bvh: noisy: 1.[0-9]+ deg jitter on 31 joints, [0-9]+ "
+                                    "spikes; written to walk.clean.bvh"));
+  const double before = geodesic_rms_deg(run({"compare", "truth.bvh", "walk.bvh", "--json"}));
+  const double after = geodesic_rms_deg(run({"compare", "truth.bvh", "walk.clean.bvh", "--json"}));
+  EXPECT_LT(after, before / 2);
+}
+
+TEST_F(Clean, TheReportListsTheJointsThatChangedMost) {
+  noisy("walk.bvh");
+  const Ran short_one = run({"clean", "walk.bvh", "--dry-run"});
+  EXPECT_THAT(short_one.out, HasSubstr("and 23 joints that changed less (--verbose lists them)"));
+  const Ran long_one = run({"clean", "walk.bvh", "--dry-run", "--verbose"});
+  EXPECT_THAT(long_one.out, testing::Not(HasSubstr("joints that changed less")));
+  EXPECT_GT(lines_of(long_one.out).size(), 31u);
+  EXPECT_EQ(run({"clean", "walk.bvh", "--dry-run", "--quiet"}).out, "");
+}
+
+TEST_F(Clean, JointsThatAreLeftOutKeepTheirBytes) {
+  put(folder / "hand.bvh", hand_take());
+  ASSERT_EQ(run({"clean", "hand.bvh", "-m", "weighted-mean", "--exclude", "*Finger?"}).code, 0);
+  const std::string before = contents(folder / "hand.bvh");
+  const std::string after = contents(folder / "hand.clean.bvh");
+  EXPECT_EQ(before.substr(0, before.find("Frame Time")), after.substr(0, after.find("Frame Time")));
+  const auto old_frames = motion_words(before);
+  const auto new_frames = motion_words(after);
+  ASSERT_EQ(new_frames.size(), 10u);
+  bool arm_changed = false;
+  for (std::size_t f = 0; f < 10; ++f) {
+    for (std::size_t c = 9; c < 15; ++c) EXPECT_EQ(new_frames[f][c], old_frames[f][c]);
+    arm_changed |= new_frames[f][6] != old_frames[f][6];
+  }
+  EXPECT_TRUE(arm_changed);
+}
+
+TEST_F(Clean, OnlyTheJointsNamedChange) {
+  put(folder / "hand.bvh", hand_take());
+  const Ran ran = run({"clean", "hand.bvh", "-m", "weighted-mean", "--joints", "Left*", "--exclude",
+                       "LeftFinger1,LeftFinger2", "--no-root-position", "--json"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const Json take = Json::parse(ran.out)["takes"][0];
+  EXPECT_EQ(take["joints_changed"], 1);
+  EXPECT_EQ(take["root_max_change"], 0);
+  EXPECT_GT(take["joints"][1]["rms_change_deg"], 0);
+}
+
+TEST_F(Clean, OnlyTheFramesOfTheRangeChange) {
+  noisy("walk.bvh");
+  for (const char* range : {"31:60", "0.5s:0.99s"}) {
+    ASSERT_EQ(run({"clean", "walk.bvh", "--force", "-m", "weighted-mean", "--range", range}).code,
+              0);
+    const auto before = motion_words(contents(folder / "walk.bvh"));
+    const auto after = motion_words(contents(folder / "walk.clean.bvh"));
+    ASSERT_EQ(before.size(), 120u);
+    for (std::size_t f = 0; f < 120; ++f) {
+      if (f < 30 || f > 59) {
+        EXPECT_EQ(before[f], after[f]) << range << " frame " << f;
+      }
+    }
+    EXPECT_NE(before[45], after[45]);
+  }
+}
+
+TEST_F(Clean, TheSameCommandGivesTheSameBytesWithAnyNumberOfThreads) {
+  noisy("walk.bvh");
+  ASSERT_EQ(run({"clean", "walk.bvh", "-o", "1.bvh", "--jobs", "1"}).code, 0);
+  ASSERT_EQ(run({"clean", "walk.bvh", "-o", "2.bvh", "--jobs", "4"}).code, 0);
+  ASSERT_EQ(run({"clean", "walk.bvh", "truth.bvh", "--output-dir", "many"}).code, 0);
+  EXPECT_EQ(contents(folder / "1.bvh"), contents(folder / "2.bvh"));
+  EXPECT_EQ(contents(folder / "1.bvh"), contents(folder / "many/walk.bvh"));
+}
+
+TEST_F(Clean, NoStrengthChangesNothing) {
+  noisy("walk.bvh");
+  const Ran ran = run({"clean", "walk.bvh", "--strength", "0"});
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_THAT(ran.out, HasSubstr("walk.bvh: clean: nothing changed"));
+  EXPECT_EQ(contents(folder / "walk.bvh"), contents(folder / "walk.clean.bvh"));
+}
+
+TEST_F(Clean, NoSampleTurnsFurtherThanAsked) {
+  noisy("walk.bvh");
+  const Ran ran = run({"clean", "walk.bvh", "--max-change-deg", "2", "--json"});
+  ASSERT_EQ(ran.code, 0);
+  double largest = 0;
+  const Json report = Json::parse(ran.out);
+  for (const Json& joint : report["takes"][0]["joints"])
+    largest = std::max<double>(largest, joint["max_change_deg"]);
+  EXPECT_NEAR(largest, 2, 1e-6);
+}
+
+TEST_F(Clean, TheJsonHoldsTheFiguresOfTheReport) {
+  noisy("walk.bvh");
+  put(folder / "bad.bvh", "HIERARCHY\n");
+  const Ran ran = run({"clean", "walk.bvh", "bad.bvh", "--output-dir", "d", "--json"});
+  EXPECT_EQ(ran.code, 3);
+  const Json json = Json::parse(ran.out);
+  ASSERT_EQ(json["takes"].size(), 2u);
+  const Json& take = json["takes"][0];
+  EXPECT_EQ(take["input"], "walk.bvh");
+  EXPECT_EQ(take["output"], "d/walk.bvh");
+  EXPECT_EQ(take["method"], "auto");
+  EXPECT_EQ(take["frames"], 120);
+  EXPECT_NEAR(take["frame_rate_hz"], 60, 1e-3);
+  EXPECT_EQ(take["joints"].size(), 31u);
+  EXPECT_EQ(take["options"]["sensitivity"], 1);
+  EXPECT_FALSE(take.contains("spans"));
+  EXPECT_EQ(json["takes"][1]["exit_code"], 3);
+  EXPECT_THAT(json["takes"][1]["error"].get<std::string>(), testing::StartsWith("bad.bvh:"));
+}
+
+TEST_F(Clean, TheReportHoldsEverySpanWithFramesFromOne) {
+  noisy("walk.bvh");
+  ASSERT_EQ(run({"clean", "walk.bvh", "--report", "r.json"}).code, 0);
+  const Json take = Json::parse(contents(folder / "r.json"))["takes"][0];
+  std::vector<std::size_t> repaired_frames(121, 0);
+  std::size_t spikes = 0;
+  for (const Json& span : take["spans"]) {
+    const std::size_t first = span["first_frame"], last = span["last_frame"];
+    ASSERT_GE(first, 1u);
+    ASSERT_LE(first, last);
+    ASSERT_LE(last, 120u);
+    EXPECT_NE(span["action"], "kept");
+    if (span["action"] != "despiked") continue;
+    ++spikes;
+    EXPECT_GE(span["max_change_deg"], span["rms_change_deg"]);
+    for (std::size_t f = first; f <= last; ++f) repaired_frames[f] = 1;
+  }
+  EXPECT_GT(spikes, 3u);
+  EXPECT_EQ(take["spikes"], spikes);
+  EXPECT_EQ(take["frames_repaired"],
+            std::count(repaired_frames.begin(), repaired_frames.end(), 1u));
+}
+
+TEST_F(Clean, StrictMakesARepairedInputFail) {
+  std::string take = hand_take();
+  take.replace(take.find("Frames: 10"), 10, "Frames: 12");
+  put(folder / "odd.bvh", take);
+  const Ran lenient = run({"clean", "odd.bvh"});
+  EXPECT_EQ(lenient.code, 0);
+  EXPECT_THAT(lenient.err, IsOneLine());
+  EXPECT_THAT(lenient.err, testing::MatchesRegex("kinemend: warning: odd.bvh:[0-9]+: .*\n"));
+  const Ran strict = run({"clean", "odd.bvh", "-o", "strict.bvh", "--strict"});
+  EXPECT_EQ(strict.code, 1);
+  EXPECT_THAT(strict.err, IsOneLine());
+  EXPECT_FALSE(fs::exists(folder / "strict.bvh"));
+  EXPECT_EQ(run({"info", "odd.bvh", "--strict"}).code, 1);
+}
+
+TEST_F(Clean, StrictMakesALostPeakFail) {
+  synth("punch.bvh", "punch", "2");
+  const std::vector<std::string> words = {"clean",       "punch.bvh", "-m",     "butterworth",
+                                          "--cutoff-hz", "1",         "--force"};
+  const Ran lenient = run(words);
+  EXPECT_EQ(lenient.code, 0);
+  EXPECT_THAT(lenient.err, HasSubstr("warning: punch.bvh: "));
+  EXPECT_THAT(lenient.err, HasSubstr("peak speed"));
+  fs::remove(folder / "punch.clean.bvh");
+  std::vector<std::string> strict = words;
+  strict.push_back("--strict");
+  const Ran ran = run(strict);
+  EXPECT_EQ(ran.code, 1);
+  EXPECT_THAT(ran.err, IsOneLine());
+  EXPECT_FALSE(fs::exists(folder / "punch.clean.bvh"));
+}
+
+TEST_F(Clean, EveryMethodRunsAndKeepsTheTakeInShape) {
+  noisy("walk.bvh", "1");
+  const Json list = Json::parse(run({"methods", "--json"}).out)["methods"];
+  ASSERT_GE(list.size(), 8u);
+  EXPECT_EQ(list[0]["name"], "auto");
+  for (const Json& method : list) {
+    const std::string name = method["name"];
+    const Ran ran = run({"clean", "walk.bvh", "-m", name, "-o", name + ".bvh", "-q"});
+    EXPECT_EQ(ran.code, 0) << name << ": " << ran.err;
+    EXPECT_EQ(run({"compare", "walk.bvh", name + ".bvh"}).code, 0) << name;
+  }
+}
+
+}  // namespace
+}  // namespace kinemend::test

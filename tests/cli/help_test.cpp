@@ -1,0 +1,145 @@
+#include <regex>
+#include <set>
+
+#include "cli/program.hpp"
+
+// Help, manual page and completions know everything that the parser knows.
+namespace kinemend::test {
+namespace {
+
+using Help = Program;
+using testing::HasSubstr;
+
+const std::vector<std::string> commands = {"clean",   "info",  "compare",    "methods", "convert",
+                                           "corrupt", "synth", "completion", "man"};
+
+/// Every `--name` in a command's long help; `--[no-]name` stands for two.
+std::set<std::string> options_in(const std::string& help) {
+  std::set<std::string> names;
+  const std::regex entry("(?:^|\\n)  (?:-[a-zA-Z], |    )--(\\[no-\\])?([a-z][a-z0-9-]*)");
+  for (std::sregex_iterator hit(help.begin(), help.end(), entry), end; hit != end; ++hit) {
+    names.insert("--" + (*hit)[2].str());
+    if ((*hit)[1].matched) names.insert("--no-" + (*hit)[2].str());
+  }
+  names.insert("--help");
+  return names;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos;
+       at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+TEST_F(Help, BothLevelsExistForEveryCommand) {
+  for (const std::string& command : commands) {
+    const Ran brief = run({command, "-h"}), full = run({command, "--help"});
+    EXPECT_EQ(brief.code, 0);
+    EXPECT_EQ(full.code, 0);
+    EXPECT_EQ(brief.err + full.err, "");
+    EXPECT_THAT(brief.out, testing::StartsWith("kinemend " + command + ": "));
+    EXPECT_GE(full.out.size(), brief.out.size()) << command;
+    EXPECT_EQ(run({"help", command}).out, full.out);
+  }
+  const Ran program = run({"--help"});
+  EXPECT_EQ(program.code, 0);
+  for (const std::string& command : commands) EXPECT_THAT(program.out, HasSubstr("\n  " + command));
+  EXPECT_THAT(program.out, HasSubstr("Exit codes:"));
+}
+
+TEST_F(Help, TheVersionIsPrinted) {
+  for (const char* word : {"--version", "-V"})
+    EXPECT_THAT(run({word}).out, testing::MatchesRegex("kinemend [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+TEST_F(Help, TheLongHelpHoldsEveryOptionOfEveryMethod) {
+  const std::string help = run({"clean", "--help"}).out;
+  const std::set<std::string> options = options_in(help);
+  const Json list = Json::parse(run({"methods", "--json"}).out)["methods"];
+  for (const Json& method : list) {
+    for (const Json& option : method["options"]) {
+      std::string name = option["name"];
+      std::replace(name.begin(), name.end(), '_', '-');
+      EXPECT_TRUE(options.count("--" + name)) << name;
+    }
+  }
+  EXPECT_THAT(std::regex_replace(help, std::regex("\\s+"), " "),
+              HasSubstr("half the power pass (0.05 to 500 Hz; default 8)"));
+}
+
+TEST_F(Help, NoOptionOfAMethodIsAnOptionOfCleanItself) {
+  const std::set<std::string> own = options_in(run({"clean", "-h"}).out);
+  const Json list = Json::parse(run({"methods", "--json"}).out)["methods"];
+  for (const Json& method : list) {
+    for (const Json& option : method["options"]) {
+      std::string name = option["name"];
+      std::replace(name.begin(), name.end(), '_', '-');
+      EXPECT_TRUE(name == "seed" || !own.count("--" + name)) << name;
+    }
+  }
+}
+
+TEST_F(Help, NoLineIsWiderThanATerminal) {
+  for (const std::string& command : commands) {
+    for (const std::string& line : lines_of(run({command, "-h"}).out))
+      EXPECT_LE(line.size(), 100u) << command << ": " << line;
+  }
+}
+
+TEST_F(Help, TheManualPageHoldsEveryOption) {
+  const std::string page = replaced(run({"man"}).out, "\\-", "-");
+  EXPECT_THAT(page, testing::StartsWith(".TH KINEMEND 1"));
+  for (const std::string& command : commands) {
+    EXPECT_THAT(page, HasSubstr(".SH \"KINEMEND " + command + "\""));
+    for (const std::string& name : options_in(run({command, "--help"}).out)) {
+      const bool is_no = name.rfind("--no-", 0) == 0;
+      if (name == "--help") continue;
+      const std::string shown = is_no ? "--[no-]" + name.substr(5) : name;
+      EXPECT_TRUE(page.find(shown) != std::string::npos ||
+                  page.find("--[no-]" + name.substr(2)) != std::string::npos)
+          << command << " " << name;
+    }
+  }
+  const std::string help = run({"corrupt", "--help"}).out;
+  EXPECT_THAT(help, HasSubstr("std_deg=X"));
+  EXPECT_THAT(page, HasSubstr("std_deg=X"));
+}
+
+TEST_F(Help, EveryCompletionHoldsEveryOption) {
+  for (const std::string shell : {"bash", "zsh", "fish"}) {
+    const Ran script = run({"completion", shell});
+    ASSERT_EQ(script.code, 0);
+    for (const std::string& command : commands) {
+      for (const std::string& name : options_in(run({command, "--help"}).out)) {
+        const std::string as_written = shell == "fish" ? "-l " + name.substr(2) : name;
+        EXPECT_THAT(script.out, HasSubstr(as_written)) << shell << " " << command;
+      }
+    }
+  }
+}
+
+TEST_F(Help, BashCompletesOptionsAndTheirValues) {
+  put(folder / "kinemend.bash", run({"completion", "bash"}).out);
+  put(folder / "try.bash",
+      ". ./kinemend.bash\n"
+      "complete_words() { COMP_WORDS=(\"$@\"); COMP_CWORD=$(($# - 1)); COMPREPLY=(); _kinemend; "
+      "echo \"${COMPREPLY[*]}\"; }\n"
+      "complete_words kinemend cl\n"
+      "complete_words kinemend clean --cutoff\n"
+      "complete_words kinemend clean --method butter\n"
+      "complete_words kinemend clean -m one\n"
+      "complete_words kinemend clean --preset bio\n"
+      "complete_words kinemend methods wei\n"
+      "complete_words kinemend synth pun\n"
+      "complete_words kinemend clean --config kinemend.b\n");
+  const fs::path out = folder / "said";
+  const std::string command = "cd '" + folder.string() + "' && bash --norc try.bash > said 2>&1";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(contents(out),
+            "clean\n--cutoff-hz\nbutterworth\none-euro\nbiomech\nweighted-mean\npunch\n"
+            "kinemend.bash\n");
+}
+
+}  // namespace
+}  // namespace kinemend::test

@@ -1,0 +1,126 @@
+#include "cli/program.hpp"
+#include "kinemend/random.hpp"
+
+// Bad input: one line with file and line, exit code 3, little memory, nothing written.
+namespace kinemend::test {
+namespace {
+
+// What the sanitizers themselves take is not the program's.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr long memory_limit_kilobytes = 800 * 1024;
+#else
+constexpr long memory_limit_kilobytes = 50 * 1024;
+#endif
+
+class Hostile : public Program {
+ protected:
+  void expect_refused(const std::string& name) {
+    const Ran ran = run({"clean", name, "--output-dir", "out", "--report", "report.json"});
+    EXPECT_EQ(ran.code, 3) << name << ": " << ran.err;
+    EXPECT_EQ(ran.out, "") << name;
+    EXPECT_THAT(ran.err, IsOneLine()) << name;
+    EXPECT_THAT(ran.err, testing::MatchesRegex("kinemend: " + name + ":[0-9]+: .*\n"));
+    EXPECT_LT(ran.err.size(), 400u) << name;
+    EXPECT_LT(ran.peak_kilobytes, memory_limit_kilobytes) << name;
+    EXPECT_FALSE(fs::exists(folder / "out")) << name;
+  }
+};
+
+std::string header(const std::string& frames) {
+  return "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n}\nMOTION\n"
+         "Frames: " +
+         frames + "\nFrame Time: 0.01\n";
+}
+
+TEST_F(Hostile, TruncatedFilesAreRefused) {
+  const std::string whole = hand_take();
+  for (const std::size_t length : {1, 9, 40, 200, 500, 700, 765}) {
+    put(folder / "cut.bvh", whole.substr(0, length));
+    expect_refused("cut.bvh");
+    fs::remove(folder / "report.json");
+  }
+}
+
+TEST_F(Hostile, BinaryFilesAreRefused) {
+  Random random(1);
+  std::string noise(8 << 20, '\0');
+  for (char& c : noise) c = static_cast<char>(random.next() & 0xFF);
+  put(folder / "noise.bvh", noise);
+  expect_refused("noise.bvh");
+  put(folder / "zeros.bvh", std::string(8 << 20, '\0'));
+  fs::remove(folder / "report.json");
+  expect_refused("zeros.bvh");
+}
+
+TEST_F(Hostile, AnEmptyFileIsRefused) {
+  put(folder / "empty.bvh", "");
+  expect_refused("empty.bvh");
+}
+
+TEST_F(Hostile, AHugeCountAllocatesNothing) {
+  for (const char* count : {"2000000000", "9007199254740991"}) {
+    put(folder / "huge.bvh", header(count) + "1 2 3\n");
+    expect_refused("huge.bvh");
+    fs::remove(folder / "report.json");
+  }
+}
+
+TEST_F(Hostile, FilesWithoutANumberAreRefused) {
+  std::string text = header("50000");
+  for (int f = 0; f < 50000; ++f) text += "nan nan nan\n";
+  put(folder / "nan.bvh", text);
+  expect_refused("nan.bvh");
+}
+
+TEST_F(Hostile, DeepNestingIsRefused) {
+  std::string text = "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 0\n";
+  for (int i = 0; i < 200000; ++i) text += "JOINT j\n{\nOFFSET 0 0 0\nCHANNELS 0\n";
+  put(folder / "deep.bvh", text);
+  expect_refused("deep.bvh");
+}
+
+TEST_F(Hostile, MismatchedColumnsAreRefused) {
+  put(folder / "columns.bvh", header("2") + "1 2 3\n4 5\n");
+  expect_refused("columns.bvh");
+}
+
+TEST_F(Hostile, EveryBadFixtureIsRefused) {
+  const fs::path fixtures = fs::path(KINEMEND_TEST_FIXTURES) / "bvh/bad";
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(fixtures)) {
+    names.push_back(entry.path().filename().string());
+    fs::copy_file(entry.path(), folder / names.back());
+  }
+  ASSERT_GT(names.size(), 20u);
+  std::vector<std::string> words = {"clean"};
+  words.insert(words.end(), names.begin(), names.end());
+  words.insert(words.end(), {"--output-dir", "out"});
+  const Ran ran = run(words);
+  EXPECT_EQ(ran.code, 3);
+  EXPECT_EQ(lines_of(ran.err).size(), names.size() + 1) << ran.err;
+  EXPECT_LT(ran.peak_kilobytes, memory_limit_kilobytes);
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST_F(Hostile, EveryOddButUsableFixtureIsCleaned) {
+  const fs::path fixtures = fs::path(KINEMEND_TEST_FIXTURES) / "bvh/good";
+  std::vector<std::string> words = {"clean", "--output-dir", "out"};
+  for (const auto& entry : fs::directory_iterator(fixtures)) words.push_back(entry.path().string());
+  ASSERT_GT(words.size(), 20u);
+  const Ran ran = run(words);
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(files().size(), words.size() - 2);
+}
+
+TEST_F(Hostile, AHostileConfigurationIsRefused) {
+  put(folder / "a.bvh", hand_take());
+  put(folder / "deep.toml", "joints = " + std::string(100000, '['));
+  const Ran ran = run({"clean", "a.bvh", "--config", "deep.toml"});
+  EXPECT_EQ(ran.code, 3);
+  EXPECT_THAT(ran.err, IsOneLine());
+  EXPECT_THAT(ran.err, testing::StartsWith("kinemend: deep.toml:1: "));
+  EXPECT_LT(ran.peak_kilobytes, memory_limit_kilobytes);
+}
+
+}  // namespace
+}  // namespace kinemend::test
