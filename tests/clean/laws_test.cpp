@@ -118,6 +118,22 @@ TEST_P(Every, LeavesJointsThatWereNotAskedForByteForByte) {
   EXPECT_EQ(output.joint_translations, input.joint_translations);
 }
 
+TEST_P(Every, LeavesWhatIsNotSelectedAloneAlsoWithoutThePipeline) {
+  const Clip input = noisy_take();
+  Clip output = input;
+  Selection selection = Selection::all(input);
+  selection.joints = {0, 1, 0, 1, 0, 0, 0};
+  selection.root_position = false;
+  cleaner_->clean(output, selection);
+  for (std::size_t f = 0; f < input.frame_count(); ++f) {
+    for (const std::size_t j : {0, 2, 4, 5, 6}) {
+      ASSERT_EQ(output.rotation(f, j), input.rotation(f, j)) << f << " " << j;
+    }
+  }
+  EXPECT_EQ(output.root_positions, input.root_positions);
+  EXPECT_EQ(output.joint_translations, input.joint_translations);
+}
+
 TEST_P(Every, KeepsASteadyTurnUpToBothEnds) {
   if (is_causal()) return;
   Clip clip = empty_take(150, 120);

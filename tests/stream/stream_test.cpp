@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 
 #include "clean/takes.hpp"
 #include "kinemend/error.hpp"
@@ -65,6 +66,8 @@ struct Live {
   std::string name;
   std::string method;
   OptionValues options;
+
+  friend void PrintTo(const Live& live, std::ostream* out) { *out << live.name; }
 };
 
 // Every method of the table that runs live as it is, and the causal forms of the others.
