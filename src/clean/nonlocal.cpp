@@ -19,7 +19,7 @@ namespace {
 
 // The automatic bandwidth, as a share of the noise. Over a whole take many dissimilar poses of
 // small weights would add up, so that weights have to fall more steeply.
-constexpr double noise_share_window = 0.8;
+constexpr double causal_noise_share = 0.8;
 constexpr double noise_share_take = 0.4;
 // How far the root position is averaged when the window is the whole take: beyond, the body is
 // elsewhere.
@@ -73,17 +73,25 @@ class NonlocalCleaner final : public Cleaner {
     CleanTrace trace;
     if (clip.frame_count() < 2) return trace;
     const std::vector<std::size_t> joints = pose_joints(clip.skeleton);
-    Clip bridged = clip;  // joints that stay as they are count in the pose, too
-    CleanTrace unselected;
-    bridge_gaps(bridged, joints, unselected);
-    NonlocalTake take = make_take(bridged, joints, selection);
+    NonlocalTake take;
+    if (clip.observed.empty()) {
+      take = make_take(clip, joints, selection);
+    } else {
+      Clip bridged = clip;  // joints that are not selected belong to the pose, too, but stay
+      CleanTrace unused;
+      bridge_gaps(bridged, joints, unused);
+      take = make_take(bridged, joints, selection);
+    }
     NonlocalSettings settings = settings_for(clip.frame_rate_hz);
-    if (options_.bandwidth_deg == 0 && !measure_noise(bridged, joints, settings, trace)) {
+    if (options_.bandwidth_deg == 0) trace.noise_deg.assign(clip.joint_count(), 0.0);
+    if (options_.bandwidth_deg == 0 && !choose_bandwidth(joints, take, settings, trace)) {
       return trace;
     }
     nonlocal_filter(take, settings);
-    for (std::size_t i = 0; i < joints.size(); ++i) {
-      if (take.wanted[i]) store_rotations(take.rotations[i], clip, joints[i]);
+    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+      for (std::size_t i = 0; i < joints.size(); ++i) {
+        if (take.wanted[i]) clip.rotation(f, joints[i]) = take.rotations[i][f];
+      }
     }
     const auto tracks = selected_positions(clip, selection);
     for (std::size_t p = 0; p < tracks.size(); ++p) store_positions(take.positions[p], tracks[p]);
@@ -108,7 +116,7 @@ class NonlocalCleaner final : public Cleaner {
     settings.patch = 2 * offline.patch_radius + 1;
     settings.neighbours = offline.neighbours;
     settings.bandwidth = offline.bandwidth;
-    settings.noise_share = noise_share_window;
+    settings.noise_share = causal_noise_share;
     return make_causal_nonlocal(settings, pose_joints(skeleton));
   }
 
@@ -131,10 +139,11 @@ class NonlocalCleaner final : public Cleaner {
   static NonlocalTake make_take(Clip& clip, const std::vector<std::size_t>& joints,
                                 const Selection& selection) {
     NonlocalTake take;
+    take.rotations = load_rotations(clip, joints);
+    const std::vector<std::size_t> moving = selected_joints(clip, selection);
     for (const std::size_t joint : joints) {
-      take.rotations.push_back(load_rotations(clip, joint));
       take.observed.push_back(observed_weights(clip, joint));
-      take.wanted.push_back(selection.joints[joint]);
+      take.wanted.push_back(std::binary_search(moving.begin(), moving.end(), joint));
     }
     for (const PositionTrack& positions : selected_positions(clip, selection)) {
       take.positions.push_back(load_positions(positions, clip.frame_count()));
@@ -144,20 +153,20 @@ class NonlocalCleaner final : public Cleaner {
   }
 
   // Bandwidth and distance of noise from the take; false when there is no noise to remove.
-  static bool measure_noise(const Clip& clip, const std::vector<std::size_t>& joints,
-                            NonlocalSettings& settings, CleanTrace& trace) {
-    trace.noise_deg.assign(clip.joint_count(), 0.0);
+  static bool choose_bandwidth(const std::vector<std::size_t>& joints, const NonlocalTake& take,
+                               NonlocalSettings& settings, CleanTrace& trace) {
     double sum = 0;
-    for (const std::size_t joint : joints) {
-      const double noise = track_noise(joint_track(clip, joint));
-      trace.noise_deg[joint] = noise * degrees_per_radian;
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      std::vector<Quat> track(take.rotations[i].frames);
+      for (std::size_t f = 0; f < track.size(); ++f) track[f] = take.rotations[i][f];
+      const double noise = track_noise(track);
+      trace.noise_deg[joints[i]] = noise * degrees_per_radian;
       sum += noise * noise;
     }
     if (sum == 0) return false;
     const double variance = sum / static_cast<double>(joints.size());
-    const double share = settings.whole_take ? noise_share_take : noise_share_window;
     settings.noise_distance = 2 * variance;
-    settings.bandwidth = share * std::sqrt(variance);
+    settings.bandwidth = best_bandwidth(take, settings, variance);
     return true;
   }
 

@@ -114,13 +114,43 @@ class Averager {
     std::vector<VectorTrack> shifts;
   };
 
+  // Adds to `risks`, one for each bandwidth, Mallows' C_p of the block's frames.
+  void add_risks(std::size_t first, std::size_t count, double variance,
+                 const std::vector<double>& bandwidths, std::vector<double>& risks) const {
+    const Weights distances = find_distances(first, count);
+    for (std::size_t n = 0; n < bandwidths.size(); ++n) {
+      Weights weights = distances;
+      weigh(count, bandwidths[n], weights);
+      double changed = 0, samples = 0;
+      for (std::size_t j = 0; j < rotations_.size(); ++j) {
+        if (!observed_[j].empty()) continue;
+        VectorTrack turns(count);
+        mean_turn(rotations_[j], nullptr, first + pad_, count, weights.neighbours, turns);
+        for (std::size_t i = 0; i < count; ++i) changed += dot(turns[i], turns[i]);
+        samples += 1;
+      }
+      double own = 0;
+      const std::size_t stride = count + lane_room;
+      for (std::size_t i = 0; i < count; ++i) {
+        double total = 1;
+        for (std::size_t k = 0; k < weights.neighbours.size(); ++k) {
+          total += weights.values[k * stride + i];
+        }
+        own += 1 / total;
+      }
+      risks[n] += changed + 2 * variance * 3 * samples * own;
+    }
+  }
+
   // What frames first .. first + count - 1 are turned and moved by.
-  Moves run(std::size_t first, std::size_t count, const NonlocalTake& take) const {
-    const Weights weights = find_weights(first, count);
+  Moves run(std::size_t first, std::size_t count, const std::vector<std::uint8_t>& wanted,
+            const std::vector<std::uint8_t>& travels) const {
+    Weights weights = find_distances(first, count);
+    weigh(count, settings_.bandwidth, weights);
     Moves moves;
     for (std::size_t j = 0; j < rotations_.size(); ++j) {
-      moves.turns.emplace_back(take.wanted[j] ? count : 0);
-      if (!take.wanted[j]) continue;
+      moves.turns.emplace_back(wanted[j] ? count : 0);
+      if (!wanted[j]) continue;
       mean_turn(rotations_[j], observed_[j].empty() ? nullptr : observed_[j].data(), first + pad_,
                 count, weights.neighbours, moves.turns.back());
     }
@@ -131,16 +161,28 @@ class Averager {
     }
     for (std::size_t p = 0; p < positions_.size(); ++p) {
       moves.shifts.emplace_back(count);
-      mean_move(positions_[p], first + pad_, count, take.travels[p] ? near : weights.neighbours,
+      mean_move(positions_[p], first + pad_, count, travels[p] ? near : weights.neighbours,
                 moves.shifts.back());
     }
     return moves;
   }
 
  private:
+  // A row for each neighbour, `lane_room` longer than the block.
   struct Weights {
     std::vector<double> values;
     std::vector<Neighbour> neighbours;
+
+    Weights() = default;
+    Weights(Weights&&) = default;
+    // The neighbours' weights are those of the copy.
+    Weights(const Weights& other) : values(other.values), neighbours(other.neighbours) {
+      for (Neighbour& n : neighbours)
+        n.weights = &values[static_cast<std::size_t>(n.weights - other.values.data())];
+    }
+    Weights& operator=(const Weights&) = delete;
+    Weights& operator=(Weights&&) = default;
+    ~Weights() = default;
   };
 
   // Mean squared difference per channel of the patches about frames `from` + i and `from` + lag +
@@ -175,19 +217,22 @@ class Averager {
     }
   }
 
-  // Distances of the block's frames to each neighbour, turned into weights.
-  Weights find_weights(std::size_t first, std::size_t count) const {
+  // Distances of the block's frames to each neighbour; infinite where it does not count.
+  Weights find_distances(std::size_t first, std::size_t count) const {
     Weights result =
         settings_.whole_take ? whole_take_distances(first, count) : window_distances(first, count);
     if (settings_.neighbours > 0) keep_nearest(count, result);
-    const double scale = 1 / (2 * settings_.bandwidth * settings_.bandwidth);
-    const std::vector<double> floors = nearest_distances(count, result);
-    const std::size_t stride = count + lane_room;
-    for (std::size_t n = 0; n < result.neighbours.size(); ++n) {
-      decay(scale, floors.data(), count, &result.values[n * stride]);
-      std::fill_n(&result.values[n * stride + count], lane_room, 0.0);
-    }
     return result;
+  }
+
+  // Turns distances into weights.
+  void weigh(std::size_t count, double bandwidth, Weights& weights) const {
+    const std::vector<double> floors = nearest_distances(count, weights);
+    const std::size_t stride = count + lane_room;
+    for (std::size_t n = 0; n < weights.neighbours.size(); ++n) {
+      decay(1 / (2 * bandwidth * bandwidth), floors.data(), count, &weights.values[n * stride]);
+      std::fill_n(&weights.values[n * stride + count], lane_room, 0.0);
+    }
   }
 
   void add_neighbours(const std::vector<std::ptrdiff_t>& offsets, std::size_t stride,
@@ -286,32 +331,62 @@ class Averager {
   std::vector<VectorTrack> positions_;
 };
 
-void copy_into(const VectorTrack& part, std::size_t first, VectorTrack& whole) {
-  for (std::size_t i = 0; i < part.frames; ++i) whole.set(first + i, part[i]);
+RotationTrack part_of(const RotationTrack& track, std::size_t first, std::size_t count) {
+  RotationTrack part(count);
+  for (std::size_t i = 0; i < count; ++i) part.set(i, track[first + i]);
+  return part;
+}
+VectorTrack part_of(const VectorTrack& track, std::size_t first, std::size_t count) {
+  VectorTrack part(count);
+  for (std::size_t i = 0; i < count; ++i) part.set(i, track[first + i]);
+  return part;
+}
+
+template <class Track>
+void turn_part(Track& track, std::size_t first, const VectorTrack& turns) {
+  Track part = part_of(track, first, turns.frames);
+  turn(part, turns);
+  for (std::size_t i = 0; i < part.frames; ++i) track.set(first + i, part[i]);
 }
 
 }  // namespace
+
+double best_bandwidth(const NonlocalTake& take, const NonlocalSettings& settings, double variance) {
+  constexpr std::size_t block = 64, most_blocks = 6;
+  std::vector<double> bandwidths, risks;
+  for (int step = 0; step < 8; ++step) {
+    bandwidths.push_back(0.3 * std::pow(2.0, 0.5 * step) * std::sqrt(variance));
+  }
+  risks.assign(bandwidths.size(), 0.0);
+  const Averager averager(take, settings);
+  const std::size_t frames = averager.frames();
+  const std::size_t blocks = std::min(most_blocks, (frames + block - 1) / block);
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const std::size_t room = frames > block ? frames - block : 0;
+    const std::size_t first = blocks < 2 ? 0 : b * room / (blocks - 1);
+    averager.add_risks(first, std::min(block, frames - first), variance, bandwidths, risks);
+  }
+  const auto least = std::min_element(risks.begin(), risks.end());
+  return bandwidths[static_cast<std::size_t>(least - risks.begin())];
+}
 
 void nonlocal_filter(NonlocalTake& take, const NonlocalSettings& settings) {
   if (take.rotations.empty() && take.positions.empty()) return;
   const Averager averager(take, settings);
   const std::size_t frames = averager.frames();
-  std::vector<VectorTrack> turns, shifts;
-  for (const std::uint8_t wanted : take.wanted) turns.emplace_back(wanted ? frames : 0);
-  shifts.assign(take.positions.size(), VectorTrack(frames));
-
   const std::size_t block = averager.block_frames();
   const std::size_t blocks = (frames + block - 1) / block;
   for_each_parallel(blocks, frames * (1 + take.rotations.size()), [&](std::size_t b) {
     const std::size_t first = b * block;
-    const auto moves = averager.run(first, std::min(block, frames - first), take);
-    for (std::size_t j = 0; j < turns.size(); ++j) copy_into(moves.turns[j], first, turns[j]);
-    for (std::size_t p = 0; p < shifts.size(); ++p) copy_into(moves.shifts[p], first, shifts[p]);
+    const auto moves =
+        averager.run(first, std::min(block, frames - first), take.wanted, take.travels);
+    for (std::size_t j = 0; j < take.rotations.size(); ++j) {
+      if (take.wanted[j]) turn_part(take.rotations[j], first, moves.turns[j]);
+    }
+    for (std::size_t p = 0; p < take.positions.size(); ++p) {
+      turn_part(take.positions[p], first, moves.shifts[p]);
+    }
   });
-  for (std::size_t j = 0; j < turns.size(); ++j) {
-    if (take.wanted[j]) turn(take.rotations[j], turns[j]);
-  }
-  for (std::size_t p = 0; p < shifts.size(); ++p) turn(take.positions[p], shifts[p]);
 }
 
 }  // namespace kinemend

@@ -45,48 +45,93 @@ void decay_lanes(double scale, const double* floors, std::size_t count, double* 
   }
 }
 
-// d(x_i, x_{i+n}) is Log(x_i^-1 x_{i+n}) or the difference.
-template <class Track, class Difference>
-HWY_INLINE void mean_difference(const Track& track, const double* observed, std::size_t first,
-                                std::size_t count, std::span<const Neighbour> neighbours,
-                                const Difference& difference, VectorTrack& out) {
-  for (std::size_t i = 0; i < count; i += hn::Lanes(tag)) {
-    const auto own = load_sample(track, first + i);
-    Lanes total = observed ? load(observed + first + i) : all(1.0);
-    LaneVec sum{hn::Zero(tag), hn::Zero(tag), hn::Zero(tag)};
-    for (const Neighbour& n : neighbours) {
-      Lanes weight = load(n.weights + i);
-      if (hn::AllFalse(tag, hn::Gt(weight, hn::Zero(tag)))) continue;
-      const std::size_t there = first + i + static_cast<std::size_t>(n.offset);
-      if (observed) weight = mul(weight, load(observed + there));
-      const LaneVec d = difference(own, load_sample(track, there));
-      total = add(total, weight);
-      sum.x = mul_add(weight, d.x, sum.x);
-      sum.y = mul_add(weight, d.y, sum.y);
-      sum.z = mul_add(weight, d.z, sum.z);
-    }
-    const Lanes share = hn::Div(all(1.0), hn::Max(total, all(1e-300)));
-    store(mul(share, sum.x), &out.x[i]);
-    store(mul(share, sum.y), &out.y[i]);
-    store(mul(share, sum.z), &out.z[i]);
-  }
+HWY_INLINE bool weighs_nothing(Lanes weights) {
+  return hn::AllFalse(tag, hn::Gt(weights, hn::Zero(tag)));
 }
 
+// Log(a^-1 b) is this times the vector part of a^-1 b; its sign is that of a . b.
+HWY_INLINE Lanes logarithm_scale(const LaneQuat& a, const LaneQuat& b) {
+  const Lanes cosine = dot(a, b);
+  const Lanes scale = polynomial(logarithm_coefficients, quarter_sine(hn::Abs(cosine)));
+  return hn::CopySignToAbs(scale, cosine);
+}
+
+// One row of scales serves the neighbours at +n and at -n where they follow each other in the list:
+// the scale of a pair is the same seen from either side. Returns where frame i of the neighbour
+// finds its own.
+const double* fill_scales(const RotationTrack& track, std::size_t first, std::size_t count,
+                          const Neighbour& neighbour, const Neighbour* opposite, double* row) {
+  const std::size_t step = opposite ? static_cast<std::size_t>(neighbour.offset) : 0;
+  const std::size_t begin = first - step;
+  const bool skips = !opposite;  // weights belong to one side only
+  for (std::size_t i = 0; i < count + step; i += hn::Lanes(tag)) {
+    if (skips && weighs_nothing(load(neighbour.weights + i))) continue;
+    const std::size_t there = begin + i + static_cast<std::size_t>(neighbour.offset);
+    store(logarithm_scale(load_sample(track, begin + i), load_sample(track, there)), row + i);
+  }
+  return row + step;
+}
+
+// (x, y, z) of a^-1 b.
+HWY_INLINE LaneVec vector_part(const LaneQuat& a, const LaneQuat& b) {
+  return {sub(sub(mul(a.w, b.x), mul(a.x, b.w)), sub(mul(a.y, b.z), mul(a.z, b.y))),
+          sub(sub(mul(a.w, b.y), mul(a.y, b.w)), sub(mul(a.z, b.x), mul(a.x, b.z))),
+          sub(sub(mul(a.w, b.z), mul(a.z, b.w)), sub(mul(a.x, b.y), mul(a.y, b.x)))};
+}
+
+// The vector part of q_i^-1 q_n is linear in q_n: the scaled quaternions are summed up, as
+// differences from q_i, which leave nothing where nothing moves, and multiplied once.
 void mean_turn_lanes(const RotationTrack& track, const double* observed, std::size_t first,
-                     std::size_t count, std::span<const Neighbour> neighbours, VectorTrack& out) {
-  mean_difference(
-      track, observed, first, count, neighbours,
-      [](const LaneQuat& a, const LaneQuat& b) { return logarithm(a, b); }, out);
+                     std::size_t count, std::span<const Neighbour> neighbours,
+                     std::span<const double* const> scales, VectorTrack& out) {
+  const Lanes sign_bit = all(-0.0);
+  for (std::size_t i = 0; i < count; i += hn::Lanes(tag)) {
+    const LaneQuat own = load_sample(track, first + i);
+    Lanes total = observed ? load(observed + first + i) : all(1.0);
+    LaneQuat sum{hn::Zero(tag), hn::Zero(tag), hn::Zero(tag), hn::Zero(tag)};
+    for (std::size_t n = 0; n < neighbours.size(); ++n) {
+      Lanes weight = load(neighbours[n].weights + i);
+      if (weighs_nothing(weight)) continue;
+      const std::size_t there = first + i + static_cast<std::size_t>(neighbours[n].offset);
+      if (observed) weight = mul(weight, load(observed + there));
+      total = add(total, weight);
+      const Lanes scale = load(scales[n] + i);
+      const Lanes sign = hn::And(scale, sign_bit);
+      const Lanes factor = mul(weight, hn::Abs(scale));
+      const LaneQuat q = load_sample(track, there);
+      sum.w = mul_add(factor, sub(hn::Xor(q.w, sign), own.w), sum.w);
+      sum.x = mul_add(factor, sub(hn::Xor(q.x, sign), own.x), sum.x);
+      sum.y = mul_add(factor, sub(hn::Xor(q.y, sign), own.y), sum.y);
+      sum.z = mul_add(factor, sub(hn::Xor(q.z, sign), own.z), sum.z);
+    }
+    const Lanes share = hn::Div(all(1.0), hn::Max(total, all(1e-300)));
+    const LaneVec mean = vector_part(own, sum);
+    store(mul(share, mean.x), &out.x[i]);
+    store(mul(share, mean.y), &out.y[i]);
+    store(mul(share, mean.z), &out.z[i]);
+  }
 }
 
 void mean_move_lanes(const VectorTrack& track, std::size_t first, std::size_t count,
                      std::span<const Neighbour> neighbours, VectorTrack& out) {
-  mean_difference(
-      track, nullptr, first, count, neighbours,
-      [](const LaneVec& a, const LaneVec& b) {
-        return LaneVec{sub(b.x, a.x), sub(b.y, a.y), sub(b.z, a.z)};
-      },
-      out);
+  for (std::size_t i = 0; i < count; i += hn::Lanes(tag)) {
+    const LaneVec own = load_sample(track, first + i);
+    Lanes total = all(1.0);
+    LaneVec sum{hn::Zero(tag), hn::Zero(tag), hn::Zero(tag)};
+    for (const Neighbour& n : neighbours) {
+      const Lanes weight = load(n.weights + i);
+      if (weighs_nothing(weight)) continue;
+      const LaneVec p = load_sample(track, first + i + static_cast<std::size_t>(n.offset));
+      total = add(total, weight);
+      sum.x = mul_add(weight, sub(p.x, own.x), sum.x);
+      sum.y = mul_add(weight, sub(p.y, own.y), sum.y);
+      sum.z = mul_add(weight, sub(p.z, own.z), sum.z);
+    }
+    const Lanes share = hn::Div(all(1.0), total);
+    store(mul(share, sum.x), &out.x[i]);
+    store(mul(share, sum.y), &out.y[i]);
+    store(mul(share, sum.z), &out.z[i]);
+  }
 }
 
 }  // namespace HWY_NAMESPACE
@@ -94,11 +139,16 @@ void mean_move_lanes(const VectorTrack& track, std::size_t first, std::size_t co
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include <algorithm>
+#include <memory>
+#include <vector>
+
 namespace kinemend {
 
 HWY_EXPORT(add_squared_angles_lanes);
 HWY_EXPORT(add_observed_angles_lanes);
 HWY_EXPORT(decay_lanes);
+HWY_EXPORT(fill_scales);
 HWY_EXPORT(mean_turn_lanes);
 HWY_EXPORT(mean_move_lanes);
 
@@ -115,7 +165,27 @@ void decay(double scale, const double* floors, std::size_t count, double* values
 }
 void mean_turn(const RotationTrack& track, const double* observed, std::size_t first,
                std::size_t count, std::span<const Neighbour> neighbours, VectorTrack& out) {
-  HWY_DYNAMIC_DISPATCH(mean_turn_lanes)(track, observed, first, count, neighbours, out);
+  const auto opposite_of = [&](std::size_t n) {
+    const bool follows = neighbours[n].offset > 0 && n + 1 < neighbours.size() &&
+                         neighbours[n + 1].offset == -neighbours[n].offset;
+    return follows ? &neighbours[n + 1] : nullptr;
+  };
+  std::size_t stride = count + lane_room;
+  for (std::size_t n = 0; n < neighbours.size(); ++n) {
+    if (!opposite_of(n)) continue;
+    stride = std::max(stride, count + lane_room + static_cast<std::size_t>(neighbours[n].offset));
+  }
+  const auto rows = std::make_unique_for_overwrite<double[]>(neighbours.size() * stride);
+  std::vector<const double*> scales;
+  while (scales.size() < neighbours.size()) {
+    const std::size_t n = scales.size();
+    double* row = &rows[n * stride];
+    const Neighbour* opposite = opposite_of(n);
+    scales.push_back(
+        HWY_DYNAMIC_DISPATCH(fill_scales)(track, first, count, neighbours[n], opposite, row));
+    if (opposite) scales.push_back(row);
+  }
+  HWY_DYNAMIC_DISPATCH(mean_turn_lanes)(track, observed, first, count, neighbours, scales, out);
 }
 void mean_move(const VectorTrack& track, std::size_t first, std::size_t count,
                std::span<const Neighbour> neighbours, VectorTrack& out) {

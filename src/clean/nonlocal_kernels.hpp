@@ -27,7 +27,8 @@ struct Neighbour {
 
 /// out_i = sum_n w_n Log(x_i^-1 x_{i+n}) / (1 + sum_n w_n) for the `count` frames from `first` on.
 /// `observed` multiplies the weights, the frame's own (1) included; nullptr: all are 1. The track
-/// has `lane_room` frames on either side of those that weigh anything.
+/// has `lane_room` frames on either side of those that weigh anything. Neighbours at +n and -n that
+/// follow each other in the list cost little more than one.
 void mean_turn(const RotationTrack& track, const double* observed, std::size_t first,
                std::size_t count, std::span<const Neighbour> neighbours, VectorTrack& out);
 /// The same of positions: out_i = sum_n w_n (x_{i+n} - x_i) / (1 + sum_n w_n).

@@ -21,6 +21,14 @@ RotationTrack load_rotations(const Clip& clip, std::size_t joint) {
   return track;
 }
 
+std::vector<RotationTrack> load_rotations(const Clip& clip, std::span<const std::size_t> joints) {
+  std::vector<RotationTrack> tracks(joints.size(), RotationTrack(clip.frame_count()));
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    for (std::size_t i = 0; i < joints.size(); ++i) tracks[i].set(f, clip.rotation(f, joints[i]));
+  }
+  return tracks;
+}
+
 void store_rotations(const RotationTrack& track, Clip& clip, std::size_t joint) {
   for (std::size_t f = 0; f < track.frames; ++f) clip.rotation(f, joint) = track[f];
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "clean/tracks.hpp"
@@ -35,6 +36,8 @@ struct RotationTrack {
 };
 
 RotationTrack load_rotations(const Clip& clip, std::size_t joint);
+/// Several at once, which reads the frames in their order.
+std::vector<RotationTrack> load_rotations(const Clip& clip, std::span<const std::size_t> joints);
 void store_rotations(const RotationTrack& track, Clip& clip, std::size_t joint);
 VectorTrack load_positions(const PositionTrack& positions, std::size_t frames);
 void store_positions(const VectorTrack& track, const PositionTrack& positions);
