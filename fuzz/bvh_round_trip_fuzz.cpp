@@ -1,11 +1,10 @@
-// The bytes after the first eight are a take; those eight choose what is changed in it. What is
-// written must read back as the clip that was written, whatever the layout, and samples that were
-// not changed must keep their value exactly.
+// The bytes are a take; their hash chooses what is changed in it. What is written must read back as
+// the clip that was written, whatever the layout, and samples that were not changed must keep their
+// value exactly.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <string>
 
 #include "kinemend/error.hpp"
@@ -48,10 +47,9 @@ void check_round_trip(const Clip& clip, const Clip* source, const std::string& t
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  std::uint64_t seed = 0;
-  if (size < sizeof seed) return 0;
-  std::memcpy(&seed, data, sizeof seed);
-  const std::string bytes(reinterpret_cast<const char*>(data) + sizeof seed, size - sizeof seed);
+  const std::string bytes(reinterpret_cast<const char*>(data), size);
+  std::uint64_t seed = 14695981039346656037u;
+  for (const char byte : bytes) seed = (seed ^ static_cast<unsigned char>(byte)) * 1099511628211u;
   Clip clip;
   try {
     clip = read_clip(bytes, "fuzz.bvh").clip;

@@ -53,7 +53,8 @@ std::size_t MotionRows::read(double* values, std::size_t count, TokenSpan* token
       if constexpr (keep_tokens) tokens[i] = {p, last_end};
       values[i] = number.value;
       most_decimals = std::max(most_decimals, number.decimals);
-      if (last_end[0] == ' ' && last_end[1] > ' ') [[likely]] {
+      // Digits, the point and the minus sign come after the comma.
+      if (last_end[0] == ' ' && last_end[1] > ',') [[likely]] {
         p = last_end + 1;
         continue;
       }

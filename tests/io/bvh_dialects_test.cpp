@@ -59,6 +59,21 @@ TEST(BvhReader, LayoutDoesNotChangeTheMotion) {
   }
 }
 
+TEST(BvhReader, SpacesMayStandOnEitherSideOfASeparatingComma) {
+  const std::string text = read_file(fixture("good/comma_separated.bvh"));
+  const std::size_t data = text.find("1.0000");
+  for (const char* separator : {",", " ,", ", ", " , ", "\t,\t", ",,"}) {
+    std::string changed = text.substr(0, data);
+    for (std::size_t i = data; i < text.size(); ++i) {
+      if (text[i] == ',') changed += separator;
+      if (text[i] != ',' && text[i] != ' ') changed += text[i];
+    }
+    const Clip clip = read_text(changed);
+    EXPECT_EQ(clip.local_rotations, read_good("plain.bvh").local_rotations) << separator;
+    EXPECT_EQ(write_clip(clip), changed);
+  }
+}
+
 TEST(BvhReader, RepairsAreNamedAndCounted) {
   EXPECT_EQ(repairs("frames_too_many.bvh", "frame_count_mismatch"), 1u);
   EXPECT_EQ(repairs("frames_too_few.bvh", "frame_count_mismatch"), 1u);
