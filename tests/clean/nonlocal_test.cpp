@@ -183,7 +183,8 @@ TEST(Nonlocal, ComparesAllPosesOfATake) {
   NonlocalOptions options = small_options();
   options.window_s = 0;
   expect_direct(direct, cleaned(direct.clip, *make_nonlocal(options)));
-  direct.neighbours = options.neighbours = 5;
+  direct.neighbours = 5;
+  options.neighbours = 5;
   expect_direct(direct, cleaned(direct.clip, *make_nonlocal(options)));
 }
 
