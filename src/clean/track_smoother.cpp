@@ -95,6 +95,7 @@ void smooth_tracks(VectorTracks& tracks, const SampleMarks& missing, std::span<c
   const std::vector<std::size_t> found = signal::smooth_by_evidence(by_evidence, variance, grid);
   if (found.empty()) return;
   std::vector<signal::SmoothingModel> models;
+  models.reserve(found.size());
   for (const std::size_t m : found) models.push_back(grid.models()[m]);
   signal::smooth_adaptively(work.values, lost, variance, models, frame_rate_hz);
 

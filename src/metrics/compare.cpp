@@ -10,6 +10,7 @@ namespace {
 void fill_joints(const Clip& reference, const Clip& other, std::size_t first_frame,
                  Comparison& result) {
   const std::size_t joints = reference.joint_count();
+  if (joints == 0) return;
   const auto rms = geodesic_rms_deg_per_joint(reference, other, first_frame);
   const auto speed = peak_angular_speed_deg_s(reference, first_frame);
   const auto other_speed = peak_angular_speed_deg_s(other, first_frame);

@@ -119,10 +119,9 @@ void WeightedSystem::factor(const ChannelBlock& weight, const ChannelBlock& pena
                        penalty.values.data());
 }
 
-void WeightedSystem::solve(const ChannelBlock& weight, const ChannelBlock& y,
-                           ChannelBlock& x) {
-  solve_weighted_rows(rows_of(frames_, diagonal_, lower_, inverse_),
-                      weight.values.data(), y.values.data(), x.values.data());
+void WeightedSystem::solve(const ChannelBlock& weight, const ChannelBlock& y, ChannelBlock& x) {
+  solve_weighted_rows(rows_of(frames_, diagonal_, lower_, inverse_), weight.values.data(),
+                      y.values.data(), x.values.data());
 }
 
 void WeightedSystem::difference_variances(ChannelBlock& variances) {
