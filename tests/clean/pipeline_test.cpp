@@ -294,7 +294,7 @@ TEST(Report, DoesNotTakeNoiseOrSpikesForPeaks) {
   Clip input = punch();
   add_noise(input, 1, 0.1, 4);
   for (const std::size_t f : {30, 70, 190})
-    input.rotation(f, 2) = input.rotation(f, 2) * exp({0.7, 0, 0});
+    input.rotation(f, 2) = input.rotation(f, 2) * exp({1.6, 0, 0});
   const CleanResult fine = clean_clip(input, *make_butterworth({.cutoff_hz = 12}));
   EXPECT_THAT(fine.report.warnings, IsEmpty());
   const JointSummary& arm = fine.report.joints[2];
