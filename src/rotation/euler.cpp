@@ -22,6 +22,7 @@ Quat turn(Axis axis, double angle) {
 double component(Quat q, Axis axis) { return axis == Axis::x ? q.x : axis == Axis::y ? q.y : q.z; }
 
 double nearest_turn(double angle, double previous) {
+  if (std::fabs(angle - previous) < pi) return angle;
   return previous + wrap_angle(angle - previous, pi);
 }
 
@@ -35,8 +36,10 @@ double continue_from(Angles& angles, const Angles& previous, std::size_t count) 
   return largest;
 }
 
+// The branches differ by half a turn in their first angle.
 Angles nearer(Angles first, Angles second, const Angles& previous, std::size_t count) {
   const double change_first = continue_from(first, previous, count);
+  if (change_first < pi / 2) return first;  // the other one's first angle changes by more
   const double change_second = continue_from(second, previous, count);
   return change_second < change_first ? second : first;
 }
@@ -135,7 +138,7 @@ Angles to_euler_near(Quat q, RotationOrder order, const Angles& previous) {
     c = v - w;
     d = x - u;
   }
-  const double middle = 2 * std::atan2(std::hypot(c, d), std::hypot(a, b));
+  const double middle = 2 * std::atan2(std::sqrt(c * c + d * d), std::sqrt(a * a + b * b));
   const double plus = std::atan2(b, a);
   const double minus = std::atan2(d, c);
 
