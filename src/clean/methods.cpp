@@ -42,6 +42,7 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& na
 
 std::vector<std::string> names_of(const auto& entries) {
   std::vector<std::string> names;
+  names.reserve(entries.size());
   for (const auto& entry : entries) names.push_back(entry.name);
   return names;
 }
