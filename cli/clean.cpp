@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <memory>
 #include <new>
 #include <optional>
 
@@ -32,20 +33,18 @@ struct Outcome {
   std::string text;
   std::vector<std::string> warnings;
   std::string error;
-  Json json;
-  Json report;
+  std::shared_ptr<const Json> json;    ///< entry of --json; null when not asked for
+  std::shared_ptr<const Json> report;  ///< entry of --report
 };
 
 void write_result(const CleanJob& job, const Clip& clip, const CleanPlan& plan) {
   const Format* named = job.output == "-" ? nullptr : format_of_path(job.output);
   const std::string_view format = named ? named->name : std::string_view(clip.source.format);
   const std::string bytes = write_clip(clip, format);
-  const fs::path folder = fs::path(job.output).parent_path();
   std::error_code error;
-  if (job.output != "-" && !folder.empty()) fs::create_directories(folder, error);
-  if (error) {
-    throw Error(ErrorKind::cannot_write, fmt::format("{}: {}", folder.string(), error.message()));
-  }
+  if (!plan.folder.empty()) fs::create_directories(plan.folder, error);
+  if (error)
+    throw Error(ErrorKind::cannot_write, fmt::format("{}: {}", plan.folder, error.message()));
   write_output(job.output, bytes, plan.force);
 }
 
@@ -70,18 +69,17 @@ void clean_take(const CleanJob& job, const CleanPlan& plan, Outcome& outcome) {
       [&] { return clean_clip(take.clip, *plan.cleaner, settings, plan.method); });
   if (plan.strict) refuse_warnings(name, result.report);
   for (const std::string& warning : result.report.warnings)
-    outcome.warnings.push_back(name + ": " + warning);
+    outcome.warnings.push_back(fmt::format("{}: {}", name, warning));
   if (!plan.dry_run) write_result(job, result.clip, plan);
   const bool is_only = plan.jobs.size() == 1;
   outcome.text = headline(job, result.report, plan, Colours::of_out());
   if (is_only || plan.verbose) outcome.text += report_text(result.report, plan.verbose);
-  if (plan.json) outcome.json = report_json(job, result.report, take.diagnostics, plan, false);
-  if (!plan.report_path.empty())
-    outcome.report = report_json(job, result.report, take.diagnostics, plan, true);
-}
-
-Json error_json(const CleanJob& job, const Outcome& outcome) {
-  return {{"input", job.input}, {"error", outcome.error}, {"exit_code", outcome.code}};
+  const auto entry = [&](bool with_spans) {
+    return std::make_shared<const Json>(
+        report_json(job, result.report, take.diagnostics, plan, with_spans));
+  };
+  if (plan.json) outcome.json = entry(false);
+  if (!plan.report_path.empty()) outcome.report = entry(true);
 }
 
 Outcome try_take(const CleanJob& job, const CleanPlan& plan) {
@@ -99,7 +97,8 @@ Outcome try_take(const CleanJob& job, const CleanPlan& plan) {
     outcome.code = static_cast<int>(ErrorKind::unreadable_input);
     outcome.error = input_name(job.input) + ": out of memory";
   }
-  outcome.json = outcome.report = error_json(job, outcome);
+  outcome.json = outcome.report = std::make_shared<const Json>(
+      Json{{"input", job.input}, {"error", outcome.error}, {"exit_code", outcome.code}});
   return outcome;
 }
 
@@ -132,13 +131,15 @@ class Announcer {
     for (std::optional<Outcome>& outcome : outcomes_) {
       code = std::max(code, outcome->code);
       failed += outcome->code != 0 ? 1 : 0;
-      files.push_back(std::move(outcome->json));
-      reports.push_back(std::move(outcome->report));
+      if (outcome->json) files.push_back(*outcome->json);
+      if (outcome->report) reports.push_back(*outcome->report);
     }
     if (outcomes_.size() > 1 && failed > 0)
       say_error(fmt::format("{} of {} failed", failed, counted(outcomes_.size(), "take")));
     if (plan_.json) write_out(json_text({{"kinemend", version()}, {"takes", std::move(files)}}));
-    if (!plan_.report_path.empty() && !plan_.dry_run) {
+    // Bad input leaves nothing behind; a dry run writes no file.
+    const bool is_wanted = plan_.report_path == "-" || !plan_.dry_run;
+    if (!plan_.report_path.empty() && is_wanted && failed < outcomes_.size()) {
       write_output(plan_.report_path,
                    json_text({{"kinemend", version()}, {"takes", std::move(reports)}}),
                    plan_.force);

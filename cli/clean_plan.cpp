@@ -131,6 +131,7 @@ CleanPlan make_clean_plan(const Arguments& arguments) {
   if (const std::string range = arguments.text("range"); !range.empty())
     plan.range = parse_range(range);
   plan.format = arguments.text("from");
+  plan.folder = arguments.text("output_dir");
   plan.report_path = arguments.text("report");
   plan.strict = std::get<bool>(settings.values.find("strict")->second);
   plan.force = arguments.flag("force");

@@ -26,6 +26,7 @@ struct CleanPlan {
   CleanSettings settings;
   std::optional<FrameRange> range;
   std::string format;       ///< of the input; empty: by content
+  std::string folder;       ///< --output-dir; made where it does not exist
   std::string report_path;  ///< empty: none
   bool strict = false;
   bool force = false;

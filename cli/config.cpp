@@ -40,13 +40,14 @@ class Reader {
     const Method* method = method_called(key);
     if (!method) refuse_unknown("method", key, line_of(table), method_names());
     OptionValues values;
-    for (const auto& [name, node] : table) {
+    for (const auto& [option_key, node] : table) {
+      const std::string_view name = option_key.str();
       const auto spec = std::find_if(method->options.begin(), method->options.end(),
-                                     [&](const OptionSpec& s) { return s.name == name.str(); });
+                                     [&](const OptionSpec& s) { return s.name == name; });
       if (spec == method->options.end()) {
         std::vector<std::string> names;
         for (const OptionSpec& known : method->options) names.push_back(known.name);
-        refuse_unknown("option of " + method->name, name.str(), line_of(node), names);
+        refuse_unknown("option of " + method->name, name, line_of(node), names);
       }
       values[spec->name] = checked(*spec, node);
     }

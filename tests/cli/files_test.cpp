@@ -66,6 +66,14 @@ TEST_F(Files, AnOutputMayReplaceItsInputByForce) {
   EXPECT_NE(contents(folder / "walk.bvh"), before);
 }
 
+TEST_F(Files, OnlyTheFolderForManyResultsIsMade) {
+  put(folder / "a.bvh", hand_take());
+  EXPECT_EQ(run({"clean", "a.bvh", "-o", "misspelt/b.bvh"}).code, 4);
+  EXPECT_FALSE(fs::exists(folder / "misspelt"));
+  EXPECT_EQ(run({"clean", "a.bvh", "--output-dir", "new/deep"}).code, 0);
+  EXPECT_TRUE(fs::exists(folder / "new/deep/a.bvh"));
+}
+
 TEST_F(Files, AFolderThatCannotBeMadeIsExitCode4) {
   put(folder / "a.bvh", hand_take());
   put(folder / "file", "");

@@ -22,7 +22,8 @@ class Hostile : public Program {
     EXPECT_THAT(ran.err, testing::MatchesRegex("kinemend: " + name + ":[0-9]+: .*\n"));
     EXPECT_LT(ran.err.size(), 400u) << name;
     EXPECT_LT(ran.peak_kilobytes, memory_limit_kilobytes) << name;
-    EXPECT_FALSE(fs::exists(folder / "out")) << name;
+    EXPECT_THAT(files(), testing::ElementsAre(name)) << name;
+    fs::remove(folder / name);
   }
 };
 
@@ -37,7 +38,6 @@ TEST_F(Hostile, TruncatedFilesAreRefused) {
   for (const std::size_t length : {1, 9, 40, 200, 500, 700, 765}) {
     put(folder / "cut.bvh", whole.substr(0, length));
     expect_refused("cut.bvh");
-    fs::remove(folder / "report.json");
   }
 }
 
@@ -48,7 +48,6 @@ TEST_F(Hostile, BinaryFilesAreRefused) {
   put(folder / "noise.bvh", noise);
   expect_refused("noise.bvh");
   put(folder / "zeros.bvh", std::string(8 << 20, '\0'));
-  fs::remove(folder / "report.json");
   expect_refused("zeros.bvh");
 }
 
@@ -61,7 +60,6 @@ TEST_F(Hostile, AHugeCountAllocatesNothing) {
   for (const char* count : {"2000000000", "9007199254740991"}) {
     put(folder / "huge.bvh", header(count) + "1 2 3\n");
     expect_refused("huge.bvh");
-    fs::remove(folder / "report.json");
   }
 }
 
