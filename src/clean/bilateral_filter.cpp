@@ -162,7 +162,8 @@ auto end_estimate(const Track& padded, const double* sample_weights, std::size_t
     m0 += weight * d, m1 += weight * t * d;
   }
   const double determinant = s0 * s2 - s1 * s1;
-  if (!(determinant > 1e-9 * s0 * s2)) return end;
+  // Too little weight anywhere else, or only in one place: no line.
+  if (!(s2 > 1e-12 && determinant > 1e-9 * s0 * s2)) return end;
   return moved(end, (1 / determinant) * (s2 * m0 - s1 * m1));
 }
 

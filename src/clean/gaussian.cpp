@@ -48,7 +48,7 @@ std::vector<double> mask_at(std::span<const double> values, std::span<const doub
     s2 += mask[m] * j * j;
   }
   const double determinant = s0 * s2 - s1 * s1;
-  const bool line = determinant > 1e-9 * s0 * s2;
+  const bool line = s2 > 1e-12 && determinant > 1e-9 * s0 * s2;
   for (std::size_t m = 0; m < mask.size(); ++m) {
     const double j = static_cast<double>(m) - static_cast<double>(k);
     if (line) {

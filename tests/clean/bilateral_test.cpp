@@ -246,6 +246,21 @@ TEST(Bilateral, ReflectedKeepsASteadyTurnUpToTheEndsAndMirroredBendsIt) {
   EXPECT_GT(angle_between(input.rotation(0, 0), bent.rotation(0, 0)), 0.02);
 }
 
+// Weights fall to the smallest numbers there are, and to zero.
+TEST(Bilateral, StaysFiniteWhereNothingIsNear) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    Random random(seed);
+    Clip input = held_take(12, 0, 1);
+    for (Quat& q : input.local_rotations) q = random_rotation(random);
+    for (Vec3& p : input.root_positions) p = random_vector(random, 3);
+    for (const double sigma_g_deg : {0.01, 1.0, 2.0, 2.5, 3.0, 4.0, 6.0, 1000.0}) {
+      for (const char* ends : {"mirror", "reflect"}) {
+        EXPECT_NO_THROW(cleaned(input, *make_bilateral({0.03, sigma_g_deg, 5, ends})).validate());
+      }
+    }
+  }
+}
+
 TEST(Bilateral, BeatsItsNoisyInput) {
   const Clip truth = moving_take(400, 120);
   Clip input = truth;

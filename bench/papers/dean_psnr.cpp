@@ -1,0 +1,155 @@
+// Table I of Dean 2016, Non-local Pose Means for Denoising Motion Capture Data: peak
+// signal-to-noise ratio of denoising methods on a run, for five strengths of Gaussian noise and for
+// impulses.
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+#include "experiment.hpp"
+#include "kinemend/cleaner.hpp"
+#include "kinemend/corrupt.hpp"
+#include "kinemend/methods.hpp"
+#include "kinemend/metrics.hpp"
+
+namespace kinemend::papers {
+namespace {
+
+// The paper's sigma, in quaternion log space (radians of half a rotation vector). The columns of
+// its table are read as multiples of it: its figure 3 goes "from 1 sigma to 100 sigma".
+constexpr double base_sigma = 0.008;
+
+struct Noise {
+  std::string name;
+  double multiple;  // 0: impulses
+};
+const std::vector<Noise> noises{{"1 sigma", 1},   {"15 sigma", 15}, {"30 sigma", 30},
+                                {"50 sigma", 50}, {"75 sigma", 75}, {"impulse", 0}};
+
+Clip damaged(const Clip& truth, const Noise& noise) {
+  Clip clip = truth;
+  Random random(2016);
+  if (noise.multiple > 0) {
+    apply_damage(clip, "gaussian-log", {{"sigma", noise.multiple * base_sigma}}, random);
+  } else {
+    apply_damage(clip, "impulse", {}, random);
+  }
+  return clip;
+}
+
+// A row of the table: a method with the settings among which the best is taken, as the paper did
+// ("care was taken to find the optimal input parameters").
+struct Row {
+  std::string name;
+  std::string method;
+  std::vector<OptionValues> settings;
+};
+
+std::vector<OptionValues> grid(const std::string& option, double low, double high, int steps,
+                               const OptionValues& fixed = {}) {
+  std::vector<OptionValues> list;
+  for (int i = 0; i < steps; ++i) {
+    OptionValues values = fixed;
+    values[option] = low * std::pow(high / low, static_cast<double>(i) / (steps - 1));
+    list.push_back(values);
+  }
+  return list;
+}
+
+std::vector<OptionValues> weighted_mean_settings() {
+  std::vector<OptionValues> list;
+  for (const int passes : {1, 2, 4, 8, 16, 32, 64})
+    list.push_back({{"passes", std::int64_t{passes}}});
+  return list;
+}
+
+std::vector<OptionValues> wavelet_settings() {
+  std::vector<OptionValues> list;
+  for (const char* family : {"db4", "sym8"}) {
+    for (const char* threshold : {"universal", "sure"}) {
+      for (const char* shrinkage : {"soft", "hard"}) {
+        list.push_back({{"family", std::string(family)},
+                        {"threshold", std::string(threshold)},
+                        {"shrinkage", std::string(shrinkage)}});
+      }
+    }
+  }
+  return list;
+}
+
+std::vector<Row> rows(bool quick) {
+  const int steps = quick ? 5 : 15;
+  const OptionValues filter{{"smoother", false}, {"model", std::string("position")}};
+  // sigma as the rotation angle of a channel.
+  const double paper_bandwidth_deg = 2 * base_sigma * degrees_per_radian;
+  return {{"Gaussian LPF", "gaussian", grid("width_s", 0.003, 0.2, steps)},
+          {"Kalman", "kalman", grid("agility", 0.05, 50, steps, filter)},
+          {"Blender WMM", "weighted-mean", weighted_mean_settings()},
+          {"Wavelet", "wavelet", wavelet_settings()},
+          {"Butterworth", "butterworth", grid("cutoff_hz", 1, 40, steps)},
+          {"bilateral (Courty)", "bilateral", grid("sigma_g_deg", 2, 200, steps)},
+          {"NLPM (bandwidth sigma)", "nonlocal", {{{"bandwidth_deg", paper_bandwidth_deg}}}},
+          {"NLPM (best bandwidth)", "nonlocal", grid("bandwidth_deg", 0.2, 60, steps)},
+          {"NLPM (automatic)", "nonlocal", {{}}},
+          {"NLPM (whole take)", "nonlocal", {{{"window_s", 0.0}}}},
+          {"auto", "auto", {{}}}};
+}
+
+double best_psnr(const Clip& truth, const Clip& noisy, const Row& row) {
+  double best = -std::numeric_limits<double>::infinity();
+  for (const OptionValues& values : row.settings) {
+    Clip clip = noisy;
+    make_cleaner(row.method, values)->clean(clip, Selection::all(clip));
+    best = std::max(best, psnr_db(truth, clip));
+  }
+  return best;
+}
+
+void add_row(Table& table, const std::string& name,
+             const std::function<double(std::size_t)>& figure) {
+  fmt::print("{:24}", name);
+  std::vector<std::string> cells{name};
+  for (std::size_t n = 0; n < noises.size(); ++n) {
+    const double value = figure(n);
+    fmt::print("{:10.2f}", value);
+    cells.push_back(fmt::format("{:.4f}", value));
+  }
+  fmt::print("\n");
+  table.add(cells);
+}
+
+void experiment(const Arguments& arguments) {
+  const SynthOptions synth{"run", arguments.quick ? 1.0 : 3.0, 120, 9, false};
+  Take take = load_take(arguments, "09_03.bvh", synth);
+  if (arguments.quick)
+    take.clip = slice(take.clip, 0, std::min<std::size_t>(120, take.clip.frame_count()));
+  std::vector<Clip> noisy;
+  for (const Noise& noise : noises) noisy.push_back(damaged(take.clip, noise));
+
+  fmt::print("Dean 2016, table I: PSNR in dB on {}, {} frames.\n", take.name,
+             take.clip.frame_count());
+  fmt::print(
+      "sigma = {} in quaternion log space. Impulse: 1 % of the samples turned by 60 degrees.\n"
+      "Peak: pi / 2, the largest value of a channel of a quaternion's logarithm. The paper does\n"
+      "not state its peak; another one adds the same to every figure. Each method has its best\n"
+      "settings of a grid, column by column, but for the rows that say otherwise.\n\n{:24}",
+      base_sigma, "");
+  std::string header = "method";
+  for (const Noise& noise : noises) {
+    fmt::print("{:>10}", noise.name);
+    header += "," + noise.name;
+  }
+  fmt::print("\n");
+  Table table(arguments, "dean_psnr.csv", header);
+  add_row(table, "(noisy)", [&](std::size_t n) { return psnr_db(take.clip, noisy[n]); });
+  for (const Row& row : rows(arguments.quick)) {
+    add_row(table, row.name, [&](std::size_t n) { return best_psnr(take.clip, noisy[n], row); });
+  }
+  table.close();
+}
+
+}  // namespace
+}  // namespace kinemend::papers
+
+int main(int count, char** values) {
+  return kinemend::papers::run(count, values, kinemend::papers::experiment);
+}

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <fmt/core.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinemend/clip.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/io.hpp"
+#include "kinemend/synth.hpp"
+
+// What the programs that repeat a paper's experiment share: arguments, takes and tables.
+namespace kinemend::papers {
+
+struct Arguments {
+  std::filesystem::path data;          ///< folder of real takes; empty: synthetic takes
+  std::filesystem::path output = ".";  ///< folder for CSV files
+  bool quick = false;                  ///< short takes and coarse grids
+};
+
+/// --data FOLDER (default: the environment variable KINEMEND_DATA), --output FOLDER, --quick.
+inline Arguments parse_arguments(int count, char** values) {
+  Arguments arguments;
+  if (const char* data = std::getenv("KINEMEND_DATA")) arguments.data = data;
+  for (int i = 1; i < count; ++i) {
+    const std::string name = values[i];
+    if (name == "--quick") {
+      arguments.quick = true;
+    } else if ((name == "--data" || name == "--output") && i + 1 < count) {
+      (name == "--data" ? arguments.data : arguments.output) = values[++i];
+    } else {
+      throw Error(ErrorKind::usage,
+                  "unknown argument " + name + " (--data FOLDER, --output FOLDER, --quick)");
+    }
+  }
+  return arguments;
+}
+
+/// The file of that name anywhere below the folder.
+inline std::optional<std::filesystem::path> find_take(const std::filesystem::path& folder,
+                                                      const std::string& name) {
+  if (folder.empty() || !std::filesystem::is_directory(folder)) return std::nullopt;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file() && entry.path().filename() == name) return entry.path();
+  }
+  return std::nullopt;
+}
+
+struct Take {
+  std::string name;
+  Clip clip;
+};
+
+/// The real take without its calibration frames, or the synthetic one where there is none.
+inline Take load_take(const Arguments& arguments, const std::string& file,
+                      const SynthOptions& otherwise) {
+  if (const auto path = find_take(arguments.data, file)) {
+    const Clip clip = read_clip(*path).clip;
+    return {"CMU " + path->stem().string(),
+            slice(clip, leading_calibration_frames(clip), clip.frame_count())};
+  }
+  return {"synthetic " + otherwise.motion, synthesize(otherwise)};
+}
+
+/// Every step-th frame of a part of the clip.
+inline Clip thinned(const Clip& clip, std::size_t first, std::size_t step, std::size_t frames) {
+  const std::size_t have = clip.frame_count() > first ? (clip.frame_count() - first) / step : 0;
+  Clip result = slice(clip, first, first + std::min(frames, have));
+  for (std::size_t f = 0; f < result.frame_count(); ++f) {
+    for (std::size_t j = 0; j < clip.joint_count(); ++j) {
+      result.rotation(f, j) = clip.rotation(first + f * step, j);
+    }
+    result.root_positions[f] = clip.root_positions[first + f * step];
+  }
+  result.frame_rate_hz = clip.frame_rate_hz / static_cast<double>(step);
+  return result;
+}
+
+/// A table of comma-separated values in the output folder.
+class Table {
+ public:
+  Table(const Arguments& arguments, const std::string& name, const std::string& header)
+      : path_(arguments.output / name), file_(path_) {
+    file_ << header << '\n';
+  }
+  void add(const std::vector<std::string>& cells) {
+    for (std::size_t i = 0; i < cells.size(); ++i) file_ << (i ? "," : "") << cells[i];
+    file_ << '\n';
+  }
+  void close() {
+    file_.close();
+    if (!file_) throw Error(ErrorKind::cannot_write, path_.string() + ": cannot write");
+    fmt::print("wrote {}\n", path_.string());
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::ofstream file_;
+};
+
+/// Runs the experiment; errors go to standard error, with their exit code.
+template <class Experiment>
+int run(int count, char** values, const Experiment& experiment) {
+  try {
+    experiment(parse_arguments(count, values));
+    return 0;
+  } catch (const Error& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return static_cast<int>(error.kind());
+  }
+}
+
+}  // namespace kinemend::papers
