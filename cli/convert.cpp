@@ -12,7 +12,7 @@ namespace {
 
 /// --to, else by the output's extension, else the input's own.
 std::string output_format(const Arguments& arguments, const Clip& clip) {
-  if (const std::string format = arguments.text("to"); !format.empty()) return format;
+  if (std::string format = arguments.text("to"); !format.empty()) return format;
   const std::string output = arguments.text("output");
   if (output == "-") return clip.source.format;
   if (const Format* format = format_of_path(output)) return std::string(format->name);

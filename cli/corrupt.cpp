@@ -130,6 +130,7 @@ int run(const Arguments& arguments) {
   warn_of_repairs(input_name(input), take.diagnostics);
   Random random(static_cast<std::uint64_t>(arguments.whole("seed")));
   std::vector<DamageReport> reports;
+  reports.reserve(requests.size());
   for (const DamageRequest& request : requests)
     reports.push_back(apply_damage(take.clip, request.name, request.values, random));
   write_output(output, write_clip(take.clip, take.clip.source.format), force);

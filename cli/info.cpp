@@ -40,6 +40,7 @@ std::string_view format_description(const Clip& clip) {
 std::string channel_names(const std::vector<Channel>& channels) {
   static constexpr std::string_view names[] = {"Xpos", "Ypos", "Zpos", "Xrot", "Yrot", "Zrot"};
   std::vector<std::string_view> parts;
+  parts.reserve(channels.size());
   for (const Channel channel : channels) parts.push_back(names[static_cast<std::size_t>(channel)]);
   return fmt::format("{}", fmt::join(parts, " "));
 }
