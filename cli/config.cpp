@@ -152,6 +152,7 @@ std::string setting_text(const OptionSpec& spec, const std::string& details,
 
 std::string list_text(const std::vector<std::string>& list) {
   std::vector<std::string> parts;
+  parts.reserve(list.size());
   for (const std::string& part : list) parts.push_back(quoted(part));
   return fmt::format("[{}]", fmt::join(parts, ", "));
 }
