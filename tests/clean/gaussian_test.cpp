@@ -2,11 +2,14 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <numeric>
 #include <vector>
 
 #include "clean/filter_checks.hpp"
 #include "clean/orientation_filter.hpp"
+#include "hwy/targets.h"
 #include "kinemend/error.hpp"
 #include "kinemend/methods.hpp"
 
@@ -63,6 +66,28 @@ TEST(OrientationFilter, TurnsAsTheMathLibraryDoes) {
     EXPECT_LT(difference(track[0], expected), 2e-15 + 1e-15 * angle) << "angle " << angle;
     EXPECT_NEAR(norm(track[0]), 1.0, 2e-15);
     EXPECT_GE(dot(track[0], q), -1e-15);
+  }
+}
+
+TEST(OrientationFilter, GivesTheSameBitsOnEveryProcessor) {
+  const Clip input = noisy_take(100);
+  std::vector<std::unique_ptr<Cleaner>> cleaners;
+  cleaners.push_back(make_gaussian());
+  cleaners.push_back(make_bilateral());
+  cleaners.push_back(make_nonlocal());
+  for (const auto& cleaner : cleaners) {
+    const Clip expected = cleaned(input, *cleaner);
+    const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
+    ASSERT_FALSE(targets.empty());
+    for (const std::int64_t target : targets) {
+      hwy::SetSupportedTargetsForTest(target);
+      hwy::GetChosenTarget().Update(target);
+      const Clip output = cleaned(input, *cleaner);
+      EXPECT_EQ(output.local_rotations, expected.local_rotations) << hwy::TargetName(target);
+      EXPECT_EQ(output.root_positions, expected.root_positions) << hwy::TargetName(target);
+      hwy::SetSupportedTargetsForTest(0);
+      hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    }
   }
 }
 
