@@ -15,9 +15,9 @@ namespace kinemend {
 /// What a damage did, as realised by this seed.
 struct DamageReport {
   std::string kind;
-  std::size_t samples = 0;         ///< joint samples in the clip
+  std::size_t samples = 0;  ///< joint samples in the clip
   std::size_t samples_damaged = 0;
-  double rms_deg = 0;              ///< geodesic, over all joint samples
+  double rms_deg = 0;  ///< geodesic, over all joint samples
   double max_deg = 0;
   double rms_position = 0;         ///< of joint positions, file units
   std::vector<std::string> notes;  ///< anything realised otherwise than asked
@@ -34,8 +34,10 @@ struct Damage {
 };
 
 std::span<const Damage> damages();
-/// Applies the damage called `name`, leaving calibration frames at the start alone. Damages compose by calling this again.
-/// Errors: `ErrorKind::usage` for an unknown name or option or a value out of range.
-DamageReport apply_damage(Clip& clip, std::string_view name, const OptionValues& values, Random& random);
+/// Applies the damage called `name`, leaving calibration frames at the start alone. Damages compose
+/// by calling this again. Errors: `ErrorKind::usage` for an unknown name or option or a value out
+/// of range.
+DamageReport apply_damage(Clip& clip, std::string_view name, const OptionValues& values,
+                          Random& random);
 
 }  // namespace kinemend

@@ -77,8 +77,9 @@ bool is_impossible(const SpikeTrial& trial, std::size_t t, std::size_t n) {
   return error > std::clamp(fastest_deg_s / trial.frame_rate_hz, 30.0, 120.0) && gap < 0.25 * error;
 }
 
-bool stands_clear(const SpikeTrial& trial, std::size_t t, std::size_t n) {
-  const double share = trial.shares[n], error = trial.predictions.errors(t, n);
+// `share`: how noisy the track is taken to be.
+bool stands_clear(const SpikeTrial& trial, std::size_t t, std::size_t n, double share) {
+  const double error = trial.predictions.errors(t, n);
   const bool quiet = share < 0.5;
   if (error <= between(15, least_deviation, share)) return false;
   if (error <= between(6, 2, share) * largest_error_about(trial, t, n, quiet)) return false;
@@ -130,23 +131,32 @@ SampleMarks judge_spikes(const SpikeTrial& trial) {
   const SampleMarks& accused = trial.accused;
   SampleMarks guilty(accused.frames, accused.tracks);
   std::size_t quiet_samples = 0, quiet_verdicts = 0;
-  for (std::size_t n = 0; n < accused.tracks; ++n) {
-    const bool quiet = trial.shares[n] < 1;
-    if (quiet) quiet_samples += accused.frames;
+  const auto judge_track = [&](std::size_t n, double share) {
+    std::size_t verdicts = 0;
     for (std::size_t t = 0; t < accused.frames; ++t) {
-      if (accused(t, n) == 0 || !stands_clear(trial, t, n)) continue;
-      guilty(t, n) = 1;
-      quiet_verdicts += quiet;
+      guilty(t, n) = accused(t, n) != 0 && stands_clear(trial, t, n, share);
+      verdicts += guilty(t, n);
     }
+    return verdicts;
+  };
+  for (std::size_t n = 0; n < accused.tracks; ++n) {
+    const std::size_t verdicts = judge_track(n, trial.shares[n]);
+    if (trial.shares[n] >= 1) continue;
+    quiet_samples += accused.frames;
+    quiet_verdicts += verdicts;
   }
-  // A few odd samples in a quiet take are its own; many are damage.
-  const double damage = std::max(5.0, 0.001 * static_cast<double>(quiet_samples));
-  if (static_cast<double>(quiet_verdicts) < damage) {
-    for (std::size_t n = 0; n < accused.tracks; ++n) {
-      if (trial.shares[n] >= 1) continue;
-      for (std::size_t t = 0; t < accused.frames; ++t) {
-        if (guilty(t, n) != 0) guilty(t, n) = is_impossible(trial, t, n);
-      }
+  // A few odd samples in a quiet take are its own, and only what is impossible is repaired. Many
+  // are damage: then the quiet tracks are judged again, as strictly as the noisy ones.
+  const double damage = std::max(5.0, 0.0006 * static_cast<double>(quiet_samples));
+  const bool damaged = static_cast<double>(quiet_verdicts) >= damage;
+  for (std::size_t n = 0; n < accused.tracks; ++n) {
+    if (trial.shares[n] >= 1) continue;
+    if (damaged) {
+      judge_track(n, 1);
+      continue;
+    }
+    for (std::size_t t = 0; t < accused.frames; ++t) {
+      if (guilty(t, n) != 0) guilty(t, n) = is_impossible(trial, t, n);
     }
   }
   acquit_clusters(guilty);
