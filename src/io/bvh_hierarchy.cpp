@@ -275,9 +275,10 @@ class MotionHeaderParser {
     if (std::exchange(seen_frames_, true)) fail("a second Frames: line");
     NumberToken number;
     header_.frame_count = take_number(number, "the number of frames");
-    if (number.kind == TokenKind::number && number.value >= 0 && number.value < 0x1p53 &&
+    constexpr double most = 0x1p53;  // more than any file holds, and still exact
+    if (number.kind == TokenKind::number && number.value >= 0 &&
         number.value == std::floor(number.value)) {
-      header_.frames = static_cast<std::size_t>(number.value);
+      header_.frames = static_cast<std::size_t>(std::min(number.value, most));
     } else {
       note_repair(text_, diagnostics_, "frame_count_missing", header_.frame_count.begin,
                   "Frames: is no whole number: frames are counted");

@@ -125,8 +125,9 @@ double psnr_db(const Clip& reference, const Clip& other, std::size_t first_frame
   const auto angles = metrics::geodesic_angles(reference, other, first_frame);
   // The logarithm of the quaternion is half the rotation vector and has three channels.
   const double mean_square = sum_of_squares(angles) / 4 / (3 * static_cast<double>(angles.size()));
-  return mean_square > 0 ? 10 * std::log10(peak * peak / mean_square)
-                         : std::numeric_limits<double>::infinity();
+  // Not a number stays one: a clip with such values is not the same as the reference.
+  return mean_square == 0 ? std::numeric_limits<double>::infinity()
+                          : 10 * std::log10(peak * peak / mean_square);
 }
 
 double mse_rad2(std::span<const Quat> reference, std::span<const Quat> other) {

@@ -27,6 +27,8 @@ const std::map<std::string, std::string>& expected_messages() {
       {"frames_word.bvh", "17: expected the number of frames, found \"many\""},
       {"huge_count.bvh", "17: 4000000000 frames of 9 channel values cannot be in 211 bytes"},
       {"huger_count.bvh", "17: 99999999999999 frames of 9 channel values cannot be in 211 bytes"},
+      {"hugest_count.bvh",
+       "17: 9007199254740992 frames of 9 channel values cannot be in 211 bytes"},
       {"joint_in_end_site.bvh", "12: expected OFFSET or } of an end site, found \"JOINT\""},
       {"joint_without_root.bvh", "2: expected ROOT, found \"JOINT\""},
       {"long_line.bvh", "22: expected 9 channel values, found 10"},

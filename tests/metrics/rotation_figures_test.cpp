@@ -121,6 +121,13 @@ TEST(GeodesicPercentile, InterpolatesLinearly) {
               ThrowsMessage<Error>(HasSubstr("percentile 101 is outside 0 to 100")));
 }
 
+TEST(PsnrDb, OfAClipWithBrokenValuesIsNoNumber) {
+  const Clip reference = chain_clip(2, 2);
+  Clip other = reference;
+  other.rotation(1, 1).x = std::nan("");
+  EXPECT_TRUE(std::isnan(psnr_db(reference, other)));
+}
+
 TEST(PsnrDb, ComparesPeakAndMeanSquareOfHalfTheRotationVector) {
   // One joint of two, one frame of two, turned by 0.4 rad: half vector 0.2; MSE 0.04 / (2 * 2 * 3).
   const Clip reference = chain_clip(2, 2);
