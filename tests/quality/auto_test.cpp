@@ -2,6 +2,7 @@
 // report.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "kinemend/io.hpp"
@@ -213,6 +214,45 @@ TEST(Auto, KeepsATPoseOutOfTheMotion) {
   EXPECT_EQ(with_pose.report.calibration_frames, 1U);
   EXPECT_EQ(geodesic_rms_deg(slice(with_pose.clip, 1, noisy.frame_count()), without_pose.clip),
             0.0);
+}
+
+// The largest angle between two clips over all joints of some frames, degrees.
+double largest_difference(const Clip& a, const Clip& b, std::size_t first, std::size_t last) {
+  double largest = 0;
+  for (std::size_t f = first; f < last; ++f) {
+    for (std::size_t j = 0; j < a.joint_count(); ++j) {
+      largest = std::max(largest, angle_between(a.rotation(f, j), b.rotation(f, j)));
+    }
+  }
+  return largest * degrees_per_radian;
+}
+
+TEST(Auto, KeepsAFrozenFirstFrameOutOfTheMotion) {
+  // The recorder wrote the last pose of the take before into its first frame.
+  const Clip truth = take("walk", 4);
+  const Clip noisy = damaged(truth, 1.5, 0, 21);
+  Clip with_stale_frame = noisy;
+  for (std::size_t j = 0; j < truth.joint_count(); ++j) {
+    with_stale_frame.rotation(0, j) = exp({0.5, 0.2 * static_cast<double>(j % 5), -0.4});
+  }
+  const Clip expected = cleaned(noisy, "auto"), result = cleaned(with_stale_frame, "auto");
+  EXPECT_LT(largest_difference(expected, result, 1, 20), 6);
+  EXPECT_LT(largest_difference(expected, result, 20, truth.frame_count()), 0.7);
+  const auto part = [](const Clip& clip) { return slice(clip, 1, clip.frame_count()); };
+  EXPECT_LT(figures(part(truth), part(result)).rms,
+            1.05 * figures(part(truth), part(expected)).rms);
+}
+
+TEST(Auto, RepairsManySpikesInAnOtherwiseCleanTake) {
+  const Clip truth = take("walk", 5);
+  for (const double share : {0.001, 0.004, 0.01, 0.02}) {
+    Clip spiked = truth;
+    Random random(3);
+    apply_damage(spiked, "outliers", {{"share", share}, {"std_deg", 25.0}}, random);
+    const Clip result = cleaned(spiked, "auto");
+    EXPECT_GT(figures(truth, spiked).rms, 1.0);
+    EXPECT_LT(figures(truth, result).rms, 0.1) << "share " << share;
+  }
 }
 
 TEST(Auto, SurvivesTheShortestTakes) {
