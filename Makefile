@@ -46,7 +46,7 @@ asan: setup ## the tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	cmake --build --preset asan -j $(JOBS)
 	ctest --preset asan -j $(JOBS)
 
-lint: setup ## formatting, static analysis and the direction of includes
+lint: setup ## formatting, static analysis and the direction of includes (tools/lint --deep looks deeper)
 	tools/lint
 
 format: ## rewrite every source file in the project's format

@@ -23,7 +23,7 @@ constexpr double causal_noise_share = 0.8;
 constexpr double noise_share_take = 0.4;
 // How far the root position is averaged when the window is the whole take: beyond, the body is
 // elsewhere.
-constexpr double travel_window_s = NonlocalOptions{}.window_s;
+const double travel_window_s = NonlocalOptions{}.window_s;
 
 const OptionTable<NonlocalOptions>& table() {
   static const OptionTable<NonlocalOptions> result =

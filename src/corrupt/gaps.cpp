@@ -88,7 +88,8 @@ void lose(Clip& clip, const Unit& unit, const std::vector<Span>& spans, Filling 
 
 // A generator for each unit that does not depend on which other joints are asked for.
 Random unit_random(const Random& random, const Unit& unit) {
-  return random.fork(unit.joints.front()).fork(static_cast<std::uint64_t>(unit.channel + 1));
+  return random.fork(unit.joints.front())
+      .fork(static_cast<std::uint64_t>(std::int64_t{unit.channel} + 1));
 }
 
 struct GapOptions : TargetOptions {

@@ -102,7 +102,8 @@ double realised_snr_db(double power, const std::vector<Vec3>& clean, const std::
       sum += dot(d, d);
     }
   }
-  const auto terms = static_cast<double>(3 * joints.size() * (clean.size() / joint_count));
+  const std::size_t frames = clean.size() / joint_count;
+  const auto terms = static_cast<double>(3 * joints.size() * frames);
   return 10 * std::log10(power * terms / sum);
 }
 

@@ -41,6 +41,7 @@ void measure_positions(const Clip& before, const Clip& after, DamageReport& repo
 DamageReport measured(std::string kind, Clip& clip, const std::function<void(Notes&)>& damage) {
   DamageReport report;
   report.kind = std::move(kind);
+  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): `damage` changes `clip`
   const Clip before = clip;
   damage(report.notes);
   measure_rotations(before, clip, report);

@@ -64,7 +64,7 @@ void gaussian_filter(PoseMatrix& matrix, double sigma_frames) {
   signal::require(
       sigma_frames >= 0 && sigma_frames <= 1e5,
       fmt::format("a Gaussian width of {} frames is outside 0 to 100000", sigma_frames));
-  const auto radius = static_cast<std::size_t>(4 * sigma_frames + 0.5);
+  const auto radius = static_cast<std::size_t>(std::lround(4 * sigma_frames));
   if (radius == 0) return;
   std::vector<double> weights(radius + 1);
   double sum = 0;
