@@ -9,7 +9,6 @@ namespace kinemend {
 
 namespace {
 
-
 // The memory of a filter that has seen `row` for ever.
 void start_at_rest(std::span<const Biquad> sections, const double* row, std::size_t channels,
                    std::vector<double>& memory) {
