@@ -17,10 +17,8 @@ namespace kinemend {
 
 namespace {
 
-// The automatic bandwidth, as a share of the noise. Over a whole take many dissimilar poses of
-// small weights would add up, so that weights have to fall more steeply.
+// The automatic bandwidth of the causal filter, as a share of the noise.
 constexpr double causal_noise_share = 0.8;
-constexpr double noise_share_take = 0.4;
 // How far the root position is averaged when the window is the whole take: beyond, the body is
 // elsewhere.
 const double travel_window_s = NonlocalOptions{}.window_s;
