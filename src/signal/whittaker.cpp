@@ -107,7 +107,6 @@ std::vector<double> leverages(const SharedFactor& factor) {
 
 WeightedSystem::WeightedSystem(std::size_t frames, std::size_t order)
     : frames_(frames),
-      order_(order),
       diagonal_(frames * block_channels),
       lower_(order, std::vector<double>(frames * block_channels)),
       inverse_(order + 1, std::vector<double>(frames * block_channels)) {

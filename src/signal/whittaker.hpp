@@ -70,7 +70,6 @@ class WeightedSystem {
 
  private:
   std::size_t frames_;
-  std::size_t order_;
   std::vector<double> diagonal_;              // F x 8
   std::vector<std::vector<double>> lower_;    // order of F x 8: L[t, t - k]
   std::vector<std::vector<double>> inverse_;  // order + 1 of F x 8: A^-1[t, t + k]

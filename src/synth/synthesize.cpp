@@ -39,8 +39,8 @@ void check(const SynthOptions& options) {
 
 void append(Clip& clip, const synth::BodyPose& pose) {
   clip.root_positions.push_back(pose.root);
-  for (std::size_t j = 0; j < pose.rotations.size(); ++j)
-    clip.local_rotations.push_back(pose.rotations[j]);
+  clip.local_rotations.insert(clip.local_rotations.end(), pose.rotations.begin(),
+                              pose.rotations.end());
 }
 
 Clip humanoid(const SynthOptions& options, std::size_t frames) {
