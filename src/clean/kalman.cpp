@@ -101,32 +101,6 @@ class LiveTrack {
   bool started_ = false;
 };
 
-class KalmanFrameFilter final : public FrameFilter {
- public:
-  KalmanFrameFilter(const KalmanOptions& options, const Skeleton& skeleton, double rate_hz)
-      : position_({model_for(options, rate_hz, typical_bone_length(skeleton)), 0,
-                   typical_bone_length(skeleton)}),
-        rotations_(skeleton.joint_count(),
-                   {model_for(options, rate_hz, 1), options.noise_deg * radians_per_degree, 1}) {}
-
-  void filter(LiveFrame& frame) override {
-    for (std::size_t j = 0; j < rotations_.size(); ++j) {
-      const bool seen = frame.observed.empty() || frame.observed[j] != 0;
-      frame.rotations[j] = rotations_[j].step(frame.rotations[j], seen);
-    }
-    positions_.resize(1 + frame.joint_translations.size(), position_);
-    frame.root_position = positions_[0].step(frame.root_position, true);
-    for (std::size_t i = 0; i < frame.joint_translations.size(); ++i) {
-      frame.joint_translations[i] = positions_[i + 1].step(frame.joint_translations[i], true);
-    }
-  }
-
- private:
-  LiveTrack<Vec3> position_;
-  std::vector<LiveTrack<Quat>> rotations_;
-  std::vector<LiveTrack<Vec3>> positions_;
-};
-
 class Kalman final : public Cleaner {
  public:
   explicit Kalman(const KalmanOptions& options) : options_(options) {}
@@ -157,7 +131,12 @@ class Kalman final : public Cleaner {
   std::unique_ptr<FrameFilter> make_frame_filter(const Skeleton& skeleton,
                                                  double rate_hz) const override {
     if (options_.smoother) return nullptr;
-    return std::make_unique<KalmanFrameFilter>(options_, skeleton, rate_hz);
+    using Filter = TrackFrameFilter<LiveTrack<Quat>, LiveTrack<Vec3>>;
+    const double bone = typical_bone_length(skeleton);
+    return std::make_unique<Filter>(skeleton,
+                                    LiveTrack<Quat>(model_for(options_, rate_hz, 1),
+                                                    options_.noise_deg * radians_per_degree, 1),
+                                    LiveTrack<Vec3>(model_for(options_, rate_hz, bone), 0, bone));
   }
 
  private:

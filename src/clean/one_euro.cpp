@@ -56,30 +56,6 @@ class OneEuroTrack {
   bool started_ = false;
 };
 
-class OneEuroFrameFilter final : public FrameFilter {
- public:
-  OneEuroFrameFilter(const OneEuroOptions& options, const Skeleton& skeleton, double rate_hz)
-      : position_(options, rate_hz, typical_bone_length(skeleton)),
-        rotations_(skeleton.joint_count(), {options, rate_hz, 1}) {}
-
-  void filter(LiveFrame& frame) override {
-    for (std::size_t j = 0; j < rotations_.size(); ++j) {
-      const bool seen = frame.observed.empty() || frame.observed[j] != 0;
-      frame.rotations[j] = rotations_[j].step(frame.rotations[j], seen);
-    }
-    positions_.resize(1 + frame.joint_translations.size(), position_);
-    frame.root_position = positions_[0].step(frame.root_position, true);
-    for (std::size_t i = 0; i < frame.joint_translations.size(); ++i) {
-      frame.joint_translations[i] = positions_[i + 1].step(frame.joint_translations[i], true);
-    }
-  }
-
- private:
-  OneEuroTrack<Vec3> position_;
-  std::vector<OneEuroTrack<Quat>> rotations_;
-  std::vector<OneEuroTrack<Vec3>> positions_;
-};
-
 class OneEuro final : public Cleaner {
  public:
   explicit OneEuro(const OneEuroOptions& options) : options_(options) {}
@@ -90,7 +66,10 @@ class OneEuro final : public Cleaner {
   LiveSupport live_support(double) const override { return {LiveSupport::Kind::causal, 0}; }
   std::unique_ptr<FrameFilter> make_frame_filter(const Skeleton& skeleton,
                                                  double rate_hz) const override {
-    return std::make_unique<OneEuroFrameFilter>(options_, skeleton, rate_hz);
+    using Filter = TrackFrameFilter<OneEuroTrack<Quat>, OneEuroTrack<Vec3>>;
+    return std::make_unique<Filter>(
+        skeleton, OneEuroTrack<Quat>(options_, rate_hz, 1),
+        OneEuroTrack<Vec3>(options_, rate_hz, typical_bone_length(skeleton)));
   }
 
  private:
