@@ -10,6 +10,8 @@ using Usage = Program;
 struct Case {
   std::vector<std::string> words;
   std::string message;
+
+  friend void PrintTo(const Case& one, std::ostream* out) { *out << one.message; }
 };
 
 class UsageMessage : public Program, public testing::WithParamInterface<Case> {};
