@@ -110,6 +110,8 @@ struct Fault {
   std::string toml;
   int code;
   std::string message;
+
+  friend void PrintTo(const Fault& one, std::ostream* out) { *out << one.message; }
 };
 
 class ConfigFault : public Program, public testing::WithParamInterface<Fault> {};
