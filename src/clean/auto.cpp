@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "clean/method_list.hpp"
 #include "clean/moving_chart.hpp"
@@ -24,15 +25,23 @@ const OptionTable<AutoOptions>& table() {
   return options;
 }
 
+struct CleanedTracks {
+  SampleMarks marked;          // spikes
+  std::vector<double> noise;   // degrees, times the sensitivity
+  std::vector<double> shares;  // how far each track was smoothed
+};
+
 // Spikes found and noise smoothed on a set of tracks; `always_missing` samples are gaps already
 // bridged.
-SpikeVerdicts clean_tracks(VectorTracks& tracks, const SampleMarks& suspects,
+CleanedTracks clean_tracks(VectorTracks& tracks, const SampleMarks& suspects,
                            const SampleMarks& always_missing,
                            const std::vector<std::vector<std::size_t>>& nearby,
                            double frame_rate_hz, const AutoOptions& options) {
-  SpikeVerdicts verdicts{SampleMarks(tracks.frames(), tracks.tracks()), {}, {}};
+  CleanedTracks verdicts{SampleMarks(tracks.frames(), tracks.tracks()), {}, {}};
   if (options.despike) {
-    verdicts = find_spikes(tracks, suspects, nearby, frame_rate_hz);
+    SpikeVerdicts found = find_spikes(tracks, suspects, nearby, frame_rate_hz);
+    verdicts.marked = std::move(found.marked);
+    verdicts.noise = std::move(found.noise);
   } else {
     verdicts.noise = noise_levels(tracks, always_missing);
   }
@@ -83,7 +92,7 @@ class Auto final : public Cleaner {
       }
     });
 
-    const SpikeVerdicts verdicts = clean_tracks(
+    const CleanedTracks verdicts = clean_tracks(
         tracks, suspects, gaps, tracks_nearby(clip.skeleton, joints), clip.frame_rate_hz, options_);
 
     if (trace.actions.empty()) trace.actions.assign(clip.local_rotations.size(), Action::kept);
@@ -114,7 +123,7 @@ class Auto final : public Cleaner {
       }
     }
     const SampleMarks none(frames, count);
-    const SpikeVerdicts verdicts =
+    const CleanedTracks verdicts =
         clean_tracks(tracks, none, none, std::vector<std::vector<std::size_t>>(count),
                      clip.frame_rate_hz, options_);
     for (std::size_t n = 0; n < count; ++n) {

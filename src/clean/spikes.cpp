@@ -184,7 +184,7 @@ SpikeVerdicts find_spikes(VectorTracks& tracks, const SampleMarks& suspects,
                           double frame_rate_hz) {
   const std::size_t frames = tracks.frames(), count = tracks.tracks();
   if (frames < 6) {
-    return {SampleMarks(frames, count), std::vector<double>(count), std::vector<double>(count)};
+    return {SampleMarks(frames, count), std::vector<double>(count)};
   }
   const LeaveOneOutGrid grid(frames, frame_rate_hz);
   const VectorTracks measured = tracks;
@@ -208,8 +208,7 @@ SpikeVerdicts find_spikes(VectorTracks& tracks, const SampleMarks& suspects,
   accused = judge_spikes({measured, predictions, accused, noise, shares, nearby, frame_rate_hz});
   refill();
   noise = noise_levels(measured, accused);
-  std::vector<double> final_shares = cleaning_shares(noise, frame_rate_hz);
-  return {std::move(accused), std::move(noise), std::move(final_shares)};
+  return {std::move(accused), std::move(noise)};
 }
 
 }  // namespace kinemend

@@ -18,8 +18,7 @@ std::vector<std::vector<std::size_t>> joints_nearby(std::span<const std::int32_t
 
 struct SpikeVerdicts {
   SampleMarks marked;
-  std::vector<double> noise;   ///< of each track without its spikes, degrees
-  std::vector<double> shares;  ///< `cleaning_shares` of that noise
+  std::vector<double> noise;  ///< of each track without its spikes, degrees
 };
 
 /// Which samples are spikes. Each is predicted from the others of its track by a robust smoother;
