@@ -18,7 +18,9 @@ USES = {
     "corrupt": {"motion"},
     "synth": {"motion"},
     "signal": {"base"},
-    "clean": {"representation", "signal", "metrics"},
+    "fill": {"motion", "signal"},
+    "clean": {"representation", "signal", "metrics", "fill"},
+    "check": {"clean"},
     "stream": {"clean"},
 }
 
@@ -26,6 +28,7 @@ USES = {
 PUBLIC = {
     "error": "base", "diagnostics": "base", "random": "base", "options": "base", "pose_matrix": "base",
     "version": "base", "rotation": "rotation", "skeleton": "motion", "clip": "motion", "kinematics": "motion",
+    "marker_clip": "motion", "gaps": "motion", "fill": "fill", "check": "check",
     "io": "io", "representation": "representation", "metrics": "metrics", "corrupt": "corrupt",
     "synth": "synth", "signal": "signal", "cleaner": "clean", "methods": "clean", "clean": "clean",
     "stream": "stream",

@@ -17,16 +17,24 @@ struct SourceDocument {
   virtual ~SourceDocument() = default;
 };
 
+/// Something else that a file holds, in words: {"analog", "16 channels at 1,000 Hz"}.
+struct SourceFact {
+  std::string name;
+  std::string text;
+};
+
 struct SourceInfo {
   std::string name;    ///< for messages: the path, or "standard input"
   std::string format;  ///< "bvh"; empty for a clip made in memory
   std::shared_ptr<const SourceDocument> document;
+  std::vector<SourceFact> facts{};  ///< what the take's own fields do not tell
 };
 
 /// A motion of one skeleton: F frames, J joints, frame-major.
 struct Clip {
   Skeleton skeleton;
   double frame_rate_hz = 0;
+  double metres_per_unit = 0;         ///< of all lengths; 0 where the file does not say
   std::vector<Vec3> root_positions;   ///< F; position of joint 0 in file units (its offset where it
                                       ///< has no channels)
   std::vector<Quat> local_rotations;  ///< F x J unit quaternions, about the rest rotation

@@ -5,17 +5,31 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "kinemend/clip.hpp"
 #include "kinemend/diagnostics.hpp"
+#include "kinemend/marker_clip.hpp"
 
 namespace kinemend {
+
+/// What a file holds: the motion of a skeleton, or of markers.
+using Take = std::variant<Clip, MarkerClip>;
+
+const SourceInfo& source_of(const Take& take);
+SourceInfo& source_of(Take& take);
 
 struct ReadOptions {
   std::string format;           ///< "bvh"; empty: found by content, then by extension
   bool strict = false;          ///< a repair becomes an error of kind `quality_limit`
   std::size_t max_depth = 512;  ///< joints nested deeper are an error
+  /// The ASF file of an AMC file. Empty: the ASF named inside the AMC, else one of the same stem
+  /// beside it, else that of the subject (`35.asf` for `35_01.amc`), else the only one there.
+  std::filesystem::path skeleton;
+  /// Rate of a format that has none (AMC, CSV without times), hertz; 0: the format's custom (120
+  /// for AMC), with a diagnostic `frame_rate_assumed`. Formats that have a rate ignore it.
+  double frame_rate_hz = 0;
 };
 
 struct ReadResult {
@@ -23,17 +37,23 @@ struct ReadResult {
   Diagnostics diagnostics;
 };
 
-/// Reads a take. A value that is no finite number (nan, inf) is held from the frame before, or from
-/// the next where there is none before; a rotation it belongs to is not `observed`. Repairs of BVH,
-/// by name: `frame_count_mismatch`, `frame_count_missing`, `frame_time_missing`,
-/// `frame_time_unusable` (30 Hz is assumed), `motion_missing`, `hierarchy_keyword_missing`,
-/// `offset_missing`, `value_not_finite`, `comment_skipped`, `trailing_text`, `decimal_comma`,
-/// `comma_separator`. Errors: `ErrorKind::unreadable_input` with the file's name and line, also for
-/// a file that would need far more memory than it has bytes; `usage` for an unknown format;
-/// `quality_limit` for a repair when `strict`.
+struct TakeResult {
+  Take take;
+  Diagnostics diagnostics;
+};
+
+/// Reads a take of any format. A value that is no finite number (nan, inf) is held from the frame
+/// before, or from the next where there is none before; a rotation it belongs to is not `observed`.
+/// Each format's page in docs/formats lists its repairs, which are diagnostics by name. Errors:
+/// `ErrorKind::unreadable_input` with the file's name and line or byte, also for a file that would
+/// need far more memory than it has bytes; `usage` for an unknown format; `quality_limit` for a
+/// repair when `strict`.
+TakeResult read_take(const std::filesystem::path& path, const ReadOptions& options = {});
+/// The same from memory; `name` stands in messages and helps to find the format and the files
+/// beside it. The bytes are kept (moved, not copied) in the take's source document.
+TakeResult read_take(std::string bytes, std::string_view name, const ReadOptions& options = {});
+/// `read_take` where joints are wanted. Errors: also `usage` for a file that holds markers.
 ReadResult read_clip(const std::filesystem::path& path, const ReadOptions& options = {});
-/// The same from memory; `name` stands in messages and helps to find the format. The bytes are kept
-/// (moved, not copied) in the clip's source document.
 ReadResult read_clip(std::string bytes, std::string_view name, const ReadOptions& options = {});
 
 /// The bytes of a file. A clip that was read in the same format is written in its source's own
@@ -44,6 +64,9 @@ ReadResult read_clip(std::string bytes, std::string_view name, const ReadOptions
 /// the hierarchy; one with another skeleton, or made in memory, gets a plain layout. Errors:
 /// `usage` when the format cannot hold the clip.
 std::string write_clip(const Clip& clip, std::string_view format = "bvh");
+/// The same for markers. A missing sample is written the way the format has for it.
+std::string write_markers(const MarkerClip& clip, std::string_view format);
+std::string write_take(const Take& take, std::string_view format);
 
 /// Writes `bytes` to a temporary file beside `path`, flushes it to the disk and renames it: `path`
 /// holds its old content or all of the new one, never half. A file that is replaced keeps its
@@ -60,8 +83,10 @@ struct Format {
   std::vector<std::string_view> extensions;  ///< with the dot, lower case
   /// 0 to 100: how surely `head` (the first bytes of a file, 4096 at most) is of this format.
   int (*sniff)(std::string_view head);
-  ReadResult (*read)(std::string bytes, std::string_view name, const ReadOptions& options);
-  std::string (*write)(const Clip& clip);
+  /// nullptr where the format is only written.
+  TakeResult (*read)(std::string bytes, std::string_view name, const ReadOptions& options);
+  std::string (*write)(const Clip& clip);  ///< nullptr where the format holds no joints
+  std::string (*write_markers)(const MarkerClip& clip);  ///< nullptr where it holds no markers
 };
 
 std::span<const Format> formats();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,6 +31,12 @@ struct EndSite {
   std::string name;  ///< often empty
 };
 
+/// How far a channel may go, degrees for rotations and file units for positions.
+struct ChannelLimit {
+  double minimum = -std::numeric_limits<double>::infinity();
+  double maximum = std::numeric_limits<double>::infinity();
+};
+
 /// A tree of joints as parallel arrays, depth first.
 struct Skeleton {
   std::vector<std::string> names;
@@ -40,6 +47,8 @@ struct Skeleton {
   std::vector<std::vector<Channel>>
       channels;  ///< in the order of the file; empty for a fixed joint
   std::vector<EndSite> end_sites;
+  /// J, one a channel where the file states them (ASF); empty where it states none.
+  std::vector<std::vector<ChannelLimit>> limits;
 
   std::size_t joint_count() const noexcept { return names.size(); }
   /// Index of the first joint of that name; -1 when there is none.

@@ -303,13 +303,13 @@ int sniff_bvh(std::string_view head) {
   return equal_ignoring_case(word, "ROOT") ? 60 : 0;
 }
 
-ReadResult read_bvh(std::string bytes, std::string_view name, const ReadOptions& options) {
+TakeResult read_bvh(std::string bytes, std::string_view name, const ReadOptions& options) {
   const auto document = std::make_shared<BvhDocument>();
   document->bytes = std::move(bytes);
   const SourceText text{name, document->bytes, options.strict};
-  ReadResult result;
+  TakeResult result;
   const BvhHeader header = read_bvh_header(text, result.diagnostics, options.max_depth);
-  Clip& clip = result.clip;
+  Clip& clip = result.take.emplace<Clip>();
   clip.skeleton = header.skeleton;
   clip.frame_rate_hz =
       header.frame_time_s > 0

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "io/bvh.hpp"
@@ -47,11 +46,20 @@ const Format& format_of(std::string_view bytes, std::string_view name) {
                        fmt::format("not a motion file of a known format ({})", known_formats()));
 }
 
+ReadResult clip_of(TakeResult result) {
+  if (Clip* clip = std::get_if<Clip>(&result.take)) {
+    return {std::move(*clip), std::move(result.diagnostics)};
+  }
+  throw Error(ErrorKind::usage, fmt::format("{}: holds markers; joints are wanted here",
+                                            source_of(result.take).name));
+}
+
 }  // namespace
 
 std::span<const Format> formats() {
-  static const std::array<Format, 1> list{
-      {{"bvh", "Biovision hierarchy", {".bvh"}, &sniff_bvh, &read_bvh, &write_bvh}}};
+  static const std::vector<Format> list{
+      {"bvh", "Biovision hierarchy", {".bvh"}, &sniff_bvh, &read_bvh, &write_bvh, nullptr},
+  };
   return list;
 }
 
@@ -66,18 +74,51 @@ const Format* format_of_path(const std::filesystem::path& path) {
   return nullptr;
 }
 
-ReadResult read_clip(const std::filesystem::path& path, const ReadOptions& options) {
-  return read_clip(read_file(path), path == "-" ? "standard input" : path.string(), options);
+const SourceInfo& source_of(const Take& take) {
+  return std::visit([](const auto& clip) -> const SourceInfo& { return clip.source; }, take);
 }
 
-ReadResult read_clip(std::string bytes, std::string_view name, const ReadOptions& options) {
+SourceInfo& source_of(Take& take) {
+  return std::visit([](auto& clip) -> SourceInfo& { return clip.source; }, take);
+}
+
+TakeResult read_take(const std::filesystem::path& path, const ReadOptions& options) {
+  return read_take(read_file(path), path == "-" ? "standard input" : path.string(), options);
+}
+
+TakeResult read_take(std::string bytes, std::string_view name, const ReadOptions& options) {
   const Format& format =
       options.format.empty() ? format_of(bytes, name) : format_called(options.format);
+  if (format.read == nullptr) {
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: {} files are written, not read", name, format.name));
+  }
   return format.read(std::move(bytes), name, options);
 }
 
+ReadResult read_clip(const std::filesystem::path& path, const ReadOptions& options) {
+  return clip_of(read_take(path, options));
+}
+
+ReadResult read_clip(std::string bytes, std::string_view name, const ReadOptions& options) {
+  return clip_of(read_take(std::move(bytes), name, options));
+}
+
 std::string write_clip(const Clip& clip, std::string_view format) {
-  return format_called(format).write(clip);
+  const Format& found = format_called(format);
+  if (found.write != nullptr) return found.write(clip);
+  throw Error(ErrorKind::usage, fmt::format("{} files hold markers, not joints", found.name));
+}
+
+std::string write_markers(const MarkerClip& clip, std::string_view format) {
+  const Format& found = format_called(format);
+  if (found.write_markers != nullptr) return found.write_markers(clip);
+  throw Error(ErrorKind::usage, fmt::format("{} files hold joints, not markers", found.name));
+}
+
+std::string write_take(const Take& take, std::string_view format) {
+  if (const Clip* clip = std::get_if<Clip>(&take)) return write_clip(*clip, format);
+  return write_markers(std::get<MarkerClip>(take), format);
 }
 
 }  // namespace kinemend

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemend/clip.hpp"
+#include "kinemend/gaps.hpp"
+#include "kinemend/marker_clip.hpp"
+
+// Gap filling without a trained model: from the take itself.
+namespace kinemend {
+
+struct FillSettings {
+  std::string method = "auto";     ///< an entry of `fill_methods()`
+  std::vector<std::string> names;  ///< joints or markers, or shell patterns; empty: all
+  std::string donor;               ///< of `pattern`: the marker whose movement is copied
+  double longest_gap_s = 0;        ///< longer gaps are refused; 0: what the method's rules say
+  bool fill_all = false;           ///< also where the rules refuse: the best guess there is
+};
+
+/// What became of one gap.
+struct GapOutcome {
+  Gap gap;
+  std::string method;  ///< that filled it, or was tried last
+  bool filled = false;
+  std::string reason;  ///< why it was refused; empty where filled
+  double expected_error =
+      0;  ///< file units (degrees for rotations) as the method judged; 0: unknown
+};
+
+struct FillReport {
+  std::vector<GapOutcome> gaps;  ///< by track, then frame
+  std::vector<std::string> warnings;
+
+  std::size_t filled() const;
+  std::size_t refused() const;
+};
+
+/// A way to fill, for help texts.
+struct FillMethod {
+  std::string_view name;     ///< "rigid-body"
+  std::string_view summary;  ///< one line
+  std::string_view paper;
+  std::string_view rules;  ///< which gaps it accepts, in words
+  bool markers = false;
+  bool joints = false;
+};
+
+/// `auto` first.
+std::span<const FillMethod> fill_methods();
+
+/// Fills the missing samples in place: a filled sample is observed, and its residual is 0. A filled
+/// span meets its ends in value and velocity. What the method's rules refuse stays missing and is
+/// listed. Errors: `ErrorKind::usage` for a method, a name or a donor that there is not.
+FillReport fill_gaps(MarkerClip& clip, const FillSettings& settings = {});
+/// The same for rotations that are not observed.
+FillReport fill_gaps(Clip& clip, const FillSettings& settings = {});
+
+}  // namespace kinemend

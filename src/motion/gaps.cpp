@@ -1,0 +1,98 @@
+#include "kinemend/gaps.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "kinemend/error.hpp"
+
+namespace kinemend {
+
+namespace {
+
+template <class IsMissing>
+void append_gaps(std::size_t track, std::size_t frames, IsMissing is_missing,
+                 std::vector<Gap>& gaps) {
+  bool open = false;
+  for (std::size_t f = 0; f < frames; ++f) {
+    if (!is_missing(f)) {
+      open = false;
+    } else if (open) {
+      gaps.back().last_frame = f;
+    } else {
+      gaps.push_back({track, f, f});
+      open = true;
+    }
+  }
+}
+
+// Calls `mark(track, first, last)` for every track that each gap means.
+template <class Mark>
+void for_each_named(std::span<const NamedGap> gaps, const std::vector<std::string>& names,
+                    std::size_t frames, std::string_view kind, Mark mark) {
+  for (const NamedGap& gap : gaps) {
+    if (gap.first_frame > gap.last_frame || gap.last_frame >= frames) {
+      throw Error(
+          ErrorKind::usage,
+          fmt::format("gap of {} \"{}\": frames {} to {} are not in a take of frames 1 to {}", kind,
+                      gap.name, gap.first_frame + 1, gap.last_frame + 1, frames));
+    }
+    bool found = false;
+    for (std::size_t n = 0; n < names.size(); ++n) {
+      if (gap.name != "*" && gap.name != names[n]) continue;
+      mark(n, gap.first_frame, gap.last_frame);
+      found = true;
+    }
+    if (!found) {
+      throw Error(ErrorKind::usage,
+                  fmt::format("gap of {} \"{}\": the take has no such {} (it has {})", kind,
+                              gap.name, kind, fmt::join(names, ", ")));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Gap> find_gaps(const Clip& clip) {
+  std::vector<Gap> gaps;
+  if (clip.observed.empty()) return gaps;
+  for (std::size_t j = 0; j < clip.joint_count(); ++j) {
+    append_gaps(
+        j, clip.frame_count(), [&](std::size_t f) { return !clip.is_observed(f, j); }, gaps);
+  }
+  return gaps;
+}
+
+std::vector<Gap> find_gaps(const MarkerClip& clip) {
+  std::vector<Gap> gaps;
+  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+    if (!clip.is_position.empty() && clip.is_position[m] == 0) continue;
+    append_gaps(
+        m, clip.frame_count(), [&](std::size_t f) { return !clip.is_observed(f, m); }, gaps);
+  }
+  return gaps;
+}
+
+void mark_gaps(Clip& clip, std::span<const NamedGap> gaps) {
+  const std::size_t joints = clip.joint_count();
+  if (clip.observed.empty()) clip.observed.assign(clip.local_rotations.size(), 1);
+  for_each_named(gaps, clip.skeleton.names, clip.frame_count(), "joint",
+                 [&](std::size_t joint, std::size_t first, std::size_t last) {
+                   for (std::size_t f = first; f <= last; ++f)
+                     clip.observed[f * joints + joint] = 0;
+                 });
+}
+
+void mark_gaps(MarkerClip& clip, std::span<const NamedGap> gaps) {
+  const std::size_t markers = clip.marker_count();
+  for_each_named(gaps, clip.names, clip.frame_count(), "marker",
+                 [&](std::size_t marker, std::size_t first, std::size_t last) {
+                   for (std::size_t f = first; f <= last; ++f) {
+                     clip.observed[f * markers + marker] = 0;
+                     clip.position(f, marker) = {};
+                     if (!clip.residuals.empty()) clip.residuals[f * markers + marker] = -1;
+                   }
+                 });
+}
+
+}  // namespace kinemend

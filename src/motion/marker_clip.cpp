@@ -1,0 +1,124 @@
+#include "kinemend/marker_clip.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <utility>
+
+#include "kinemend/error.hpp"
+
+namespace kinemend {
+
+namespace {
+
+bool finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+void check_length(std::size_t actual, std::size_t expected, const char* what) {
+  if (actual == expected) return;
+  throw Error(ErrorKind::usage, fmt::format("{}: {} values, expected {}", what, actual, expected));
+}
+
+template <class T>
+std::vector<T> rows(const std::vector<T>& values, std::size_t first, std::size_t last,
+                    std::size_t width) {
+  if (values.empty()) return {};
+  return {values.begin() + static_cast<std::ptrdiff_t>(first * width),
+          values.begin() + static_cast<std::ptrdiff_t>(last * width)};
+}
+
+}  // namespace
+
+std::string_view without_subject(std::string_view name) {
+  const std::size_t colon = name.rfind(':');
+  return colon == std::string_view::npos ? name : name.substr(colon + 1);
+}
+
+std::int32_t MarkerClip::find(std::string_view name) const noexcept {
+  const auto index_of = [&](auto matches) {
+    const auto found = std::find_if(names.begin(), names.end(), matches);
+    return found == names.end() ? -1 : static_cast<std::int32_t>(found - names.begin());
+  };
+  const std::int32_t whole = index_of([&](const std::string& known) { return known == name; });
+  if (whole >= 0) return whole;
+  return index_of([&](const std::string& known) { return without_subject(known) == name; });
+}
+
+void MarkerClip::validate() const {
+  if (!(std::isfinite(frame_rate_hz) && frame_rate_hz > 0)) {
+    throw Error(ErrorKind::usage, fmt::format("frame rate {} Hz is not positive", frame_rate_hz));
+  }
+  const std::size_t samples = frame_count() * marker_count();
+  check_length(positions.size(), samples, "positions");
+  check_length(observed.size(), samples, "observed mask");
+  if (!residuals.empty()) check_length(residuals.size(), samples, "residuals");
+  if (!is_position.empty()) check_length(is_position.size(), marker_count(), "kinds of points");
+  for (std::size_t i = 0; i < samples; ++i) {
+    if (observed[i] == 0 || finite(positions[i])) continue;
+    throw Error(ErrorKind::usage,
+                fmt::format("frame {}, marker {} \"{}\": the position is not finite",
+                            i / marker_count(), i % marker_count(), names[i % marker_count()]));
+  }
+}
+
+MarkerClip make_marker_clip(std::vector<std::string> names, std::size_t frames,
+                            double frame_rate_hz) {
+  MarkerClip clip;
+  clip.names = std::move(names);
+  clip.frame_rate_hz = frame_rate_hz;
+  const std::size_t samples = frames * clip.names.size();
+  clip.positions.resize(samples);
+  clip.observed.resize(samples, 0);
+  clip.is_position.assign(clip.names.size(), 1);
+  return clip;
+}
+
+MarkerClip slice(const MarkerClip& clip, std::size_t first, std::size_t last) {
+  const std::size_t markers = clip.marker_count();
+  MarkerClip part;
+  part.names = clip.names;
+  part.frame_rate_hz = clip.frame_rate_hz;
+  part.first_frame = clip.first_frame + static_cast<std::int64_t>(first);
+  part.positions = rows(clip.positions, first, last, markers);
+  part.observed = rows(clip.observed, first, last, markers);
+  part.residuals = rows(clip.residuals, first, last, markers);
+  part.is_position = clip.is_position;
+  part.unit = clip.unit;
+  part.events = clip.events;
+  part.source.name = clip.source.name;
+  part.source.format = clip.source.format;
+  return part;
+}
+
+double metres_per_unit(std::string_view unit) {
+  static constexpr std::array<std::pair<std::string_view, double>, 18> known{{
+      {"m", 1},
+      {"metre", 1},
+      {"metres", 1},
+      {"meter", 1},
+      {"meters", 1},
+      {"dm", 0.1},
+      {"cm", 0.01},
+      {"centimeters", 0.01},
+      {"mm", 0.001},
+      {"millimetres", 0.001},
+      {"millimeters", 0.001},
+      {"um", 1e-6},
+      {"in", 0.0254},
+      {"inch", 0.0254},
+      {"inches", 0.0254},
+      {"ft", 0.3048},
+      {"foot", 0.3048},
+      {"feet", 0.3048},
+  }};
+  std::string lower(unit);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto found = std::find_if(known.begin(), known.end(),
+                                  [&](const auto& entry) { return entry.first == lower; });
+  return found == known.end() ? 0 : found->second;
+}
+
+}  // namespace kinemend
