@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace kinemend::fill {
+
+/// One joint's or marker's samples in Euclidean channels. Only observed samples are evidence: a
+/// filled one stays marked as missing, so that the order in which gaps are filled does not matter.
+struct Track {
+  std::span<double> values;  ///< frames x channels, the channels of a frame contiguous
+  std::size_t channels = 0;
+  std::span<const std::uint8_t> observed;  ///< frames, 0 where the sample is missing
+
+  std::size_t frames() const noexcept { return observed.size(); }
+  std::span<double> row(std::size_t frame) const {
+    return values.subspan(frame * channels, channels);
+  }
+};
+
+/// Missing frames first to last, inclusive; the frames beside them are observed or outside the
+/// take.
+struct Span {
+  std::size_t first = 0;
+  std::size_t last = 0;
+
+  std::size_t length() const noexcept { return last - first + 1; }
+};
+
+enum class Curve : std::uint8_t {
+  linear,
+  cubic,             ///< natural cubic spline through the samples around the gap
+  quintic,           ///< quintic smoothing spline, smoothed as their noise demands (Woltring 1986)
+  shape_preserving,  ///< PCHIP: no overshoot (Fritsch & Carlson 1980, Fritsch & Butland 1984)
+  hermite            ///< cubic between robust velocities at both ends
+};
+
+struct CurveSettings {
+  double frame_rate_hz = 0;
+  double support_s = 0.5;          ///< of the splines: samples used on either side, 48 at least
+  double least_cutoff_hz = 4;      ///< of `quintic`: cross-validation smooths no further
+  double velocity_window_s = 0.1;  ///< of end velocities, 5 samples at least
+  double decay_s = 0.15;           ///< an end velocity that nothing continues fades so fast
+};
+
+/// Fills the span on the curve, which meets the samples at its ends in value and velocity (`linear`
+/// in value). At the take's start or end, where only one side is observed, the value goes on with
+/// the end's velocity, which decays (`linear`: is held). False, and nothing is written, where no
+/// sample of the track is observed.
+bool fill_with_curve(const Track& track, Span span, Curve curve, const CurveSettings& settings);
+
+/// A guess of a span, such as a regression makes it, with some frames around it.
+struct Guess {
+  std::size_t first_frame = 0;
+  std::vector<double> values;  ///< rows of channels from `first_frame` on; at least the span
+};
+
+/// Writes the guess into the span, moved so that it meets the samples at the ends in value and
+/// velocity: its difference from them goes over linearly from end to end, the difference in
+/// velocity fades within `blend_s`. The guess has to cover the observed frames next to the span,
+/// about `velocity_window_s` of them on either side; a side it does not cover is not met.
+void place_guess(const Track& track, Span span, const Guess& guess, const CurveSettings& settings,
+                 double blend_s = 0.2);
+
+/// Value and velocity (per frame) at one end of a span.
+struct EndState {
+  bool known = false;
+  std::vector<double> value;     ///< of the end's own sample
+  std::vector<double> velocity;  ///< of a parabola fitted to the samples near it, outliers aside
+};
+
+/// The state at the last observed frame before the span, and at the first one behind it.
+EndState state_before(const Track& track, Span span, const CurveSettings& settings);
+EndState state_behind(const Track& track, Span span, const CurveSettings& settings);
+
+}  // namespace kinemend::fill
