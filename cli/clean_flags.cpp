@@ -1,0 +1,124 @@
+#include "clean_flags.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "config.hpp"
+#include "method_options.hpp"
+#include "takes.hpp"
+
+namespace kinemend::cli {
+
+namespace {
+
+Flag configurable(Flag flag) {
+  flag.configurable = true;
+  return flag;
+}
+
+Flag list_flag(std::string name, std::string help, std::string details) {
+  Flag flag = text_flag(std::move(name), "A,B,...", "Where", std::move(help), std::move(details));
+  flag.takes = Takes::list;
+  return configurable(flag);
+}
+
+Flag method_flag() {
+  Flag flag =
+      text_flag("method", "NAME", "Cleaning", "how to clean; kinemend methods tells of each",
+                "The options of each method are valid with that method only.");
+  flag.spec.default_value = std::string("auto");
+  flag.spec.choices = method_names();
+  flag.has_default = true;
+  return configurable(flag);
+}
+
+Flag preset_flag() {
+  Flag flag = text_flag("preset", "", "Cleaning", "settings for a kind of motion");
+  std::vector<std::string> summaries;
+  for (const Preset& preset : presets()) {
+    flag.spec.choices.emplace_back(preset.name);
+    summaries.push_back(fmt::format("{} ({})", preset.name, preset_summary(preset)));
+  }
+  flag.details = fmt::format("Goes under --config and the command line. There are {}.",
+                             fmt::join(summaries, "; "));
+  return flag;
+}
+
+Flag file_flag(std::string name, std::string value, std::string group, std::string help,
+               std::string details = {}, Completion completion = Completion::file) {
+  Flag flag = text_flag(std::move(name), std::move(value), std::move(group), std::move(help),
+                        std::move(details));
+  flag.completion = completion;
+  return flag;
+}
+
+Flag root_position_flag() {
+  Flag flag = switch_flag("root_position", "Where", "also clean the root's path");
+  flag.spec.default_value = true;
+  return configurable(flag);
+}
+
+// The letters of the flags that have one.
+std::vector<Flag> with_letters(std::vector<Flag> list) {
+  for (Flag& flag : list) {
+    if (flag.spec.name == "verbose") flag.letter = 'v';
+    if (flag.spec.name == "quiet") flag.letter = 'q';
+    if (flag.spec.name == "method") flag.letter = 'm';
+  }
+  return list;
+}
+
+}  // namespace
+
+std::vector<Flag> clean_output_flags() {
+  return with_letters(
+      {output_flag("where to write one take; - is standard output"),
+       file_flag("output_dir", "DIR", "Output", "folder for the results, under the inputs' names",
+                 "It is made where it does not exist. Several takes are cleaned in parallel.",
+                 Completion::folder),
+       force_flag(), switch_flag("dry_run", "Output", "clean and report, but write nothing"),
+       file_flag("report", "FILE", "Output",
+                 "write what was done to each span of samples, as JSON"),
+       json_flag("print the summary as JSON instead of text"),
+       switch_flag("verbose", "Output", "list every joint that changed"),
+       switch_flag("quiet", "Output", "print warnings and errors only")});
+}
+
+std::vector<Flag> cleaning_flags() {
+  return with_letters(
+      {method_flag(),
+       configurable(number_flag("strength", "", 1, 0, 1, "Cleaning",
+                                "how far to go from the input (0) to the cleaned motion (1)",
+                                "Typical: 0.5 to 1.")),
+       configurable(number_flag("max_change_deg", "deg", 180, 0, 180, "Cleaning",
+                                "no sample turns further than this from its input",
+                                "Typical: 5 to 30 against jitter alone; spikes need more.")),
+       configurable(number_flag("peak_loss_limit", "", 0.1, 0, 1, "Cleaning",
+                                "share of a joint's peak speed that may go without a warning",
+                                "Typical: 0.05 for impacts to 0.2 for slow motion.")),
+       preset_flag(),
+       file_flag("config", "FILE", "Cleaning", "settings from a TOML file, over those of --preset"),
+       switch_flag("print_config", "Cleaning",
+                   "print the settings as a TOML file with comments, and stop"),
+       list_flag("joints", "joints that may change (default all)",
+                 "Names or patterns in which * is any text and ? any character; quote them."),
+       list_flag("exclude", "joints that may not change after all", "Written like --joints."),
+       root_position_flag(),
+       text_flag(
+           "range", "FIRST:LAST", "Where",
+           "what may change: frames 121:240, counted from 1, or seconds 1s:2.5s",
+           "Either end may be left out. The method sees all of the take; the result is blended "
+           "in over 0.1 s."),
+       from_flag(), configurable(strict_flag("what needs a repair or a warning becomes an error")),
+       seed_flag("seed of the methods that draw random numbers")});
+}
+
+Flag jobs_flag() {
+  Flag flag = whole_flag("jobs", 0, 0, 1024, "Work", "threads; 0: as many as there are cores",
+                         "The result does not depend on it.");
+  flag.letter = 'j';
+  return flag;
+}
+
+}  // namespace kinemend::cli

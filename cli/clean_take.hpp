@@ -1,0 +1,25 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "clean_plan.hpp"
+#include "json.hpp"
+
+namespace kinemend::cli {
+
+/// What is left of a take when it is done: text, not motion, so that any number of takes fits.
+struct Outcome {
+  int code = 0;
+  std::string text;
+  std::vector<std::string> warnings;
+  std::string error;
+  std::shared_ptr<const Json> json;    ///< entry of --json; null when not asked for
+  std::shared_ptr<const Json> report;  ///< entry of --report
+};
+
+/// Reads, cleans and writes one take as the plan says. What goes wrong with it is in the outcome.
+Outcome try_take(const CleanJob& job, const CleanPlan& plan);
+
+}  // namespace kinemend::cli
