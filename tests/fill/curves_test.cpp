@@ -1,0 +1,336 @@
+#include "fill/curves.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/csv.hpp"
+#include "fill/natural_spline.hpp"
+#include "kinemend/random.hpp"
+
+namespace kinemend::fill {
+namespace {
+
+using ::testing::Each;
+using ::testing::Pointwise;
+
+MATCHER_P(NearTo, tolerance, "") {
+  return std::fabs(std::get<0>(arg) - std::get<1>(arg)) <= tolerance;
+}
+
+// SciPy's numbers, made by tools/reference/gap_curves.py.
+const std::vector<double>& reference(const std::string& name) {
+  static const auto records = [] {
+    std::map<std::string, std::vector<double>> result;
+    for (const auto& row : kinemend::testing::read_csv("fill/curves.csv")) {
+      for (std::size_t i = 1; i < row.size(); ++i) result[row[0]].push_back(std::stod(row[i]));
+    }
+    return result;
+  }();
+  return records.at(name);
+}
+
+constexpr Span reference_gap{70, 94};
+constexpr CurveSettings settings{.frame_rate_hz = 120};
+constexpr std::array curves = {Curve::linear, Curve::cubic, Curve::quintic, Curve::shape_preserving,
+                               Curve::hermite};
+
+// A track that owns its samples.
+struct Samples {
+  std::vector<double> values;
+  std::size_t channels = 1;
+  std::vector<std::uint8_t> observed;
+
+  Track track() { return {values, channels, observed}; }
+};
+
+Samples reference_samples() {
+  Samples samples{reference("input"), 1, {}};
+  for (const double missing : reference("missing")) samples.observed.push_back(missing == 0);
+  for (std::size_t f = 0; f < samples.values.size(); ++f) {
+    if (!samples.observed[f]) samples.values[f] = 1e6;  // what stands in a gap is no evidence
+  }
+  return samples;
+}
+
+std::vector<double> filled(Samples samples, Span span, Curve curve) {
+  EXPECT_TRUE(fill_with_curve(samples.track(), span, curve, settings));
+  return {samples.values.begin() + static_cast<std::ptrdiff_t>(span.first * samples.channels),
+          samples.values.begin() + static_cast<std::ptrdiff_t>((span.last + 1) * samples.channels)};
+}
+
+template <class Function>
+Samples sampled(std::size_t frames, Span span, Function function) {
+  Samples samples;
+  for (std::size_t f = 0; f < frames; ++f) {
+    samples.values.push_back(function(static_cast<double>(f)));
+    samples.observed.push_back(f < span.first || f > span.last);
+  }
+  return samples;
+}
+
+TEST(Curves, CubicIsSciPysNaturalSpline) {
+  EXPECT_THAT(filled(reference_samples(), reference_gap, Curve::cubic),
+              Pointwise(NearTo(1e-10), reference("cubic")));
+}
+
+TEST(Curves, ShapePreservingIsSciPysPchip) {
+  EXPECT_THAT(filled(reference_samples(), reference_gap, Curve::shape_preserving),
+              Pointwise(NearTo(1e-12), reference("pchip")));
+  for (const Span span : {Span{66, 66}, Span{99, 99}, Span{120, 120}, Span{130, 132}}) {
+    const auto values = filled(reference_samples(), span, Curve::shape_preserving);
+    for (std::size_t f = span.first; f <= span.last; ++f) {
+      EXPECT_NEAR(values[f - span.first], reference("pchip_all")[f], 1e-12) << f;
+    }
+  }
+}
+
+TEST(Curves, ShapePreservingHasSciPysSlopesAtTheOutermostSamples) {
+  Samples samples{{1, 0, 0, 0, 0, 0, 0, 0, 0, 4, 4.5}, 1, {1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1}};
+  EXPECT_THAT(filled(samples, {1, 8}, Curve::shape_preserving),
+              Pointwise(NearTo(1e-12), reference("pchip_ends")));
+  Samples mirrored{{4.5, 4, 0, 0, 0, 0, 0, 0, 0, 0, 1}, 1, {1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1}};
+  auto values = filled(mirrored, {2, 9}, Curve::shape_preserving);
+  std::reverse(values.begin(), values.end());
+  EXPECT_THAT(values, Pointwise(NearTo(1e-12), reference("pchip_ends")));
+  samples.values.back() = 1;
+  EXPECT_THAT(filled(samples, {1, 8}, Curve::shape_preserving),
+              Pointwise(NearTo(1e-12), reference("pchip_ends_turning")));
+}
+
+NaturalSpline reference_spline(int half_order) {
+  Samples samples = reference_samples();
+  std::vector<double> knots, values;
+  for (std::size_t f = 0; f < samples.observed.size(); ++f) {
+    if (!samples.observed[f]) continue;
+    knots.push_back(static_cast<double>(f));
+    values.push_back(samples.values[f]);
+  }
+  return {half_order, knots, values, 1};
+}
+
+// At the knots and in the gap, as the fixture has them.
+std::vector<double> values_of(const NaturalSpline& spline) {
+  std::vector<double> values;
+  const auto& missing = reference("missing");
+  for (std::size_t f = 0, knot = 0; f < missing.size(); ++f) {
+    if (missing[f] == 0) values.push_back(spline.knot_values(knot++)[0]);
+  }
+  for (std::size_t f = reference_gap.first; f <= reference_gap.last; ++f) {
+    double value = 0;
+    spline.evaluate(static_cast<double>(f), {&value, 1});
+    values.push_back(value);
+  }
+  return values;
+}
+
+TEST(NaturalSpline, OfFifthDegreeInterpolatesAsSciPy) {
+  NaturalSpline spline = reference_spline(3);
+  spline.fit(0);
+  for (std::size_t f = reference_gap.first; f <= reference_gap.last; ++f) {
+    double value = 0;
+    spline.evaluate(static_cast<double>(f), {&value, 1});
+    EXPECT_NEAR(value, reference("quintic")[f - reference_gap.first], 1e-8) << f;
+  }
+}
+
+TEST(NaturalSpline, SmoothsAsSciPy) {
+  for (const char* smoothing : {"0.5", "30.0", "5000.0"}) {
+    NaturalSpline cubic = reference_spline(2);
+    cubic.fit(std::stod(smoothing));
+    EXPECT_THAT(values_of(cubic),
+                Pointwise(NearTo(1e-8), reference(std::string("smoothing_cubic/") + smoothing)));
+    NaturalSpline quintic = reference_spline(3);
+    quintic.fit(std::stod(smoothing));
+    EXPECT_THAT(values_of(quintic),
+                Pointwise(NearTo(1e-7), reference(std::string("smoothing_quintic/") + smoothing)));
+    const double score = reference(std::string("cross_validation/") + smoothing)[0];
+    EXPECT_NEAR(quintic.cross_validation_score(), score, 1e-6 * score);
+  }
+}
+
+TEST(NaturalSpline, CrossValidationFindsTheLeastScore) {
+  NaturalSpline spline = reference_spline(3);
+  spline.fit_by_cross_validation(1e-4, 1e6);
+  const double least = spline.cross_validation_score();
+  for (double smoothing = 1e-4; smoothing < 1e6; smoothing *= 1.3) {
+    spline.fit(smoothing);
+    EXPECT_GE(spline.cross_validation_score(), least * (1 - 1e-6)) << smoothing;
+  }
+}
+
+TEST(NaturalSpline, EvaluatesInEveryInterval) {
+  // A parabola is left as it is by m = 3, wherever it is asked for and however much it is smoothed.
+  const std::vector<double> knots = {0, 1, 3, 4, 9, 10};
+  std::vector<double> values;
+  for (const double x : knots) values.push_back(2 - x + 0.5 * x * x);
+  NaturalSpline spline(3, knots, values, 1);
+  for (const double smoothing : {0.0, 10.0}) {
+    spline.fit(smoothing);
+    for (double x = 0; x <= 10; x += 0.25) {
+      double value = 0;
+      spline.evaluate(x, {&value, 1});
+      EXPECT_NEAR(value, 2 - x + 0.5 * x * x, 1e-9) << x;
+    }
+  }
+}
+
+TEST(Curves, MeetTheirEndsInValueAndVelocity) {
+  const Span span{100, 139};
+  const auto motion = [](double f) { return 40 * std::sin(0.05 * f) + 0.3 * f; };
+  for (const Curve curve : {Curve::cubic, Curve::quintic, Curve::hermite}) {
+    Samples samples = sampled(240, span, motion);
+    ASSERT_TRUE(fill_with_curve(samples.track(), span, curve, settings));
+    const auto second = [&](std::size_t f) {
+      return samples.values[f - 1] - 2 * samples.values[f] + samples.values[f + 1];
+    };
+    // The motion's own second differences are below 0.1; a jump or a kink would show as more.
+    for (const std::size_t f : {99u, 100u, 139u, 140u}) {
+      EXPECT_LT(std::fabs(second(f)), 0.3) << static_cast<int>(curve) << " at " << f;
+    }
+  }
+}
+
+TEST(Curves, FillAStraightLineWithItself) {
+  const Span span{40, 59};
+  for (const Curve curve : curves) {
+    const auto line = [](double f) { return 3 - 0.25 * f; };
+    const auto values = filled(sampled(120, span, line), span, curve);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      EXPECT_NEAR(values[i], line(40 + static_cast<double>(i)), 1e-9) << static_cast<int>(curve);
+    }
+  }
+}
+
+TEST(Curves, ShapePreservingNeverOvershoots) {
+  Random random(3);
+  for (int round = 0; round < 50; ++round) {
+    Samples samples = sampled(60, {20, 39}, [&](double) { return random.normal(); });
+    const double a = samples.values[19], b = samples.values[40];
+    for (const double value : filled(samples, {20, 39}, Curve::shape_preserving)) {
+      EXPECT_GE(value, std::min(a, b) - 1e-12);
+      EXPECT_LE(value, std::max(a, b) + 1e-12);
+    }
+  }
+}
+
+TEST(Curves, QuinticIsNotThrownByNoiseAtTheEnds) {
+  const Span span{150, 179};
+  const auto motion = [](double f) { return 100 * std::sin(0.04 * f); };
+  double quintic = 0, interpolating = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Random random(seed);
+    const auto noisy = [&](double f) { return motion(f) + 0.5 * random.normal(); };
+    const Samples samples = sampled(330, span, noisy);
+    const auto smooth = filled(samples, span, Curve::quintic);
+    const auto through = filled(samples, span, Curve::cubic);
+    for (std::size_t i = 0; i < smooth.size(); ++i) {
+      const double truth = motion(150 + static_cast<double>(i));
+      quintic += std::pow(smooth[i] - truth, 2);
+      interpolating += std::pow(through[i] - truth, 2);
+    }
+  }
+  // Root mean square below four times the noise; the spline through the noisy ends is far worse.
+  EXPECT_LT(std::sqrt(quintic / 600), 2.0);
+  EXPECT_GT(interpolating, 4 * quintic);
+}
+
+TEST(Curves, EndVelocitiesAreNotThrownByASpike) {
+  const Span span{60, 79};
+  Samples samples = sampled(150, span, [](double f) { return 2 * f; });
+  samples.values[56] += 50;
+  const EndState state = state_before(samples.track(), span, settings);
+  EXPECT_TRUE(state.known);
+  EXPECT_DOUBLE_EQ(state.value[0], 118);
+  EXPECT_NEAR(state.velocity[0], 2, 0.05);
+}
+
+TEST(Curves, CoastAtTheEndsOfATakeWithAVelocityThatDecays) {
+  const auto line = [](double f) { return 5 + 2 * f; };
+  const double decay = settings.decay_s * settings.frame_rate_hz;
+  const auto behind = filled(sampled(200, {100, 199}, line), {100, 199}, Curve::cubic);
+  EXPECT_NEAR(behind[0] - line(99), 2 * decay * (1 - std::exp(-1 / decay)), 1e-9);
+  EXPECT_NEAR(behind[99], line(99) + 2 * decay, 0.2);
+  const auto before = filled(sampled(200, {0, 99}, line), {0, 99}, Curve::hermite);
+  EXPECT_NEAR(line(100) - before[99], 2 * decay * (1 - std::exp(-1 / decay)), 1e-9);
+  EXPECT_THAT(filled(sampled(200, {100, 199}, line), {100, 199}, Curve::linear), Each(line(99)));
+}
+
+TEST(Curves, RefuseATrackWithoutSamples) {
+  for (const Curve curve : curves) {
+    Samples samples = sampled(10, {0, 9}, [](double) { return 7; });
+    EXPECT_FALSE(fill_with_curve(samples.track(), {0, 9}, curve, settings));
+    EXPECT_THAT(samples.values, Each(7));
+  }
+}
+
+TEST(Curves, FillBetweenSingleSamples) {
+  for (const Curve curve : curves) {
+    Samples samples{{0, 9, 9, 3}, 1, {1, 0, 0, 1}};
+    ASSERT_TRUE(fill_with_curve(samples.track(), {1, 2}, curve, settings));
+    EXPECT_NEAR(samples.values[1], 0.777777, 0.3) << static_cast<int>(curve);
+    EXPECT_NEAR(samples.values[2], 2.222222, 0.3) << static_cast<int>(curve);
+  }
+}
+
+TEST(Curves, FillEveryChannelByItself) {
+  const Span span{30, 49};
+  for (const Curve curve : curves) {
+    Samples both;
+    both.channels = 2;
+    Samples one = sampled(100, span, [](double f) { return std::sin(0.1 * f); });
+    Samples other = sampled(100, span, [](double f) { return std::cos(0.07 * f); });
+    both.observed = one.observed;
+    for (std::size_t f = 0; f < 100; ++f) {
+      both.values.push_back(one.values[f]);
+      both.values.push_back(other.values[f]);
+    }
+    const auto values = filled(both, span, curve);
+    // Quintic chooses one smoothing for all channels.
+    const double tolerance = curve == Curve::quintic ? 1e-3 : 1e-12;
+    const auto first = filled(one, span, curve), second = filled(other, span, curve);
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      EXPECT_NEAR(values[2 * i], first[i], tolerance);
+      EXPECT_NEAR(values[2 * i + 1], second[i], tolerance);
+    }
+  }
+}
+
+TEST(PlaceGuess, MovesAGuessToItsEnds) {
+  const Span span{100, 159};
+  const auto motion = [](double f) { return 10 * std::sin(0.06 * f); };
+  Samples samples = sampled(260, span, motion);
+  Guess guess{80, {}};
+  for (std::size_t f = 80; f < 180; ++f) {
+    guess.values.push_back(motion(static_cast<double>(f)) + 3 + 0.05 * static_cast<double>(f));
+  }
+  place_guess(samples.track(), span, guess, settings);
+  // An offset and a drift are seen at the ends and taken off.
+  for (std::size_t f = span.first; f <= span.last; ++f) {
+    EXPECT_NEAR(samples.values[f], motion(static_cast<double>(f)), 1e-9) << f;
+  }
+}
+
+TEST(PlaceGuess, MeetsValueAndVelocityOfAnyGuess) {
+  const Span span{100, 159};
+  Samples samples = sampled(260, span, [](double f) { return f < 130 ? f : 200 - f; });
+  const Guess guess{80, std::vector<double>(100, 4.0)};
+  place_guess(samples.track(), span, guess, settings);
+  EXPECT_NEAR(samples.values[100], 100, 0.3);
+  EXPECT_NEAR(samples.values[101] - samples.values[100], 1, 0.6);
+  EXPECT_NEAR(samples.values[159], 41, 0.3);
+  EXPECT_NEAR(samples.values[159] - samples.values[158], -1, 0.6);
+}
+
+TEST(PlaceGuess, MeetsOnlyTheSideThatThereIs) {
+  const Span span{50, 79};
+  Samples samples = sampled(80, span, [](double) { return 12.0; });
+  place_guess(samples.track(), span, {30, std::vector<double>(50, 4.0)}, settings);
+  for (std::size_t f = span.first; f <= span.last; ++f) EXPECT_NEAR(samples.values[f], 12, 1e-9);
+}
+
+}  // namespace
+}  // namespace kinemend::fill
