@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "kinemend/clip.hpp"
+#include "kinemend/marker_clip.hpp"
 #include "kinemend/options.hpp"
 
 namespace kinemend {
 
-/// What was done to one sample (a joint in a frame).
+/// What was done to one sample (a joint or a marker in a frame).
 enum class Action : std::uint8_t { kept, denoised, despiked, filled, foot_adjusted, refused };
 
 std::string_view to_string(Action action);
@@ -37,6 +38,23 @@ struct CleanTrace {
   std::vector<double>
       noise_deg;  ///< J: estimated noise per axis before cleaning, degrees; else empty
   std::optional<double> root_noise;  ///< the same for the root position, file units
+  std::vector<std::string> warnings;
+};
+
+/// Which markers a cleaner may change.
+struct MarkerSelection {
+  std::vector<std::uint8_t> markers;  ///< M, 1 where positions may change
+  /// Stature, file units: options in degrees, and what counts as quiet, are measured by it.
+  double body_height = 1;
+
+  /// All that are positions, and the height of these markers.
+  static MarkerSelection all(const MarkerClip& clip);
+};
+
+/// What a cleaner says of its work on markers.
+struct MarkerTrace {
+  std::vector<Action> actions;  ///< F x M where the cleaner tells samples apart; else empty
+  std::vector<double> noise;    ///< M: estimated noise per axis, file units; else empty
   std::vector<std::string> warnings;
 };
 
@@ -67,6 +85,19 @@ class FrameFilter {
   virtual void filter(LiveFrame& frame) = 0;
 };
 
+/// One frame of live markers.
+struct MarkerFrame {
+  std::vector<Vec3> positions;         ///< M
+  std::vector<std::uint8_t> observed;  ///< M, 1 where there is a position; empty means all
+};
+
+/// The same for markers. What is missing stays missing.
+class MarkerFilter {
+ public:
+  virtual ~MarkerFilter() = default;
+  virtual void filter(MarkerFrame& frame) = 0;
+};
+
 /// A cleaning method with its options. Immutable after construction and safe to share between
 /// threads.
 class Cleaner {
@@ -78,6 +109,12 @@ class Cleaner {
   /// depend on the number of threads.
   virtual CleanTrace clean(Clip& clip, const Selection& selection) const = 0;
 
+  /// Cleans the selected markers in place. Only observed samples change, and only they are looked
+  /// at: what stands in a gap never matters. Gaps up to 0.25 s are bridged while a track is
+  /// filtered, and no filter reaches across longer ones. Errors: `ErrorKind::usage` of a method
+  /// that does not work on markers, which is the default.
+  virtual MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const;
+
   /// What the method can do frame by frame at this rate; the default is nothing.
   virtual LiveSupport live_support(double frame_rate_hz) const;
   /// Live, of a windowed cleaner: frame `frame` of what `clean` makes of `window`, all parts
@@ -88,6 +125,10 @@ class Cleaner {
   /// gives the same numbers.
   virtual std::unique_ptr<FrameFilter> make_frame_filter(const Skeleton& skeleton,
                                                          double frame_rate_hz) const;
+  /// The same for the markers of a clip like this one (its names and its rate; frames do not
+  /// matter); nullptr of a method that is not causal. `clean_markers` gives the same numbers.
+  virtual std::unique_ptr<MarkerFilter> make_marker_filter(const MarkerClip& like,
+                                                           double body_height) const;
 };
 
 /// An entry of the table of methods.

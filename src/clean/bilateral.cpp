@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "clean/bilateral_filter.hpp"
+#include "clean/marker_tracks.hpp"
 #include "clean/method_list.hpp"
 #include "clean/rotation_track.hpp"
 #include "kinemend/methods.hpp"
@@ -39,16 +40,25 @@ class BilateralCleaner final : public Cleaner {
     const double sigma_t = options_.sigma_t_s * clip.frame_rate_hz;
     const double sigma_g = options_.sigma_g_deg * radians_per_degree;
     const auto passes = static_cast<std::size_t>(options_.passes);
-    const BilateralEnds ends =
-        options_.ends == "mirror" ? BilateralEnds::mirror : BilateralEnds::reflect;
     const BilateralKernel turns = bilateral_kernel(sigma_t, sigma_g);
     const BilateralKernel moves = bilateral_kernel(sigma_t, sigma_g * reach(clip.skeleton));
     return filter_tracks(
         clip, selection,
         [&](RotationTrack& track, const std::vector<double>& weights) {
-          bilateral_filter(track, weights, turns, passes, ends);
+          bilateral_filter(track, weights, turns, passes, ends());
         },
-        [&](VectorTrack& track) { bilateral_filter(track, {}, moves, passes, ends); });
+        [&](VectorTrack& track) { bilateral_filter(track, {}, moves, passes, ends()); });
+  }
+
+  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
+    const double sigma_t = options_.sigma_t_s * clip.frame_rate_hz;
+    const double sigma_g = options_.sigma_g_deg * radians_per_degree;
+    const BilateralKernel moves = bilateral_kernel(sigma_t, sigma_g * selection.body_height);
+    return filter_marker_tracks(
+        clip, selection, [&](VectorTrack& track, const std::vector<double>& weights) {
+          bilateral_filter(track, weights, moves, static_cast<std::size_t>(options_.passes),
+                           ends());
+        });
   }
 
   LiveSupport live_support(double frame_rate_hz) const override {
@@ -57,6 +67,10 @@ class BilateralCleaner final : public Cleaner {
   }
 
  private:
+  BilateralEnds ends() const {
+    return options_.ends == "mirror" ? BilateralEnds::mirror : BilateralEnds::reflect;
+  }
+
   BilateralOptions options_;
 };
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "clean/live_frames.hpp"
+#include "clean/marker_tracks.hpp"
 #include "clean/method_list.hpp"
 #include "clean/tracks.hpp"
 #include "kinemend/methods.hpp"
@@ -74,6 +75,27 @@ class ButterworthFrameFilter final : public FrameFilter {
   std::vector<double> row_;
 };
 
+// Forward filter of one marker. What was not seen holds its last place.
+class ButterworthTrack {
+ public:
+  explicit ButterworthTrack(std::vector<Biquad> sections) : state_(std::move(sections)) {}
+
+  Vec3 step(Vec3 position, bool seen) {
+    if (!started_ && !seen) return position;
+    if (!started_) origin_ = position, started_ = true;
+    if (seen) held_ = position;
+    const Vec3 p = held_ - origin_;
+    double row[] = {p.x, p.y, p.z};
+    state_.step(row);
+    return origin_ + Vec3{row[0], row[1], row[2]};
+  }
+
+ private:
+  CausalState state_;
+  Vec3 origin_, held_;
+  bool started_ = false;
+};
+
 class Butterworth final : public Cleaner {
  public:
   explicit Butterworth(const ButterworthOptions& options) : options_(options) {}
@@ -81,9 +103,7 @@ class Butterworth final : public Cleaner {
   CleanTrace clean(Clip& clip, const Selection& selection) const override {
     if (!acts(clip.frame_rate_hz)) {
       CleanTrace trace;
-      trace.warnings.push_back(
-          fmt::format("a cutoff of {} Hz is not below half the frame rate of {} Hz: nothing to do",
-                      options_.cutoff_hz, clip.frame_rate_hz));
+      trace.warnings.push_back(nothing_to_do(clip.frame_rate_hz));
       return trace;
     }
     if (options_.causal) return clean_causally(*this, clip, selection);
@@ -92,6 +112,19 @@ class Butterworth final : public Cleaner {
     return clean_channels(clip, selection, ChannelChoice::quaternion, [&](PoseMatrix& channels) {
       filter_zero_phase(channels, sections, pad);
     });
+  }
+
+  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
+    if (!acts(clip.frame_rate_hz)) {
+      MarkerTrace trace;
+      trace.warnings.push_back(nothing_to_do(clip.frame_rate_hz));
+      return trace;
+    }
+    if (options_.causal) return clean_markers_causally(*this, clip, selection);
+    const auto sections = design(clip.frame_rate_hz);
+    const std::size_t pad = settling_frames(sections);
+    return filter_marker_channels(
+        clip, selection, [&](PoseMatrix& channels) { filter_zero_phase(channels, sections, pad); });
   }
 
   LiveSupport live_support(double) const override {
@@ -105,7 +138,18 @@ class Butterworth final : public Cleaner {
                                                                   : std::vector<Biquad>{});
   }
 
+  std::unique_ptr<MarkerFilter> make_marker_filter(const MarkerClip& like, double) const override {
+    if (!options_.causal) return nullptr;
+    const double rate_hz = like.frame_rate_hz;
+    return std::make_unique<TrackMarkerFilter<ButterworthTrack>>(
+        like, ButterworthTrack(acts(rate_hz) ? design(rate_hz) : std::vector<Biquad>{}));
+  }
+
  private:
+  std::string nothing_to_do(double rate_hz) const {
+    return fmt::format("a cutoff of {} Hz is not below half the frame rate of {} Hz: nothing to do",
+                       options_.cutoff_hz, rate_hz);
+  }
   bool acts(double rate_hz) const { return options_.cutoff_hz < rate_hz / 2; }
   std::vector<Biquad> design(double rate_hz) const {
     return butterworth_lowpass(static_cast<int>(options_.order), options_.cutoff_hz, rate_hz);

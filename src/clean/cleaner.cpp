@@ -1,6 +1,7 @@
 #include "kinemend/cleaner.hpp"
 
 #include "clean/live_frames.hpp"
+#include "kinemend/error.hpp"
 
 namespace kinemend {
 
@@ -22,6 +23,14 @@ std::string_view to_string(Action action) {
   return "unknown";
 }
 
+MarkerSelection MarkerSelection::all(const MarkerClip& clip) {
+  return {std::vector<std::uint8_t>(clip.marker_count(), 1), kinemend::body_height(clip)};
+}
+
+MarkerTrace Cleaner::clean_markers(MarkerClip&, const MarkerSelection&) const {
+  throw Error(ErrorKind::usage, "this method works on joints, not on markers");
+}
+
 LiveSupport Cleaner::live_support(double) const { return {}; }
 
 LiveFrame Cleaner::clean_frame(const Clip& window, std::size_t frame) const {
@@ -31,6 +40,10 @@ LiveFrame Cleaner::clean_frame(const Clip& window, std::size_t frame) const {
 }
 
 std::unique_ptr<FrameFilter> Cleaner::make_frame_filter(const Skeleton&, double) const {
+  return nullptr;
+}
+
+std::unique_ptr<MarkerFilter> Cleaner::make_marker_filter(const MarkerClip&, double) const {
   return nullptr;
 }
 

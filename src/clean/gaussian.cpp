@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include "clean/marker_tracks.hpp"
 #include "clean/method_list.hpp"
 #include "clean/orientation_filter.hpp"
 #include "clean/rotation_track.hpp"
@@ -79,6 +80,45 @@ bool whole_window(std::span<const double> observed, std::size_t i, std::size_t k
                       observed.begin() + static_cast<std::ptrdiff_t>(i + k + 1), cut);
 }
 
+class GaussianFilter {
+ public:
+  GaussianFilter(double sigma_frames, std::size_t frames)
+      : values_(gaussian_values(sigma_frames)), frames_(frames), ends_(frames) {
+    const std::size_t k = values_.size() / 2;
+    inner_ = increment_weights(mask_at(values_, {}, k, 2 * k + 1));
+    for (std::size_t i = 0; i < frames; ++i) {
+      if (!whole_window({}, i, k, frames))
+        ends_[i] = increment_weights(mask_at(values_, {}, i, frames));
+    }
+  }
+
+  bool does_nothing() const { return values_.size() == 1; }
+
+  /// Samples of weight 0 count for nothing; no weights: all are 1.
+  template <class Track>
+  void operator()(Track& track, const std::vector<double>& observed) const {
+    const VectorTrack steps = increments(track);
+    VectorTrack moves = weigh_increments(steps, inner_);
+    // Masks at the ends are the same for all tracks that were measured throughout.
+    const bool is_whole = observed.empty() && track.frames == frames_;
+    for (std::size_t i = 0; i < track.frames; ++i) {
+      if (whole_window(observed, i, values_.size() / 2, track.frames)) continue;
+      moves.set(
+          i,
+          is_whole
+              ? weigh_at(steps, ends_[i], i)
+              : weigh_at(steps, increment_weights(mask_at(values_, observed, i, track.frames)), i));
+    }
+    turn(track, moves);
+  }
+
+ private:
+  std::vector<double> values_;
+  std::size_t frames_;
+  std::vector<double> inner_;
+  std::vector<std::vector<double>> ends_;  // one a frame of the take; empty inside it
+};
+
 class GaussianCleaner final : public Cleaner {
  public:
   explicit GaussianCleaner(const GaussianOptions& options) : options_(options) {
@@ -86,31 +126,18 @@ class GaussianCleaner final : public Cleaner {
   }
 
   CleanTrace clean(Clip& clip, const Selection& selection) const override {
-    const std::vector<double> values = gaussian_values(options_.width_s * clip.frame_rate_hz);
-    const std::size_t k = values.size() / 2;
-    if (k == 0) return {};
-    const std::vector<double> inner = increment_weights(mask_at(values, {}, k, 2 * k + 1));
-    // Masks at the ends are the same for all joints that were measured throughout.
-    std::vector<std::vector<double>> ends(clip.frame_count());
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-      if (!whole_window({}, i, k, ends.size())) {
-        ends[i] = increment_weights(mask_at(values, {}, i, ends.size()));
-      }
-    }
-    const auto filter = [&](auto& track, const std::vector<double>& observed) {
-      const VectorTrack steps = increments(track);
-      VectorTrack moves = weigh_increments(steps, inner);
-      for (std::size_t i = 0; i < track.frames; ++i) {
-        if (whole_window(observed, i, k, track.frames)) continue;
-        moves.set(
-            i, observed.empty()
-                   ? weigh_at(steps, ends[i], i)
-                   : weigh_at(steps, increment_weights(mask_at(values, observed, i, track.frames)),
-                              i));
-      }
-      turn(track, moves);
-    };
-    return filter_tracks(clip, selection, filter, [&](VectorTrack& track) { filter(track, {}); });
+    const GaussianFilter filter(options_.width_s * clip.frame_rate_hz, clip.frame_count());
+    if (filter.does_nothing()) return {};
+    return filter_tracks(
+        clip, selection,
+        [&](RotationTrack& track, const std::vector<double>& observed) { filter(track, observed); },
+        [&](VectorTrack& track) { filter(track, {}); });
+  }
+
+  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
+    const GaussianFilter filter(options_.width_s * clip.frame_rate_hz, clip.frame_count());
+    if (filter.does_nothing()) return {};
+    return filter_marker_tracks(clip, selection, filter);
   }
 
   LiveSupport live_support(double frame_rate_hz) const override {

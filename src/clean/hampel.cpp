@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "clean/live_frames.hpp"
+#include "clean/marker_tracks.hpp"
 #include "clean/medians.hpp"
 #include "clean/method_list.hpp"
 #include "clean/tracks.hpp"
@@ -112,6 +114,25 @@ class Hampel final : public Cleaner {
     return trace;
   }
 
+  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
+    const Rule rule = rule_for(clip.frame_rate_hz, marker_reach(selection.body_height));
+    std::vector<Action> actions(clip.positions.size(), Action::kept);
+    MarkerTrace trace = filter_marker_paths(clip, selection, [&](MarkerPath& path) {
+      const std::vector<Vec3> track = path.positions;
+      Despiker<Vec3> despiker(track, rule);
+      for (std::size_t t = 0; t < track.size(); ++t) {
+        if (despiker.despike(t, path.positions[t])) {
+          actions[(path.first_frame + t) * clip.marker_count() + path.marker] = Action::despiked;
+        }
+      }
+    });
+    for (std::size_t i = 0; i < actions.size(); ++i) {
+      if (clip.observed[i] == 0) actions[i] = Action::kept;
+    }
+    trace.actions = std::move(actions);
+    return trace;
+  }
+
   LiveSupport live_support(double rate_hz) const override {
     return {LiveSupport::Kind::windowed, half_frames(rate_hz)};
   }
@@ -139,14 +160,14 @@ class Hampel final : public Cleaner {
   std::size_t half_frames(double rate_hz) const {
     return frames_in(options_.window_s / 2, rate_hz, 3);
   }
-  Rule rotation_rule(const Clip& clip) const {
-    return {half_frames(clip.frame_rate_hz), options_.threshold,
-            options_.minimum_deg * radians_per_degree};
+  // `scale`: the distance that counts as one radian.
+  Rule rule_for(double rate_hz, double scale) const {
+    return {half_frames(rate_hz), options_.threshold,
+            options_.minimum_deg * radians_per_degree * scale};
   }
+  Rule rotation_rule(const Clip& clip) const { return rule_for(clip.frame_rate_hz, 1); }
   Rule position_rule(const Clip& clip) const {
-    Rule rule = rotation_rule(clip);
-    rule.least_distance *= typical_bone_length(clip.skeleton);
-    return rule;
+    return rule_for(clip.frame_rate_hz, typical_bone_length(clip.skeleton));
   }
 
   static void despike_joint(Clip& clip, std::size_t joint, const Rule& rule, CleanTrace& trace) {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "clean/live_frames.hpp"
+#include "clean/marker_tracks.hpp"
 #include "clean/method_list.hpp"
 #include "clean/track_kalman.hpp"
 #include "clean/track_noise.hpp"
@@ -123,6 +124,20 @@ class Kalman final : public Cleaner {
     return trace;
   }
 
+  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
+    if (!options_.smoother) return clean_markers_causally(*this, clip, selection);
+    const double reach = marker_reach(selection.body_height);
+    const KalmanModel model = model_for(options_, clip.frame_rate_hz, reach);
+    const std::vector<double> noise = marker_noise(clip, selection, reach);
+    MarkerTrace trace = filter_marker_paths(clip, selection, [&](MarkerPath& path) {
+      path.positions =
+          kalman_smooth<Vec3>(path.positions, path.observed,
+                              std::max(noise[path.marker], least_noise * reach), reach, model);
+    });
+    trace.noise = noise;
+    return trace;
+  }
+
   LiveSupport live_support(double) const override {
     if (options_.smoother) return {};
     return {LiveSupport::Kind::causal, 0};
@@ -139,7 +154,32 @@ class Kalman final : public Cleaner {
                                     LiveTrack<Vec3>(model_for(options_, rate_hz, bone), 0, bone));
   }
 
+  std::unique_ptr<MarkerFilter> make_marker_filter(const MarkerClip& like,
+                                                   double body_height) const override {
+    if (options_.smoother) return nullptr;
+    const double reach = marker_reach(body_height);
+    return std::make_unique<TrackMarkerFilter<LiveTrack<Vec3>>>(
+        like, LiveTrack<Vec3>(model_for(options_, like.frame_rate_hz, reach),
+                              options_.noise_deg * radians_per_degree * reach, reach));
+  }
+
  private:
+  // Of each marker, from all of its observed samples.
+  std::vector<double> marker_noise(const MarkerClip& clip, const MarkerSelection& selection,
+                                   double reach) const {
+    const double given = options_.noise_deg * radians_per_degree * reach;
+    std::vector<double> noise(clip.marker_count());
+    for_each_parallel(noise.size(), clip.positions.size(), [&](std::size_t m) {
+      if (!marker_selected(clip, selection, m)) return;
+      std::vector<Vec3> seen;
+      for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+        if (clip.is_observed(f, m)) seen.push_back(clip.position(f, m));
+      }
+      noise[m] = given > 0 ? given : track_noise(seen);
+    });
+    return noise;
+  }
+
   void smooth_joint(Clip& clip, std::size_t joint, CleanTrace& trace) const {
     const std::vector<Quat> track = joint_track(clip, joint);
     std::vector<Quat> seen;

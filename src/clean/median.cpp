@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "clean/live_frames.hpp"
+#include "clean/marker_tracks.hpp"
 #include "clean/medians.hpp"
 #include "clean/method_list.hpp"
 #include "clean/tracks.hpp"
@@ -91,6 +92,13 @@ class Median final : public Cleaner {
       }
     });
     return trace;
+  }
+
+  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
+    const std::size_t half = half_frames(clip.frame_rate_hz);
+    return filter_marker_paths(clip, selection, [half](MarkerPath& path) {
+      path.positions = median_track(path.positions, half);
+    });
   }
 
   LiveSupport live_support(double rate_hz) const override {

@@ -1,4 +1,5 @@
 #include "clean/live_frames.hpp"
+#include "clean/marker_tracks.hpp"
 #include "clean/method_list.hpp"
 #include "clean/track_kalman.hpp"
 #include "clean/tracks.hpp"
@@ -63,6 +64,9 @@ class OneEuro final : public Cleaner {
   CleanTrace clean(Clip& clip, const Selection& selection) const override {
     return clean_causally(*this, clip, selection);
   }
+  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
+    return clean_markers_causally(*this, clip, selection);
+  }
   LiveSupport live_support(double) const override { return {LiveSupport::Kind::causal, 0}; }
   std::unique_ptr<FrameFilter> make_frame_filter(const Skeleton& skeleton,
                                                  double rate_hz) const override {
@@ -70,6 +74,12 @@ class OneEuro final : public Cleaner {
     return std::make_unique<Filter>(
         skeleton, OneEuroTrack<Quat>(options_, rate_hz, 1),
         OneEuroTrack<Vec3>(options_, rate_hz, typical_bone_length(skeleton)));
+  }
+
+  std::unique_ptr<MarkerFilter> make_marker_filter(const MarkerClip& like,
+                                                   double body_height) const override {
+    return std::make_unique<TrackMarkerFilter<OneEuroTrack<Vec3>>>(
+        like, OneEuroTrack<Vec3>(options_, like.frame_rate_hz, marker_reach(body_height)));
   }
 
  private:

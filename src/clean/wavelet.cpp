@@ -1,3 +1,4 @@
+#include "clean/marker_tracks.hpp"
 #include "clean/method_list.hpp"
 #include "clean/tracks.hpp"
 #include "kinemend/methods.hpp"
@@ -44,6 +45,11 @@ class Wavelet final : public Cleaner {
   CleanTrace clean(Clip& clip, const Selection& selection) const override {
     return clean_channels(clip, selection, ChannelChoice::suitable,
                           [this](PoseMatrix& channels) { wavelet_denoise(channels, options_); });
+  }
+
+  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
+    return filter_marker_channels(
+        clip, selection, [this](PoseMatrix& channels) { wavelet_denoise(channels, options_); });
   }
 
  private:

@@ -1,3 +1,4 @@
+#include "clean/marker_tracks.hpp"
 #include "clean/method_list.hpp"
 #include "clean/tracks.hpp"
 #include "kinemend/methods.hpp"
@@ -20,6 +21,12 @@ class WeightedMean final : public Cleaner {
 
   CleanTrace clean(Clip& clip, const Selection& selection) const override {
     return clean_channels(clip, selection, ChannelChoice::quaternion, [this](PoseMatrix& channels) {
+      weighted_mean_filter(channels, static_cast<int>(options_.passes));
+    });
+  }
+
+  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
+    return filter_marker_channels(clip, selection, [this](PoseMatrix& channels) {
       weighted_mean_filter(channels, static_cast<int>(options_.passes));
     });
   }

@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 #include "kinemend/kinematics.hpp"
+#include "kinemend/marker_clip.hpp"
 #include "kinemend/skeleton.hpp"
 
 namespace kinemend {
@@ -31,6 +34,37 @@ std::optional<LengthUnit> guess_length_unit(const Skeleton& skeleton) {
     if (metres >= 1.2 && metres <= 2.5) return unit;
   }
   return std::nullopt;
+}
+
+double body_height(const MarkerClip& clip) {
+  constexpr std::size_t most_frames = 64;
+  constexpr double heights_per_quartile = 4.2;
+  constexpr double usual_m = 1.75, tallest_m = 2.2;
+  std::vector<double> distances;
+  const std::size_t frames = clip.frame_count(), sampled = std::min(frames, most_frames);
+  std::vector<Vec3> seen;
+  for (std::size_t i = 0; i < sampled; ++i) {
+    const std::size_t f = sampled < 2 ? 0 : i * (frames - 1) / (sampled - 1);
+    seen.clear();
+    for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+      const bool is_position = clip.is_position.empty() || clip.is_position[m] != 0;
+      if (is_position && clip.is_observed(f, m)) seen.push_back(clip.position(f, m));
+    }
+    for (std::size_t a = 0; a < seen.size(); ++a) {
+      for (std::size_t b = a + 1; b < seen.size(); ++b)
+        distances.push_back(norm(seen[a] - seen[b]));
+    }
+  }
+  const double unit_m = metres_per_unit(clip.unit);
+  double quartile = 0;
+  if (!distances.empty()) {
+    const auto rank = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 4);
+    std::nth_element(distances.begin(), rank, distances.end());
+    quartile = *rank;
+  }
+  if (!(quartile > 0)) return unit_m > 0 ? usual_m / unit_m : 1.0;
+  const double height = heights_per_quartile * quartile;
+  return unit_m > 0 ? std::min(height, tallest_m / unit_m) : height;
 }
 
 }  // namespace kinemend
