@@ -10,6 +10,7 @@
 #include "io/bvh.hpp"
 #include "io/bvh_document.hpp"
 #include "io/bvh_hierarchy.hpp"
+#include "io/memory_limit.hpp"
 #include "io/motion_columns.hpp"
 #include "io/motion_lines.hpp"
 #include "io/motion_rows.hpp"
@@ -21,12 +22,6 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double rate_when_unknown_hz = 30;
-
-// A take needs no more memory than this; what claims to is a hostile file, such as one channel and
-// 10,000 fixed joints.
-std::size_t memory_limit(std::size_t file_bytes) {
-  return (std::size_t{16} << 20) + 24 * file_bytes;
-}
 
 class MotionReader {
  public:

@@ -1,45 +1,14 @@
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "io/bvh_document.hpp"
+#include "io/text_buffer.hpp"
 #include "kinemend/clip.hpp"
 
 namespace kinemend {
-
-/// Text under construction.
-class TextBuffer {
- public:
-  explicit TextBuffer(std::size_t expected) { text_.resize(expected); }
-
-  void append(std::string_view piece) {
-    make_room(piece.size());
-    // Mostly the one space between two numbers.
-    if (piece.size() == 1) {
-      text_[used_] = piece[0];
-    } else {
-      piece.copy(text_.data() + used_, piece.size());
-    }
-    used_ += piece.size();
-  }
-  void append_fixed(double value, unsigned decimals, CommaStyle commas = CommaStyle::none);
-  void append_shortest(double value);
-  std::string take() && {
-    text_.resize(used_);
-    return std::move(text_);
-  }
-
- private:
-  void make_room(std::size_t count) {
-    if (text_.size() - used_ < count) text_.resize(text_.size() + text_.size() / 2 + count);
-  }
-
-  std::string text_;
-  std::size_t used_ = 0;
-};
 
 /// Fewest decimals for which reading gives back the rate, at least six.
 std::string frame_time_text(double frame_rate_hz);

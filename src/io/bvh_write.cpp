@@ -14,22 +14,6 @@
 
 namespace kinemend {
 
-void TextBuffer::append_fixed(double value, unsigned decimals, CommaStyle commas) {
-  if (!std::isfinite(value))
-    throw Error(ErrorKind::usage, "a channel value to write is not finite");
-  make_room(fixed_number_room);
-  char* const begin = text_.data() + used_;
-  char* const end = write_fixed(begin, value, decimals);
-  if (commas == CommaStyle::decimal) std::replace(begin, end, '.', ',');
-  used_ += static_cast<std::size_t>(end - begin);
-}
-
-void TextBuffer::append_shortest(double value) {
-  make_room(fixed_number_room);
-  used_ += static_cast<std::size_t>(write_shortest(text_.data() + used_, value) -
-                                    (text_.data() + used_));
-}
-
 std::string frame_time_text(double frame_rate_hz) {
   const double frame_time_s = 1 / frame_rate_hz;
   std::array<char, fixed_number_room> text;

@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "io/bvh.hpp"
+#include "io/c3d.hpp"
 #include "io/text.hpp"
+#include "io/trc.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
 
@@ -59,6 +61,8 @@ ReadResult clip_of(TakeResult result) {
 std::span<const Format> formats() {
   static const std::vector<Format> list{
       {"bvh", "Biovision hierarchy", {".bvh"}, &sniff_bvh, &read_bvh, &write_bvh, nullptr},
+      {"c3d", "C3D motion capture", {".c3d"}, &sniff_c3d, &read_c3d, nullptr, &write_c3d},
+      {"trc", "Track Row Column", {".trc"}, &sniff_trc, &read_trc, nullptr, &write_trc},
   };
   return list;
 }

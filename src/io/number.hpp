@@ -73,22 +73,30 @@ inline std::uint64_t at_least(std::uint64_t seven_bits, unsigned low) {
   return seven_bits + 0x0101010101010101u * (0x80 - low);
 }
 
+template <char also_blank>
 inline ByteMasks byte_masks_of_eight(const char* p) {
   constexpr std::uint64_t tops = 0x8080808080808080u;
   const std::uint64_t bytes = load8(p), ascii = ~bytes & tops, low = bytes & ~tops;
   const std::uint64_t digits = at_least(low, '0') & ~at_least(low, '9' + 1) & ascii;
   const std::uint64_t dots = at_least(low, '.') & ~at_least(low, '.' + 1) & ascii;
-  const std::uint64_t blanks = ~at_least(low, ' ' + 1) & ascii;
+  std::uint64_t blanks = ~at_least(low, ' ' + 1) & ascii;
+  if constexpr (also_blank > ' ') {
+    blanks |= at_least(low, also_blank) & ~at_least(low, also_blank + 1) & ascii;
+  }
   return {top_bits(blanks), top_bits(digits), top_bits(dots)};
 }
 
 /// The same as `byte_masks`, for processors without SSE2.
+template <char also_blank = ' '>
 inline ByteMasks byte_masks_portable(const char* p) {
-  const ByteMasks first = byte_masks_of_eight(p), second = byte_masks_of_eight(p + 8);
+  const ByteMasks first = byte_masks_of_eight<also_blank>(p);
+  const ByteMasks second = byte_masks_of_eight<also_blank>(p + 8);
   return {first.blank | second.blank << 8, first.digit | second.digit << 8,
           first.dot | second.dot << 8};
 }
 
+/// `also_blank`: a separator that counts as a blank.
+template <char also_blank = ' '>
 inline ByteMasks byte_masks(const char* p) {
 #if defined(__SSE2__)
   const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
@@ -98,10 +106,12 @@ inline ByteMasks byte_masks(const char* p) {
   const auto at_most = [](__m128i value, char limit) {
     return _mm_cmpeq_epi8(_mm_min_epu8(value, _mm_set1_epi8(limit)), value);
   };
-  return {bits(at_most(bytes, ' ')), bits(at_most(_mm_sub_epi8(bytes, _mm_set1_epi8('0')), 9)),
+  std::uint32_t blanks = bits(at_most(bytes, ' '));
+  if constexpr (also_blank > ' ') blanks |= bits(_mm_cmpeq_epi8(bytes, _mm_set1_epi8(also_blank)));
+  return {blanks, bits(at_most(_mm_sub_epi8(bytes, _mm_set1_epi8('0')), 9)),
           bits(_mm_cmpeq_epi8(bytes, _mm_set1_epi8('.')))};
 #else
-  return byte_masks_portable(p);
+  return byte_masks_portable<also_blank>(p);
 #endif
 }
 
@@ -171,11 +181,12 @@ struct PlainNumber {
 
 /// The common case without branches that depend on the token's length: an optional minus sign, up
 /// to eight digits, a point, up to eight digits, 15 in all. Both the digits and the power of ten
-/// are exact doubles, so the quotient is correctly rounded. False for any other token;
-/// little-endian processors only.
+/// are exact doubles, so the quotient is correctly rounded. The token ends before white space or
+/// `separator`. False for any other token; little-endian processors only.
+template <char separator = ' '>
 inline bool read_plain_number(const char* p, PlainNumber& number) {
   if constexpr (std::endian::native != std::endian::little) return false;
-  const ByteMasks masks = detail::byte_masks(p);
+  const ByteMasks masks = detail::byte_masks<separator>(p);
   const auto length = static_cast<unsigned>(std::countr_zero(masks.blank | 0x10000u));
   const std::uint32_t negative = *p == '-' ? 1 : 0;
   const std::uint32_t beyond = 1u << length, whole = beyond - 1;

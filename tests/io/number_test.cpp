@@ -74,9 +74,11 @@ TEST(PlainNumber, PortableStepsEqualTheSimdSteps) {
     char bytes[16];
     for (char& byte : bytes) {
       byte = random.chance(0.3) ? static_cast<char>(random.below(256))
-                                : "0123456789.- \n\t/:"[random.below(17)];
+                                : "0123456789.- \n\t/:;,"[random.below(19)];
     }
     ASSERT_EQ(detail::byte_masks(bytes), detail::byte_masks_portable(bytes));
+    ASSERT_EQ(detail::byte_masks<','>(bytes), detail::byte_masks_portable<','>(bytes));
+    ASSERT_EQ(detail::byte_masks<';'>(bytes), detail::byte_masks_portable<';'>(bytes));
     std::uint64_t digits[2] = {0, 0};
     for (int d = 0; d < 16; ++d) digits[d / 8] |= random.below(10) << (8 * (d % 8));
     ASSERT_EQ(detail::join_digits(digits[0], digits[1]),

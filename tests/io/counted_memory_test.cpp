@@ -1,0 +1,58 @@
+#include <malloc.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "hostile.hpp"
+
+#if !defined(__SANITIZE_ADDRESS__)
+
+namespace {
+
+using kinemend::test::memory_now;
+using kinemend::test::memory_peak;
+
+void* count(void* block) {
+  if (block == nullptr) throw std::bad_alloc();
+  const std::size_t now = memory_now += ::malloc_usable_size(block);
+  std::size_t peak = memory_peak;
+  while (now > peak && !memory_peak.compare_exchange_weak(peak, now)) {
+  }
+  return block;
+}
+
+void uncount(void* block) {
+  if (block != nullptr) memory_now -= ::malloc_usable_size(block);
+  std::free(block);
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return count(std::malloc(size)); }
+void* operator new[](std::size_t size) { return count(std::malloc(size)); }
+void operator delete(void* block) noexcept { uncount(block); }
+void operator delete[](void* block) noexcept { uncount(block); }
+void operator delete(void* block, std::size_t) noexcept { uncount(block); }
+void operator delete[](void* block, std::size_t) noexcept { uncount(block); }
+
+namespace kinemend::test {
+namespace {
+
+TEST(CountedMemory, SeesWhatAnActionHeldAtOnce) {
+  const auto hold = [](std::size_t bytes) {
+    std::vector<char> block(bytes);
+    block[bytes / 2] = 1;
+    return block[0];
+  };
+  const std::size_t peak = peak_memory([&] {
+    hold(1 << 20);
+    hold(3 << 20);
+  });
+  EXPECT_GE(peak, std::size_t{3} << 20);
+  EXPECT_LT(peak, std::size_t{4} << 20);
+}
+
+}  // namespace
+}  // namespace kinemend::test
+
+#endif

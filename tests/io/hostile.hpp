@@ -1,0 +1,140 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "kinemend/error.hpp"
+#include "kinemend/io.hpp"
+#include "kinemend/random.hpp"
+
+/// Laws that hold for any bytes, whatever the format. A new fixture is cut and patched everywhere.
+namespace kinemend::test {
+
+/// Bytes on the heap; counted by counted_memory_test.cpp, zero where a sanitizer counts itself.
+inline std::atomic<std::size_t> memory_now{0}, memory_peak{0};
+
+inline constexpr std::size_t memory_allowed = 50u << 20;
+
+/// Most memory that `action` held at once beyond what was held before.
+template <class Action>
+std::size_t peak_memory(Action&& action) {
+  const std::size_t before = memory_now;
+  memory_peak = before;
+  action();
+  return memory_peak - before;
+}
+
+inline std::vector<std::filesystem::path> fixture_paths(const std::string& format) {
+  std::vector<std::filesystem::path> paths;
+  for (const char* folder : {"good", "bad", "found"}) {
+    const auto path = std::filesystem::path(KINEMEND_TEST_FIXTURES) / format / folder;
+    if (!std::filesystem::exists(path)) continue;
+    for (const auto& entry : std::filesystem::directory_iterator(path))
+      paths.push_back(entry.path());
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+inline std::vector<std::string> fixture_bytes(const std::string& format) {
+  std::vector<std::string> all;
+  for (const auto& path : fixture_paths(format)) all.push_back(read_file(path));
+  return all;
+}
+
+/// Whatever the bytes are: a take that keeps the rules and writes back the same, or an error of one
+/// line that names the file.
+inline void expect_take_or_error(const std::string& bytes, const std::string& format) {
+  const std::string name = "take." + format;
+  ReadOptions options;
+  options.format = format;
+  const std::size_t peak = peak_memory([&] {
+    try {
+      const Take take = read_take(bytes, name, options).take;
+      std::visit([](const auto& clip) { clip.validate(); }, take);
+      ASSERT_EQ(write_take(take, format), bytes);
+    } catch (const Error& error) {
+      const std::string message = error.what();
+      ASSERT_EQ(error.kind(), ErrorKind::unreadable_input) << message;
+      ASSERT_EQ(message.substr(0, name.size() + 1), name + ":") << message;
+      ASSERT_EQ(message.find_first_of("\r\n"), message.npos);
+    }
+  });
+  ASSERT_LT(peak, memory_allowed);
+}
+
+inline void expect_sane_when_cut_at_any_length(const std::string& format) {
+  for (const std::string& bytes : fixture_bytes(format)) {
+    for (std::size_t length = 0; length <= bytes.size(); ++length) {
+      ASSERT_NO_FATAL_FAILURE(expect_take_or_error(bytes.substr(0, length), format)) << length;
+    }
+  }
+}
+
+/// `likely`: bytes that mean something to the format.
+inline void expect_sane_when_patched_at_any_byte(const std::string& format,
+                                                 const std::string& likely) {
+  Random random(99);
+  for (const std::string& bytes : fixture_bytes(format)) {
+    for (std::size_t at = 0; at < bytes.size(); ++at) {
+      std::string patched = bytes;
+      const std::size_t count = 1 + random.below(3);
+      for (std::size_t i = 0; i < count && at + i < bytes.size(); ++i) {
+        patched[at + i] = random.chance(0.7) ? likely[random.below(likely.size())]
+                                             : static_cast<char>(random.below(256));
+      }
+      ASSERT_NO_FATAL_FAILURE(expect_take_or_error(patched, format)) << at;
+    }
+  }
+}
+
+inline void expect_sane_when_pieces_move(const std::string& format) {
+  Random random(100);
+  const auto all = fixture_bytes(format);
+  for (int i = 0; i < 3000; ++i) {
+    std::string bytes = all[random.below(all.size())];
+    const std::string& other = all[random.below(all.size())];
+    if (bytes.empty() || other.empty()) continue;
+    const std::size_t from = random.below(other.size());
+    bytes.insert(random.below(bytes.size()), other.substr(from, random.below(200)));
+    ASSERT_NO_FATAL_FAILURE(expect_take_or_error(bytes, format)) << i;
+  }
+}
+
+/// Large nonsense is read or refused within two seconds and in little memory.
+inline void expect_quick_verdicts(const std::string& format,
+                                  const std::vector<std::pair<const char*, std::string>>& files) {
+  ReadOptions options;
+  options.format = format;
+  for (const auto& [title, bytes] : files) {
+    SCOPED_TRACE(title);
+    const auto start = std::chrono::steady_clock::now();
+    const std::size_t peak = peak_memory([&, text = bytes]() mutable {
+      try {
+        const Take take = read_take(std::move(text), "take." + format, options).take;
+        std::visit([](const auto& clip) { clip.validate(); }, take);
+      } catch (const Error& error) {
+        const std::string message = error.what();
+        EXPECT_EQ(message.substr(0, 6 + format.size()), "take." + format + ":") << message;
+      }
+    });
+    EXPECT_LT(peak, memory_allowed);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+  }
+}
+
+inline std::string repeated(const std::string& piece, std::size_t count) {
+  std::string text;
+  for (std::size_t i = 0; i < count; ++i) text += piece;
+  return text;
+}
+
+}  // namespace kinemend::test
