@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "kinemend/io.hpp"
+
+namespace kinemend {
+
+/// How surely the head of a file is C3D, 0 to 100.
+int sniff_c3d(std::string_view head);
+/// Reads C3D of every processor type and number format. Errors: `unreadable_input`, naming the
+/// byte.
+TakeResult read_c3d(std::string bytes, std::string_view name, const ReadOptions& options);
+/// A clip read from C3D comes out as its source's own bytes with every changed sample replaced, in
+/// the source's processor type and number format; one with other frames, markers, events or units,
+/// or with samples too large for the source's integers, as a new file of Intel floats that keeps
+/// the source's parameters. Errors: `usage` when the format cannot hold the clip.
+std::string write_c3d(const MarkerClip& clip);
+
+}  // namespace kinemend
