@@ -15,6 +15,10 @@ namespace kinemend {
 /// own; only the format that made one looks inside.
 struct SourceDocument {
   virtual ~SourceDocument() = default;
+  /// The values of the joints' channels as the file has them, F rows in the order of
+  /// `Skeleton::channels`: degrees and file units, NaN for what is no number. Empty where a format
+  /// has no such channels.
+  virtual std::vector<double> channel_values() const { return {}; }
 };
 
 /// Something else that a file holds, in words: {"analog", "16 channels at 1,000 Hz"}.
@@ -43,6 +47,9 @@ struct Clip {
   std::vector<Vec3> joint_translations;  ///< F x translated_joints; replaces the joint's offset
   std::vector<std::uint8_t>
       observed;  ///< F x J, 1 where a rotation was measured; empty means all of them
+  /// F x (1 + translated_joints), 1 where the position of joint 0 and the translations were
+  /// measured; empty means all of them.
+  std::vector<std::uint8_t> observed_positions;
   SourceInfo source;
 
   std::size_t frame_count() const noexcept { return root_positions.size(); }
@@ -55,6 +62,11 @@ struct Clip {
   }
   bool is_observed(std::size_t frame, std::size_t joint) const {
     return observed.empty() || observed[frame * joint_count() + joint] != 0;
+  }
+  /// `track` 0 is the position of joint 0, `track` k + 1 the translation of translated joint k.
+  bool is_position_observed(std::size_t frame, std::size_t track) const {
+    return observed_positions.empty() ||
+           observed_positions[frame * (1 + translated_joints.size()) + track] != 0;
   }
   double duration_s() const noexcept {
     return frame_rate_hz > 0 ? static_cast<double>(frame_count()) / frame_rate_hz : 0.0;

@@ -14,7 +14,8 @@ namespace kinemend {
 
 /// Missing samples of one joint or marker, none observed between.
 struct Gap {
-  std::size_t track = 0;  ///< joint or marker
+  std::size_t track = 0;  ///< joint or marker; of positions 0 for joint 0, k + 1 for translated
+                          ///< joint k
   std::size_t first_frame = 0;
   std::size_t last_frame = 0;  ///< inclusive
 
@@ -25,6 +26,8 @@ struct Gap {
 /// The spans that are not observed, by track, then frame. Of markers only those that are positions.
 std::vector<Gap> find_gaps(const Clip& clip);
 std::vector<Gap> find_gaps(const MarkerClip& clip);
+/// The same of `Clip::observed_positions`.
+std::vector<Gap> find_position_gaps(const Clip& clip);
 
 /// A gap as a side file states it, for formats that cannot hold one.
 struct NamedGap {
@@ -33,7 +36,8 @@ struct NamedGap {
   std::size_t last_frame = 0;  ///< inclusive, counted from 0
 };
 
-/// Marks the samples as not observed; what stands there is no longer used by anything. Errors:
+/// Marks the samples as not observed; what stands there is no longer used by anything. A joint's
+/// gap is one of its rotation and, where it has position channels, of its position too. Errors:
 /// `ErrorKind::usage` for a name or a frame that the take does not have.
 void mark_gaps(Clip& clip, std::span<const NamedGap> gaps);
 void mark_gaps(MarkerClip& clip, std::span<const NamedGap> gaps);

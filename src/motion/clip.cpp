@@ -71,6 +71,10 @@ void Clip::validate() const {
   check_length(local_rotations.size(), frames * joints, "local rotations");
   check_length(joint_translations.size(), frames * translated_joints.size(), "joint translations");
   if (!observed.empty()) check_length(observed.size(), frames * joints, "observed mask");
+  if (!observed_positions.empty()) {
+    check_length(observed_positions.size(), frames * (1 + translated_joints.size()),
+                 "mask of observed positions");
+  }
   for (std::size_t i = 0; i < translated_joints.size(); ++i) {
     const bool ascending = i == 0 || translated_joints[i] > translated_joints[i - 1];
     if (translated_joints[i] < 1 || translated_joints[i] >= static_cast<std::int32_t>(joints) ||
@@ -104,11 +108,13 @@ Clip slice(const Clip& clip, std::size_t first, std::size_t last) {
   Clip part;
   part.skeleton = clip.skeleton;
   part.frame_rate_hz = clip.frame_rate_hz;
+  part.metres_per_unit = clip.metres_per_unit;
   part.root_positions = rows(clip.root_positions, 1);
   part.local_rotations = rows(clip.local_rotations, clip.joint_count());
   part.translated_joints = clip.translated_joints;
   part.joint_translations = rows(clip.joint_translations, clip.translated_joints.size());
   part.observed = rows(clip.observed, clip.joint_count());
+  part.observed_positions = rows(clip.observed_positions, 1 + clip.translated_joints.size());
   part.source.name = clip.source.name;
   return part;
 }

@@ -51,6 +51,15 @@ void for_each_named(std::span<const NamedGap> gaps, const std::vector<std::strin
   }
 }
 
+// Column of the joint in `Clip::observed_positions`; one past the last for a joint without.
+std::size_t position_track(const Clip& clip, std::size_t joint) {
+  const std::size_t none = 1 + clip.translated_joints.size();
+  if (joint == 0) return clip.skeleton.has_position_channels(0) ? 0 : none;
+  const auto& joints = clip.translated_joints;
+  const auto found = std::find(joints.begin(), joints.end(), static_cast<std::int32_t>(joint));
+  return found == joints.end() ? none : 1 + static_cast<std::size_t>(found - joints.begin());
+}
+
 }  // namespace
 
 std::vector<Gap> find_gaps(const Clip& clip) {
@@ -63,10 +72,21 @@ std::vector<Gap> find_gaps(const Clip& clip) {
   return gaps;
 }
 
+std::vector<Gap> find_position_gaps(const Clip& clip) {
+  std::vector<Gap> gaps;
+  if (clip.observed_positions.empty()) return gaps;
+  for (std::size_t p = 0; p <= clip.translated_joints.size(); ++p) {
+    append_gaps(
+        p, clip.frame_count(), [&](std::size_t f) { return !clip.is_position_observed(f, p); },
+        gaps);
+  }
+  return gaps;
+}
+
 std::vector<Gap> find_gaps(const MarkerClip& clip) {
   std::vector<Gap> gaps;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
-    if (!clip.is_position.empty() && clip.is_position[m] == 0) continue;
+    if (!clip.holds_positions(m)) continue;
     append_gaps(
         m, clip.frame_count(), [&](std::size_t f) { return !clip.is_observed(f, m); }, gaps);
   }
@@ -74,12 +94,18 @@ std::vector<Gap> find_gaps(const MarkerClip& clip) {
 }
 
 void mark_gaps(Clip& clip, std::span<const NamedGap> gaps) {
-  const std::size_t joints = clip.joint_count();
-  if (clip.observed.empty()) clip.observed.assign(clip.local_rotations.size(), 1);
+  const std::size_t joints = clip.joint_count(), positions = 1 + clip.translated_joints.size();
   for_each_named(gaps, clip.skeleton.names, clip.frame_count(), "joint",
                  [&](std::size_t joint, std::size_t first, std::size_t last) {
+                   if (clip.observed.empty()) clip.observed.assign(clip.local_rotations.size(), 1);
                    for (std::size_t f = first; f <= last; ++f)
                      clip.observed[f * joints + joint] = 0;
+                   const std::size_t position = position_track(clip, joint);
+                   if (position == positions) return;
+                   if (clip.observed_positions.empty())
+                     clip.observed_positions.assign(clip.frame_count() * positions, 1);
+                   for (std::size_t f = first; f <= last; ++f)
+                     clip.observed_positions[f * positions + position] = 0;
                  });
 }
 
