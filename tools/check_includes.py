@@ -28,7 +28,7 @@ USES = {
 PUBLIC = {
     "error": "base", "diagnostics": "base", "random": "base", "options": "base", "pose_matrix": "base",
     "version": "base", "rotation": "rotation", "skeleton": "motion", "clip": "motion", "kinematics": "motion",
-    "marker_clip": "motion", "gaps": "motion", "fill": "fill", "check": "check",
+    "marker_clip": "motion", "convert": "motion", "gaps": "motion", "fill": "fill", "check": "check",
     "io": "io", "representation": "representation", "metrics": "metrics", "corrupt": "corrupt",
     "synth": "synth", "signal": "signal", "cleaner": "clean", "methods": "clean", "clean": "clean",
     "stream": "stream",

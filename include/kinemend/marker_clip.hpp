@@ -24,12 +24,13 @@ struct MarkerClip {
   double frame_rate_hz = 0;
   std::int64_t first_frame = 1;  ///< the number that the file gives to frame 0
   std::vector<Vec3> positions;   ///< F x M, file units; zero and without meaning where missing
-  std::vector<std::uint8_t> observed;     ///< F x M, 1 where there is a position
-  std::vector<float> residuals;           ///< F x M, file units; -1 where missing, 0 where a sample
-                                          ///< was filled; empty where the format has none
-  std::vector<std::uint8_t> is_position;  ///< M, 0 for angles, forces, moments and powers that a
-                                          ///< file keeps among its points; nothing changes these
-  std::string unit;                       ///< "mm"; empty where the file does not say
+  std::vector<std::uint8_t> observed;  ///< F x M, 1 where there is a position
+  std::vector<float> residuals;        ///< F x M, file units; -1 where missing, 0 where a sample
+                                       ///< was filled; empty where the format has none
+  std::vector<std::uint8_t>
+      is_position;   ///< M, 0 for angles, forces, moments and powers that a
+                     ///< file keeps among its points; nothing changes these; empty: all are
+  std::string unit;  ///< "mm"; empty where the file does not say
   std::vector<MarkerEvent> events;
   SourceInfo source;
 
@@ -45,6 +46,9 @@ struct MarkerClip {
   }
   bool is_observed(std::size_t frame, std::size_t marker) const {
     return observed[frame * names.size() + marker] != 0;
+  }
+  bool holds_positions(std::size_t marker) const {
+    return is_position.empty() || is_position[marker] != 0;
   }
   double duration_s() const noexcept {
     return frame_rate_hz > 0 ? static_cast<double>(frame_count()) / frame_rate_hz : 0.0;

@@ -1,0 +1,166 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "kinemend/convert.hpp"
+#include "kinemend/error.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr double most_samples = 1e8;
+
+// Where a new frame lies among the old ones: `share` of the way from `before` to `before + 1`.
+struct Place {
+  std::size_t before = 0;
+  double share = 0;
+};
+
+std::vector<Place> places(std::size_t frames, std::size_t tracks, double old_rate, double rate) {
+  if (!(std::isfinite(rate) && rate > 0)) {
+    throw Error(ErrorKind::usage, fmt::format("a rate of {} Hz is not positive", rate));
+  }
+  if (frames == 0) return {};
+  constexpr double rounding = 1e-6;  // of a frame: what the rates' own digits leave open
+  const double step = old_rate / rate, last = static_cast<double>(frames - 1);
+  const double count = std::floor(last / step + rounding) + 1;
+  if (count * static_cast<double>(std::max<std::size_t>(tracks, 1)) > most_samples) {
+    throw Error(ErrorKind::usage,
+                fmt::format("{} Hz would make {:.3g} frames of this take", rate, count));
+  }
+  std::vector<Place> result(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const double at = std::min(static_cast<double>(i) * step, last), whole = std::round(at);
+    const bool on_frame = std::fabs(at - whole) <= rounding;
+    const double before = on_frame ? whole : std::floor(at);
+    result[i] = {static_cast<std::size_t>(before), on_frame ? 0.0 : at - before};
+  }
+  return result;
+}
+
+// Catmull-Rom: weights of the samples -1, 0, 1, 2 at `u` between 0 and 1.
+std::array<double, 4> cubic_weights(double u) {
+  const double u2 = u * u, u3 = u2 * u;
+  return {-0.5 * u3 + u2 - 0.5 * u, 1.5 * u3 - 2.5 * u2 + 1, -1.5 * u3 + 2 * u2 + 0.5 * u,
+          0.5 * u3 - 0.5 * u2};
+}
+
+// The four frames about a place; the outer ones are missing where the take ends or a sample is not
+// observed, and then a straight line goes on.
+struct Neighbours {
+  std::size_t outer_before, before, after, outer_after;
+  bool has_outer_before, has_outer_after;
+};
+
+template <class IsObserved>
+Neighbours neighbours_of(std::size_t before, std::size_t frames, IsObserved is_observed) {
+  const std::size_t after = before + 1;
+  const bool earlier = before > 0 && is_observed(before - 1);
+  const bool later = after + 1 < frames && is_observed(after + 1);
+  return {earlier ? before - 1 : before, before, after, later ? after + 1 : after, earlier, later};
+}
+
+template <class At>
+Vec3 interpolate_position(const Neighbours& n, double u, At at) {
+  const Vec3 p0 = at(n.before), p1 = at(n.after);
+  const Vec3 earlier = n.has_outer_before ? at(n.outer_before) : p0 - (p1 - p0);
+  const Vec3 later = n.has_outer_after ? at(n.outer_after) : p1 + (p1 - p0);
+  const auto w = cubic_weights(u);
+  return w[0] * earlier + w[1] * p0 + w[2] * p1 + w[3] * later;
+}
+
+template <class At>
+Quat interpolate_rotation(const Neighbours& n, double u, At at) {
+  const Quat base = at(n.before);
+  const auto vector_to = [&](std::size_t frame) { return log(conjugate(base) * at(frame)); };
+  const Vec3 next = vector_to(n.after);
+  const Vec3 earlier = n.has_outer_before ? vector_to(n.outer_before) : -next;
+  const Vec3 later = n.has_outer_after ? vector_to(n.outer_after) : 2.0 * next;
+  const auto w = cubic_weights(u);
+  return normalized(base * exp(w[0] * earlier + w[2] * next + w[3] * later));
+}
+
+bool always(std::size_t) { return true; }
+
+void resample_rotations(const Clip& clip, const std::vector<Place>& at, Clip& result) {
+  const std::size_t joints = clip.joint_count(), frames = clip.frame_count();
+  result.local_rotations.resize(at.size() * joints);
+  if (!clip.observed.empty()) result.observed.resize(at.size() * joints);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const auto [before, share] = at[i];
+    for (std::size_t j = 0; j < joints; ++j) {
+      const auto seen = [&](std::size_t f) { return clip.is_observed(f, j); };
+      Quat& rotation = result.local_rotations[i * joints + j];
+      rotation = clip.rotation(before, j);
+      if (share > 0) {
+        rotation = interpolate_rotation(neighbours_of(before, frames, seen), share,
+                                        [&](std::size_t f) { return clip.rotation(f, j); });
+      }
+      if (!clip.observed.empty()) {
+        result.observed[i * joints + j] = seen(before) && (share == 0 || seen(before + 1));
+      }
+    }
+  }
+}
+
+std::vector<Vec3> resample_positions(const std::vector<Vec3>& values, std::size_t width,
+                                     std::size_t frames, const std::vector<Place>& at) {
+  std::vector<Vec3> result(at.size() * width);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const auto [before, share] = at[i];
+    for (std::size_t k = 0; k < width; ++k) {
+      result[i * width + k] =
+          share == 0 ? values[before * width + k]
+                     : interpolate_position(neighbours_of(before, frames, always), share,
+                                            [&](std::size_t f) { return values[f * width + k]; });
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+Clip resample(const Clip& clip, double frame_rate_hz) {
+  const std::vector<Place> at =
+      places(clip.frame_count(), clip.joint_count(), clip.frame_rate_hz, frame_rate_hz);
+  Clip result = slice(clip, 0, 0);
+  result.frame_rate_hz = frame_rate_hz;
+  resample_rotations(clip, at, result);
+  result.root_positions = resample_positions(clip.root_positions, 1, clip.frame_count(), at);
+  result.joint_translations = resample_positions(
+      clip.joint_translations, clip.translated_joints.size(), clip.frame_count(), at);
+  return result;
+}
+
+MarkerClip resample(const MarkerClip& clip, double frame_rate_hz) {
+  const std::size_t markers = clip.marker_count(), frames = clip.frame_count();
+  const std::vector<Place> at = places(frames, markers, clip.frame_rate_hz, frame_rate_hz);
+  MarkerClip result = make_marker_clip(clip.names, at.size(), frame_rate_hz);
+  result.is_position = clip.is_position;
+  result.unit = clip.unit;
+  result.events = clip.events;
+  result.source.name = clip.source.name;
+  if (!clip.residuals.empty()) result.residuals.assign(at.size() * markers, -1.0F);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const auto [before, share] = at[i];
+    for (std::size_t m = 0; m < markers; ++m) {
+      const auto seen = [&](std::size_t f) { return clip.is_observed(f, m); };
+      if (!seen(before) || (share > 0 && !seen(before + 1))) continue;
+      const std::size_t sample = i * markers + m;
+      result.observed[sample] = 1;
+      result.positions[sample] = clip.position(before, m);
+      if (share > 0) {
+        result.positions[sample] =
+            interpolate_position(neighbours_of(before, frames, seen), share,
+                                 [&](std::size_t f) { return clip.position(f, m); });
+      }
+      if (!clip.residuals.empty()) result.residuals[sample] = clip.residuals[before * markers + m];
+    }
+  }
+  return result;
+}
+
+}  // namespace kinemend

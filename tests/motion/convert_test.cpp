@@ -1,0 +1,222 @@
+#include "kinemend/convert.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kinemend/error.hpp"
+#include "kinemend/kinematics.hpp"
+#include "motion/clips.hpp"
+
+namespace kinemend {
+namespace {
+
+using testing::moving_chain;
+using testing::random_rotation;
+using testing::random_vector;
+
+void expect_near(Vec3 a, Vec3 b, double tolerance) {
+  EXPECT_NEAR(a.x, b.x, tolerance);
+  EXPECT_NEAR(a.y, b.y, tolerance);
+  EXPECT_NEAR(a.z, b.z, tolerance);
+}
+
+// A chain whose joints have rest rotations, bones in all directions, a hinge and a joint that
+// moves.
+Clip crooked_clip(std::uint64_t seed) {
+  Random random(seed);
+  Clip clip = moving_chain(5, 40);
+  for (std::size_t j = 0; j < 5; ++j) {
+    clip.skeleton.rest_rotations[j] = random_rotation(random);
+    clip.skeleton.offsets[j] = random_vector(random);
+  }
+  clip.skeleton.channels[3] = {Channel::y_rotation};
+  clip.skeleton.channels[4] = make_channels(true, parse_rotation_order("XYZ"));
+  clip.translated_joints = {4};
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    clip.rotation(f, 3) = exp({0, 0.01 * static_cast<double>(f), 0});
+    clip.joint_translations.push_back(random_vector(random));
+  }
+  clip.metres_per_unit = 0.01;
+  clip.validate();
+  return clip;
+}
+
+MarkerClip line_of_markers(std::size_t frames, double rate) {
+  MarkerClip clip = make_marker_clip({"A", "B"}, frames, rate);
+  for (std::size_t f = 0; f < frames; ++f) {
+    const double t = static_cast<double>(f) / rate;
+    clip.position(f, 0) = {t, 2 * t, 1};
+    clip.position(f, 1) = {std::sin(t), std::cos(t), t * t};
+    clip.observed[2 * f] = clip.observed[2 * f + 1] = 1;
+  }
+  return clip;
+}
+
+TEST(Resample, AtHalfTheRateKeepsEverySecondFrameAsItIs) {
+  const Clip clip = moving_chain(4, 21, 120);
+  const Clip half = resample(clip, 60);
+  ASSERT_EQ(half.frame_count(), 11u);
+  EXPECT_EQ(half.frame_rate_hz, 60);
+  for (std::size_t f = 0; f < 11; ++f) {
+    EXPECT_EQ(half.root_positions[f], clip.root_positions[2 * f]);
+    for (std::size_t j = 0; j < 4; ++j) EXPECT_EQ(half.rotation(f, j), clip.rotation(2 * f, j));
+  }
+}
+
+TEST(Resample, ToTwiceTheRateAndBackIsTheSameClip) {
+  const Clip clip = moving_chain(4, 21, 100);
+  const Clip again = resample(resample(clip, 200), 100);
+  EXPECT_EQ(again.local_rotations, clip.local_rotations);
+  EXPECT_EQ(again.root_positions, clip.root_positions);
+}
+
+TEST(Resample, FollowsASmoothMotionBetweenItsFrames) {
+  const Clip clip = moving_chain(4, 101, 100), fine = moving_chain(4, 161, 160);
+  const Clip result = resample(clip, 160);
+  ASSERT_EQ(result.frame_count(), 161u);
+  for (std::size_t f = 2; f < 158; ++f) {
+    for (std::size_t j = 0; j < 4; ++j)
+      EXPECT_LT(angle_between(result.rotation(f, j), fine.rotation(f, j)), 2e-5);
+    expect_near(result.root_positions[f], fine.root_positions[f], 2e-5);
+  }
+}
+
+TEST(Resample, TakesStraightMotionStraightOnAtTheEnds) {
+  const MarkerClip fine = resample(line_of_markers(3, 10), 40);
+  for (std::size_t f = 0; f < fine.frame_count(); ++f) {
+    const double t = static_cast<double>(f) / 40;
+    expect_near(fine.position(f, 0), {t, 2 * t, 1}, 1e-12);
+  }
+}
+
+TEST(Resample, ObservesASampleOnlyBetweenTwoThatWereObserved) {
+  MarkerClip clip = line_of_markers(6, 10);
+  clip.observed[2 * 3] = 0;  // marker A in frame 3
+  clip.position(3, 0) = {1e30, 1e30, 1e30};
+  const MarkerClip fine = resample(clip, 20);
+  for (std::size_t f = 0; f < fine.frame_count(); ++f) {
+    EXPECT_EQ(fine.is_observed(f, 0), f <= 4 || f >= 8) << f;
+    EXPECT_TRUE(fine.is_observed(f, 1));
+    if (fine.is_observed(f, 0)) {
+      EXPECT_LT(norm(fine.position(f, 0)), 10) << f;
+    }
+  }
+}
+
+TEST(Resample, RefusesRatesThatMakeNoSense) {
+  const Clip clip = moving_chain(2, 10);
+  EXPECT_THROW(resample(clip, 0), Error);
+  EXPECT_THROW(resample(clip, std::nan("")), Error);
+  EXPECT_THROW(resample(clip, 1e12), Error);
+  EXPECT_EQ(resample(moving_chain(2, 0), 50).frame_count(), 0u);
+}
+
+TEST(TurnAxes, TurnsEveryPositionOfTheBody) {
+  const Clip clip = crooked_clip(1);
+  for (const Axis from : {Axis::x, Axis::y, Axis::z}) {
+    for (const Axis to : {Axis::x, Axis::y, Axis::z}) {
+      const Clip turned = turn_axes(clip, from, to);
+      turned.validate();
+      const auto before = joint_positions(clip, true), after = joint_positions(turned, true);
+      const Vec3 e_from{from == Axis::x ? 1. : 0., from == Axis::y ? 1. : 0.,
+                        from == Axis::z ? 1. : 0.};
+      const Vec3 e_to{to == Axis::x ? 1. : 0., to == Axis::y ? 1. : 0., to == Axis::z ? 1. : 0.};
+      for (std::size_t i = 0; i < before.size(); ++i) {
+        EXPECT_NEAR(dot(before[i], e_from), dot(after[i], e_to), 1e-12);
+        EXPECT_NEAR(norm(before[i]), norm(after[i]), 1e-12);
+      }
+    }
+  }
+}
+
+TEST(TurnAxes, KeepsAHingeAHinge) {
+  const Clip turned = turn_axes(crooked_clip(2), Axis::y, Axis::z);
+  ASSERT_EQ(turned.skeleton.channels[3], std::vector<Channel>{Channel::z_rotation});
+  for (std::size_t f = 0; f < turned.frame_count(); ++f) {
+    const Quat q = turned.rotation(f, 3);
+    EXPECT_EQ(q.x, 0);
+    EXPECT_EQ(q.y, 0);
+  }
+}
+
+TEST(TurnAxes, ThereAndBackIsTheSameTakeToTheBit) {
+  const Clip clip = crooked_clip(3);
+  const Clip again = turn_axes(turn_axes(clip, Axis::y, Axis::z), Axis::z, Axis::y);
+  EXPECT_EQ(again.local_rotations, clip.local_rotations);
+  EXPECT_EQ(again.root_positions, clip.root_positions);
+  EXPECT_EQ(again.skeleton.channels, clip.skeleton.channels);
+  const MarkerClip markers = line_of_markers(5, 10);
+  EXPECT_EQ(turn_axes(turn_axes(markers, Axis::z, Axis::x), Axis::x, Axis::z).positions,
+            markers.positions);
+}
+
+TEST(TurnAxes, LeavesAnglesAndForcesAmongTheMarkersAlone) {
+  MarkerClip clip = line_of_markers(5, 10);
+  clip.is_position[1] = 0;
+  const MarkerClip turned = turn_axes(clip, Axis::z, Axis::y);
+  EXPECT_EQ(turned.position(3, 1), clip.position(3, 1));
+  EXPECT_FALSE(turned.position(3, 0) == clip.position(3, 0));
+}
+
+TEST(WithoutRestRotations, MovesEveryJointAsBefore) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    SCOPED_TRACE(seed);
+    const Clip clip = crooked_clip(seed);
+    const Clip plain = without_rest_rotations(clip);
+    plain.validate();
+    for (const Quat rest : plain.skeleton.rest_rotations) EXPECT_EQ(rest, Quat{});
+    const auto before = joint_positions(clip, true), after = joint_positions(plain, true);
+    for (std::size_t i = 0; i < before.size(); ++i) expect_near(before[i], after[i], 1e-9);
+  }
+}
+
+TEST(WithoutRestRotations, GivesAHingeThreeAxes) {
+  const Clip plain = without_rest_rotations(crooked_clip(1));
+  EXPECT_EQ(to_string(plain.skeleton.rotation_order(3)), "ZYX");
+  EXPECT_EQ(to_string(plain.skeleton.rotation_order(1)), "ZXY");
+}
+
+TEST(JointMarkers, AreTheJointsPositions) {
+  const Clip clip = crooked_clip(7);
+  const MarkerClip markers = joint_markers(clip, true);
+  markers.validate();
+  EXPECT_EQ(markers.unit, "cm");
+  EXPECT_EQ(markers.positions, joint_positions(clip, true));
+  EXPECT_EQ(markers.names.back(), "joint4_end");
+}
+
+TEST(JointMarkers, AreMissingBelowARotationThatIsMissing) {
+  Clip clip = moving_chain(4, 3);
+  clip.observed.assign(12, 1);
+  clip.observed[4 + 1] = 0;  // joint1 in frame 1
+  const MarkerClip markers = joint_markers(clip, true);
+  EXPECT_THAT(markers.observed,
+              ::testing::ElementsAre(1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 1, 1, 1, 1, 1));
+}
+
+TEST(ScaleLengths, ScalesPositionsAndKeepsAngles) {
+  const Clip clip = crooked_clip(4), large = scale_lengths(clip, 10);
+  EXPECT_DOUBLE_EQ(large.metres_per_unit, 0.001);
+  EXPECT_EQ(large.local_rotations, clip.local_rotations);
+  const auto before = joint_positions(clip), after = joint_positions(large);
+  for (std::size_t i = 0; i < before.size(); ++i) expect_near(10.0 * before[i], after[i], 1e-9);
+}
+
+TEST(GuessUpAxis, IsTheOneAlongWhichTheFloorStays) {
+  MarkerClip clip = make_marker_clip({"foot", "head"}, 100, 100);
+  for (std::size_t f = 0; f < 100; ++f) {
+    const double t = static_cast<double>(f) / 100;
+    const Vec3 foot{3 * t, 2 * std::sin(3 * t), 0.1 * std::max(0.0, std::sin(20 * t))};
+    clip.position(f, 0) = foot;
+    clip.position(f, 1) = foot + Vec3{0.1 * t, 0.2 * std::sin(5 * t), 1.7 + 0.1 * std::sin(4 * t)};
+    clip.observed[2 * f] = clip.observed[2 * f + 1] = 1;
+  }
+  EXPECT_EQ(guess_up_axis(clip), Axis::z);
+  EXPECT_EQ(guess_up_axis(turn_axes(clip, Axis::z, Axis::y)), Axis::y);
+  EXPECT_EQ(guess_up_axis(turn_axes(clip, Axis::z, Axis::x)), Axis::x);
+}
+
+}  // namespace
+}  // namespace kinemend
