@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "io/amc.hpp"
+#include "io/asf.hpp"
 #include "io/bvh.hpp"
 #include "io/c3d.hpp"
 #include "io/text.hpp"
@@ -61,6 +63,14 @@ ReadResult clip_of(TakeResult result) {
 std::span<const Format> formats() {
   static const std::vector<Format> list{
       {"bvh", "Biovision hierarchy", {".bvh"}, &sniff_bvh, &read_bvh, &write_bvh, nullptr},
+      {"amc",
+       "Acclaim motion, with its ASF skeleton",
+       {".amc"},
+       &sniff_amc,
+       &read_amc,
+       &write_amc,
+       nullptr},
+      {"asf", "Acclaim skeleton", {".asf"}, &sniff_asf, &read_asf, &write_asf, nullptr},
       {"c3d", "C3D motion capture", {".c3d"}, &sniff_c3d, &read_c3d, nullptr, &write_c3d},
       {"trc", "Track Row Column", {".trc"}, &sniff_trc, &read_trc, nullptr, &write_trc},
   };

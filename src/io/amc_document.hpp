@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/amc_layout.hpp"
+#include "io/motion_document.hpp"
+
+namespace kinemend {
+
+/// An AMC file as it was read, with the ASF file it belongs to; of an ASF alone, `bytes` is empty.
+struct AmcDocument : MotionDocument {
+  std::string name;  ///< of the AMC
+  std::string asf_bytes;
+  AmcLayout layout;
+  std::vector<std::uint8_t> is_angle;  ///< one a column
+
+  std::unique_ptr<RowReader> rows() const override;
+};
+
+/// One a column of `MotionColumns`: whether it holds an angle.
+std::vector<std::uint8_t> angle_columns(const Skeleton& skeleton);
+
+}  // namespace kinemend

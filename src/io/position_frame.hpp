@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "kinemend/clip.hpp"
+
+namespace kinemend {
+
+/// What the position columns of a joint mean: the clip's position is origin + R(turn) v, where v
+/// holds the values of the columns, and `rest` along the axes that have none.
+struct PositionFrame {
+  Vec3 rest;
+  Vec3 origin;
+  Quat turn;
+
+  bool is_direct() const { return origin == Vec3{} && turn == Quat{}; }
+  Vec3 to_clip(Vec3 file) const { return is_direct() ? file : origin + rotate(turn, file); }
+  Vec3 to_file(Vec3 clip) const {
+    return is_direct() ? clip : rotate(conjugate(turn), clip - origin);
+  }
+};
+
+inline double& component(Vec3& v, Axis axis) {
+  return axis == Axis::x ? v.x : axis == Axis::y ? v.y : v.z;
+}
+inline double component(const Vec3& v, Axis axis) {
+  return axis == Axis::x ? v.x : axis == Axis::y ? v.y : v.z;
+}
+
+/// Positions replace the joint's offset, as in BVH.
+std::vector<PositionFrame> offset_replacing_frames(const Skeleton& skeleton);
+/// Positions are added to the joint's offset and lie in its rest frame; those of the root lie in
+/// the world's. As in AMC.
+std::vector<PositionFrame> offset_adding_frames(const Skeleton& skeleton);
+
+/// Where the clip keeps the position of a frame that `MotionColumns::Position::translated` numbers.
+template <class AnyClip>
+auto& position_of(AnyClip& clip, std::size_t frame, std::int32_t translated) {
+  return translated < 0 ? clip.root_positions[frame]
+                        : clip.joint_translations[frame * clip.translated_joints.size() +
+                                                  static_cast<std::size_t>(translated)];
+}
+
+}  // namespace kinemend
