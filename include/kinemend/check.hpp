@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kinemend/clip.hpp"
@@ -11,17 +14,128 @@
 // The health of a take before cleaning.
 namespace kinemend {
 
+enum class FindingKind : std::uint8_t {
+  gap,              ///< missing samples
+  spike,            ///< a sample far off its neighbours
+  frozen,           ///< a track that repeats one sample while others move
+  bridged,          ///< a straight line where a gap was
+  noise,            ///< jitter of a track
+  swap,             ///< two markers that bear each other's label
+  rate,             ///< the frame rate looks wrong
+  unit,             ///< the unit of length looks wrong
+  length,           ///< a bone or the distance of two markers of a segment changes
+  slide,            ///< a foot travels while it stands
+  sink,             ///< a foot goes below the floor
+  euler_flip,       ///< the file's angles leap while the rotation does not
+  repeated_frames,  ///< whole frames that are equal to the one before
+  zero_frames,      ///< whole frames of zeros
+  calibration,      ///< frames at the start that are no part of the motion
+  left_out          ///< points that are no positions
+};
+/// "gap", "euler_flip", ...
+std::string_view to_string(FindingKind kind);
+
+enum class Severity : std::uint8_t {
+  note,     ///< good to know
+  warning,  ///< cleaning repairs it, or it may be meant
+  serious   ///< spoils what is made from the take
+};
+std::string_view to_string(Severity severity);
+
+struct Finding {
+  FindingKind kind = FindingKind::gap;
+  Severity severity = Severity::note;
+  std::string track;  ///< joint or marker; "A, B" for two; empty for the whole take
+  std::size_t first_frame = 0;
+  std::size_t last_frame = 0;  ///< inclusive, counted from 0; what holds throughout: all frames
+  double figure = 0;           ///< how much, in `unit`
+  std::string unit;            ///< "s", "deg", "mm", "cm", "%", "frames", ...
+  std::string words;           ///< a sentence without track and frames
+};
+
+/// One joint or marker over the whole take. Frames count where the take is motion: calibration
+/// frames are left out.
+struct TrackHealth {
+  std::string name;
+  std::size_t gaps = 0;
+  std::size_t longest_gap = 0;     ///< frames
+  std::size_t missing_frames = 0;  ///< of all gaps
+  std::size_t spikes = 0;
+  std::size_t frozen = 0;   ///< spans
+  std::size_t bridged = 0;  ///< spans
+  std::size_t swaps = 0;
+  std::size_t flips = 0;
+  double noise = 0;  ///< standard deviation per axis: degrees of joints, file units of markers
+};
+
 /// Two markers whose labels change places over a span of frames.
 struct MarkerSwap {
   std::size_t first_marker = 0;
   std::size_t second_marker = 0;
   std::size_t first_frame = 0;
   std::size_t last_frame = 0;  ///< inclusive
+
+  friend bool operator==(const MarkerSwap&, const MarkerSwap&) = default;
 };
 
-/// The spans in which two labels are swapped, as far as the take itself proves it.
+/// The figures that limits are set on.
+struct CheckFigures {
+  std::size_t gaps = 0;
+  double longest_gap_s = 0;
+  double missing_percent = 0;  ///< of all samples
+  double worst_noise = 0;      ///< largest of any track: degrees; file units of markers
+  std::size_t spikes = 0;
+  std::size_t swaps = 0;
+  std::size_t frozen = 0;            ///< spans that are frozen or bridged
+  std::optional<double> slide_cm;    ///< largest of any contact; none without feet or scale
+  std::optional<double> sink_cm;     ///< largest depth
+  double length_change_percent = 0;  ///< largest of any bone or rigid pair
+  std::size_t flips = 0;
+};
+
+/// When something becomes a finding.
+struct CheckSettings {
+  double noise_deg = 0.35;            ///< jitter of a joint; cleaning starts about here (>= 0)
+  double noise_cm = 0.1;              ///< jitter of a marker (>= 0)
+  double shortest_stale_s = 0.05;     ///< frozen and bridged spans are at least this long, and no
+                                      ///< shorter than 3 and 5 frames
+  double slide_cm = 4;                ///< travel of a foot in one contact (>= 0)
+  double sink_cm = 3;                 ///< depth of a foot below the floor (>= 0)
+  double length_change_percent = 10;  ///< of a bone or a rigid pair (>= 0)
+  std::optional<Axis> up;             ///< empty: found from the feet and the body above them
+  /// Metres in a file unit. Empty: what the take says, else what makes the body a person.
+  std::optional<double> metres_per_unit;
+};
+
+struct CheckReport {
+  bool is_markers = false;
+  std::size_t frames = 0;
+  double frame_rate_hz = 0;
+  std::size_t calibration_frames = 0;  ///< at the start; only `calibration` speaks of them
+  double metres_per_unit = 0;          ///< as used; 0: unknown
+  std::string noise_unit;              ///< "deg", or the markers' unit
+  CheckFigures figures;
+  std::vector<TrackHealth> tracks;  ///< J, or the markers that are positions
+  std::vector<Finding> findings;    ///< worst first
+  std::vector<MarkerSwap> swaps;
+  std::vector<NamedGap> stale;  ///< frozen and bridged spans, by track, then frame: what a gap side
+                                ///< file holds
+};
+
+/// All checks at once. Errors: `ErrorKind::usage` for a clip that breaks the rules of its type or a
+/// setting out of range.
+CheckReport check_take(const Clip& clip, const CheckSettings& settings = {});
+CheckReport check_take(const MarkerClip& clip, const CheckSettings& settings = {});
+
+/// The spans in which two labels are swapped, as far as the take itself proves it: at either end,
+/// exchanging the labels makes both tracks continuous in position and velocity, and between the
+/// ends the distances to the markers that keep theirs to both become what they are elsewhere. A
+/// swap may begin or end inside a gap of the two. Which side of a single exchange is the wrong one
+/// no take can prove: the shorter one is reported. By frame.
 std::vector<MarkerSwap> find_swaps(const MarkerClip& clip);
-/// Gives the samples of each span to the other marker, in place.
+/// Gives the samples of each span to the other marker, in place: positions, `observed` and
+/// residuals. Spans that overlap are undone from the last to the first. Errors:
+/// `ErrorKind::usage` for a marker or a frame that the clip does not have.
 void undo_swaps(MarkerClip& clip, const std::vector<MarkerSwap>& swaps);
 
 }  // namespace kinemend

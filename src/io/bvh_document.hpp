@@ -33,6 +33,7 @@ struct BvhDocument : SourceDocument {
   std::vector<Quat> first_rotations;    ///< J: of frame 0 as repaired
   std::vector<double> first_positions;  ///< of frame 0 as repaired, one a position column
 
+  std::vector<double> channel_values() const override;
   std::string_view text(ByteSpan span) const {
     return std::string_view(bytes).substr(span.begin, span.size);
   }

@@ -297,6 +297,16 @@ class Rewriter {
 
 }  // namespace
 
+std::vector<double> BvhDocument::channel_values() const {
+  std::vector<double> values;
+  SourceFrames source(*this);
+  const std::size_t width = source.columns().count();
+  values.reserve(frame_count * width);
+  while (source.next())
+    values.insert(values.end(), source.row(0), source.row(0) + source.count() * width);
+  return values;
+}
+
 std::string rewrite_bvh(const Clip& clip, const BvhDocument& document) {
   return Rewriter(clip, document).rewrite();
 }

@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <string_view>
+
+#include "check/feet.hpp"
+#include "kinemend/kinematics.hpp"
+#include "kinemend/metrics.hpp"
+
+namespace kinemend::check {
+
+namespace {
+
+std::vector<std::size_t> points_below(const Skeleton& skeleton, std::size_t joint) {
+  std::vector<std::uint8_t> below(skeleton.joint_count());
+  below[joint] = 1;
+  std::vector<std::size_t> points;
+  for (std::size_t j = joint + 1; j < skeleton.joint_count(); ++j) {
+    const std::int32_t parent = skeleton.parents[j];
+    if (parent < 0 || below[static_cast<std::size_t>(parent)] == 0) continue;
+    below[j] = 1;
+    points.push_back(j);
+  }
+  for (std::size_t e = 0; e < skeleton.end_sites.size(); ++e) {
+    if (below[static_cast<std::size_t>(skeleton.end_sites[e].parent)] != 0)
+      points.push_back(skeleton.joint_count() + e);
+  }
+  return points;
+}
+
+// The upper ones of the joints that are named after parts of a foot, with what hangs on them: the
+// ankle itself rolls over the foot.
+std::vector<Foot> feet_of(const Skeleton& skeleton) {
+  const std::vector<std::size_t> named = foot_joints(skeleton);
+  std::vector<Foot> feet;
+  for (const std::size_t joint : named) {
+    bool is_upper = true;
+    for (std::int32_t p = skeleton.parents[joint]; p >= 0;
+         p = skeleton.parents[static_cast<std::size_t>(p)]) {
+      is_upper = is_upper &&
+                 std::find(named.begin(), named.end(), static_cast<std::size_t>(p)) == named.end();
+    }
+    if (!is_upper) continue;
+    Foot foot{skeleton.names[joint], points_below(skeleton, joint)};
+    if (foot.points.empty()) foot.points.push_back(joint);
+    feet.push_back(std::move(foot));
+  }
+  return feet;
+}
+
+bool names_a_sole(std::string_view name) {
+  static constexpr std::array<std::string_view, 12> parts{
+      "TOE", "HEE", "MT1", "MT2", "MT5", "MTP", "FM1", "FM5", "FCC", "CALC", "MET1", "MET5"};
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](std::string_view part) { return name.find(part) != name.npos; });
+}
+
+std::string upper_case(std::string_view name) {
+  std::string upper(name);
+  std::transform(upper.begin(), upper.end(), upper.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return upper;
+}
+
+std::vector<Foot> feet_of(const MarkerClip& clip, const std::vector<std::size_t>& markers) {
+  std::vector<Foot> feet;
+  for (const auto& [letter, word, name] :
+       {std::tuple('L', "LEFT", "left foot"), std::tuple('R', "RIGHT", "right foot")}) {
+    Foot foot{name, {}};
+    for (std::size_t i = 0; i < markers.size(); ++i) {
+      const std::string marker = upper_case(without_subject(clip.names[markers[i]]));
+      const bool on_side =
+          !marker.empty() && (marker.front() == letter || marker.find(word) != std::string::npos);
+      if (on_side && names_a_sole(marker)) foot.points.push_back(i);
+    }
+    if (!foot.points.empty()) feet.push_back(std::move(foot));
+  }
+  return feet;
+}
+
+}  // namespace
+
+BodyPoints body_points(const Clip& clip, double metres_per_unit) {
+  BodyPoints body;
+  body.frames = clip.frame_count();
+  body.points = clip.joint_count() + clip.skeleton.end_sites.size();
+  body.frame_rate_hz = clip.frame_rate_hz;
+  body.feet = feet_of(clip.skeleton);
+  body.height = metres_per_unit * skeleton_height(clip.skeleton);
+  if (body.feet.empty()) return body;
+  body.positions = joint_positions(clip, true);
+  for (Vec3& p : body.positions) p = metres_per_unit * p;
+  for (const Vec3 p : clip.root_positions) body.centres.push_back(metres_per_unit * p);
+  return body;
+}
+
+BodyPoints body_points(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+                       double metres_per_unit) {
+  BodyPoints body;
+  body.frames = clip.frame_count();
+  body.points = markers.size();
+  body.frame_rate_hz = clip.frame_rate_hz;
+  body.feet = feet_of(clip, markers);
+  if (body.feet.empty()) return body;
+  for (std::size_t f = 0; f < body.frames; ++f) {
+    Vec3 sum;
+    std::size_t seen = 0;
+    for (const std::size_t m : markers) {
+      const Vec3 p = metres_per_unit * clip.position(f, m);
+      body.positions.push_back(p);
+      body.observed.push_back(clip.is_observed(f, m) ? 1 : 0);
+      if (!clip.is_observed(f, m)) continue;
+      sum += p;
+      ++seen;
+    }
+    body.centres.push_back((1.0 / static_cast<double>(std::max<std::size_t>(seen, 1))) * sum);
+  }
+  body.height = 1.7;
+  return body;
+}
+
+double along(Vec3 v, Up up) {
+  return up.sign * (up.axis == Axis::x ? v.x : up.axis == Axis::y ? v.y : v.z);
+}
+
+std::optional<Up> find_up(const BodyPoints& body) {
+  constexpr double clear_ratio = 2;
+  Vec3 sum;
+  for (std::size_t f = 0; f < body.frames; ++f) {
+    for (const Foot& foot : body.feet) {
+      const std::size_t point = foot.points.front();
+      if (body.is_observed(f, point)) sum += body.centres[f] - body.at(f, point);
+    }
+  }
+  std::array<std::pair<double, Up>, 3> axes{
+      {{std::fabs(sum.x), {Axis::x, sum.x < 0 ? -1.0 : 1.0}},
+       {std::fabs(sum.y), {Axis::y, sum.y < 0 ? -1.0 : 1.0}},
+       {std::fabs(sum.z), {Axis::z, sum.z < 0 ? -1.0 : 1.0}}}};
+  std::sort(axes.begin(), axes.end(),
+            [](const auto& a, const auto& b) { return a.first > b.first; });
+  if (!(axes[0].first > clear_ratio * axes[1].first)) return std::nullopt;
+  return axes[0].second;
+}
+
+}  // namespace kinemend::check

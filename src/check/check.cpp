@@ -1,0 +1,119 @@
+#include "kinemend/check.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "check/checks.hpp"
+#include "kinemend/error.hpp"
+
+namespace kinemend {
+
+namespace {
+
+void check_range(double value, const char* name) {
+  if (value >= 0 && value <= 1e9) return;
+  throw Error(ErrorKind::usage, fmt::format("{} {} is outside 0 to 1e9", name, value));
+}
+
+void validate(const CheckSettings& settings) {
+  check_range(settings.noise_deg, "noise_deg");
+  check_range(settings.noise_cm, "noise_cm");
+  check_range(settings.shortest_stale_s, "shortest_stale_s");
+  check_range(settings.slide_cm, "slide_cm");
+  check_range(settings.sink_cm, "sink_cm");
+  check_range(settings.length_change_percent, "length_change_percent");
+  if (settings.metres_per_unit) check_range(*settings.metres_per_unit, "metres_per_unit");
+}
+
+// The checks saw the take without its calibration frames.
+void shift_frames(CheckReport& report, std::size_t frames) {
+  for (Finding& finding : report.findings) {
+    finding.first_frame += frames;
+    finding.last_frame += frames;
+  }
+  for (NamedGap& gap : report.stale) {
+    gap.first_frame += frames;
+    gap.last_frame += frames;
+  }
+}
+
+void report_calibration(CheckReport& report) {
+  const std::size_t count = report.calibration_frames;
+  if (count == 0) return;
+  report.findings.push_back({FindingKind::calibration, Severity::note, "", 0, count - 1,
+                             static_cast<double>(count), "frames",
+                             "a calibration pose and no part of the motion"});
+}
+
+void report_left_out(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+                     CheckReport& report) {
+  const std::size_t count = clip.marker_count() - markers.size();
+  if (count == 0) return;
+  const std::size_t last = std::max<std::size_t>(report.frames, 1) - 1;
+  report.findings.push_back({FindingKind::left_out, Severity::note, "", 0, last,
+                             static_cast<double>(count), "points",
+                             "points that are no positions (angles, forces, ...) are left out"});
+}
+
+}  // namespace
+
+CheckReport check_take(const Clip& clip, const CheckSettings& settings) {
+  validate(settings);
+  clip.validate();
+  CheckReport report;
+  report.frames = clip.frame_count();
+  report.frame_rate_hz = clip.frame_rate_hz;
+  report.noise_unit = "deg";
+  for (const std::string& name : clip.skeleton.names) report.tracks.push_back({name});
+  report.calibration_frames = leading_calibration_frames(clip);
+  const Clip motion = slice(clip, report.calibration_frames, report.frames);
+  std::vector<std::int32_t> track_of(clip.joint_count());
+  std::iota(track_of.begin(), track_of.end(), 0);
+  check::check_gaps(find_gaps(motion), track_of, report);
+  check::check_noise_and_spikes(motion, settings, report);
+  check::check_stale(motion, settings, report);
+  check::check_lengths(motion, settings, report);
+  check::check_frames(motion, report);
+  check::check_unit(clip, settings, report);
+  check::check_body(motion, settings, report);
+  shift_frames(report, report.calibration_frames);
+  check::check_euler_flips(clip, report);
+  report_calibration(report);
+  check::sort_worst_first(report.findings);
+  return report;
+}
+
+CheckReport check_take(const MarkerClip& clip, const CheckSettings& settings) {
+  validate(settings);
+  clip.validate();
+  CheckReport report;
+  report.is_markers = true;
+  report.frames = clip.frame_count();
+  report.frame_rate_hz = clip.frame_rate_hz;
+  report.noise_unit = clip.unit;
+  std::vector<std::size_t> markers;
+  std::vector<std::int32_t> track_of(clip.marker_count(), -1);
+  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+    if (!clip.is_position.empty() && clip.is_position[m] == 0) continue;
+    track_of[m] = static_cast<std::int32_t>(markers.size());
+    markers.push_back(m);
+    report.tracks.push_back({clip.names[m]});
+  }
+  check::check_unit(clip, markers, settings, report);
+  check::check_gaps(find_gaps(clip), track_of, report);
+  check::check_swaps(clip, track_of, report);
+  // Every other check would see an exchange of labels twice in each of two tracks.
+  MarkerClip labelled = clip;
+  undo_swaps(labelled, report.swaps);
+  check::check_noise_and_spikes(labelled, markers, settings, report);
+  check::check_stale(labelled, markers, settings, report);
+  check::check_lengths(labelled, markers, settings, report);
+  check::check_frames(labelled, markers, report);
+  check::check_body(labelled, markers, settings, report);
+  report_left_out(clip, markers, report);
+  check::sort_worst_first(report.findings);
+  return report;
+}
+
+}  // namespace kinemend

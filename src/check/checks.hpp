@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "check/findings.hpp"
+#include "kinemend/check.hpp"
+
+// One function a check. Each adds to a report whose `tracks` are named already; frames count from
+// the first frame of the clip it is given.
+namespace kinemend::check {
+
+/// `gap_list` is of all tracks; `track_of[n]` is the row of joint or marker n in the report, -1 for
+/// none.
+void check_gaps(const std::vector<Gap>& gap_list, const std::vector<std::int32_t>& track_of,
+                CheckReport& report);
+
+void check_noise_and_spikes(const Clip& clip, const CheckSettings& settings, CheckReport& report);
+/// `markers`: the marker of each track of the report.
+void check_noise_and_spikes(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+                            const CheckSettings& settings, CheckReport& report);
+
+void check_stale(const Clip& clip, const CheckSettings& settings, CheckReport& report);
+void check_stale(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+                 const CheckSettings& settings, CheckReport& report);
+
+void check_swaps(const MarkerClip& clip, const std::vector<std::int32_t>& track_of,
+                 CheckReport& report);
+
+void check_lengths(const Clip& clip, const CheckSettings& settings, CheckReport& report);
+void check_lengths(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+                   const CheckSettings& settings, CheckReport& report);
+
+void check_euler_flips(const Clip& clip, CheckReport& report);
+
+/// Whole frames that repeat or hold nothing but zeros, and a rate that such repeats betray.
+void check_frames(const Clip& clip, CheckReport& report);
+void check_frames(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+                  CheckReport& report);
+
+/// Chooses the scale, puts it into the report and finds whether the declared one fits a person.
+void check_unit(const Clip& clip, const CheckSettings& settings, CheckReport& report);
+void check_unit(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+                const CheckSettings& settings, CheckReport& report);
+
+/// Feet that slide or sink, and a rate at which the body would fall too fast or too slowly.
+/// `check_unit` comes before.
+void check_body(const Clip& clip, const CheckSettings& settings, CheckReport& report);
+void check_body(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+                const CheckSettings& settings, CheckReport& report);
+
+}  // namespace kinemend::check

@@ -1,0 +1,72 @@
+#include "check/findings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+namespace kinemend {
+
+std::string_view to_string(FindingKind kind) {
+  static constexpr std::array<std::string_view, 16> names{"gap",
+                                                          "spike",
+                                                          "frozen",
+                                                          "bridged",
+                                                          "noise",
+                                                          "swap",
+                                                          "rate",
+                                                          "unit",
+                                                          "length",
+                                                          "slide",
+                                                          "sink",
+                                                          "euler_flip",
+                                                          "repeated_frames",
+                                                          "zero_frames",
+                                                          "calibration",
+                                                          "left_out"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+std::string_view to_string(Severity severity) {
+  static constexpr std::array<std::string_view, 3> names{"note", "warning", "serious"};
+  return names[static_cast<std::size_t>(severity)];
+}
+
+namespace check {
+
+namespace {
+
+// What spoils most of what is made from a take stands first.
+std::size_t rank_of(FindingKind kind) {
+  static constexpr std::array<FindingKind, 16> order{
+      FindingKind::swap,    FindingKind::zero_frames, FindingKind::rate,
+      FindingKind::unit,    FindingKind::spike,       FindingKind::gap,
+      FindingKind::frozen,  FindingKind::bridged,     FindingKind::repeated_frames,
+      FindingKind::length,  FindingKind::slide,       FindingKind::sink,
+      FindingKind::noise,   FindingKind::euler_flip,  FindingKind::calibration,
+      FindingKind::left_out};
+  return static_cast<std::size_t>(std::find(order.begin(), order.end(), kind) - order.begin());
+}
+
+}  // namespace
+
+void sort_worst_first(std::vector<Finding>& findings) {
+  const auto key = [](const Finding& f) {
+    return std::make_tuple(-static_cast<int>(f.severity), rank_of(f.kind), -f.figure, f.first_frame,
+                           std::string_view(f.track));
+  };
+  std::stable_sort(findings.begin(), findings.end(),
+                   [&](const Finding& a, const Finding& b) { return key(a) < key(b); });
+}
+
+double quantile_of(std::vector<double>& values, double share) {
+  if (values.empty()) return 0;
+  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  return values[static_cast<std::size_t>(rank)];
+}
+
+double median_of(std::vector<double>& values) { return quantile_of(values, 0.5); }
+
+}  // namespace check
+
+}  // namespace kinemend

@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "check/checks.hpp"
+
+namespace kinemend::check {
+
+namespace {
+
+constexpr std::size_t looked_at = 200;  // frames, spread evenly, that tell what is usual
+
+// The largest value that holds for three frames in a row, and where: single frames are spikes.
+// Negative values are unknown.
+struct Peak {
+  double value = 0;
+  std::size_t frame = 0;
+};
+
+Peak lasting_peak(const std::vector<double>& values) {
+  Peak peak;
+  for (std::size_t t = 1; t + 1 < values.size(); ++t) {
+    const double least = std::min({values[t - 1], values[t], values[t + 1]});
+    if (least > peak.value) peak = {least, t};
+  }
+  return peak;
+}
+
+// The frames about a peak in which a value is at least half of it.
+Span about(const std::vector<double>& values, const Peak& peak) {
+  Span span{peak.frame, peak.frame};
+  while (span.first > 0 && values[span.first - 1] > 0.5 * peak.value) --span.first;
+  while (span.last + 1 < values.size() && values[span.last + 1] > 0.5 * peak.value) ++span.last;
+  return span;
+}
+
+void report_length(const std::vector<double>& change_percent, const std::string& track,
+                   const CheckSettings& settings, std::string words, CheckReport& report) {
+  const Peak peak = lasting_peak(change_percent);
+  report.figures.length_change_percent = std::max(report.figures.length_change_percent, peak.value);
+  if (!(peak.value > settings.length_change_percent)) return;
+  const Span span = about(change_percent, peak);
+  report.findings.push_back({FindingKind::length, Severity::warning, track, span.first, span.last,
+                             peak.value, "%", std::move(words)});
+}
+
+struct RigidNeighbour {
+  std::size_t marker = 0;
+  double distance = 0;
+  double spread = 0;  // 5th to 95th percentile
+};
+
+// Markers at a distance that hardly changes: those of the same segment.
+std::vector<RigidNeighbour> rigid_neighbours(const MarkerClip& clip,
+                                             const std::vector<std::size_t>& markers,
+                                             std::size_t of) {
+  constexpr double rigid_share = 0.05;
+  constexpr std::size_t wanted = 4, fewest_frames = 20;
+  const std::size_t frames = clip.frame_count(), count = std::min(frames, looked_at);
+  std::vector<RigidNeighbour> found;
+  std::vector<double> distances;
+  for (const std::size_t n : markers) {
+    if (n == of) continue;
+    distances.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t f = i * frames / count;
+      if (clip.is_observed(f, of) && clip.is_observed(f, n))
+        distances.push_back(norm(clip.position(f, of) - clip.position(f, n)));
+    }
+    if (distances.size() < fewest_frames) continue;
+    const double spread = quantile_of(distances, 0.95) - quantile_of(distances, 0.05);
+    const double middle = median_of(distances);
+    if (middle > 0 && spread < rigid_share * middle) found.push_back({n, middle, spread});
+  }
+  std::sort(found.begin(), found.end(), [](const RigidNeighbour& a, const RigidNeighbour& b) {
+    return std::pair(a.spread, a.marker) < std::pair(b.spread, b.marker);
+  });
+  if (found.size() > wanted) found.resize(wanted);
+  return found;
+}
+
+// A marker that moves on its segment departs from most of its neighbours; they only from it.
+std::vector<double> departures(const MarkerClip& clip, std::size_t marker,
+                               const std::vector<RigidNeighbour>& neighbours) {
+  std::vector<double> result(clip.frame_count(), -1), now;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    if (!clip.is_observed(f, marker)) continue;
+    now.clear();
+    for (const RigidNeighbour& n : neighbours) {
+      if (!clip.is_observed(f, n.marker)) continue;
+      const double distance = norm(clip.position(f, marker) - clip.position(f, n.marker));
+      now.push_back(100 * std::fabs(distance - n.distance) / n.distance);
+    }
+    if (now.size() >= 2) result[f] = quantile_of(now, 0.34);
+  }
+  return result;
+}
+
+}  // namespace
+
+void check_lengths(const Clip& clip, const CheckSettings& settings, CheckReport& report) {
+  const std::size_t width = clip.translated_joints.size(), frames = clip.frame_count();
+  const double least_length = 0.01 * skeleton_height(clip.skeleton);
+  for (std::size_t i = 0; i < width; ++i) {
+    std::vector<double> lengths(frames);
+    for (std::size_t f = 0; f < frames; ++f)
+      lengths[f] = norm(clip.joint_translations[f * width + i]);
+    std::vector<double> sorted = lengths;
+    const double usual = median_of(sorted);
+    if (!(usual > least_length)) continue;
+    for (double& length : lengths) length = 100 * std::fabs(length - usual) / usual;
+    const auto joint = static_cast<std::size_t>(clip.translated_joints[i]);
+    report_length(lengths, clip.skeleton.names[joint], settings,
+                  "the bone to it changes its length", report);
+  }
+}
+
+void check_lengths(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+                   const CheckSettings& settings, CheckReport& report) {
+  for (const std::size_t m : markers) {
+    const std::vector<RigidNeighbour> neighbours = rigid_neighbours(clip, markers, m);
+    if (neighbours.size() < 2) continue;
+    report_length(departures(clip, m, neighbours), clip.names[m], settings,
+                  fmt::format("leaves its place by {} and {}", clip.names[neighbours[0].marker],
+                              clip.names[neighbours[1].marker]),
+                  report);
+  }
+}
+
+}  // namespace kinemend::check

@@ -1,0 +1,65 @@
+#include "check/runs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinemend::check {
+
+namespace {
+
+struct Counts {
+  std::size_t yes = 0;
+  std::size_t known = 0;
+
+  void add(Flag flag) {
+    yes += flag == Flag::yes;
+    known += flag != Flag::unknown;
+  }
+};
+
+// As if two more had been seen, one of them a yes: a share is never certain.
+double share_without(const Counts& all, const Counts& part) {
+  return (static_cast<double>(all.yes - part.yes) + 1) /
+         (static_cast<double>(all.known - part.known) + 2);
+}
+
+}  // namespace
+
+std::vector<std::vector<Span>> improbable_runs(const FlagTable& table, std::size_t shortest) {
+  constexpr double log_chance = -13.8;  // 1e-6
+  std::vector<Counts> of_step(table.steps), of_track(table.tracks);
+  for (std::size_t n = 0; n < table.tracks; ++n) {
+    for (std::size_t t = 0; t < table.steps; ++t) {
+      of_step[t].add(table(t, n));
+      of_track[n].add(table(t, n));
+    }
+  }
+  const auto is_improbable = [&](std::size_t track, const Span& run) {
+    Counts inside;
+    double others = 0;
+    for (std::size_t t = run.first; t <= run.last; ++t) {
+      inside.add(Flag::yes);
+      Counts own;
+      own.add(Flag::yes);
+      if (of_step[t].known > 1)
+        others += static_cast<double>(of_step[t].yes - own.yes) /
+                  static_cast<double>(of_step[t].known - own.known);
+    }
+    others /= static_cast<double>(run.length());
+    const double share = std::max(share_without(of_track[track], inside), others);
+    return share < 0.5 && static_cast<double>(run.length()) * std::log(share) < log_chance;
+  };
+  std::vector<std::vector<Span>> runs(table.tracks);
+  for (std::size_t n = 0; n < table.tracks; ++n) {
+    for (std::size_t t = 0; t < table.steps; ++t) {
+      if (table(t, n) != Flag::yes) continue;
+      Span run{t, t};
+      while (run.last + 1 < table.steps && table(run.last + 1, n) == Flag::yes) ++run.last;
+      t = run.last;
+      if (run.length() >= shortest && is_improbable(n, run)) runs[n].push_back(run);
+    }
+  }
+  return runs;
+}
+
+}  // namespace kinemend::check

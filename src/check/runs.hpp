@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "check/findings.hpp"
+
+namespace kinemend::check {
+
+/// One flag a step of each of N tracks, as a track's samples tell it.
+enum class Flag : std::uint8_t {
+  no,
+  yes,
+  unknown,  ///< a sample is missing, or the track is not to be looked at
+};
+
+struct FlagTable {
+  std::size_t steps = 0;
+  std::size_t tracks = 0;
+  std::vector<Flag> flags;  ///< track by track
+
+  FlagTable(std::size_t step_count, std::size_t track_count)
+      : steps(step_count), tracks(track_count), flags(step_count * track_count, Flag::unknown) {}
+  Flag& operator()(std::size_t step, std::size_t track) { return flags[track * steps + step]; }
+  Flag operator()(std::size_t step, std::size_t track) const { return flags[track * steps + step]; }
+};
+
+/// The runs of `yes`, at least `shortest` long, that chance does not make: where p is the share of
+/// `yes` on the track outside the run, or among the other tracks during the run if that is more, a
+/// run of r has p^r below 1e-6. Runs that the other tracks share (p of a half or more) are no
+/// fault of one track. One list a track.
+std::vector<std::vector<Span>> improbable_runs(const FlagTable& table, std::size_t shortest);
+
+}  // namespace kinemend::check

@@ -1,0 +1,194 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "check/checks.hpp"
+#include "check/runs.hpp"
+#include "clean/tracks.hpp"
+
+namespace kinemend::check {
+
+namespace {
+
+constexpr std::size_t shortest_frozen_steps = 2;    // three samples in a row
+constexpr std::size_t shortest_straight_steps = 3;  // five samples in a row
+constexpr double part_of_usual = 0.01;  // of the usual step or bend: what is not there at all
+
+// Sizes of the steps and the bends of one track; negative where a sample is missing. Step t lies
+// between samples t and t + 1, bend t at sample t + 1.
+struct TrackChanges {
+  std::vector<double> steps;
+  std::vector<double> bends;
+};
+
+double usual(const std::vector<double>& sizes) {
+  std::vector<double> known;
+  for (const double s : sizes) {
+    if (s > 0) known.push_back(s);
+  }
+  return median_of(known);
+}
+
+// Text rounds the samples, so that a repeated or interpolated one is off by some last digits.
+void set_flags(const std::vector<double>& sizes, double most, std::size_t track, FlagTable& table) {
+  for (std::size_t t = 0; t < sizes.size(); ++t) {
+    if (sizes[t] >= 0) table(t, track) = sizes[t] <= most ? Flag::yes : Flag::no;
+  }
+}
+
+// Motion slows down before it rests and bends before it is straight; a stale span has at least one
+// end where it does neither.
+bool has_sharp_end(const std::vector<double>& sizes, const Span& run, double usual_size) {
+  constexpr double clear = 0.3;
+  const bool before = run.first > 0 && sizes[run.first - 1] > clear * usual_size;
+  const bool after = run.last + 1 < sizes.size() && sizes[run.last + 1] > clear * usual_size;
+  return before || after;
+}
+
+// How each kind of span lies among the samples.
+struct StaleSpans {
+  std::vector<std::vector<Span>> frozen, bridged;  // one list a track
+};
+
+StaleSpans find_stale(const std::vector<TrackChanges>& tracks, std::size_t frames,
+                      std::size_t shortest_frames) {
+  StaleSpans spans{std::vector<std::vector<Span>>(tracks.size()),
+                   std::vector<std::vector<Span>>(tracks.size())};
+  if (frames < 4) return spans;
+  FlagTable repeats(frames - 1, tracks.size()), straight(frames - 2, tracks.size());
+  std::vector<double> usual_steps, usual_bends;
+  for (std::size_t n = 0; n < tracks.size(); ++n) {
+    usual_steps.push_back(usual(tracks[n].steps));
+    usual_bends.push_back(usual(tracks[n].bends));
+    if (usual_steps[n] == 0) continue;
+    set_flags(tracks[n].steps, part_of_usual * usual_steps[n], n, repeats);
+    set_flags(tracks[n].bends, part_of_usual * usual_bends[n], n, straight);
+    // A frozen span is a straight line too.
+    for (std::size_t t = 0; t + 2 < frames; ++t) {
+      if (repeats(t, n) == Flag::yes || repeats(t + 1, n) == Flag::yes) straight(t, n) = Flag::no;
+    }
+  }
+  const auto frozen_runs =
+      improbable_runs(repeats, std::max(shortest_frozen_steps, shortest_frames - 1));
+  const auto straight_runs =
+      improbable_runs(straight, std::max(shortest_straight_steps, shortest_frames));
+  for (std::size_t n = 0; n < tracks.size(); ++n) {
+    for (const Span& run : frozen_runs[n]) {
+      // The first of the equal samples was measured.
+      if (has_sharp_end(tracks[n].steps, run, usual_steps[n]))
+        spans.frozen[n].push_back({run.first + 1, run.last + 1});
+    }
+    for (const Span& run : straight_runs[n]) {
+      if (has_sharp_end(tracks[n].bends, run, usual_bends[n]))
+        spans.bridged[n].push_back({run.first + 1, run.last + 1});
+    }
+  }
+  return spans;
+}
+
+std::size_t shortest_frames(const CheckReport& report, const CheckSettings& settings) {
+  return frames_in(settings.shortest_stale_s, report.frame_rate_hz, 2);
+}
+
+// Both kinds of a track, by frame; they do not overlap.
+void report_stale(const StaleSpans& spans, const std::vector<std::size_t>& tracks,
+                  CheckReport& report) {
+  struct Stale {
+    Span span;
+    FindingKind kind;
+  };
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    TrackHealth& track = report.tracks[tracks[i]];
+    std::vector<Stale> list;
+    for (const Span& span : spans.frozen[i]) list.push_back({span, FindingKind::frozen});
+    for (const Span& span : spans.bridged[i]) list.push_back({span, FindingKind::bridged});
+    std::sort(list.begin(), list.end(),
+              [](const Stale& a, const Stale& b) { return a.span.first < b.span.first; });
+    track.frozen = spans.frozen[i].size();
+    track.bridged = spans.bridged[i].size();
+    report.figures.frozen += list.size();
+    for (const Stale& stale : list) {
+      const double seconds = static_cast<double>(stale.span.length()) / report.frame_rate_hz;
+      report.stale.push_back({track.name, stale.span.first, stale.span.last});
+      report.findings.push_back({stale.kind, seconds >= 0.5 ? Severity::serious : Severity::warning,
+                                 track.name, stale.span.first, stale.span.last, seconds, "s",
+                                 stale.kind == FindingKind::frozen
+                                     ? "holds still to the last digit while others move"
+                                     : "runs dead straight, as a bridged gap does"});
+    }
+  }
+}
+
+double largest_component(Vec3 v) {
+  return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+}
+
+// Bends of a rotation: a gap is bridged along the geodesic or in the angles of the file, whichever
+// is the straighter.
+TrackChanges rotation_changes(const Clip& clip, std::size_t joint) {
+  const std::size_t frames = clip.frame_count();
+  const RotationOrder order = clip.skeleton.rotation_order(joint);
+  TrackChanges changes;
+  Vec3 last_turn, last_step;
+  std::array<double, 3> last_angles{};
+  bool had_step = false;
+  if (frames > 0) last_angles = to_euler(clip.rotation(0, joint), order);
+  for (std::size_t t = 0; t + 1 < frames; ++t) {
+    const bool seen = clip.is_observed(t, joint) && clip.is_observed(t + 1, joint);
+    const Vec3 turn = log(conjugate(clip.rotation(t, joint)) * clip.rotation(t + 1, joint));
+    const std::array<double, 3> angles =
+        to_euler_near(clip.rotation(t + 1, joint), order, last_angles);
+    const Vec3 step{angles[0] - last_angles[0], angles[1] - last_angles[1],
+                    angles[2] - last_angles[2]};
+    if (t > 0) {
+      changes.bends.push_back(
+          seen && had_step ? std::min(norm(turn - last_turn), largest_component(step - last_step))
+                           : -1);
+    }
+    changes.steps.push_back(seen ? norm(turn) : -1);
+    last_turn = turn, last_step = step, last_angles = angles, had_step = seen;
+  }
+  return changes;
+}
+
+TrackChanges position_changes(const MarkerClip& clip, std::size_t marker) {
+  TrackChanges changes;
+  for (std::size_t t = 0; t + 1 < clip.frame_count(); ++t) {
+    const bool seen = clip.is_observed(t, marker) && clip.is_observed(t + 1, marker);
+    const Vec3 step = clip.position(t + 1, marker) - clip.position(t, marker);
+    if (t > 0) {
+      const Vec3 last = clip.position(t, marker) - clip.position(t - 1, marker);
+      changes.bends.push_back(seen && clip.is_observed(t - 1, marker) ? norm(step - last) : -1);
+    }
+    changes.steps.push_back(seen ? norm(step) : -1);
+  }
+  return changes;
+}
+
+}  // namespace
+
+void check_stale(const Clip& clip, const CheckSettings& settings, CheckReport& report) {
+  const std::vector<std::size_t> joints = selected_joints(clip, Selection::all(clip));
+  std::vector<TrackChanges> changes(joints.size());
+  for_each_parallel(joints.size(), clip.local_rotations.size(),
+                    [&](std::size_t i) { changes[i] = rotation_changes(clip, joints[i]); });
+  report_stale(find_stale(changes, clip.frame_count(), shortest_frames(report, settings)), joints,
+               report);
+}
+
+void check_stale(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+                 const CheckSettings& settings, CheckReport& report) {
+  std::vector<TrackChanges> changes(markers.size());
+  std::vector<std::size_t> tracks(markers.size());
+  for_each_parallel(markers.size(), clip.positions.size(), [&](std::size_t i) {
+    changes[i] = position_changes(clip, markers[i]);
+    tracks[i] = i;
+  });
+  report_stale(find_stale(changes, clip.frame_count(), shortest_frames(report, settings)), tracks,
+               report);
+}
+
+}  // namespace kinemend::check

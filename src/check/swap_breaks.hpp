@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "kinemend/marker_clip.hpp"
+
+namespace kinemend::check {
+
+/// A place where a track does not go on as it was heading, or is missing for a while.
+struct Break {
+  std::size_t marker = 0;
+  std::size_t before = 0;  ///< last frame seen
+  std::size_t after = 0;   ///< next frame seen
+  double mismatch = 0;     ///< how far the two sides miss one another, file units
+};
+
+/// How far the track of `from` up to frame `before` and that of `to` from frame `after` on miss one
+/// another: both are extended to the middle of the time between them with the velocities they have
+/// there. About half the third difference where they are successive frames of one track.
+double side_mismatch(const MarkerClip& clip, std::size_t from, std::size_t before, std::size_t to,
+                     std::size_t after);
+
+/// All gaps between samples, and the successive samples whose mismatch is 6 times the usual one of
+/// their marker. By frame `before`. `markers` are those that are looked at.
+std::vector<Break> find_breaks(const MarkerClip& clip, const std::vector<std::size_t>& markers);
+
+/// Two breaks at which the markers exchange their labels: each track goes on in the other's.
+struct Exchange {
+  std::size_t first_marker = 0;  ///< the lower one
+  std::size_t second_marker = 0;
+  std::size_t last_before = 0;  ///< last frame in which either is seen before the exchange
+  std::size_t first_after = 0;  ///< first frame in which either is seen after it
+  std::size_t longest_gap = 0;  ///< frames missing between the sides of either
+  double doubt = 0;             ///< mismatch with labels exchanged over that without
+};
+
+/// No break takes part in two exchanges; the least doubtful ones count. By frame.
+std::vector<Exchange> find_exchanges(const MarkerClip& clip, const std::vector<Break>& breaks);
+
+/// Whether the distances to the markers about them say that two markers are exchanged in some
+/// frames: the mean departure from their usual distances as labelled, and with labels exchanged.
+struct NeighbourVerdict {
+  double as_labelled = 0;
+  double exchanged = 0;
+  bool known = false;  ///< false where no neighbour was seen
+};
+/// `swapped[f]` is 1 in the frames in question, 0 in those that tell what is usual.
+NeighbourVerdict ask_neighbours(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+                                std::size_t first_marker, std::size_t second_marker,
+                                const std::vector<std::uint8_t>& swapped);
+
+}  // namespace kinemend::check
