@@ -1,0 +1,135 @@
+#include "fill/marker_group.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "rotation/leading_eigenvector.hpp"
+
+namespace kinemend::fill {
+
+namespace {
+
+// The unit quaternion q with the greatest sum of w (R(q) a) . b (Horn 1987), of sums s[i][j] = w
+// a_i b_j. `size` is no less than sum of w |a| |b|: it moves all eigenvalues above zero.
+Quat best_rotation(const double (&s)[3][3], double size) {
+  const rotation::Matrix4 matrix = {{
+      {size + s[0][0] + s[1][1] + s[2][2], s[1][2] - s[2][1], s[2][0] - s[0][2], s[0][1] - s[1][0]},
+      {s[1][2] - s[2][1], size + s[0][0] - s[1][1] - s[2][2], s[0][1] + s[1][0], s[2][0] + s[0][2]},
+      {s[2][0] - s[0][2], s[0][1] + s[1][0], size - s[0][0] + s[1][1] - s[2][2], s[1][2] + s[2][1]},
+      {s[0][1] - s[1][0], s[2][0] + s[0][2], s[1][2] + s[2][1], size - s[0][0] - s[1][1] + s[2][2]},
+  }};
+  return rotation::leading_eigenvector(matrix);
+}
+
+}  // namespace
+
+MarkerGroup::MarkerGroup(std::vector<std::size_t> markers, std::vector<double> weights)
+    : markers_(std::move(markers)), weights_(std::move(weights)), shape_(markers_.size()) {
+  const double sum = std::accumulate(weights_.begin(), weights_.end(), 0.0);
+  for (double& weight : weights_) weight /= sum;
+}
+
+bool MarkerGroup::seen_in(const Samples& samples, std::size_t frame) const {
+  return std::all_of(markers_.begin(), markers_.end(),
+                     [&](std::size_t m) { return samples.sees(frame, m); });
+}
+
+Vec3 MarkerGroup::centre_of(const Samples& samples, std::size_t frame) const {
+  Vec3 centre;
+  for (std::size_t k = 0; k < markers_.size(); ++k) {
+    centre += weights_[k] * samples.at(frame, markers_[k]);
+  }
+  return centre;
+}
+
+Placement MarkerGroup::placement(const Samples& samples, std::size_t frame) const {
+  Placement placement{{}, centre_of(samples, frame)};
+  if (!turns_) return placement;
+  double sums[3][3] = {}, own = 0, other = 0;
+  for (std::size_t k = 0; k < markers_.size(); ++k) {
+    const double w = weights_[k];
+    const Vec3 a = shape_[k], b = samples.at(frame, markers_[k]) - placement.centre;
+    const double left[3] = {w * a.x, w * a.y, w * a.z}, right[3] = {b.x, b.y, b.z};
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) sums[i][j] += left[i] * right[j];
+    }
+    own += w * dot(a, a);
+    other += w * dot(b, b);
+  }
+  placement.rotation = best_rotation(sums, std::sqrt(own * other));
+  return placement;
+}
+
+void MarkerGroup::fit_shape(const Samples& samples, std::span<const std::size_t> frames) {
+  const auto take_shape = [&](std::size_t frame) {
+    const Vec3 centre = centre_of(samples, frame);
+    for (std::size_t k = 0; k < markers_.size(); ++k) {
+      shape_[k] = samples.at(frame, markers_[k]) - centre;
+    }
+  };
+  take_shape(frames[frames.size() / 2]);
+  turns_ = spans_a_plane();
+  constexpr int rounds = 3;
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<Vec3> mean(markers_.size());
+    for (const std::size_t f : frames) {
+      const Placement placed = placement(samples, f);
+      for (std::size_t k = 0; k < markers_.size(); ++k) {
+        mean[k] += placed.to_local(samples.at(f, markers_[k]));
+      }
+    }
+    for (std::size_t k = 0; k < markers_.size(); ++k) {
+      shape_[k] = (1.0 / static_cast<double>(frames.size())) * mean[k];
+    }
+  }
+  turns_ = spans_a_plane();
+}
+
+bool MarkerGroup::spans_a_plane() const {
+  if (markers_.size() < 3) return false;
+  // The sum of the principal 2 x 2 minors of the scatter is small beside its squared trace when all
+  // points lie near one line.
+  constexpr double least_share = 0.0025;
+  double s[3][3] = {};
+  for (std::size_t k = 0; k < markers_.size(); ++k) {
+    const double p[3] = {shape_[k].x, shape_[k].y, shape_[k].z};
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) s[i][j] += weights_[k] * p[i] * p[j];
+    }
+  }
+  const double trace = s[0][0] + s[1][1] + s[2][2];
+  const double minors = s[0][0] * s[1][1] - s[0][1] * s[0][1] + s[0][0] * s[2][2] -
+                        s[0][2] * s[0][2] + s[1][1] * s[2][2] - s[1][2] * s[1][2];
+  return minors > least_share * trace * trace;
+}
+
+std::vector<Companion> companions_of(const Samples& samples, const MarkerGap& gap,
+                                     std::span<const std::size_t> helpers,
+                                     std::size_t most_frames) {
+  std::vector<std::size_t> frames;
+  for (std::size_t f = 0; f < samples.frames; ++f) {
+    if (samples.sees(f, gap.marker) && !gap.covers(f)) frames.push_back(f);
+  }
+  frames = evenly(frames, most_frames);
+  std::vector<Companion> companions;
+  for (const std::size_t m : helpers) {
+    double count = 0, mean = 0, squares = 0;
+    for (const std::size_t f : frames) {
+      if (!samples.sees(f, m)) continue;
+      const double distance = norm(samples.at(f, m) - samples.at(f, gap.marker));
+      count += 1;
+      const double step = distance - mean;
+      mean += step / count;
+      squares += step * (distance - mean);
+    }
+    // Too few common frames say nothing about a distance.
+    if (count >= 3) companions.push_back({m, std::sqrt(squares / count)});
+  }
+  std::stable_sort(companions.begin(), companions.end(),
+                   [](const Companion& a, const Companion& b) { return a.spread < b.spread; });
+  return companions;
+}
+
+}  // namespace kinemend::fill

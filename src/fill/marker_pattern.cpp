@@ -1,0 +1,40 @@
+#include <fmt/format.h>
+
+#include "fill/marker_methods.hpp"
+
+namespace kinemend::fill {
+
+Filling fill_by_pattern(const Samples& samples, const MarkerGap& gap,
+                        const MarkerRequest& request) {
+  constexpr std::string_view name = "pattern";
+  const std::size_t donor = request.donor;
+  if (donor == gap.marker) return Filling::refused(name, "the marker is its own donor");
+  // The donor's frames without a break that hold the gap, and as many beside it as ends need.
+  const std::size_t reach = samples.frames_in(0.3, 16);
+  std::size_t first = gap.span.first, last = gap.span.last;
+  for (std::size_t f = first; f <= last; ++f) {
+    if (samples.sees(f, donor)) continue;
+    Filling refused =
+        Filling::refused(name, fmt::format("the donor is missing in frame {}", f + 1));
+    refused.may_wait = true;
+    return refused;
+  }
+  while (first > 0 && gap.span.first - first < reach && samples.sees(first - 1, donor)) --first;
+  while (last + 1 < samples.frames && last - gap.span.last < reach &&
+         samples.sees(last + 1, donor)) {
+    ++last;
+  }
+  const auto meets = [&](bool at_end, std::size_t beside) {
+    return !at_end && samples.sees(beside, donor) && samples.sees(beside, gap.marker);
+  };
+  const bool before = meets(gap.span.first == 0, gap.span.first - 1);
+  const bool behind = meets(gap.span.last + 1 == samples.frames, gap.span.last + 1);
+  if (!(before && behind) && !(request.lenient && (before || behind))) {
+    return Filling::refused(name, "the donor and the marker are not both seen at the gap's ends");
+  }
+  std::vector<Vec3> guess;
+  for (std::size_t f = first; f <= last; ++f) guess.push_back(samples.at(f, donor));
+  return {meet_ends(samples, gap, first, guess), std::string(name), {}, 0, false};
+}
+
+}  // namespace kinemend::fill

@@ -1,0 +1,198 @@
+#include <fmt/format.h>
+#include <fnmatch.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "fill/marker_methods.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/fill.hpp"
+
+namespace kinemend {
+
+namespace {
+
+using fill::Filling;
+using fill::MarkerGap;
+using fill::MarkerRequest;
+using fill::Samples;
+
+struct NamedMethod {
+  std::string_view name;
+  fill::FillMarkerGap fill;
+};
+
+constexpr NamedMethod marker_methods[] = {
+    {"auto", fill::fill_by_auto},       {"spline", fill::fill_by_spline},
+    {"quintic", fill::fill_by_quintic}, {"pchip", fill::fill_by_pchip},
+    {"pattern", fill::fill_by_pattern}, {"rigid-body", fill::fill_by_rigid_body},
+    {"pca", fill::fill_by_pca},         {"local-regression", fill::fill_by_local_regression},
+    {"cyclic", fill::fill_by_cycles},
+};
+
+fill::FillMarkerGap method_of(std::string_view name) {
+  std::vector<std::string_view> known;
+  for (const NamedMethod& method : marker_methods) {
+    if (method.name == name) return method.fill;
+    known.push_back(method.name);
+  }
+  throw Error(ErrorKind::usage,
+              fmt::format("fill: expected a method for markers ({}), found \"{}\"",
+                          fmt::join(known, ", "), name));
+}
+
+// The markers that the names or shell patterns mean.
+std::vector<std::uint8_t> chosen_markers(const MarkerClip& clip,
+                                         const std::vector<std::string>& names) {
+  std::vector<std::uint8_t> chosen(clip.marker_count(), names.empty() ? 1 : 0);
+  for (const std::string& pattern : names) {
+    bool found = false;
+    const std::int32_t exact = clip.find(pattern);
+    for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+      if (static_cast<std::int32_t>(m) != exact &&
+          fnmatch(pattern.c_str(), clip.names[m].c_str(), 0) != 0) {
+        continue;
+      }
+      chosen[m] = 1;
+      found = true;
+    }
+    if (!found) {
+      throw Error(ErrorKind::usage, fmt::format("fill: no marker matches \"{}\" (the take has {})",
+                                                pattern, fmt::join(clip.names, ", ")));
+    }
+  }
+  return chosen;
+}
+
+std::size_t donor_of(const MarkerClip& clip, const FillSettings& settings) {
+  if (settings.donor.empty()) {
+    if (settings.method != "pattern") return MarkerRequest::no_marker;
+    throw Error(ErrorKind::usage, "fill: the method pattern needs a donor");
+  }
+  const std::int32_t donor = clip.find(settings.donor);
+  if (donor < 0) {
+    throw Error(ErrorKind::usage, fmt::format("fill: there is no donor \"{}\" (the take has {})",
+                                              settings.donor, fmt::join(clip.names, ", ")));
+  }
+  return static_cast<std::size_t>(donor);
+}
+
+Samples samples_of(const MarkerClip& clip, const std::vector<std::uint8_t>& seen) {
+  Samples samples{
+      clip.frame_count(), clip.marker_count(), clip.frame_rate_hz, clip.positions, seen, {}};
+  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+    if (clip.is_position.empty() || clip.is_position[m] != 0) samples.bodies.push_back(m);
+  }
+  return samples;
+}
+
+// Fills the gaps of a clip in rounds: what one round fills is evidence for the next.
+class Filler {
+ public:
+  Filler(MarkerClip& clip, fill::FillMarkerGap method, const MarkerRequest& request,
+         std::vector<Gap> gaps)
+      : clip_(clip),
+        method_(method),
+        request_(request),
+        gaps_(std::move(gaps)),
+        fillings_(gaps_.size()),
+        seen_(clip.observed) {}
+
+  void run() {
+    std::vector<std::size_t> open(gaps_.size());
+    std::iota(open.begin(), open.end(), std::size_t{0});
+    while (!open.empty()) {
+      try_gaps(open);
+      const std::size_t before = open.size();
+      std::erase_if(open, [&](std::size_t g) { return !fillings_[g].positions.empty(); });
+      if (open.size() == before) break;
+      std::erase_if(open, [&](std::size_t g) { return !fillings_[g].may_wait; });
+    }
+  }
+
+  // Once more, with the samples that the rounds have filled beside each gap as evidence.
+  void refine() {
+    std::vector<std::size_t> again;
+    for (std::size_t g = 0; g < gaps_.size(); ++g) {
+      if (!fillings_[g].positions.empty() && overlaps_another(g)) again.push_back(g);
+    }
+    try_gaps(again);
+  }
+
+  FillReport finish() {
+    FillReport report;
+    for (std::size_t g = 0; g < gaps_.size(); ++g) {
+      Filling& filling = fillings_[g];
+      const bool filled = !filling.positions.empty();
+      if (filled) mark(gaps_[g]);
+      report.gaps.push_back({gaps_[g], std::move(filling.method), filled, std::move(filling.reason),
+                             filling.expected_error});
+    }
+    return report;
+  }
+
+ private:
+  void try_gaps(const std::vector<std::size_t>& chosen) {
+    const Samples samples = samples_of(clip_, seen_);
+    std::vector<Filling> found(chosen.size());
+    tbb::parallel_for(std::size_t{0}, chosen.size(), [&](std::size_t i) {
+      const Gap& gap = gaps_[chosen[i]];
+      found[i] = method_(samples, {gap.track, {gap.first_frame, gap.last_frame}}, request_);
+    });
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      Filling& before = fillings_[chosen[i]];
+      // A second look never takes back what the first has found.
+      if (found[i].positions.empty() && !before.positions.empty()) continue;
+      before = std::move(found[i]);
+      put(gaps_[chosen[i]], before);
+    }
+  }
+
+  void put(const Gap& gap, const Filling& filling) {
+    for (std::size_t i = 0; i < filling.positions.size(); ++i) {
+      const std::size_t frame = gap.first_frame + i;
+      clip_.position(frame, gap.track) = filling.positions[i];
+      seen_[frame * clip_.marker_count() + gap.track] = 1;
+    }
+  }
+
+  void mark(const Gap& gap) {
+    for (std::size_t f = gap.first_frame; f <= gap.last_frame; ++f) {
+      const std::size_t sample = f * clip_.marker_count() + gap.track;
+      clip_.observed[sample] = 1;
+      if (!clip_.residuals.empty()) clip_.residuals[sample] = 0;
+    }
+  }
+
+  bool overlaps_another(std::size_t g) const {
+    return std::any_of(gaps_.begin(), gaps_.end(), [&](const Gap& other) {
+      return other.track != gaps_[g].track && other.first_frame <= gaps_[g].last_frame &&
+             gaps_[g].first_frame <= other.last_frame;
+    });
+  }
+
+  MarkerClip& clip_;
+  fill::FillMarkerGap method_;
+  MarkerRequest request_;
+  std::vector<Gap> gaps_;
+  std::vector<Filling> fillings_;
+  std::vector<std::uint8_t> seen_;  // F x M: observed, or filled in an earlier round
+};
+
+}  // namespace
+
+FillReport fill_gaps(MarkerClip& clip, const FillSettings& settings) {
+  clip.validate();
+  const fill::FillMarkerGap method = method_of(settings.method);
+  const std::vector<std::uint8_t> chosen = chosen_markers(clip, settings.names);
+  const MarkerRequest request{donor_of(clip, settings), settings.longest_gap_s, settings.fill_all};
+  std::vector<Gap> gaps = find_gaps(clip);
+  std::erase_if(gaps, [&](const Gap& gap) { return chosen[gap.track] == 0; });
+  Filler filler(clip, method, request, std::move(gaps));
+  filler.run();
+  filler.refine();
+  return filler.finish();
+}
+
+}  // namespace kinemend

@@ -1,0 +1,51 @@
+#include "fill/samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinemend::fill {
+
+std::size_t Samples::frames_in(double seconds, std::size_t least) const {
+  const double count = std::round(seconds * frame_rate_hz);
+  return std::max(least, static_cast<std::size_t>(std::clamp(count, 0.0, 1e9)));
+}
+
+std::vector<std::size_t> frames_beside(const Samples& samples, const MarkerGap& gap,
+                                       std::size_t most, std::size_t reach) {
+  std::vector<std::size_t> found;
+  const std::size_t lowest = gap.span.first - std::min(gap.span.first, reach);
+  for (std::size_t f = gap.span.first; f-- > lowest && found.size() < most;) {
+    if (samples.sees(f, gap.marker)) found.push_back(f);
+  }
+  std::reverse(found.begin(), found.end());
+  const std::size_t before = found.size();
+  const std::size_t end = std::min(samples.frames, gap.span.last + 1 + reach);
+  for (std::size_t f = gap.span.last + 1; f < end && found.size() < before + most; ++f) {
+    if (samples.sees(f, gap.marker)) found.push_back(f);
+  }
+  return found;
+}
+
+std::vector<std::size_t> helpers_of(const Samples& samples, const MarkerGap& gap) {
+  std::vector<std::size_t> helpers;
+  for (const std::size_t m : samples.bodies) {
+    if (m == gap.marker) continue;
+    bool whole = true;
+    for (std::size_t f = gap.span.first; whole && f <= gap.span.last; ++f) {
+      whole = samples.sees(f, m);
+    }
+    if (whole) helpers.push_back(m);
+  }
+  return helpers;
+}
+
+std::vector<std::size_t> evenly(const std::vector<std::size_t>& frames, std::size_t most) {
+  if (frames.size() <= most) return frames;
+  std::vector<std::size_t> chosen(most);
+  for (std::size_t i = 0; i < most; ++i) {
+    chosen[i] = frames[(2 * i + 1) * frames.size() / (2 * most)];
+  }
+  return chosen;
+}
+
+}  // namespace kinemend::fill

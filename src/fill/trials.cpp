@@ -1,0 +1,62 @@
+#include <algorithm>
+#include <cmath>
+
+#include "fill/marker_methods.hpp"
+
+namespace kinemend::fill {
+
+namespace {
+
+// Places where a span of `length` frames, with a frame on either side, is usable throughout.
+std::vector<std::size_t> starts_of(const std::vector<std::uint8_t>& usable, std::size_t length) {
+  std::vector<std::size_t> starts;
+  std::size_t run = 0;
+  for (std::size_t f = 0; f < usable.size(); ++f) {
+    run = usable[f] ? run + 1 : 0;
+    if (run >= length + 2) starts.push_back(f - length);
+  }
+  return starts;
+}
+
+}  // namespace
+
+double body_radius(const Samples& samples) {
+  double sum = 0, count = 0;
+  constexpr std::size_t most_frames = 64;
+  const std::size_t step = samples.frames / most_frames + 1;
+  for (std::size_t f = 0; f < samples.frames; f += step) {
+    Vec3 centre;
+    double seen = 0;
+    for (const std::size_t m : samples.bodies) {
+      if (samples.sees(f, m)) centre += samples.at(f, m), seen += 1;
+    }
+    if (seen < 2) continue;
+    centre = (1 / seen) * centre;
+    for (const std::size_t m : samples.bodies) {
+      if (!samples.sees(f, m)) continue;
+      const Vec3 off = samples.at(f, m) - centre;
+      sum += dot(off, off), count += 1;
+    }
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
+std::vector<Span> trial_spans(const Samples& samples, const MarkerGap& gap,
+                              std::span<const std::size_t> helpers, std::size_t most) {
+  std::vector<std::uint8_t> usable(samples.frames);
+  for (std::size_t f = 0; f < samples.frames; ++f) {
+    usable[f] = samples.sees(f, gap.marker) && !gap.covers(f) &&
+                std::all_of(helpers.begin(), helpers.end(),
+                            [&](std::size_t m) { return samples.sees(f, m); });
+  }
+  for (std::size_t length = gap.span.length(); length > 0; length /= 2) {
+    const std::vector<std::size_t> starts = evenly(starts_of(usable, length), most);
+    if (starts.size() < std::min<std::size_t>(most, 3)) continue;
+    std::vector<Span> spans;
+    for (const std::size_t start : starts) spans.push_back({start, start + length - 1});
+    return spans;
+  }
+  return {};
+}
+
+}  // namespace kinemend::fill
