@@ -70,6 +70,14 @@ void C3dPoints::resize(std::size_t count) {
   residuals.resize(count);
 }
 
+std::int32_t c3d_point_word(float residual, double scale, std::int32_t before) {
+  const auto unit = static_cast<float>(scale);
+  if (before >= 0 && residual == unit * static_cast<float>(before & 255)) return before;
+  if (!(residual > 0)) return 0;
+  const double steps = std::clamp(std::round(static_cast<double>(residual) / scale), 1.0, 255.0);
+  return static_cast<std::int32_t>(steps) | (before >= 0 ? before & 0x7F00 : 0);
+}
+
 std::size_t c3d_block_frames(const C3dLayout& layout) {
   constexpr std::size_t block_samples = 512;
   return std::max<std::size_t>(1, block_samples / std::max<std::size_t>(layout.point_count, 1));

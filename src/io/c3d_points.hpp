@@ -47,6 +47,11 @@ class C3dPointDecoder {
   C3dPointCounts counts_;
 };
 
+/// The fourth word of a sample that is there, for a residual in file units; `before` is the word it
+/// had, `missing_point_word` where it was missing. A residual that the word tells already leaves it
+/// as it is; one of 0, which says filled or filtered, takes the cameras away.
+std::int32_t c3d_point_word(float residual, double scale, std::int32_t before);
+
 /// How many frames of this layout make a block that stays in the processor's cache.
 std::size_t c3d_block_frames(const C3dLayout& layout);
 

@@ -10,6 +10,9 @@ namespace kinemend {
 /// Whose number formats a C3D file uses; the values are those of byte 4 of its parameter section.
 enum class C3dProcessor : std::uint8_t { intel = 84, dec = 85, mips = 86 };
 
+/// No processor's reals are larger than this one's, VAX.
+constexpr double largest_c3d_real = 1.7014117e38;
+
 /// A VAX F float, halves in numerical order, as an IEEE one. Exponent 0 is zero.
 inline float from_vax(std::uint32_t bits) {
   const std::uint32_t exponent = (bits >> 23) & 255;

@@ -1,0 +1,172 @@
+#include "io/c3d_new_parameters.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "io/c3d_parameter_writer.hpp"
+#include "io/c3d_rewrite.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr double most_in_a_word = 65535;
+
+// The low and the high word of a frame's number.
+C3dParameter frame_field(const char* name, std::int64_t frame) {
+  const auto number = static_cast<std::uint64_t>(std::clamp<std::int64_t>(frame, 0, 0xFFFFFFFF));
+  return c3d_integers(name,
+                      {static_cast<double>(number % 65536), static_cast<double>(number / 65536)});
+}
+
+// How far the markers of a frame lie apart along y and z, summed over the frames.
+std::array<double, 2> extents(const MarkerClip& clip) {
+  std::array<double, 2> sums{};
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    Vec3 low, high;
+    bool any = false;
+    for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+      if (!clip.is_observed(f, m) || !clip.holds_positions(m)) continue;
+      const Vec3 p = clip.position(f, m);
+      low = any ? Vec3{0, std::min(low.y, p.y), std::min(low.z, p.z)} : p;
+      high = any ? Vec3{0, std::max(high.y, p.y), std::max(high.z, p.z)} : p;
+      any = true;
+    }
+    if (any) sums = {sums[0] + high.y - low.y, sums[1] + high.z - low.z};
+  }
+  return sums;
+}
+
+class ParameterMaker {
+ public:
+  ParameterMaker(const MarkerClip& clip, const C3dDocument* source, const C3dNewFile& file)
+      : clip_(clip), source_(source), file_(file) {
+    if (source != nullptr) all_ = source->parameters;
+  }
+
+  C3dParameters make() {
+    describe_points();
+    describe_kinds();
+    describe_screen();
+    describe_trial();
+    describe_analog();
+    describe_events();
+    // Their data is not carried over.
+    remove_group(all_, "ROTATION");
+    remove_group(all_, "DATA_BLOCKS");
+    return std::move(all_);
+  }
+
+ private:
+  bool has_source_names() const { return source_ != nullptr && source_->names == clip_.names; }
+
+  void describe_points() {
+    const auto frames = static_cast<double>(file_.frame_count);
+    set("POINT", c3d_integer("USED", static_cast<double>(clip_.marker_count())));
+    set("POINT", c3d_integer("FRAMES", std::min(frames, most_in_a_word)));
+    remove_parameter(all_, "POINT", "LONG_FRAMES");
+    if (frames > most_in_a_word) set("POINT", c3d_real("LONG_FRAMES", frames));
+    set("POINT", c3d_integer("DATA_START", 0));
+    set("POINT", c3d_real("SCALE", -file_.scale));
+    set("POINT", c3d_real("RATE", clip_.frame_rate_hz));
+    if (!clip_.unit.empty()) set("POINT", c3d_text("UNITS", clip_.unit));
+    if (clip_.unit.empty()) remove_parameter(all_, "POINT", "UNITS");
+    set_texts(all_, "POINT", "LABELS", clip_.names);
+    if (!has_source_names()) {
+      set_texts(all_, "POINT", "DESCRIPTIONS", std::vector<std::string>(clip_.marker_count()));
+    }
+  }
+
+  // A source's lists (ANGLES, FORCES, ...) hold as long as the names are the same.
+  void describe_kinds() {
+    if (has_source_names()) return;
+    for (const char* const list :
+         {"ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS", "TYPE_GROUPS"}) {
+      remove_parameter(all_, "POINT", list);
+    }
+    std::vector<std::string> others;
+    for (std::size_t m = 0; m < clip_.marker_count(); ++m) {
+      if (!clip_.holds_positions(m)) others.push_back(clip_.names[m]);
+    }
+    if (!others.empty()) set_texts(all_, "POINT", "SCALARS", others);
+  }
+
+  // Which way is up on a screen. Only a source knows; a person is higher than wide.
+  void describe_screen() {
+    if (all_.find("POINT", "X_SCREEN") != nullptr || all_.find("POINT", "Y_SCREEN") != nullptr)
+      return;
+    const auto [along_y, along_z] = extents(clip_);
+    set("POINT", c3d_text("X_SCREEN", "+X"));
+    set("POINT", c3d_text("Y_SCREEN", along_y > along_z ? "+Y" : "+Z"));
+  }
+
+  void describe_trial() {
+    const std::int64_t first = std::max<std::int64_t>(clip_.first_frame, 0);
+    const auto frames = static_cast<std::int64_t>(file_.frame_count);
+    set("TRIAL", frame_field("ACTUAL_START_FIELD", first));
+    set("TRIAL", frame_field("ACTUAL_END_FIELD", first + frames - 1));
+    if (source_ == nullptr) set("TRIAL", c3d_real("CAMERA_RATE", clip_.frame_rate_hz));
+  }
+
+  void describe_analog() {
+    if (file_.analog_count > 0) {
+      set("ANALOG", c3d_integer("USED", static_cast<double>(file_.analog_count)));
+      set("ANALOG",
+          c3d_real("RATE", clip_.frame_rate_hz * static_cast<double>(file_.analog_instants)));
+      return;
+    }
+    remove_group(all_, "ANALOG");
+    remove_group(all_, "FORCE_PLATFORM");
+    set("ANALOG", c3d_integer("USED", 0));
+    set("ANALOG", c3d_real("RATE", clip_.frame_rate_hz));
+    set("ANALOG", c3d_real("GEN_SCALE", 1));
+    set("FORCE_PLATFORM", c3d_integer("USED", 0));
+  }
+
+  void describe_events() {
+    if (source_ != nullptr && same_c3d_events(clip_.events, source_->events)) return;
+    remove_group(all_, "EVENTS");
+    std::vector<std::string> labels, contexts;
+    std::vector<double> times;
+    for (const MarkerEvent& event : clip_.events) {
+      const double minutes = std::floor(event.time_s / 60);
+      labels.push_back(event.label);
+      contexts.push_back(event.context);
+      times.insert(times.end(), {minutes, event.time_s - 60 * minutes});
+    }
+    for (const char* const list :
+         {"CONTEXTS", "LABELS", "TIMES", "SUBJECTS", "DESCRIPTIONS", "ICON_IDS", "GENERIC_FLAGS"}) {
+      remove_parameter(all_, "EVENT", list);
+    }
+    set("EVENT", c3d_integer("USED", static_cast<double>(clip_.events.size())));
+    if (clip_.events.empty()) return;
+    set_texts(all_, "EVENT", "CONTEXTS", contexts);
+    set_texts(all_, "EVENT", "LABELS", labels);
+    constexpr std::size_t most = 255;
+    for (std::size_t first = 0, part = 1; first < labels.size(); first += most, ++part) {
+      const auto begin = times.begin() + static_cast<std::ptrdiff_t>(2 * first);
+      const auto count = static_cast<std::ptrdiff_t>(2 * std::min(most, labels.size() - first));
+      set("EVENT", c3d_reals(part == 1 ? "TIMES" : "TIMES" + std::to_string(part),
+                             {begin, begin + count}, 2));
+    }
+  }
+
+  void set(const char* group, C3dParameter parameter) {
+    set_parameter(all_, group, std::move(parameter));
+  }
+
+  const MarkerClip& clip_;
+  const C3dDocument* source_;
+  const C3dNewFile& file_;
+  C3dParameters all_;
+};
+
+}  // namespace
+
+C3dParameters new_c3d_parameters(const MarkerClip& clip, const C3dDocument* source,
+                                 const C3dNewFile& file) {
+  return ParameterMaker(clip, source, file).make();
+}
+
+}  // namespace kinemend
