@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "fill/curves.hpp"
+
+namespace kinemend::fill {
+
+/// Another time of the take at which a track moves as it does around a span.
+struct Cycle {
+  std::ptrdiff_t lag = 0;  ///< frame f of the span is like frame f + lag
+  /// How unlike the surroundings are: 0 the same, 1 as unlike as a straight line.
+  double mismatch = 0;
+};
+
+struct CycleSettings {
+  double largest_mismatch = 0.35;
+  std::size_t most_cycles = 3;
+};
+
+/// The lags at which the samples around the span (half its length on either side, 0.15 to 0.5 s)
+/// repeat best: local minima of
+///
+///     m(s)^2 = sum_f |x(f + s) - x(f) - (a + b f)|^2 / sum_f |x(f) - (a' + b' f)|^2
+///
+/// over these samples f, each with its best straight line, which is the local autocorrelation of
+/// what moves about a drift. Only lags at which span and surroundings are observed throughout
+/// count. Best first, none worse than 1.5 times the best.
+std::vector<Cycle> find_cycles(const Track& track, Span span, const CurveSettings& settings,
+                               const CycleSettings& rules = {});
+
+/// Fills the span with the mean of these cycles, weighed by how alike they are, moved so that it
+/// meets the samples at its ends in value and velocity (`place_guess`). False, and nothing is
+/// written, without cycles.
+bool fill_with_cycles(const Track& track, Span span, std::span<const Cycle> cycles,
+                      const CurveSettings& settings);
+
+}  // namespace kinemend::fill
