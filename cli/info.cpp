@@ -7,6 +7,7 @@
 #include "commands.hpp"
 #include "json.hpp"
 #include "kinemend/clean.hpp"
+#include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/metrics.hpp"
 #include "kinemend/version.hpp"
@@ -18,10 +19,10 @@ namespace kinemend::cli {
 
 namespace {
 
-struct Take {
+struct Subject {
   std::string name;
-  ReadResult read;
-  std::optional<CleanReport> noise;
+  TakeResult read;
+  std::optional<CleanReport> noise;  ///< of joints
 };
 
 std::size_t channel_count(const Skeleton& skeleton) {
@@ -30,11 +31,12 @@ std::size_t channel_count(const Skeleton& skeleton) {
   return count;
 }
 
-std::string_view format_description(const Clip& clip) {
+std::string format_text(const SourceInfo& source) {
   for (const Format& format : formats()) {
-    if (format.name == clip.source.format) return format.description;
+    if (format.name == source.format)
+      return fmt::format("{} ({})", source.format, format.description);
   }
-  return "unknown format";
+  return "unknown";
 }
 
 std::string channel_names(const std::vector<Channel>& channels) {
@@ -77,17 +79,26 @@ std::string noise_text(const CleanReport& report) {
 
 std::string unit_text(const Clip& clip) {
   const double height = skeleton_height(clip.skeleton);
+  if (clip.metres_per_unit > 0) {
+    return fmt::format("{} m (the skeleton measures {}, {} m)", figure(clip.metres_per_unit),
+                       figure(height), figure(height * clip.metres_per_unit));
+  }
   const auto unit = guess_length_unit(clip.skeleton);
   if (!unit) return fmt::format("unknown (the skeleton measures {})", figure(height));
   return fmt::format("probably {} (the skeleton measures {}, {} m)", unit->name, figure(height),
                      figure(height * unit->metres));
 }
 
-std::string take_text(const Take& take, bool with_tree) {
-  const Clip& clip = take.read.clip;
-  std::string text = Colours::of_out().paint(Paint::bold, printable(take.name)) + "\n";
+void add_facts(const Subject& subject, const SourceInfo& source, Table& table) {
+  for (const SourceFact& fact : source.facts)
+    table.add({printable(fact.name), printable(fact.text)});
+  for (const Diagnostic& entry : subject.read.diagnostics.entries())
+    table.add({"repaired", printable(diagnostic_line("line", entry))});
+}
+
+std::string clip_text(const Subject& subject, const Clip& clip, bool with_tree) {
   Table table({Align::left, Align::left});
-  table.add({"format", fmt::format("{} ({})", clip.source.format, format_description(clip))});
+  table.add({"format", format_text(clip.source)});
   table.add({"joints", fmt::format("{} ({}, {})", clip.joint_count(),
                                    counted(channel_count(clip.skeleton), "channel"),
                                    counted(clip.skeleton.end_sites.size(), "end site"))});
@@ -98,35 +109,112 @@ std::string take_text(const Take& take, bool with_tree) {
                                   ? "frame 1 is a calibration pose and no part of the motion"
                                   : "none"});
   }
-  for (const Diagnostic& entry : take.read.diagnostics.entries())
-    table.add({"repaired", printable(diagnostic_line("line", entry))});
-  text += table.text();
+  add_facts(subject, clip.source, table);
+  std::string text = table.text();
   if (with_tree) text += tree_text(clip.skeleton);
-  if (take.noise) text += noise_text(*take.noise);
+  if (subject.noise) text += noise_text(*subject.noise);
   return text;
 }
 
-Json joints_json(const Take& take) {
-  const Skeleton& skeleton = take.read.clip.skeleton;
+/// What is missing of the markers.
+struct Missing {
+  std::vector<std::size_t> samples;  // of each marker
+  std::size_t gaps = 0, longest = 0, all = 0, possible = 0;
+};
+
+Missing missing_of(const MarkerClip& clip) {
+  Missing missing{std::vector<std::size_t>(clip.marker_count()), 0, 0, 0, 0};
+  for (const Gap& gap : find_gaps(clip)) {
+    missing.samples[gap.track] += gap.length();
+    missing.longest = std::max(missing.longest, gap.length());
+    missing.all += gap.length();
+    ++missing.gaps;
+  }
+  for (std::size_t m = 0; m < clip.marker_count(); ++m)
+    missing.possible += clip.holds_positions(m) ? clip.frame_count() : 0;
+  return missing;
+}
+
+double percent(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+std::string missing_text(const Missing& missing, double frame_rate_hz) {
+  if (missing.gaps == 0) return "nothing";
+  return fmt::format("{:.2f} % in {}, the longest {} ({:.2f} s)",
+                     percent(missing.all, missing.possible), counted(missing.gaps, "gap"),
+                     counted(missing.longest, "frame"),
+                     static_cast<double>(missing.longest) / frame_rate_hz);
+}
+
+std::size_t position_count(const MarkerClip& clip) {
+  std::size_t count = 0;
+  for (std::size_t m = 0; m < clip.marker_count(); ++m) count += clip.holds_positions(m) ? 1 : 0;
+  return count;
+}
+
+std::string markers_text(const Subject& subject, const MarkerClip& clip, bool with_tree) {
+  const Missing missing = missing_of(clip);
+  const std::size_t positions = position_count(clip);
+  Table table({Align::left, Align::left});
+  table.add({"format", format_text(clip.source)});
+  std::string markers = grouped(positions);
+  if (positions < clip.marker_count()) {
+    markers += fmt::format(" (and {} of angles, forces and the like)",
+                           counted(clip.marker_count() - positions, "point"));
+  }
+  table.add({"markers", markers});
+  std::string length = length_text(clip.frame_count(), clip.frame_rate_hz);
+  if (clip.first_frame != 1) length += fmt::format(", from frame {}", clip.first_frame);
+  table.add({"length", length});
+  table.add({"unit", clip.unit.empty() ? "not stated" : printable(clip.unit)});
+  table.add({"missing", missing_text(missing, clip.frame_rate_hz)});
+  add_facts(subject, clip.source, table);
+  if (!with_tree) return table.text();
+  Table list({Align::left, Align::right}, 4);
+  list.add({"marker", "missing %"});
+  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+    const double share = percent(missing.samples[m], clip.frame_count());
+    list.add({printable(clip.names[m]),
+              clip.holds_positions(m) ? fmt::format("{:.2f}", share) : "no position"});
+  }
+  return table.text() + "\n" + list.text();
+}
+
+std::string subject_text(const Subject& subject, bool with_tree) {
+  const std::string name = Colours::of_out().paint(Paint::bold, printable(subject.name)) + "\n";
+  if (const Clip* clip = std::get_if<Clip>(&subject.read.take))
+    return name + clip_text(subject, *clip, with_tree);
+  return name + markers_text(subject, std::get<MarkerClip>(subject.read.take), with_tree);
+}
+
+Json joints_json(const Subject& subject, const Skeleton& skeleton) {
   Json joints = Json::array();
   for (std::size_t j = 0; j < skeleton.joint_count(); ++j) {
     Json joint = {{"name", skeleton.names[j]},
                   {"parent", skeleton.parents[j]},
                   {"channels", channel_names(skeleton.channels[j])}};
-    if (take.noise) {
-      joint["noise_deg"] = take.noise->joints[j].noise_deg;
-      joint["samples_to_repair"] = take.noise->joints[j].frames_repaired;
+    if (subject.noise) {
+      joint["noise_deg"] = subject.noise->joints[j].noise_deg;
+      joint["samples_to_repair"] = subject.noise->joints[j].frames_repaired;
     }
     joints.push_back(std::move(joint));
   }
   return joints;
 }
 
-Json take_json(const Take& take) {
-  const Clip& clip = take.read.clip;
+Json facts_json(const SourceInfo& source) {
+  Json facts = Json::object();
+  for (const SourceFact& fact : source.facts) facts[fact.name] = fact.text;
+  return facts;
+}
+
+Json clip_json(const Subject& subject, const Clip& clip) {
   const auto unit = guess_length_unit(clip.skeleton);
-  return {{"input", take.name},
+  const double stated = clip.metres_per_unit;
+  return {{"input", subject.name},
           {"format", clip.source.format},
+          {"kind", "joints"},
           {"joint_count", clip.joint_count()},
           {"channel_count", channel_count(clip.skeleton)},
           {"end_site_count", clip.skeleton.end_sites.size()},
@@ -136,9 +224,50 @@ Json take_json(const Take& take) {
           {"calibration_frames", leading_calibration_frames(clip)},
           {"height", skeleton_height(clip.skeleton)},
           {"unit_guess", unit ? Json(unit->name) : Json()},
-          {"metres_per_unit", unit ? Json(unit->metres) : Json()},
-          {"diagnostics", json_of(take.read.diagnostics)},
-          {"joints", joints_json(take)}};
+          {"metres_per_unit", stated > 0 ? Json(stated)
+                              : unit     ? Json(unit->metres)
+                                         : Json()},
+          {"facts", facts_json(clip.source)},
+          {"diagnostics", json_of(subject.read.diagnostics)},
+          {"joints", joints_json(subject, clip.skeleton)}};
+}
+
+Json markers_json(const Subject& subject, const MarkerClip& clip) {
+  const Missing missing = missing_of(clip);
+  const double metres = metres_per_unit(clip.unit);
+  Json markers = Json::array();
+  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+    markers.push_back({{"name", clip.names[m]},
+                       {"is_position", clip.holds_positions(m)},
+                       {"missing_frames", missing.samples[m]}});
+  }
+  Json events = Json::array();
+  for (const MarkerEvent& event : clip.events) {
+    events.push_back(
+        {{"label", event.label}, {"context", event.context}, {"time_s", event.time_s}});
+  }
+  return {{"input", subject.name},
+          {"format", clip.source.format},
+          {"kind", "markers"},
+          {"marker_count", clip.marker_count()},
+          {"frames", clip.frame_count()},
+          {"first_frame", clip.first_frame},
+          {"frame_rate_hz", clip.frame_rate_hz},
+          {"duration_s", clip.duration_s()},
+          {"unit", clip.unit},
+          {"metres_per_unit", metres > 0 ? Json(metres) : Json()},
+          {"missing_samples", missing.all},
+          {"gaps", missing.gaps},
+          {"longest_gap_frames", missing.longest},
+          {"facts", facts_json(clip.source)},
+          {"events", std::move(events)},
+          {"diagnostics", json_of(subject.read.diagnostics)},
+          {"markers", std::move(markers)}};
+}
+
+Json subject_json(const Subject& subject) {
+  if (const Clip* clip = std::get_if<Clip>(&subject.read.take)) return clip_json(subject, *clip);
+  return markers_json(subject, std::get<MarkerClip>(subject.read.take));
 }
 
 int run(const Arguments& arguments) {
@@ -148,14 +277,16 @@ int run(const Arguments& arguments) {
   int code = 0;
   for (const std::string& input : arguments.positionals) {
     try {
-      Take take{input_name(input), read_clip(std::filesystem::path(input), read_options(arguments)),
-                std::nullopt};
-      if (arguments.flag("noise"))
-        take.noise = clean_clip(take.read.clip, *make_cleaner("auto"), {}, "auto").report;
+      Subject subject{input_name(input),
+                      read_take(std::filesystem::path(input), read_options(arguments)),
+                      std::nullopt};
+      const Clip* clip = std::get_if<Clip>(&subject.read.take);
+      if (arguments.flag("noise") && clip != nullptr)
+        subject.noise = clean_clip(*clip, *make_cleaner("auto"), {}, "auto").report;
       if (json) {
-        takes.push_back(take_json(take));
+        takes.push_back(subject_json(subject));
       } else {
-        write_out(take_text(take, arguments.flag("tree")));
+        write_out(subject_text(subject, arguments.flag("tree")));
       }
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::cannot_write) throw;
@@ -177,17 +308,18 @@ Command info_command() {
   command.name = "info";
   command.summary = "say what is in a take";
   command.description =
-      "Joints, frames, rate, duration, the probable unit of length, whether the first frame is a "
-      "calibration pose, and what the reader had to repair. The unit is that in which the skeleton "
-      "is a person of 1 to 2.5 m.";
+      "Joints or markers, frames, rate, duration, unit of length, what is missing, what else the "
+      "file holds, and what the reader had to repair. Where the file states no unit it is that in "
+      "which the skeleton is a person of 1.2 to 2.5 m.";
   command.positionals = {{"FILE", "take to look at; - is standard input", 1, 1000000, {}}};
   command.flags = {
       json_flag("print JSON instead of text"),
-      switch_flag("tree", "Output", "also show the skeleton with its channels"),
+      switch_flag("tree", "Output", "also show the skeleton with its channels, or the markers"),
       switch_flag("noise", "Output", "also estimate the noise of each joint",
                   "By a dry run of the method auto: jitter per axis, and samples it would repair."),
       from_flag(), strict_flag("what needs a repair becomes an error")};
   command.examples = {{"kinemend info walk.bvh --tree", "the skeleton too"},
+                      {"kinemend info trial.c3d", "markers, gaps, analog channels, events"},
                       {"kinemend info *.bvh --json", "for programs"}};
   command.run = run;
   return command;
