@@ -10,7 +10,7 @@
 #include "io/bvh.hpp"
 #include "io/bvh_document.hpp"
 #include "io/bvh_hierarchy.hpp"
-#include "io/memory_limit.hpp"
+#include "io/clip_rows.hpp"
 #include "io/motion_columns.hpp"
 #include "io/motion_lines.hpp"
 #include "io/motion_rows.hpp"
@@ -20,7 +20,6 @@ namespace kinemend {
 
 namespace {
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double rate_when_unknown_hz = 30;
 
 class MotionReader {
@@ -32,12 +31,10 @@ class MotionReader {
         header_(header),
         clip_(clip),
         document_(document),
-        columns_(clip.skeleton),
-        joints_(clip.joint_count()) {}
+        clip_rows_(clip, offset_replacing_frames(clip.skeleton), text.bytes.size()),
+        columns_(clip_rows_.columns()) {}
 
   void read() {
-    clip_.translated_joints.assign(columns_.translated_joints().begin(),
-                                   columns_.translated_joints().end());
     document_.data_begin = document_.data_end = header_.data_begin;
     if (!header_.has_motion) return;
     if (columns_.count() == 0) {
@@ -50,20 +47,19 @@ class MotionReader {
     end_ = text_.bytes.data() + text_.bytes.size();
     document_.commas = find_comma_style();
     MotionRows rows(begin_, end_, document_.commas);
-    reserve(header_.frames.value_or(0));
+    clip_rows_.reserve(header_.frames.value_or(0), most_frames());
     const std::size_t rest = read_rows(rows);
     check_end(rows, rest);
     note_repairs(rows);
-    fill_leading_gaps();
+    clip_rows_.finish(document_, rows.gaps() > 0);
     document_.data_end = static_cast<std::size_t>(rows.last_end() - text_.bytes.data());
     document_.decimals = rows.most_decimals();
-    keep_first_frame(rows);
   }
 
  private:
-  std::size_t frames() const { return clip_.frame_count(); }
-  std::size_t bytes_per_frame() const {
-    return joints_ * sizeof(Quat) + (1 + clip_.translated_joints.size()) * sizeof(Vec3);
+  std::size_t frames() const { return clip_rows_.frames(); }
+  std::size_t most_frames() const {
+    return static_cast<std::size_t>(end_ - begin_) / (2 * columns_.count()) + 1;
   }
 
   void note_count(std::string_view message) {
@@ -99,16 +95,6 @@ class MotionReader {
     return style;
   }
 
-  // For `expected` frames, but never for more than the file can hold.
-  void reserve(std::size_t expected) {
-    const auto most = static_cast<std::size_t>(end_ - begin_) / (2 * columns_.count()) + 1;
-    const std::size_t affordable = memory_limit(text_.bytes.size()) / bytes_per_frame();
-    const std::size_t count = std::min({expected, most, affordable});
-    clip_.local_rotations.reserve(count * joints_);
-    clip_.root_positions.reserve(count);
-    clip_.joint_translations.reserve(count * clip_.translated_joints.size());
-  }
-
   // Returns how many values are left over after the last whole frame.
   std::size_t read_rows(MotionRows& rows) {
     const std::size_t width = columns_.count(), block = columns_.block_frames();
@@ -130,59 +116,18 @@ class MotionReader {
   }
 
   void store(double* values, std::size_t count, bool with_gaps) {
-    const std::size_t first = frames();
-    if ((first + count) * bytes_per_frame() > memory_limit(text_.bytes.size())) {
+    const std::size_t wanted = frames() + count;
+    if (!clip_rows_.fits(wanted)) {
       throw text_.error_at(
           header_.data_begin,
-          fmt::format("{} joints with {} channels: too much memory for a file of {} bytes", joints_,
-                      columns_.count(), text_.bytes.size()));
+          fmt::format("{} joints with {} channels: too much memory for a file of {} bytes",
+                      clip_.joint_count(), columns_.count(), text_.bytes.size()));
     }
     // More frames than declared: room for all there can be, at once rather than by doubling.
-    if ((first + count) * joints_ > clip_.local_rotations.capacity()) {
-      reserve(std::numeric_limits<std::size_t>::max());
+    if (wanted * clip_.joint_count() > clip_.local_rotations.capacity()) {
+      clip_rows_.reserve(std::numeric_limits<std::size_t>::max(), most_frames());
     }
-    clip_.local_rotations.resize((first + count) * joints_);
-    Quat* const rotations = clip_.local_rotations.data() + first * joints_;
-    columns_.decode_rotations(values, count, rotations);
-    if (with_gaps) hold(values, count, rotations);
-    store_positions(values, count);
-  }
-
-  void hold(double* values, std::size_t count, Quat* rotations) {
-    const std::size_t first = frames();
-    clip_.observed.resize((first + count) * joints_, 1);
-    const std::vector<Quat> unknown(first == 0 ? joints_ : 0, Quat{not_a_number, 0, 0, 0});
-    hold_rotations(rotations, count, joints_, first == 0 ? unknown.data() : rotations - joints_,
-                   clip_.observed.data() + first * joints_);
-    std::vector<double> previous;
-    for (const auto& position : columns_.positions()) {
-      previous.push_back(first == 0 ? not_a_number : position_value(first - 1, position));
-    }
-    hold_positions(values, count, columns_, previous);
-  }
-
-  double& position_value(std::size_t frame, const MotionColumns::Position& position) {
-    Vec3& vector = position.translated < 0
-                       ? clip_.root_positions[frame]
-                       : clip_.joint_translations[frame * clip_.translated_joints.size() +
-                                                  static_cast<std::size_t>(position.translated)];
-    return position.axis == Axis::x ? vector.x : position.axis == Axis::y ? vector.y : vector.z;
-  }
-
-  void store_positions(const double* values, std::size_t count) {
-    const std::size_t first = frames();
-    const auto& offsets = clip_.skeleton.offsets;
-    clip_.root_positions.resize(first + count, offsets[0]);
-    for (std::size_t f = 0; f < count && !clip_.translated_joints.empty(); ++f) {
-      for (const std::int32_t joint : clip_.translated_joints) {
-        clip_.joint_translations.push_back(offsets[static_cast<std::size_t>(joint)]);
-      }
-    }
-    for (std::size_t f = 0; f < count; ++f) {
-      for (const auto& position : columns_.positions()) {
-        position_value(first + f, position) = values[f * columns_.count() + position.column];
-      }
-    }
+    clip_rows_.append(values, count, with_gaps);
   }
 
   void check_end(const MotionRows& rows, std::size_t rest) {
@@ -236,53 +181,13 @@ class MotionReader {
       note(begin_, 1, "comma_separator", "commas stand between values");
   }
 
-  // Samples before the first finite one take its value; without any, the rest pose.
-  void fill_leading_gaps() {
-    if (clip_.observed.empty()) return;
-    clip_.observed.resize(frames() * joints_, 1);
-    for (std::size_t j = 0; j < joints_; ++j) {
-      std::size_t known = 0;
-      while (known < frames() && is_gap(clip_.rotation(known, j))) ++known;
-      const Quat value = known < frames() ? clip_.rotation(known, j) : Quat{};
-      for (std::size_t f = 0; f < known; ++f) clip_.rotation(f, j) = value;
-    }
-    for (const auto& position : columns_.positions()) {
-      std::size_t known = 0;
-      while (known < frames() && std::isnan(position_value(known, position))) ++known;
-      const double value =
-          known < frames() ? position_value(known, position) : offset_value(position);
-      for (std::size_t f = 0; f < known; ++f) position_value(f, position) = value;
-    }
-    const auto& observed = clip_.observed;
-    if (std::find(observed.begin(), observed.end(), 0) == observed.end()) clip_.observed.clear();
-  }
-
-  double offset_value(const MotionColumns::Position& position) const {
-    const std::int32_t joint =
-        position.translated < 0
-            ? 0
-            : clip_.translated_joints[static_cast<std::size_t>(position.translated)];
-    const Vec3 offset = clip_.skeleton.offsets[static_cast<std::size_t>(joint)];
-    return position.axis == Axis::x ? offset.x : position.axis == Axis::y ? offset.y : offset.z;
-  }
-
-  void keep_first_frame(const MotionRows& rows) {
-    document_.has_gaps = rows.gaps() > 0;
-    if (!document_.has_gaps) return;
-    document_.first_rotations.assign(
-        clip_.local_rotations.begin(),
-        clip_.local_rotations.begin() + static_cast<std::ptrdiff_t>(joints_));
-    for (const auto& position : columns_.positions())
-      document_.first_positions.push_back(position_value(0, position));
-  }
-
   const SourceText& text_;
   Diagnostics& diagnostics_;
   const BvhHeader& header_;
   Clip& clip_;
   BvhDocument& document_;
-  MotionColumns columns_;
-  std::size_t joints_;
+  ClipRows clip_rows_;
+  const MotionColumns& columns_;
   const char* begin_ = nullptr;
   const char* end_ = nullptr;
   bool uneven_lines_ = false;

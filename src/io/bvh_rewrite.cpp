@@ -1,314 +1,42 @@
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <optional>
+#include <vector>
 
 #include "io/bvh_text.hpp"
 #include "io/motion_columns.hpp"
+#include "io/motion_rewrite.hpp"
 #include "io/motion_rows.hpp"
-#include "kinemend/error.hpp"
 
 namespace kinemend {
 
 namespace {
 
-using Angles = std::array<double, 3>;
-
-constexpr unsigned least_decimals = 4, most_decimals = 9;
-
-double position_value(const Clip& clip, std::size_t frame,
-                      const MotionColumns::Position& position) {
-  const Vec3 vector = position.translated < 0
-                          ? clip.root_positions[frame]
-                          : clip.joint_translations[frame * clip.translated_joints.size() +
-                                                    static_cast<std::size_t>(position.translated)];
-  return position.axis == Axis::x ? vector.x : position.axis == Axis::y ? vector.y : vector.z;
-}
-
-// The frames of a document's text, decoded as its reader did, a block at a time.
-class SourceFrames {
+class BvhRowReader : public RowReader {
  public:
-  explicit SourceFrames(const BvhDocument& document)
-      : document_(document),
-        columns_(document.skeleton),
-        joints_(document.skeleton.joint_count()),
-        rows_(columns_.block_frames() * columns_.count()),
-        tokens_(rows_.size()),
-        rotations_(columns_.block_frames() * joints_),
-        last_rotations_(document.first_rotations),
-        last_positions_(document.first_positions),
-        text_(document.bytes.data() + document.data_begin,
+  explicit BvhRowReader(const BvhDocument& document)
+      : width_(MotionColumns(document.skeleton).count()),
+        rows_(document.bytes.data() + document.data_begin,
               document.bytes.data() + document.data_end, document.commas) {}
 
-  const MotionColumns& columns() const { return columns_; }
-
-  // Moves to the next block; false after the last.
-  bool next() {
-    first_ += count_;
-    count_ = std::min(columns_.block_frames(), document_.frame_count - first_);
-    if (count_ == 0) return false;
-    text_.next(rows_.data(), count_ * columns_.count(), tokens_.data());
-    columns_.decode_rotations(rows_.data(), count_, rotations_.data());
-    if (document_.has_gaps) hold();
-    return true;
-  }
-
-  std::size_t first() const { return first_; }
-  std::size_t count() const { return count_; }
-  // By frame within the block. Position columns are repaired, angles are as the file has them.
-  const double* row(std::size_t frame) const { return rows_.data() + frame * columns_.count(); }
-  const TokenSpan* tokens(std::size_t frame) const {
-    return tokens_.data() + frame * columns_.count();
-  }
-  const Quat* rotations(std::size_t frame) const { return rotations_.data() + frame * joints_; }
-
- private:
-  void hold() {
-    hold_rotations(rotations_.data(), count_, joints_, last_rotations_.data(), nullptr);
-    hold_positions(rows_.data(), count_, columns_, last_positions_);
-    last_rotations_.assign(rotations(count_ - 1), rotations(count_ - 1) + joints_);
-    for (std::size_t i = 0; i < last_positions_.size(); ++i) {
-      last_positions_[i] = row(count_ - 1)[columns_.positions()[i].column];
-    }
-  }
-
-  const BvhDocument& document_;
-  MotionColumns columns_;
-  std::size_t joints_;
-  std::size_t first_ = 0;
-  std::size_t count_ = 0;
-  std::vector<double> rows_;
-  std::vector<TokenSpan> tokens_;
-  std::vector<Quat> rotations_;
-  std::vector<Quat> last_rotations_;
-  std::vector<double> last_positions_;
-  MotionRows text_;
-};
-
-// All of a source's values, and which rotations the clip keeps.
-struct SourceTable {
-  SourceTable(const Clip& clip, const BvhDocument& document) {
-    const std::size_t joints = clip.joint_count();
-    SourceFrames source(document);
-    width = source.columns().count();
-    while (source.next()) {
-      values.insert(values.end(), source.row(0), source.row(0) + source.count() * width);
-      const Quat* const now = clip.local_rotations.data() + source.first() * joints;
-      for (std::size_t i = 0; i < source.count() * joints; ++i) {
-        kept.push_back(now[i] == source.rotations(0)[i] ? 1 : 0);
-      }
-    }
-  }
-
-  std::size_t width = 0;
-  std::vector<double> values;      // F x channels
-  std::vector<std::uint8_t> kept;  // F x J
-};
-
-// On the same branch and turn, up to a change of a quarter turn.
-bool near(const Angles& a, const Angles& b, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!(std::fabs(a[i] - b[i]) < pi / 2)) return false;
-  }
-  return true;
-}
-
-// The angles last written for a joint, and the frame they belong to plus one.
-struct WrittenAngles {
-  Angles angles{};
-  std::size_t frames = 0;
-};
-
-class Rewriter {
- public:
-  Rewriter(const Clip& clip, const BvhDocument& document)
-      : clip_(clip),
-        document_(document),
-        source_(document),
-        decimals_(std::clamp(document.decimals, least_decimals, most_decimals)),
-        keep_below_(0.5 * std::pow(10.0, -static_cast<double>(decimals_))),
-        written_(clip.joint_count()),
-        row_before_(source_.columns().count()),
-        out_(document.bytes.size() + document.bytes.size() / 8 + 4096),
-        copied_(document.bytes.data()) {}
-
-  std::string rewrite() {
-    if (clip_.frame_rate_hz != document_.frame_rate_hz) replace_frame_time();
-    while (source_.next()) {
-      for (std::size_t f = 0; f < source_.count(); ++f) {
-        rewrite_frame(f);
-        write_replacements(source_.tokens(f));
-      }
-      const double* const last = source_.row(source_.count() - 1);
-      row_before_.assign(last, last + row_before_.size());
-    }
-    const char* const end = document_.bytes.data() + document_.bytes.size();
-    out_.append({copied_, static_cast<std::size_t>(end - copied_)});
-    return std::move(out_).take();
+  void next(double* values, std::size_t frames, TokenSpan* tokens) override {
+    rows_.next(values, frames * width_, tokens);
   }
 
  private:
-  struct Replacement {
-    std::size_t column;
-    double value;
-  };
-
-  // What is known when the angles of a changed sample are chosen; null where there is nothing.
-  struct AngleContext {
-    std::size_t frame = 0;
-    std::size_t joint = 0;
-    const Angles* written_before = nullptr;  // what the frame before holds now
-    const Angles* source_before = nullptr;   // and held
-    const Angles* source = nullptr;
-  };
-
-  void copy_until(const char* place) {
-    out_.append({copied_, static_cast<std::size_t>(place - copied_)});
-    copied_ = place;
-  }
-
-  void replace_frame_time() {
-    copy_until(document_.bytes.data() + document_.frame_time.begin);
-    out_.append(frame_time_text(clip_.frame_rate_hz));
-    copied_ += document_.frame_time.size;
-  }
-
-  void rewrite_frame(std::size_t block_frame) {
-    const std::size_t frame = source_.first() + block_frame, joints = clip_.joint_count();
-    const double* const row = source_.row(block_frame);
-    for (const auto& position : source_.columns().positions()) {
-      const double now = position_value(clip_, frame, position);
-      if (now != row[position.column]) replace(row, position.column, now);
-    }
-    const Quat* const before = source_.rotations(block_frame);
-    const Quat* const now = clip_.local_rotations.data() + frame * joints;
-    const double* const row_before =
-        block_frame > 0 ? row - row_before_.size() : row_before_.data();
-    for (std::size_t j = 0; j < joints; ++j) {
-      if (!(now[j] == before[j])) replace_rotation(frame, j, row, row_before);
-    }
-  }
-
-  // False where a value is missing.
-  static bool source_angles(const MotionColumns::Rotation& rotation, const double* row,
-                            Angles& angles) {
-    bool known = true;
-    for (std::size_t i = 0; i < rotation.order.count; ++i) {
-      double degrees = row[rotation.columns[i]];
-      known = known && !std::isnan(degrees);
-      // No digit after the point is left of an angle of so many turns.
-      if (std::fabs(degrees) > 1e9) degrees = std::fmod(degrees, 360.0);
-      angles[i] = degrees * radians_per_degree;
-    }
-    return known;
-  }
-
-  void replace_rotation(std::size_t frame, std::size_t joint, const double* row,
-                        const double* row_before) {
-    const MotionColumns::Rotation& rotation = source_.columns().rotations()[joint];
-    WrittenAngles& written = written_[joint];
-    Angles source{}, source_before{};
-    AngleContext context{frame, joint};
-    if (source_angles(rotation, row, source)) context.source = &source;
-    if (frame > 0 && source_angles(rotation, row_before, source_before)) {
-      context.source_before = &source_before;
-    }
-    const Angles* const last_written = written.frames > 0 ? &written.angles : nullptr;
-    const bool changed_before = written.frames > 0 && written.frames == frame;
-    context.written_before =
-        changed_before || context.source_before == nullptr ? last_written : context.source_before;
-    written = {choose_angles(rotation.order, context), frame + 1};
-    for (std::size_t i = 0; i < rotation.order.count; ++i) {
-      replace(row, rotation.columns[i], written.angles[i] * degrees_per_radian);
-    }
-  }
-
-  // They continue the frame before. Only where the source itself jumps (by a whole turn, or to its
-  // other branch), and a frame that keeps its digits would be met with a jump all the same, does
-  // the jump stay where it was.
-  Angles choose_angles(RotationOrder order, const AngleContext& context) {
-    const Quat rotation = clip_.rotation(context.frame, context.joint);
-    const Angles rest{};
-    if (context.written_before == nullptr) {
-      return to_euler_near(rotation, order, context.source != nullptr ? *context.source : rest);
-    }
-    const Angles continued = to_euler_near(rotation, order, *context.written_before);
-    const bool source_jumps = context.source != nullptr && context.source_before != nullptr &&
-                              !near(*context.source, *context.source_before, order.count);
-    if (!source_jumps || near(continued, *context.source, order.count)) return continued;
-    if (!meets_a_jump(context, continued)) return continued;
-    const Angles on_source = to_euler_near(rotation, order, *context.source);
-    return near(on_source, *context.source, order.count) ? on_source : continued;
-  }
-
-  // Whether angles that go on from `angles` without a jump differ from the digits of the next frame
-  // that keeps them. Few takes ever ask: the table costs another walk over the text.
-  bool meets_a_jump(const AngleContext& context, Angles angles) {
-    constexpr std::size_t most_frames_ahead = 256;
-    if (!table_) table_.emplace(clip_, document_);
-    const std::size_t joints = clip_.joint_count();
-    const std::size_t end = std::min(document_.frame_count, context.frame + most_frames_ahead);
-    const MotionColumns::Rotation& rotation = source_.columns().rotations()[context.joint];
-    for (std::size_t f = context.frame + 1; f < end; ++f) {
-      angles = to_euler_near(clip_.rotation(f, context.joint), rotation.order, angles);
-      Angles kept{};
-      if (table_->kept[f * joints + context.joint] != 0 &&
-          source_angles(rotation, table_->values.data() + f * table_->width, kept)) {
-        return !near(angles, kept, rotation.order.count);
-      }
-    }
-    return false;
-  }
-
-  // Digits that already say the new value, as well as so many decimals can, stay.
-  void replace(const double* row, std::size_t column, double value) {
-    if (!(std::fabs(value - row[column]) <= keep_below_)) replacements_.push_back({column, value});
-  }
-
-  void write_replacements(const TokenSpan* tokens) {
-    if (replacements_.empty()) return;
-    const auto by_column = [](const Replacement& a, const Replacement& b) {
-      return a.column < b.column;
-    };
-    // Out of order only where positions do not come first.
-    if (!std::is_sorted(replacements_.begin(), replacements_.end(), by_column)) {
-      std::sort(replacements_.begin(), replacements_.end(), by_column);
-    }
-    for (const Replacement& replacement : replacements_) {
-      copy_until(tokens[replacement.column].begin);
-      out_.append_fixed(replacement.value, decimals_, document_.commas);
-      copied_ = tokens[replacement.column].end;
-    }
-    replacements_.clear();
-  }
-
-  const Clip& clip_;
-  const BvhDocument& document_;
-  SourceFrames source_;
-  unsigned decimals_;
-  double keep_below_;
-  std::vector<WrittenAngles> written_;
-  std::optional<SourceTable> table_;
-  std::vector<double> row_before_;
-  std::vector<Replacement> replacements_;
-  TextBuffer out_;
-  const char* copied_;
+  std::size_t width_;
+  MotionRows rows_;
 };
 
 }  // namespace
 
-std::vector<double> BvhDocument::channel_values() const {
-  std::vector<double> values;
-  SourceFrames source(*this);
-  const std::size_t width = source.columns().count();
-  values.reserve(frame_count * width);
-  while (source.next())
-    values.insert(values.end(), source.row(0), source.row(0) + source.count() * width);
-  return values;
+std::unique_ptr<RowReader> BvhDocument::rows() const {
+  return std::make_unique<BvhRowReader>(*this);
 }
 
 std::string rewrite_bvh(const Clip& clip, const BvhDocument& document) {
-  return Rewriter(clip, document).rewrite();
+  std::vector<DocumentEdit> edits;
+  if (clip.frame_rate_hz != document.frame_rate_hz) {
+    edits.push_back({document.frame_time, frame_time_text(clip.frame_rate_hz)});
+  }
+  return rewrite_motion(clip, document, edits);
 }
 
 }  // namespace kinemend

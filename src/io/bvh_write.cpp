@@ -9,6 +9,7 @@
 #include "io/bvh_hierarchy.hpp"
 #include "io/bvh_text.hpp"
 #include "io/motion_columns.hpp"
+#include "io/motion_write.hpp"
 #include "io/text.hpp"
 #include "kinemend/error.hpp"
 
@@ -29,64 +30,6 @@ std::string frame_time_text(double frame_rate_hz) {
 }
 
 namespace {
-
-Vec3 position_of(const Clip& clip, std::size_t frame, std::size_t joint) {
-  if (joint == 0) return clip.root_positions[frame];
-  const auto& translated = clip.translated_joints;
-  const auto found =
-      std::lower_bound(translated.begin(), translated.end(), static_cast<std::int32_t>(joint));
-  if (found == translated.end() || *found != static_cast<std::int32_t>(joint))
-    return clip.skeleton.offsets[joint];
-  return clip.joint_translations[frame * translated.size() +
-                                 static_cast<std::size_t>(found - translated.begin())];
-}
-
-double component(Vec3 v, Axis axis) { return axis == Axis::x ? v.x : axis == Axis::y ? v.y : v.z; }
-
-bool same_end_sites(const std::vector<EndSite>& a, const std::vector<EndSite>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const EndSite& x, const EndSite& y) {
-    return x.parent == y.parent && x.offset == y.offset && x.name == y.name;
-  });
-}
-
-bool same_skeleton(const Skeleton& a, const Skeleton& b) {
-  return a.names == b.names && a.parents == b.parents && a.offsets == b.offsets &&
-         a.rest_rotations == b.rest_rotations && a.channels == b.channels &&
-         same_end_sites(a.end_sites, b.end_sites);
-}
-
-void check_lengths(const Clip& clip) {
-  clip.skeleton.validate();
-  const std::size_t frames = clip.frame_count();
-  if (clip.local_rotations.size() != frames * clip.joint_count() ||
-      clip.joint_translations.size() != frames * clip.translated_joints.size()) {
-    throw Error(ErrorKind::usage, "the clip's arrays do not have its number of frames");
-  }
-  if (!(std::isfinite(clip.frame_rate_hz) && clip.frame_rate_hz > 0)) {
-    throw Error(ErrorKind::usage, "the clip's frame rate is not positive");
-  }
-}
-
-// A motion that no channel can hold is not dropped in silence.
-void check_channels(const Clip& clip) {
-  constexpr double tolerance_rad = 1e-6;
-  const Skeleton& skeleton = clip.skeleton;
-  for (std::size_t j = 0; j < clip.joint_count(); ++j) {
-    const bool turns = skeleton.rotation_order(j).count > 0;
-    const bool moves = skeleton.has_position_channels(j);
-    for (std::size_t f = 0; f < clip.frame_count() && !(turns && moves); ++f) {
-      const Quat rotation = skeleton.rest_rotations[j] * clip.rotation(f, j);
-      if (!turns && angle_between(rotation, Quat{}) > tolerance_rad) {
-        throw Error(ErrorKind::usage, fmt::format("joint {} turns but has no rotation channels",
-                                                  quote(skeleton.names[j])));
-      }
-      if (!moves && !(position_of(clip, f, j) == skeleton.offsets[j])) {
-        throw Error(ErrorKind::usage, fmt::format("joint {} moves but has no position channels",
-                                                  quote(skeleton.names[j])));
-      }
-    }
-  }
-}
 
 // The hierarchy as text, children after their parent at once; and the order of joints that this
 // gives.
@@ -190,7 +133,7 @@ class HierarchyWriter {
 };
 
 std::string write_plain(const Clip& clip) {
-  check_channels(clip);
+  check_channels(clip, RestRotations::in_channels);
   TextBuffer out(4096);
   const std::vector<std::size_t> order = HierarchyWriter(clip.skeleton, out).write();
   const std::string frame_time = frame_time_text(clip.frame_rate_hz);
@@ -224,32 +167,16 @@ std::string write_with_hierarchy(const Clip& clip, const BvhDocument& document) 
 
 void append_motion(TextBuffer& out, const Clip& clip, const std::vector<std::size_t>& joints,
                    const MotionStyle& style) {
-  const Skeleton& skeleton = clip.skeleton;
   out.append(fmt::format("MOTION{0}Frames: {1}{0}Frame Time: {2}{0}", style.line_end,
                          clip.frame_count(), style.frame_time));
-  std::vector<RotationOrder> orders;
-  for (std::size_t j = 0; j < skeleton.joint_count(); ++j)
-    orders.push_back(skeleton.rotation_order(j));
-  std::vector<std::array<double, 3>> angles(skeleton.joint_count());
-  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-    std::string_view separator;
-    for (const std::size_t j : joints) {
-      if (orders[j].count > 0) {
-        angles[j] =
-            to_euler_near(skeleton.rest_rotations[j] * clip.rotation(f, j), orders[j], angles[j]);
-      }
-      std::size_t turn = 0;
-      for (const Channel channel : skeleton.channels[j]) {
-        out.append(separator);
-        separator = " ";
-        const double value = is_rotation(channel)
-                                 ? angles[j][turn++] * degrees_per_radian
-                                 : component(position_of(clip, f, j), axis_of(channel));
-        out.append_fixed(value, style.decimals);
-      }
+  std::vector<WrittenValue> values;
+  for (const std::size_t j : joints) {
+    for (std::size_t c = 0; c < clip.skeleton.channels[j].size(); ++c) {
+      values.push_back({values.empty() ? "" : " ", j, c});
     }
-    out.append(style.line_end);
   }
+  append_rows(out, clip, values, offset_replacing_frames(clip.skeleton),
+              {style.line_end, style.decimals});
 }
 
 std::string write_bvh(const Clip& clip) {
