@@ -45,7 +45,7 @@ std::vector<CleanJob> make_jobs(const Arguments& arguments) {
       throw Error(ErrorKind::usage, fmt::format("clean: {} and {} would both be written to {}",
                                                 known->second, input, target));
     }
-    jobs.push_back({input, target});
+    jobs.push_back({input, target, false});
   }
   return jobs;
 }
@@ -118,10 +118,9 @@ Settings merged_settings(const Arguments& arguments) {
   return settings;
 }
 
-CleanPlan make_clean_plan(const Arguments& arguments) {
+CleanPlan make_cleaning(const Arguments& arguments) {
   const Settings settings = merged_settings(arguments);
   CleanPlan plan;
-  plan.jobs = make_jobs(arguments);
   const Method& method = find_method(std::get<std::string>(settings.values.find("method")->second));
   plan.method = method.name;
   plan.options = all_options(method, settings);
@@ -131,15 +130,21 @@ CleanPlan make_clean_plan(const Arguments& arguments) {
   if (const std::string range = arguments.text("range"); !range.empty())
     plan.range = parse_range(range);
   plan.format = arguments.text("from");
-  plan.folder = arguments.text("output_dir");
-  plan.report_path = arguments.text("report");
   plan.strict = std::get<bool>(settings.values.find("strict")->second);
   plan.force = arguments.flag("force");
+  plan.threads = static_cast<int>(arguments.whole("jobs"));
+  return plan;
+}
+
+CleanPlan make_clean_plan(const Arguments& arguments) {
+  CleanPlan plan = make_cleaning(arguments);
+  plan.jobs = make_jobs(arguments);
+  plan.folder = arguments.text("output_dir");
+  plan.report_path = arguments.text("report");
   plan.dry_run = arguments.flag("dry_run");
   plan.json = arguments.flag("json");
   plan.verbose = arguments.flag("verbose");
   plan.quiet = arguments.flag("quiet");
-  plan.threads = static_cast<int>(arguments.whole("jobs"));
   std::vector<std::string> outputs = {plan.report_path};
   std::vector<std::string> inputs = {arguments.text("config")};
   for (const CleanJob& job : plan.jobs) {

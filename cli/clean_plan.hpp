@@ -15,6 +15,7 @@ namespace kinemend::cli {
 struct CleanJob {
   std::string input;
   std::string output;
+  bool may_replace = false;  ///< also without --force
 };
 
 /// All that `clean` was asked for, checked.
@@ -39,7 +40,10 @@ struct CleanPlan {
 
 /// Defaults, under the preset, under the configuration file, under the command line.
 Settings merged_settings(const Arguments& arguments);
-/// Errors: `ErrorKind::usage`.
+/// How to clean, without what and where to: what `clean` and `batch` share. Errors:
+/// `ErrorKind::usage`.
+CleanPlan make_cleaning(const Arguments& arguments);
+/// The plan of `clean`. Errors: `ErrorKind::usage`.
 CleanPlan make_clean_plan(const Arguments& arguments);
 
 }  // namespace kinemend::cli

@@ -24,7 +24,7 @@ void write_result(const CleanJob& job, const Clip& clip, const CleanPlan& plan) 
   if (!plan.folder.empty()) fs::create_directories(plan.folder, error);
   if (error)
     throw Error(ErrorKind::cannot_write, fmt::format("{}: {}", plan.folder, error.message()));
-  write_output(job.output, bytes, plan.force);
+  write_output(job.output, bytes, plan.force || job.may_replace);
 }
 
 void refuse_warnings(const std::string& name, const CleanReport& report) {
@@ -35,7 +35,7 @@ void refuse_warnings(const std::string& name, const CleanReport& report) {
 
 void clean_take(const CleanJob& job, const CleanPlan& plan, Outcome& outcome) {
   const std::string name = input_name(job.input);
-  if (!plan.dry_run) check_free(job.output, plan.force);
+  if (!plan.dry_run) check_free(job.output, plan.force || job.may_replace);
   ReadOptions options;
   options.format = plan.format;
   options.strict = plan.strict;
