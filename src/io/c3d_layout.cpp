@@ -189,8 +189,8 @@ class LayoutFinder {
               best_rank = found;
             }
     layout_ = best.value_or(first);
-    if (!best) cut_to_file();
     note_choices(first);
+    if (!best) cut_to_file();
   }
 
   std::vector<FrameClaim> unknown_frames() const {
@@ -229,11 +229,7 @@ class LayoutFinder {
            fmt::format("the header says {} analog values a frame; the file's length is that of {}",
                        header_.analog_values, layout_.analog_values));
     }
-    const auto differs = [&](const FrameClaim& claim) {
-      return claim.count != layout_.frame_count;
-    };
-    if (layout_.frame_count != first.frame_count &&
-        std::any_of(frames_.begin(), frames_.end(), differs)) {
+    if (layout_.frame_count != first.frame_count) {
       note("frame_count_mismatch", 5,
            fmt::format("the file says {} frames in one place and others elsewhere; {} are read",
                        first.frame_count, layout_.frame_count));
