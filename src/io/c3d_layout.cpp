@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace kinemend {
 namespace {
 
 constexpr std::size_t most_in_a_word = 65535;
+constexpr std::size_t up_to_the_end = std::numeric_limits<std::size_t>::max();
 
 // How many frames there are according to one place of the file.
 struct FrameClaim {
@@ -29,6 +31,19 @@ void add_claim(std::vector<T>& claims, std::optional<T> claim) {
 void add_frames(std::vector<FrameClaim>& claims, std::int64_t first, double count) {
   if (count >= 0 && count <= 4294967295.0)
     claims.push_back({static_cast<std::size_t>(count), first});
+}
+
+// The claim that most others agree with comes first; else their order stays.
+void sort_by_agreement(std::vector<FrameClaim>& claims) {
+  std::vector<FrameClaim> sorted = claims;
+  const auto agreeing = [&](const FrameClaim& claim) {
+    return std::count_if(claims.begin(), claims.end(),
+                         [&](const FrameClaim& other) { return other.count == claim.count; });
+  };
+  std::stable_sort(sorted.begin(), sorted.end(), [&](const FrameClaim& a, const FrameClaim& b) {
+    return agreeing(a) > agreeing(b);
+  });
+  claims = std::move(sorted);
 }
 
 class LayoutFinder {
@@ -122,25 +137,29 @@ class LayoutFinder {
     }
   }
 
-  void collect_frame_claims() {
-    const auto first = static_cast<std::int64_t>(header_.first_frame);
+  // The numbers of the first and the last frame, each as low word, high word. Some writers multiply
+  // the high one by 65,535, as a misprint in the format's manual says.
+  void collect_trial_claims() {
     const auto begin = parameters_.numbers("TRIAL", "ACTUAL_START_FIELD");
     const auto end = parameters_.numbers("TRIAL", "ACTUAL_END_FIELD");
-    // Low word, high word. Some writers multiply the high one by 65,535, as a misprint in the
-    // format's manual says.
+    if (begin.empty() || end.empty()) return;
+    const auto word = [](const std::vector<double>& words, std::size_t i) {
+      const double value = i < words.size() ? words[i] : 0;
+      return value < 0 ? value + 65536 : value;
+    };
+    const bool has_high_word = word(begin, 1) > 0 || word(end, 1) > 0;
     for (const double high : {65536.0, 65535.0}) {
-      const auto field = [&](const std::vector<double>& words) {
-        const auto word = [&](std::size_t i) {
-          if (i >= words.size()) return 0.0;
-          return words[i] < 0 ? words[i] + 65536 : words[i];
-        };
-        return word(0) + high * word(1);
-      };
-      if (begin.empty() || end.empty()) break;
-      const double number = field(begin);
-      if (number >= 0 && number <= 4294967295.0)
-        add_frames(frames_, static_cast<std::int64_t>(number), field(end) - number + 1);
+      if (high < 65536 && !has_high_word) return;
+      const double first = word(begin, 0) + high * word(begin, 1);
+      const double last = word(end, 0) + high * word(end, 1);
+      if (first <= 4294967295.0)
+        add_frames(frames_, static_cast<std::int64_t>(first), last - first + 1);
     }
+  }
+
+  void collect_frame_claims() {
+    collect_trial_claims();
+    const auto first = static_cast<std::int64_t>(header_.first_frame);
     add_frames(frames_, first, parameters_.number("POINT", "LONG_FRAMES").value_or(-1));
     const double frames = parameters_.number("POINT", "FRAMES").value_or(-1);
     if (frames > most_in_a_word || frames < -1) {
@@ -153,53 +172,58 @@ class LayoutFinder {
           frames_, first,
           static_cast<double>(header_.last_frame) - static_cast<double>(header_.first_frame) + 1);
     }
+    sort_by_agreement(frames_);
+    if (!frames_.empty()) return;
+    note("frame_count_assumed", 5,
+         "the file does not say how many frames it has; all that follows is read");
+    frames_.push_back({up_to_the_end, first});
   }
 
   // Rank of a reading of the file: 2 where the data ends with it, 1 where the data fits in.
   int rank(const C3dLayout& layout) const {
     const std::size_t bytes = layout.frame_bytes();
-    const std::size_t room = source_.bytes.size() - layout.data_begin;
-    if (bytes > 0 && layout.frame_count > room / bytes) return 0;
-    return room - layout.frame_count * bytes < c3d_block_bytes ? 2 : 1;
+    if (bytes > 0 && layout.frame_count > whole_frames(layout)) return 0;
+    return source_.bytes.size() - layout.data_begin - layout.frame_count * bytes < c3d_block_bytes
+               ? 2
+               : 1;
   }
 
-  void choose() {
-    std::optional<C3dLayout> best;
-    int best_rank = 0;
-    C3dLayout first = layout_;
-    bool any = false;
-    const std::vector<FrameClaim> frames = frames_.empty() ? unknown_frames() : frames_;
+  // The most trusted reading comes first.
+  std::vector<C3dLayout> readings() const {
+    std::vector<C3dLayout> all;
     for (const std::size_t begin : begins_)
       for (const bool is_float : floats_)
         for (const std::size_t points : points_)
           for (const std::size_t analog : analog_)
-            for (const FrameClaim& claim : frames) {
-              C3dLayout layout = layout_;
+            for (const FrameClaim& claim : frames_) {
+              C3dLayout& layout = all.emplace_back(layout_);
               layout.data_begin = begin;
               layout.is_float = is_float;
               layout.point_count = points;
               layout.analog_values = analog;
-              layout.frame_count = claim.count;
               layout.first_frame = claim.first;
-              if (!any) first = layout;
-              any = true;
-              const int found = rank(layout);
-              if (found <= best_rank) continue;
-              best = layout;
-              best_rank = found;
+              layout.frame_count =
+                  claim.count == up_to_the_end ? whole_frames(layout) : claim.count;
             }
-    layout_ = best.value_or(first);
-    note_choices(first);
-    if (!best) cut_to_file();
+    return all;
   }
 
-  std::vector<FrameClaim> unknown_frames() const {
-    return {{most_in_a_word, static_cast<std::int64_t>(header_.first_frame)}};
+  void choose() {
+    const std::vector<C3dLayout> all = readings();
+    const auto worse = [&](const C3dLayout& a, const C3dLayout& b) { return rank(a) < rank(b); };
+    layout_ = *std::max_element(all.begin(), all.end(), worse);
+    note_choices(all[0]);
+    if (rank(layout_) == 0) cut_to_file();
+  }
+
+  // As many as there is room for.
+  std::size_t whole_frames(const C3dLayout& layout) const {
+    const std::size_t room = source_.bytes.size() - layout.data_begin;
+    return layout.frame_bytes() == 0 ? 0 : room / layout.frame_bytes();
   }
 
   void cut_to_file() {
-    const std::size_t room = source_.bytes.size() - layout_.data_begin;
-    const std::size_t whole = room / layout_.frame_bytes();
+    const std::size_t whole = whole_frames(layout_);
     note("frames_missing", 5,
          fmt::format("the file says {} frames, but there is room for {} only", layout_.frame_count,
                      whole));
