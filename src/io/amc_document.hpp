@@ -14,6 +14,7 @@ namespace kinemend {
 struct AmcDocument : MotionDocument {
   std::string name;  ///< of the AMC
   std::string asf_bytes;
+  double metres_per_unit = 0;
   AmcLayout layout;
   std::vector<std::uint8_t> is_angle;  ///< one a column
 

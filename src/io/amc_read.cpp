@@ -145,7 +145,7 @@ TakeResult read_amc(std::string bytes, std::string_view name, std::string asf_by
   document->layout = has_frames ? read_amc_layout(text, result.diagnostics, header, asf, asf_name)
                                 : make_amc_layout(asf);
   Clip& clip = result.take.emplace<Clip>();
-  clip.metres_per_unit = asf.metres_per_unit;
+  clip.metres_per_unit = document->metres_per_unit = asf.metres_per_unit;
   clip.skeleton = std::move(asf.skeleton);
   set_rate(clip, result.diagnostics, options);
   read_frames(text, result.diagnostics, clip, *document);
@@ -174,7 +174,7 @@ TakeResult read_asf(std::string bytes, std::string_view name, const ReadOptions&
   document->layout = make_amc_layout(asf);
   document->degrees_per_value = asf.radians ? degrees_per_radian : 1;
   Clip& clip = result.take.emplace<Clip>();
-  clip.metres_per_unit = asf.metres_per_unit;
+  clip.metres_per_unit = document->metres_per_unit = asf.metres_per_unit;
   clip.frame_rate_hz = options.frame_rate_hz != 0 ? options.frame_rate_hz : custom_rate_hz;
   clip.skeleton = std::move(asf.skeleton);
   document->is_angle = angle_columns(clip.skeleton);

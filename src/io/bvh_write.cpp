@@ -146,11 +146,7 @@ std::string write_with_hierarchy(const Clip& clip, const BvhDocument& document) 
   TextBuffer out(4096);
   const std::string_view hierarchy =
       std::string_view(document.bytes).substr(0, document.hierarchy_end);
-  const std::size_t end = hierarchy.find_first_of("\r\n");
-  const std::string_view line_end = end == hierarchy.npos                ? "\n"
-                                    : hierarchy[end] == '\n'             ? "\n"
-                                    : hierarchy.substr(end, 2) == "\r\n" ? "\r\n"
-                                                                         : "\r";
+  const std::string_view line_end = line_ending_of(hierarchy);
   out.append(hierarchy);
   out.append(line_end);
   const bool same_rate =
@@ -159,7 +155,7 @@ std::string write_with_hierarchy(const Clip& clip, const BvhDocument& document) 
                                            : frame_time_text(clip.frame_rate_hz);
   std::vector<std::size_t> order(clip.joint_count());
   for (std::size_t j = 0; j < order.size(); ++j) order[j] = j;
-  append_motion(out, clip, order, {line_end, std::clamp(document.decimals, 4u, 9u), frame_time});
+  append_motion(out, clip, order, {line_end, document.written_decimals(), frame_time});
   return std::move(out).take();
 }
 

@@ -51,6 +51,8 @@ struct MotionDocument : SourceDocument {
   std::string_view text(ByteSpan span) const {
     return std::string_view(bytes).substr(span.begin, span.size);
   }
+  /// With how many a changed value is written.
+  unsigned written_decimals() const;
   /// From the first frame.
   virtual std::unique_ptr<RowReader> rows() const = 0;
   std::vector<double> channel_values() const override;

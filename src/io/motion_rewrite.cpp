@@ -16,14 +16,6 @@ namespace {
 
 using Angles = std::array<double, 3>;
 
-constexpr unsigned least_decimals = 4, least_decimals_of_radians = 6, most_decimals = 9;
-
-unsigned decimals_of(const MotionDocument& document) {
-  return std::clamp(document.decimals,
-                    document.degrees_per_value == 1 ? least_decimals : least_decimals_of_radians,
-                    most_decimals);
-}
-
 // All of a source's values, and which rotations the clip keeps.
 struct SourceTable {
   SourceTable(const Clip& clip, const MotionDocument& document) {
@@ -64,7 +56,7 @@ class Rewriter {
       : clip_(clip),
         document_(document),
         source_(document),
-        decimals_(decimals_of(document)),
+        decimals_(document.written_decimals()),
         keep_below_(0.5 * std::pow(10.0, -static_cast<double>(decimals_))),
         written_(clip.joint_count()),
         row_before_(source_.columns().count()),

@@ -34,6 +34,11 @@ void SourceFrames::hold() {
   }
 }
 
+unsigned MotionDocument::written_decimals() const {
+  constexpr unsigned least = 4, least_of_radians = 6, most = 9;
+  return std::clamp(decimals, degrees_per_value == 1 ? least : least_of_radians, most);
+}
+
 std::vector<double> MotionDocument::channel_values() const {
   std::vector<double> values;
   SourceFrames source(*this);

@@ -24,6 +24,12 @@ std::size_t line_at(std::string_view text, std::size_t offset) {
   return line;
 }
 
+std::string_view line_ending_of(std::string_view text) {
+  const std::size_t end = text.find_first_of("\r\n");
+  if (end == text.npos || text[end] == '\n') return "\n";
+  return text.substr(end, 2) == "\r\n" ? "\r\n" : "\r";
+}
+
 std::string quote(std::string_view found) {
   constexpr std::size_t longest = 40;
   if (found.empty()) return "the end of the file";

@@ -13,6 +13,9 @@ namespace kinemend {
 /// asked, which is when something is wrong, so that reading costs nothing.
 std::size_t line_at(std::string_view text, std::size_t offset);
 
+/// How the first line of a text ends: LF, CR LF or CR; LF when it is the only one.
+std::string_view line_ending_of(std::string_view text);
+
 /// What a file holds at some place, for a message: printable ASCII (a dot for the rest), quoted,
 /// cut at 40 characters; `the end of the file` when it is empty.
 std::string quote(std::string_view found);
