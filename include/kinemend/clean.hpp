@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -8,30 +9,41 @@
 
 #include "kinemend/cleaner.hpp"
 #include "kinemend/clip.hpp"
+#include "kinemend/fill.hpp"
+#include "kinemend/marker_clip.hpp"
 
 namespace kinemend {
 
 /// What the user asks for beside the method.
 struct CleanSettings {
   double strength = 1.0;  ///< 0..1: geodesic blend from the input (0) to the cleaned rotation (1)
-  /// No observed sample turns further than this from its input (0..180). Positions have no limit.
+  /// No observed rotation turns further than this from its input (0..180).
   double max_change_deg = 180;
-  std::vector<std::string> joints;   ///< names or shell patterns (`Left*`); empty: all joints
+  /// No observed marker moves further than this from its input, file units (>= 0). Positions of
+  /// joints have no limit.
+  double max_change = std::numeric_limits<double>::infinity();
+  /// Names of joints or markers, or shell patterns (`Left*`); empty: all. A marker is also known by
+  /// its name without its subject.
+  std::vector<std::string> joints;
   std::vector<std::string> exclude;  ///< taken out again
   bool root_position = true;         ///< also clean the root position, where joint 0 is selected
   /// Frames [first, last] that may change, counted from 0; the method sees all of the take, and the
   /// result is blended in over 0.1 s at either end that is not an end of the take.
   std::optional<std::pair<std::size_t, std::size_t>> range;
-  double peak_loss_limit = 0.10;  ///< a larger loss of a joint's peak speed is a warning (0..1)
+  double peak_loss_limit = 0.10;  ///< a larger loss of a peak speed is a warning (0..1)
+  /// Fills gaps before anything is denoised, from a copy of the take without its spikes; not set:
+  /// no. Gaps outside the selection and the range stay. Its own list of names must be empty.
+  std::optional<FillSettings> fill;
 };
 
-/// A run of frames in which one thing was done to one joint.
+/// A run of frames in which one thing was done to one joint or marker.
 struct ReportSpan {
-  std::int32_t joint = 0;  ///< -1 for the root position
+  std::int32_t joint = 0;  ///< or marker; -1 for the root position
   std::size_t first_frame = 0;
   std::size_t last_frame = 0;  ///< inclusive
   Action action = Action::kept;
-  double max_change = 0;  ///< degrees; file units for the root position
+  /// Degrees; file units for the root position and for markers, of which a filled one has none.
+  double max_change = 0;
   double rms_change = 0;
 };
 
@@ -59,6 +71,7 @@ struct CleanReport {
   double root_rms_change = 0;        ///< file units
   double root_max_change = 0;
   std::vector<ReportSpan> spans;  ///< by joint, then frame; spans of `kept` are left out
+  FillReport fill;                ///< of `CleanSettings::fill`
   std::vector<std::string> warnings;
   double seconds = 0;  ///< time the cleaning took
 };
@@ -68,12 +81,56 @@ struct CleanResult {
   CleanReport report;
 };
 
-/// The main path: takes calibration frames off, runs the cleaner, blends by strength, range and
-/// largest change, and reports. Samples outside the selection, joints without rotation channels and
-/// samples whose change is below 1e-9 degrees keep their exact value; the rotations of joints with
-/// one or two rotation channels are those that the channels can hold. Errors: `ErrorKind::usage`
-/// for settings out of range and for a joint pattern that matches nothing.
+/// One marker over the whole take, in file units.
+struct MarkerSummary {
+  std::string name;
+  double noise = 0;       ///< estimated noise per axis before; 0 where the method estimates none
+  double rms_change = 0;  ///< over the samples that were observed
+  double max_change = 0;
+  std::size_t frames_changed = 0;
+  std::size_t frames_repaired = 0;  ///< despiked or filled
+  std::size_t gaps_left = 0;
+  std::size_t frames_missing = 0;  ///< in the gaps that are left
+  /// Largest speed, file units a second, as in `JointSummary`.
+  double peak_speed_before = 0;
+  double peak_speed_after = 0;
+  std::size_t peak_frames = 1;
+};
+
+struct MarkerReport {
+  std::string method;
+  std::string unit;  ///< of the file; empty where it does not say
+  std::size_t frames = 0;
+  double frame_rate_hz = 0;
+  double body_height = 0;              ///< file units: what options in degrees were measured by
+  std::vector<MarkerSummary> markers;  ///< M
+  std::vector<ReportSpan> spans;       ///< by marker, then frame; spans of `kept` are left out
+  FillReport fill;                     ///< of `CleanSettings::fill`
+  std::vector<std::string> warnings;
+  double seconds = 0;  ///< time the cleaning took
+};
+
+struct MarkerResult {
+  MarkerClip clip;
+  MarkerReport report;
+};
+
+/// The main path: takes calibration frames off, fills gaps if asked, runs the cleaner, blends by
+/// strength, range and largest change, and reports. Samples outside the selection, joints without
+/// rotation channels and samples whose change is below 1e-9 degrees keep their exact value; the
+/// rotations of joints with one or two rotation channels are those that the channels can hold.
+/// Errors: `ErrorKind::usage` for settings out of range and for a joint pattern that matches
+/// nothing.
 CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner, const CleanSettings& settings = {},
                        std::string method_name = {});
+
+/// The same for markers: fills gaps if asked, runs the cleaner, blends by strength, range and
+/// largest change, and reports. What is missing and not filled stays missing; points that are no
+/// positions, markers outside the selection and samples whose change is below rounding keep their
+/// exact value. Residuals stay, and are 0 where a sample was filled. `max_change_deg` and
+/// `root_position` mean nothing here. Errors: `ErrorKind::usage` for settings out of range, a
+/// pattern that matches no marker, and a method that works on joints only.
+MarkerResult clean_markers(const MarkerClip& clip, const Cleaner& cleaner,
+                           const CleanSettings& settings = {}, std::string method_name = {});
 
 }  // namespace kinemend

@@ -2,10 +2,11 @@
 #include <cmath>
 #include <utility>
 
+#include "clean/auto_markers.hpp"
 #include "clean/method_list.hpp"
 #include "clean/moving_chart.hpp"
 #include "clean/spikes.hpp"
-#include "clean/track_smoother.hpp"
+#include "clean/track_cleaning.hpp"
 #include "clean/tracks.hpp"
 #include "clean/vector_tracks.hpp"
 #include "kinemend/methods.hpp"
@@ -13,8 +14,6 @@
 namespace kinemend {
 
 namespace {
-
-constexpr std::size_t fewest_frames = 4;
 
 const OptionTable<AutoOptions>& table() {
   static const auto options =
@@ -25,41 +24,6 @@ const OptionTable<AutoOptions>& table() {
   return options;
 }
 
-struct CleanedTracks {
-  SampleMarks marked;          // spikes
-  std::vector<double> noise;   // degrees, times the sensitivity
-  std::vector<double> shares;  // how far each track was smoothed
-};
-
-// Spikes found and noise smoothed on a set of tracks; `always_missing` samples are gaps already
-// bridged.
-CleanedTracks clean_tracks(VectorTracks& tracks, const SampleMarks& suspects,
-                           const SampleMarks& always_missing,
-                           const std::vector<std::vector<std::size_t>>& nearby,
-                           double frame_rate_hz, const AutoOptions& options) {
-  CleanedTracks verdicts{SampleMarks(tracks.frames(), tracks.tracks()), {}, {}};
-  if (options.despike) {
-    SpikeVerdicts found = find_spikes(tracks, suspects, nearby, frame_rate_hz);
-    verdicts.marked = std::move(found.marked);
-    verdicts.noise = std::move(found.noise);
-  } else {
-    verdicts.noise = noise_levels(tracks, always_missing);
-  }
-  for (double& level : verdicts.noise) level *= options.sensitivity;
-  verdicts.shares = cleaning_shares(verdicts.noise, frame_rate_hz);
-  SampleMarks missing = verdicts.marked;
-  for (std::size_t i = 0; i < missing.marks.size(); ++i)
-    missing.marks[i] |= always_missing.marks[i];
-  // A track that was hardly seen keeps its bridges.
-  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
-    std::size_t seen = 0;
-    for (std::size_t t = 0; t < tracks.frames(); ++t) seen += missing(t, n) == 0;
-    if (seen < 2 * fewest_frames) verdicts.shares[n] = 0;
-  }
-  smooth_tracks(tracks, missing, verdicts.noise, verdicts.shares, frame_rate_hz);
-  return verdicts;
-}
-
 class Auto final : public Cleaner {
  public:
   explicit Auto(const AutoOptions& options) : options_(options) {}
@@ -68,10 +32,14 @@ class Auto final : public Cleaner {
     CleanTrace trace;
     const std::vector<std::size_t> joints = selected_joints(clip, selection);
     bridge_gaps(clip, joints, trace);
-    if (clip.frame_count() < fewest_frames) return trace;
+    if (clip.frame_count() < fewest_clean_frames) return trace;
     clean_rotations(clip, joints, trace);
     clean_positions(clip, selected_positions(clip, selection), trace);
     return trace;
+  }
+
+  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
+    return clean_markers_by_evidence(clip, selection, options_);
   }
 
  private:

@@ -54,10 +54,10 @@ class BilateralCleaner final : public Cleaner {
     const double sigma_t = options_.sigma_t_s * clip.frame_rate_hz;
     const double sigma_g = options_.sigma_g_deg * radians_per_degree;
     const BilateralKernel moves = bilateral_kernel(sigma_t, sigma_g * selection.body_height);
+    // Bridges count like samples: a mean of one side only would lag behind a marker that travels.
     return filter_marker_tracks(
-        clip, selection, [&](VectorTrack& track, const std::vector<double>& weights) {
-          bilateral_filter(track, weights, moves, static_cast<std::size_t>(options_.passes),
-                           ends());
+        clip, selection, [&](VectorTrack& track, const std::vector<double>&) {
+          bilateral_filter(track, {}, moves, static_cast<std::size_t>(options_.passes), ends());
         });
   }
 

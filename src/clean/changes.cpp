@@ -126,13 +126,15 @@ TrackChanges blend_rotations(JointTracks& tracks, RotationOrder order,
     if (weights[f] > 0 && result != from) {
       const bool seen = tracks.observed.empty() || tracks.observed[f] != 0;
       const double limit = seen ? most_change : 2 * pi;
+      // What stands in a gap is no motion to go halfway from.
+      const double weight = seen ? weights[f] : 1;
       angle = turn_between(from, result);
       if (order.count < 3) {
-        result = turned_within_axes(from, result, weights[f], limit, order, angles);
+        result = turned_within_axes(from, result, weight, limit, order, angles);
         angle = angle_between(from, result);
-      } else if (weights[f] < 1 || angle > limit) {
-        result = turned_towards(from, result, weights[f], limit);
-        angle = std::min(angle * weights[f], limit);
+      } else if (weight < 1 || angle > limit) {
+        result = turned_towards(from, result, weight, limit);
+        angle = std::min(angle * weight, limit);
       }
     }
     if (angle < least_change_rad) result = from, angle = 0;
@@ -151,6 +153,24 @@ TrackChanges blend_positions(std::span<const Vec3> before, std::span<Vec3> after
   for (std::size_t f = 0; f < weights.size(); ++f) {
     changes.amounts[f] = blend_position(before[f], after[f], weights[f], axes, least);
     changes.actions[f] = action_of(stated, f, changes.amounts[f] > 0);
+  }
+  return changes;
+}
+
+TrackChanges blend_marker(MarkerTrack& track, const std::vector<double>& weights, double max_change,
+                          double least) {
+  constexpr std::array<bool, 3> all_axes{true, true, true};
+  TrackChanges changes{std::vector<double>(weights.size()),
+                       std::vector<Action>(weights.size(), Action::kept)};
+  for (std::size_t f = 0; f < weights.size(); ++f) {
+    if (!track.observed[f]) {
+      if (track.observed_after[f]) changes.actions[f] = Action::filled;
+      continue;
+    }
+    const double way = norm(track.after[f] - track.before[f]);
+    const double weight = way * weights[f] > max_change ? max_change / way : weights[f];
+    changes.amounts[f] = blend_position(track.before[f], track.after[f], weight, all_axes, least);
+    changes.actions[f] = action_of(track.stated, f, changes.amounts[f] > 0);
   }
   return changes;
 }

@@ -53,6 +53,34 @@ JointReport report_joint(const std::string& name, std::size_t joint, const Joint
                          const TrackChanges& changes, std::size_t first_frame, double frame_rate_hz,
                          double peak_loss_limit);
 
+/// One marker's positions before and after the cleaner.
+struct MarkerTrack {
+  std::vector<Vec3> before, after;
+  std::vector<std::uint8_t> observed, observed_after;
+  std::vector<Action> stated;  ///< what the steps say they did; empty: nothing in particular
+};
+
+/// Blends `after` with `before` in place where both were observed, no further than `max_change`.
+/// Changes below `least` are none.
+TrackChanges blend_marker(MarkerTrack& track, const std::vector<double>& weights, double max_change,
+                          double least);
+
+/// What marker speeds are measured by.
+struct MarkerScale {
+  double frame_rate_hz = 0;
+  double body_height = 1;  ///< file units
+  std::string unit;
+};
+/// What the report says of one marker.
+struct MarkerTrackReport {
+  MarkerSummary summary;
+  std::vector<ReportSpan> spans;
+  std::string warning;  ///< of a lost peak; empty when there is none
+};
+MarkerTrackReport report_marker(const std::string& name, std::size_t marker,
+                                const MarkerTrack& track, const TrackChanges& changes,
+                                const MarkerScale& scale, double peak_loss_limit);
+
 /// The spans of one track, `kept` left out.
 std::vector<ReportSpan> spans_of(std::int32_t joint, const TrackChanges& changes,
                                  std::size_t first_frame);

@@ -1,8 +1,5 @@
 #include "kinemend/clean.hpp"
 
-#include <fmt/format.h>
-#include <fnmatch.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,58 +7,17 @@
 #include <utility>
 
 #include "clean/changes.hpp"
+#include "clean/gap_step.hpp"
+#include "clean/selection.hpp"
 #include "clean/tracks.hpp"
-#include "kinemend/error.hpp"
 
 namespace kinemend {
 
 namespace {
 
-void check_number(const char* name, double value, double maximum) {
-  if (value >= 0 && value <= maximum) return;
-  throw Error(ErrorKind::usage, fmt::format("{}: {} is outside 0 to {}", name, value, maximum));
-}
-
-void check_settings(const CleanSettings& settings, std::size_t frames) {
-  check_number("strength", settings.strength, 1);
-  check_number("max_change_deg", settings.max_change_deg, 180);
-  check_number("peak_loss_limit", settings.peak_loss_limit, 1);
-  if (!settings.range) return;
-  const auto [first, last] = *settings.range;
-  if (first > last || last >= frames) {
-    throw Error(ErrorKind::usage,
-                fmt::format("range: frames {} to {} are not in a take of frames 0 to {}", first,
-                            last, frames == 0 ? 0 : frames - 1));
-  }
-}
-
-// Sets the marks of the joints that a name or shell pattern means.
-void mark_joints(const Skeleton& skeleton, const std::string& pattern, std::uint8_t mark,
-                 std::vector<std::uint8_t>& marks) {
-  bool matched = false;
-  for (std::size_t j = 0; j < skeleton.joint_count(); ++j) {
-    const std::string& name = skeleton.names[j];
-    if (name != pattern && fnmatch(pattern.c_str(), name.c_str(), 0) != 0) continue;
-    marks[j] = mark;
-    matched = true;
-  }
-  if (!matched) {
-    throw Error(ErrorKind::usage, fmt::format("no joint matches \"{}\" (the joints are {})",
-                                              pattern, fmt::join(skeleton.names, ", ")));
-  }
-}
-
 Selection make_selection(const Clip& clip, const CleanSettings& settings) {
   Selection selection = Selection::all(clip);
-  if (!settings.joints.empty()) {
-    std::fill(selection.joints.begin(), selection.joints.end(), std::uint8_t{0});
-    for (const auto& pattern : settings.joints) {
-      mark_joints(clip.skeleton, pattern, 1, selection.joints);
-    }
-  }
-  for (const auto& pattern : settings.exclude) {
-    mark_joints(clip.skeleton, pattern, 0, selection.joints);
-  }
+  selection.joints = select_names(clip.skeleton.names, settings, "joint");
   selection.root_position = settings.root_position && clip.joint_count() > 0 &&
                             selection.joints[0] != 0 && clip.skeleton.has_position_channels(0);
   return selection;
@@ -162,6 +118,16 @@ void finish_translations(const Work& work, Clip& motion) {
   }
 }
 
+// The cleaner takes what the step before it filled for measured.
+void state_filled(const std::vector<std::uint8_t>& observed, const Clip& motion,
+                  CleanTrace& trace) {
+  if (observed == motion.observed) return;
+  if (trace.actions.empty()) trace.actions.assign(motion.local_rotations.size(), Action::kept);
+  for (std::size_t i = 0; i < observed.size(); ++i) {
+    if (observed[i] == 0 && motion.observed[i] != 0) trace.actions[i] = Action::filled;
+  }
+}
+
 }  // namespace
 
 CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner, const CleanSettings& settings,
@@ -179,15 +145,27 @@ CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner, const CleanSett
   const std::size_t first = report.calibration_frames;
 
   Clip motion = slice(clip, first, clip.frame_count());
-  const CleanTrace trace = cleaner.clean(motion, selection);
-  report.warnings = trace.warnings;
   const std::size_t frames = motion.frame_count();
+  std::vector<double> weights =
+      frame_weights(settings, clip.frame_count(), first, clip.frame_rate_hz);
+  const std::vector<std::uint8_t> observed = motion.observed;
+  if (settings.fill) {
+    report.fill = fill_step(motion, selection.joints, weights, *settings.fill);
+    for (GapOutcome& outcome : report.fill.gaps) {
+      outcome.gap.first_frame += first;
+      outcome.gap.last_frame += first;
+    }
+    report.warnings = report.fill.warnings;
+  }
+  CleanTrace trace = cleaner.clean(motion, selection);
+  report.warnings.insert(report.warnings.end(), trace.warnings.begin(), trace.warnings.end());
+  state_filled(observed, motion, trace);
   const Work work{clip,
                   settings,
                   selection,
                   trace,
                   first,
-                  frame_weights(settings, clip.frame_count(), first, clip.frame_rate_hz),
+                  std::move(weights),
                   std::vector<double>(frames, 0.0)};
   finish_root(work, motion, report);
   finish_translations(work, motion);
@@ -198,6 +176,7 @@ CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner, const CleanSett
     result.clip = std::move(motion);
   } else {
     result.clip = clip;
+    put_back(result.clip.observed, motion.observed, first, clip.joint_count());
     put_back(result.clip.local_rotations, motion.local_rotations, first, clip.joint_count());
     put_back(result.clip.root_positions, motion.root_positions, first, 1);
     put_back(result.clip.joint_translations, motion.joint_translations, first,

@@ -171,11 +171,7 @@ class Kalman final : public Cleaner {
     std::vector<double> noise(clip.marker_count());
     for_each_parallel(noise.size(), clip.positions.size(), [&](std::size_t m) {
       if (!marker_selected(clip, selection, m)) return;
-      std::vector<Vec3> seen;
-      for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-        if (clip.is_observed(f, m)) seen.push_back(clip.position(f, m));
-      }
-      noise[m] = given > 0 ? given : track_noise(seen);
+      noise[m] = given > 0 ? given : observed_noise(clip, m);
     });
     return noise;
   }

@@ -1,7 +1,9 @@
 #include "clean/marker_tracks.hpp"
 
 #include <algorithm>
+#include <optional>
 
+#include "clean/track_noise.hpp"
 #include "clean/tracks.hpp"
 
 namespace kinemend {
@@ -9,16 +11,15 @@ namespace kinemend {
 namespace {
 
 // Velocity, per frame, of the straight line of least squares through up to `most` observed samples
-// from `end` on in the direction of `step`; false where fewer than three stand together.
-bool end_velocity(const MarkerPath& path, std::size_t end, int step, std::size_t most,
-                  Vec3& velocity) {
+// from `end` on in the direction of `step`; nothing where fewer than three stand together.
+std::optional<Vec3> velocity_beside(const MarkerPath& path, std::size_t end, int step,
+                                    std::size_t most) {
+  const std::size_t room = step > 0 ? path.positions.size() - end : end + 1;
   const auto at = [&](std::size_t k) { return step > 0 ? end + k : end - k; };
   std::size_t count = 0;
-  while (count < most && (step > 0 ? end + count < path.positions.size() : count <= end) &&
-         path.observed[at(count)] != 0) {
+  while (count < std::min(most, room) && (path.observed.empty() || path.observed[at(count)] != 0))
     ++count;
-  }
-  if (count < 3) return false;
+  if (count < 3) return std::nullopt;
   const double middle = static_cast<double>(count - 1) / 2;
   Vec3 moment;
   double squares = 0;
@@ -27,8 +28,7 @@ bool end_velocity(const MarkerPath& path, std::size_t end, int step, std::size_t
     moment += t * (path.positions[at(k)] - path.positions[end]);
     squares += t * t;
   }
-  velocity = (static_cast<double>(step) / squares) * moment;
-  return true;
+  return (static_cast<double>(step) / squares) * moment;
 }
 
 // Fills the gap between the observed samples `before` and `after`.
@@ -36,9 +36,9 @@ void bridge(MarkerPath& path, std::size_t before, std::size_t after, std::size_t
   const double length = static_cast<double>(after - before);
   const Vec3 start = path.positions[before];
   const Vec3 way = path.positions[after] - start;
-  Vec3 leaving = (1 / length) * way, arriving = leaving;
-  end_velocity(path, before, -1, support, leaving);
-  end_velocity(path, after, 1, support, arriving);
+  const Vec3 straight = (1 / length) * way;
+  const Vec3 leaving = velocity_beside(path, before, -1, support).value_or(straight);
+  const Vec3 arriving = velocity_beside(path, after, 1, support).value_or(straight);
   for (std::size_t f = before + 1; f < after; ++f) {
     const double u = static_cast<double>(f - before) / length;
     path.positions[f] = start + (u * u * (3 - 2 * u)) * way +
@@ -127,11 +127,24 @@ std::vector<MarkerPath> marker_paths(const MarkerClip& clip, const MarkerSelecti
   return paths;
 }
 
+Vec3 end_velocity(const MarkerPath& path, bool at_last, std::size_t support) {
+  const std::size_t end = at_last ? path.positions.size() - 1 : 0;
+  return velocity_beside(path, end, at_last ? -1 : 1, support).value_or(Vec3{});
+}
+
 void put_back(const MarkerPath& path, MarkerClip& clip) {
   for (std::size_t i = 0; i < path.positions.size(); ++i) {
     if (path.observed.empty() || path.observed[i] != 0)
       clip.position(path.first_frame + i, path.marker) = path.positions[i];
   }
+}
+
+double observed_noise(const MarkerClip& clip, std::size_t marker) {
+  std::vector<Vec3> seen;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    if (clip.is_observed(f, marker)) seen.push_back(clip.position(f, marker));
+  }
+  return track_noise(seen);
 }
 
 MarkerTrace filter_marker_paths(MarkerClip& clip, const MarkerSelection& selection,

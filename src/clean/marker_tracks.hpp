@@ -35,8 +35,15 @@ bool marker_selected(const MarkerClip& clip, const MarkerSelection& selection, s
 /// The paths of the selected markers, by marker, then frame. A bridge is the cubic that leaves and
 /// meets the observed samples at their own velocity (by least squares).
 std::vector<MarkerPath> marker_paths(const MarkerClip& clip, const MarkerSelection& selection);
+/// Velocity, per frame, at the last (else the first) sample of a path: that of the straight line of
+/// least squares through up to `support` observed samples; zero where fewer than three stand
+/// together.
+Vec3 end_velocity(const MarkerPath& path, bool at_last, std::size_t support);
 /// Writes the observed samples back.
 void put_back(const MarkerPath& path, MarkerClip& clip);
+
+/// Standard deviation per axis of the white noise on what was observed of one marker.
+double observed_noise(const MarkerClip& clip, std::size_t marker);
 
 /// Runs `filter` on every path of the selected markers, in parallel, and writes what was observed
 /// back.

@@ -79,6 +79,12 @@ double noise_level(const VectorTracks& tracks, const SampleMarks& marked, std::s
 
 }  // namespace
 
+SampleMarks either(const SampleMarks& a, const SampleMarks& b) {
+  SampleMarks result = a;
+  for (std::size_t i = 0; i < result.marks.size(); ++i) result.marks[i] |= b.marks[i];
+  return result;
+}
+
 void fill_marked(VectorTracks& tracks, const SampleMarks& marked) {
   for (std::size_t n = 0; n < tracks.tracks(); ++n) {
     std::ptrdiff_t before = -1;

@@ -5,12 +5,14 @@
 #include <vector>
 
 #include "clean/live_frames.hpp"
+#include "clean/marker_tracks.hpp"
 #include "clean/method_list.hpp"
 #include "clean/nonlocal_causal.hpp"
 #include "clean/nonlocal_filter.hpp"
 #include "clean/rotation_track.hpp"
 #include "clean/track_noise.hpp"
 #include "clean/tracks.hpp"
+#include "clean/whole_markers.hpp"
 #include "kinemend/methods.hpp"
 
 namespace kinemend {
@@ -97,6 +99,34 @@ class NonlocalCleaner final : public Cleaner {
     return trace;
   }
 
+  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
+    if (options_.causal) {
+      throw Error(ErrorKind::usage, "nonlocal with causal works on joints, not on markers");
+    }
+    MarkerTrace trace;
+    if (clip.frame_count() < 2) return trace;
+    // Markers that are not selected belong to the pose, too.
+    MarkerSelection everything = selection;
+    everything.markers.assign(clip.marker_count(), 1);
+    const std::vector<WholeMarker> markers = whole_markers(clip, everything);
+    NonlocalTake take;
+    for (const WholeMarker& marker : markers) add_point(clip, marker, take);
+    NonlocalSettings settings = settings_for(clip.frame_rate_hz);
+    settings.bandwidth *= marker_reach(selection.body_height);
+    if (options_.bandwidth_deg == 0 && !choose_bandwidth(clip, markers, take, settings, trace)) {
+      return trace;
+    }
+    nonlocal_filter(take, settings);
+    for (std::size_t p = 0; p < markers.size(); ++p) {
+      const std::size_t m = markers[p].marker;
+      if (!marker_selected(clip, selection, m)) continue;
+      for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+        if (clip.is_observed(f, m)) clip.position(f, m) = take.points[p][f];
+      }
+    }
+    return trace;
+  }
+
   LiveSupport live_support(double frame_rate_hz) const override {
     if (options_.causal) return {LiveSupport::Kind::causal, 0};
     // The noise of a whole take and the whole take itself are not known live.
@@ -148,6 +178,37 @@ class NonlocalCleaner final : public Cleaner {
       take.travels.push_back(positions.values == clip.root_positions.data());
     }
     return take;
+  }
+
+  static void add_point(const MarkerClip& clip, const WholeMarker& marker, NonlocalTake& take) {
+    const std::size_t frames = clip.frame_count();
+    VectorTrack track(frames);
+    std::vector<double> observed(frames + lane_room);
+    std::size_t seen = 0;
+    for (std::size_t f = 0; f < frames; ++f) {
+      track.set(f, marker.positions[f]);
+      observed[f] = clip.is_observed(f, marker.marker) ? 1 : 0;
+      seen += clip.is_observed(f, marker.marker) ? 1 : 0;
+    }
+    if (seen == frames) observed.clear();
+    take.points.push_back(std::move(track));
+    take.points_observed.push_back(std::move(observed));
+  }
+
+  static bool choose_bandwidth(const MarkerClip& clip, const std::vector<WholeMarker>& markers,
+                               const NonlocalTake& take, NonlocalSettings& settings,
+                               MarkerTrace& trace) {
+    trace.noise.assign(clip.marker_count(), 0.0);
+    double sum = 0;
+    for (const WholeMarker& marker : markers) {
+      const double noise = trace.noise[marker.marker] = observed_noise(clip, marker.marker);
+      sum += noise * noise;
+    }
+    if (sum == 0) return false;
+    const double variance = sum / static_cast<double>(markers.size());
+    settings.noise_distance = 2 * variance;
+    settings.bandwidth = best_bandwidth(take, settings, variance);
+    return true;
   }
 
   // Bandwidth and distance of noise from the take; false when there is no noise to remove.

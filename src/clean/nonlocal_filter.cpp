@@ -86,8 +86,7 @@ class Averager {
  public:
   Averager(const NonlocalTake& take, const NonlocalSettings& settings)
       : settings_(settings),
-        frames_(take.rotations.empty() ? take.positions.front().frames
-                                       : take.rotations.front().frames),
+        frames_(take.frames()),
         pad_(std::max(settings.patch_radius + (settings.whole_take ? 0 : settings.window_radius),
                       lane_room)) {
     for (const auto& track : take.rotations) {
@@ -95,6 +94,10 @@ class Averager {
     }
     for (const auto& track : take.positions) {
       positions_.push_back(pad_ends(track, pad_, settings));
+    }
+    for (const auto& track : take.points) points_.push_back(pad_ends(track, pad_, settings));
+    for (const auto& weights : take.points_observed) {
+      points_observed_.push_back(pad_weights(weights, frames_, pad_, settings.boundary));
     }
     for (const auto& weights : take.observed) {
       observed_.push_back(pad_weights(weights, frames_, pad_, settings.boundary));
@@ -112,6 +115,7 @@ class Averager {
   struct Moves {
     std::vector<VectorTrack> turns;  ///< one a rotation track; empty where it is not wanted
     std::vector<VectorTrack> shifts;
+    std::vector<VectorTrack> point_moves;
   };
 
   // Adds to `risks`, one for each bandwidth, Mallows' C_p of the block's frames.
@@ -122,6 +126,15 @@ class Averager {
       Weights weights = distances;
       weigh(count, bandwidths[n], weights);
       double changed = 0, samples = 0;
+      const std::vector<VectorTrack> travels = body_travels(first, count, weights.neighbours);
+      for (std::size_t p = 0; p < points_.size(); ++p) {
+        if (!points_observed_[p].empty()) continue;
+        VectorTrack moves(count);
+        mean_point_move(points_[p], nullptr, first + pad_, count, weights.neighbours, travels,
+                        moves);
+        for (std::size_t i = 0; i < count; ++i) changed += dot(moves[i], moves[i]);
+        samples += 1;
+      }
       for (std::size_t j = 0; j < rotations_.size(); ++j) {
         if (!observed_[j].empty()) continue;
         VectorTrack turns(count);
@@ -164,6 +177,7 @@ class Averager {
       mean_move(positions_[p], first + pad_, count, travels[p] ? near : weights.neighbours,
                 moves.shifts.back());
     }
+    add_point_moves_of(first, count, weights.neighbours, near, moves);
     return moves;
   }
 
@@ -185,13 +199,87 @@ class Averager {
     ~Weights() = default;
   };
 
+  const double* point_weights(std::size_t point) const {
+    return points_observed_[point].empty() ? nullptr : points_observed_[point].data();
+  }
+
+  // Sums over the points between frames `a` + i and `b` + i of the padded take, i < count.
+  struct Moved {
+    std::vector<double> squares, x, y, z, pairs;
+
+    explicit Moved(std::size_t length)
+        : squares(length), x(length), y(length), z(length), pairs(length) {}
+  };
+  Moved point_sums(std::size_t a, std::size_t b, std::size_t count) const {
+    Moved sums(count + lane_room);
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      add_point_moves(
+          points_[p], point_weights(p), a, b, count,
+          {sums.squares.data(), sums.x.data(), sums.y.data(), sums.z.data(), sums.pairs.data()});
+    }
+    return sums;
+  }
+
+  // How the centre of the points that both frames have moved on from each frame to each neighbour.
+  std::vector<VectorTrack> body_travels(std::size_t first, std::size_t count,
+                                        const std::vector<Neighbour>& neighbours) const {
+    std::vector<VectorTrack> travels;
+    if (points_.empty()) return travels;
+    for (const Neighbour& n : neighbours) {
+      VectorTrack travel(count);
+      // A neighbour beyond the take weighs nothing.
+      const auto there = static_cast<std::ptrdiff_t>(first + pad_) + n.offset;
+      const auto all = static_cast<std::ptrdiff_t>(frames_ + 2 * pad_);
+      const std::size_t begin = there < 0 ? static_cast<std::size_t>(-there) : 0;
+      const auto end = std::min(static_cast<std::ptrdiff_t>(count), all - there);
+      if (static_cast<std::ptrdiff_t>(begin) < end) {
+        const std::size_t part = static_cast<std::size_t>(end) - begin;
+        const Moved sums =
+            point_sums(first + pad_ + begin,
+                       static_cast<std::size_t>(there + static_cast<std::ptrdiff_t>(begin)), part);
+        for (std::size_t i = 0; i < part; ++i) {
+          const double share = 1 / std::max(sums.pairs[i], 1.0);
+          travel.set(begin + i, share * Vec3{sums.x[i], sums.y[i], sums.z[i]});
+        }
+      }
+      travels.push_back(std::move(travel));
+    }
+    return travels;
+  }
+
+  void add_point_moves_of(std::size_t first, std::size_t count,
+                          const std::vector<Neighbour>& neighbours,
+                          const std::vector<Neighbour>& near, Moves& moves) const {
+    if (points_.empty()) return;
+    const std::vector<VectorTrack> travels = body_travels(first, count, neighbours);
+    VectorTrack centre(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      Vec3 sum;
+      double total = 1;
+      for (std::size_t n = 0, k = 0; n < neighbours.size() && k < near.size(); ++n) {
+        if (neighbours[n].offset != near[k].offset) continue;
+        sum += near[k].weights[i] * travels[n][i];
+        total += near[k].weights[i];
+        ++k;
+      }
+      centre.set(i, (1 / total) * sum);
+    }
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      VectorTrack move(count);
+      mean_point_move(points_[p], point_weights(p), first + pad_, count, neighbours, travels, move);
+      turn(move, centre);
+      moves.point_moves.push_back(std::move(move));
+    }
+  }
+
   // Mean squared difference per channel of the patches about frames `from` + i and `from` + lag +
   // i, for i < count.
   void patch_distances(std::ptrdiff_t from, std::ptrdiff_t lag, std::size_t count,
                        double* out) const {
     const std::size_t patch = 2 * settings_.patch_radius + 1;
     const std::size_t wide = count + patch - 1;
-    std::vector<double> sums(wide + lane_room), pairs(gaps_ ? wide + lane_room : 0);
+    std::vector<double> sums(wide + lane_room),
+        pairs(gaps_ || !points_.empty() ? wide + lane_room : 0);
     const auto a = static_cast<std::size_t>(from + static_cast<std::ptrdiff_t>(pad_) -
                                             static_cast<std::ptrdiff_t>(settings_.patch_radius));
     const std::size_t b = a + static_cast<std::size_t>(lag);
@@ -205,15 +293,30 @@ class Averager {
                             pairs.data());
       }
     }
+    if (!points_.empty()) add_centred_distances(a, b, wide, sums, pairs);
     std::vector<double> counts(count, whole * static_cast<double>(patch));
     std::fill(out, out + count, 0.0);
     for (std::size_t o = 0; o < patch; ++o) {
       for (std::size_t i = 0; i < count; ++i) out[i] += sums[i + o];
-      if (!gaps_) continue;
+      if (pairs.empty()) continue;
       for (std::size_t i = 0; i < count; ++i) counts[i] += pairs[i + o];
     }
     for (std::size_t i = 0; i < count; ++i) {
-      out[i] = counts[i] > 0 ? out[i] / (3 * counts[i]) : rotations_.empty() ? 0.0 : infinite;
+      out[i] = counts[i] > 0                           ? out[i] / (3 * counts[i])
+               : rotations_.empty() && points_.empty() ? 0.0
+                                                       : infinite;
+    }
+  }
+
+  // What is left of the points' moves without that of their centre.
+  void add_centred_distances(std::size_t a, std::size_t b, std::size_t count,
+                             std::vector<double>& sums, std::vector<double>& pairs) const {
+    const Moved moved = point_sums(a, b, count);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (moved.pairs[i] < 2) continue;
+      const Vec3 sum{moved.x[i], moved.y[i], moved.z[i]};
+      sums[i] += std::max(0.0, moved.squares[i] - dot(sum, sum) / moved.pairs[i]);
+      pairs[i] += moved.pairs[i] - 1;
     }
   }
 
@@ -329,6 +432,8 @@ class Averager {
   std::vector<RotationTrack> rotations_;
   std::vector<std::vector<double>> observed_;
   std::vector<VectorTrack> positions_;
+  std::vector<VectorTrack> points_;
+  std::vector<std::vector<double>> points_observed_;
 };
 
 RotationTrack part_of(const RotationTrack& track, std::size_t first, std::size_t count) {
@@ -351,6 +456,12 @@ void turn_part(Track& track, std::size_t first, const VectorTrack& turns) {
 
 }  // namespace
 
+std::size_t NonlocalTake::frames() const {
+  if (!rotations.empty()) return rotations.front().frames;
+  if (!points.empty()) return points.front().frames;
+  return positions.empty() ? 0 : positions.front().frames;
+}
+
 double best_bandwidth(const NonlocalTake& take, const NonlocalSettings& settings, double variance) {
   constexpr std::size_t block = 64, most_blocks = 6;
   std::vector<double> bandwidths, risks;
@@ -371,22 +482,26 @@ double best_bandwidth(const NonlocalTake& take, const NonlocalSettings& settings
 }
 
 void nonlocal_filter(NonlocalTake& take, const NonlocalSettings& settings) {
-  if (take.rotations.empty() && take.positions.empty()) return;
+  if (take.frames() == 0) return;
   const Averager averager(take, settings);
   const std::size_t frames = averager.frames();
   const std::size_t block = averager.block_frames();
   const std::size_t blocks = (frames + block - 1) / block;
-  for_each_parallel(blocks, frames * (1 + take.rotations.size()), [&](std::size_t b) {
-    const std::size_t first = b * block;
-    const auto moves =
-        averager.run(first, std::min(block, frames - first), take.wanted, take.travels);
-    for (std::size_t j = 0; j < take.rotations.size(); ++j) {
-      if (take.wanted[j]) turn_part(take.rotations[j], first, moves.turns[j]);
-    }
-    for (std::size_t p = 0; p < take.positions.size(); ++p) {
-      turn_part(take.positions[p], first, moves.shifts[p]);
-    }
-  });
+  for_each_parallel(
+      blocks, frames * (1 + take.rotations.size() + take.points.size()), [&](std::size_t b) {
+        const std::size_t first = b * block;
+        const auto moves =
+            averager.run(first, std::min(block, frames - first), take.wanted, take.travels);
+        for (std::size_t j = 0; j < take.rotations.size(); ++j) {
+          if (take.wanted[j]) turn_part(take.rotations[j], first, moves.turns[j]);
+        }
+        for (std::size_t p = 0; p < take.positions.size(); ++p) {
+          turn_part(take.positions[p], first, moves.shifts[p]);
+        }
+        for (std::size_t p = 0; p < take.points.size(); ++p) {
+          turn_part(take.points[p], first, moves.point_moves[p]);
+        }
+      });
 }
 
 }  // namespace kinemend

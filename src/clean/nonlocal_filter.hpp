@@ -29,13 +29,20 @@ struct NonlocalSettings {
   std::size_t travel_radius = 10;  ///< farther poses do not count for the root position
 };
 
-/// A take as the filter sees it. Tracks have the same number of frames.
+/// A take as the filter sees it: joints, or points of a body. Tracks have the same number of
+/// frames.
 struct NonlocalTake {
   std::vector<RotationTrack> rotations;       ///< of every joint that belongs to the pose
   std::vector<std::vector<double>> observed;  ///< one a rotation track: `observed_weights`
   std::vector<std::uint8_t> wanted;           ///< one a rotation track: 1 where it may change
   std::vector<VectorTrack> positions;         ///< averaged with the same weights
   std::vector<std::uint8_t> travels;  ///< one a position track: 1 where it is the root's, in space
+  /// Of every marker that belongs to the pose. Poses are compared and averaged about their own
+  /// centre, which itself goes with the frames within `travel_radius`; nothing is turned.
+  std::vector<VectorTrack> points;
+  std::vector<std::vector<double>> points_observed;  ///< one a point; empty: all of its samples
+
+  std::size_t frames() const;
 };
 
 void nonlocal_filter(NonlocalTake& take, const NonlocalSettings& settings);

@@ -20,6 +20,10 @@ HWY_INLINE LaneVec load_sample(const VectorTrack& t, std::size_t i) {
   return {load(&t.x[i]), load(&t.y[i]), load(&t.z[i])};
 }
 
+HWY_INLINE bool weighs_nothing(Lanes weights) {
+  return hn::AllFalse(tag, hn::Gt(weights, hn::Zero(tag)));
+}
+
 void add_squared_angles_lanes(const RotationTrack& track, std::size_t a, std::size_t b,
                               std::size_t count, double* sums) {
   for (std::size_t i = 0; i < count; i += hn::Lanes(tag)) {
@@ -38,15 +42,52 @@ void add_observed_angles_lanes(const RotationTrack& track, const double* observe
   }
 }
 
+void add_point_moves_lanes(const VectorTrack& track, const double* observed, std::size_t a,
+                           std::size_t b, std::size_t count, const PointSums& sums) {
+  for (std::size_t i = 0; i < count; i += hn::Lanes(tag)) {
+    const LaneVec from = load_sample(track, a + i), to = load_sample(track, b + i);
+    const Lanes both = observed ? mul(load(observed + a + i), load(observed + b + i)) : all(1.0);
+    const LaneVec d{mul(both, sub(to.x, from.x)), mul(both, sub(to.y, from.y)),
+                    mul(both, sub(to.z, from.z))};
+    const Lanes square = mul_add(d.x, d.x, mul_add(d.y, d.y, mul(d.z, d.z)));
+    store(add(square, load(sums.squares + i)), sums.squares + i);
+    store(add(d.x, load(sums.x + i)), sums.x + i);
+    store(add(d.y, load(sums.y + i)), sums.y + i);
+    store(add(d.z, load(sums.z + i)), sums.z + i);
+    store(add(both, load(sums.pairs + i)), sums.pairs + i);
+  }
+}
+
+void mean_point_move_lanes(const VectorTrack& track, const double* observed, std::size_t first,
+                           std::size_t count, std::span<const Neighbour> neighbours,
+                           std::span<const VectorTrack> travels, VectorTrack& out) {
+  for (std::size_t i = 0; i < count; i += hn::Lanes(tag)) {
+    const LaneVec own = load_sample(track, first + i);
+    Lanes total = all(1.0);
+    LaneVec sum{hn::Zero(tag), hn::Zero(tag), hn::Zero(tag)};
+    for (std::size_t n = 0; n < neighbours.size(); ++n) {
+      Lanes weight = load(neighbours[n].weights + i);
+      if (weighs_nothing(weight)) continue;
+      const std::size_t there = first + i + static_cast<std::size_t>(neighbours[n].offset);
+      if (observed) weight = mul(weight, load(observed + there));
+      const LaneVec p = load_sample(track, there), travel = load_sample(travels[n], i);
+      total = add(total, weight);
+      sum.x = mul_add(weight, sub(sub(p.x, own.x), travel.x), sum.x);
+      sum.y = mul_add(weight, sub(sub(p.y, own.y), travel.y), sum.y);
+      sum.z = mul_add(weight, sub(sub(p.z, own.z), travel.z), sum.z);
+    }
+    const Lanes share = hn::Div(all(1.0), total);
+    store(mul(share, sum.x), &out.x[i]);
+    store(mul(share, sum.y), &out.y[i]);
+    store(mul(share, sum.z), &out.z[i]);
+  }
+}
+
 void decay_lanes(double scale, const double* floors, std::size_t count, double* values) {
   for (std::size_t i = 0; i < count; i += hn::Lanes(tag)) {
     const Lanes excess = hn::Max(sub(load(values + i), load(floors + i)), hn::Zero(tag));
     store(exponential_decay(mul(all(scale), excess)), values + i);
   }
-}
-
-HWY_INLINE bool weighs_nothing(Lanes weights) {
-  return hn::AllFalse(tag, hn::Gt(weights, hn::Zero(tag)));
 }
 
 // Log(a^-1 b) is this times the vector part of a^-1 b; its sign is that of a . b.
@@ -147,6 +188,8 @@ namespace kinemend {
 
 HWY_EXPORT(add_squared_angles_lanes);
 HWY_EXPORT(add_observed_angles_lanes);
+HWY_EXPORT(add_point_moves_lanes);
+HWY_EXPORT(mean_point_move_lanes);
 HWY_EXPORT(decay_lanes);
 HWY_EXPORT(fill_scales);
 HWY_EXPORT(mean_turn_lanes);
@@ -159,6 +202,16 @@ void add_squared_angles(const RotationTrack& track, std::size_t a, std::size_t b
 void add_observed_angles(const RotationTrack& track, const double* observed, std::size_t a,
                          std::size_t b, std::size_t count, double* sums, double* pairs) {
   HWY_DYNAMIC_DISPATCH(add_observed_angles_lanes)(track, observed, a, b, count, sums, pairs);
+}
+void add_point_moves(const VectorTrack& track, const double* observed, std::size_t a, std::size_t b,
+                     std::size_t count, const PointSums& sums) {
+  HWY_DYNAMIC_DISPATCH(add_point_moves_lanes)(track, observed, a, b, count, sums);
+}
+void mean_point_move(const VectorTrack& track, const double* observed, std::size_t first,
+                     std::size_t count, std::span<const Neighbour> neighbours,
+                     std::span<const VectorTrack> travels, VectorTrack& out) {
+  HWY_DYNAMIC_DISPATCH(mean_point_move_lanes)
+  (track, observed, first, count, neighbours, travels, out);
 }
 void decay(double scale, const double* floors, std::size_t count, double* values) {
   HWY_DYNAMIC_DISPATCH(decay_lanes)(scale, floors, count, values);

@@ -16,6 +16,18 @@ void add_squared_angles(const RotationTrack& track, std::size_t a, std::size_t b
 void add_observed_angles(const RotationTrack& track, const double* observed, std::size_t a,
                          std::size_t b, std::size_t count, double* sums, double* pairs);
 
+/// Sums over points of what lies between two frames.
+struct PointSums {
+  double* squares;  ///< |x_b - x_a|^2
+  double* x;        ///< x_b - x_a
+  double* y;
+  double* z;
+  double* pairs;  ///< points of which both samples were observed
+};
+/// Adds what one point gives for frames a + i and b + i, i < count. `observed`: nullptr: all are.
+void add_point_moves(const VectorTrack& track, const double* observed, std::size_t a, std::size_t b,
+                     std::size_t count, const PointSums& sums);
+
 /// values[i] = exp(-scale * max(0, values[i] - floors[i])) for i < count.
 void decay(double scale, const double* floors, std::size_t count, double* values);
 
@@ -34,5 +46,10 @@ void mean_turn(const RotationTrack& track, const double* observed, std::size_t f
 /// The same of positions: out_i = sum_n w_n (x_{i+n} - x_i) / (1 + sum_n w_n).
 void mean_move(const VectorTrack& track, std::size_t first, std::size_t count,
                std::span<const Neighbour> neighbours, VectorTrack& out);
+/// The same of one point of a body that moved on by `travels[n]` to neighbour n: out_i = sum_n w_n
+/// (x_{i+n} - x_i - travels_{n,i}) / (1 + sum_n w_n). `observed` multiplies the weights.
+void mean_point_move(const VectorTrack& track, const double* observed, std::size_t first,
+                     std::size_t count, std::span<const Neighbour> neighbours,
+                     std::span<const VectorTrack> travels, VectorTrack& out);
 
 }  // namespace kinemend

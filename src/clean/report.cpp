@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
 #include "clean/changes.hpp"
+#include "clean/peaks.hpp"
 #include "clean/track_noise.hpp"
 #include "clean/tracks.hpp"
 
@@ -11,78 +14,23 @@ namespace kinemend {
 
 namespace {
 
+constexpr std::size_t noise_samples = 1024;
+constexpr double slow_deg_s = 60;
+constexpr double slow_heights_s = 0.25;  // of markers, statures a second
+
 bool repaired(Action action) {
   return action == Action::despiked || action == Action::filled || action == Action::foot_adjusted;
 }
 
-// Marks samples that lie far off the path of their neighbours: out and back within two frames is no
-// motion of a person, and spikes that the method left in are no peaks.
-void leave_out_spikes(const std::vector<Quat>& track, double noise_rad,
-                      std::vector<std::uint8_t>& left_out) {
-  constexpr double clear_noise = 8, clear_detour = 3;
-  for (std::size_t f = 1; f + 1 < track.size(); ++f) {
-    if (second_difference(track[f - 1], track[f], track[f + 1]) < 2 * clear_noise * noise_rad)
-      continue;
-    const double step =
-        std::min(angle_between(track[f - 1], track[f]), angle_between(track[f], track[f + 1]));
-    const double past = angle_between(track[f - 1], track[f + 1]);
-    if (step > clear_noise * noise_rad && step > clear_detour * past) left_out[f] = 1;
-  }
-}
-
-struct Peak {
-  double speed_deg_s = 0;
-  bool found = false;
-};
-
-// Largest turn within `gap` frames, as a speed. `left_out` marks samples that do not count.
-Peak peak_speed(const std::vector<Quat>& track, const std::vector<std::uint8_t>& left_out,
-                std::size_t gap, double rate_hz) {
-  double least = 2;
-  std::size_t at = 0;
-  for (std::size_t f = 0; f + gap < track.size(); ++f) {
-    if (left_out[f] || left_out[f + gap]) continue;
-    const double cosine = std::fabs(dot(track[f], track[f + gap]));
-    if (cosine < least) least = cosine, at = f;
-  }
-  if (least == 2) return {};
-  const double angle = angle_between(track[at], track[at + gap]) * degrees_per_radian;
-  return {angle * rate_hz / static_cast<double>(gap), true};
-}
-
-// Fills in the peaks and returns by how much noise may have raised the first one, degrees / s.
-double measure_peaks(const std::vector<Quat>& before, const std::vector<Quat>& after,
-                     std::vector<std::uint8_t> left_out, double rate_hz, JointSummary& summary) {
-  constexpr double longest_s = 0.05;
-  constexpr double noise_share = 0.1;
-  constexpr std::size_t noise_samples = 1024;
-  // Four standard deviations of the difference of two samples: the largest of many.
-  const double noise_rad = track_noise(before, noise_samples);
-  const double noise = 4 * std::sqrt(2.0) * noise_rad * degrees_per_radian;
-  leave_out_spikes(before, noise_rad, left_out);
-  const std::size_t most = frames_in(longest_s, rate_hz, 1);
-  double noise_speed = 0;
-  for (std::size_t gap = 1; gap <= most; ++gap) {
-    const Peak peak = peak_speed(before, left_out, gap, rate_hz);
-    if (!peak.found) break;
-    summary.peak_speed_before_deg_s = peak.speed_deg_s;
-    summary.peak_frames = gap;
-    noise_speed = noise * rate_hz / static_cast<double>(gap);
-    if (noise_speed <= noise_share * peak.speed_deg_s) break;
-  }
-  summary.peak_speed_after_deg_s =
-      peak_speed(after, left_out, summary.peak_frames, rate_hz).speed_deg_s;
-  return noise_speed;
-}
-
-std::string peak_warning(const JointSummary& summary, double noise_speed, double limit) {
-  constexpr double slow_deg_s = 60;  // peaks below this are no events
-  const double sure = summary.peak_speed_before_deg_s - noise_speed;
-  if (sure < slow_deg_s || summary.peak_speed_after_deg_s >= (1 - limit) * sure) return {};
-  const double loss = 1 - summary.peak_speed_after_deg_s / summary.peak_speed_before_deg_s;
-  return fmt::format("{}: peak speed falls from {:.0f} to {:.0f} deg/s ({:.0f} %, limit {:.0f} %)",
-                     summary.name, summary.peak_speed_before_deg_s, summary.peak_speed_after_deg_s,
-                     100 * loss, 100 * limit);
+// `scale` and `unit`: of speeds as they are shown. Peaks below `slow` are no events.
+std::string peak_warning(const std::string& name, const Peaks& peaks, double scale,
+                         std::string_view unit, double slow, double limit) {
+  const double sure = (peaks.before - peaks.noise) * scale;
+  if (sure < slow || peaks.after * scale >= (1 - limit) * sure) return {};
+  const double loss = 1 - peaks.after / peaks.before;
+  return fmt::format("{}: peak speed falls from {:.4g} to {:.4g} {} ({:.0f} %, limit {:.0f} %)",
+                     name, peaks.before * scale, peaks.after * scale, unit, 100 * loss,
+                     100 * limit);
 }
 
 }  // namespace
@@ -125,10 +73,53 @@ JointReport report_joint(const std::string& name, std::size_t joint, const Joint
     left_out[f] = repaired(changes.actions[f]) || !seen;
   }
   if (frames > 0) summary.rms_change_deg = std::sqrt(squares / static_cast<double>(frames));
-  const double noise_speed =
-      measure_peaks(tracks.before, tracks.after, left_out, frame_rate_hz, summary);
-  report.warning = peak_warning(summary, noise_speed, peak_loss_limit);
+  const Peaks peaks = measure_peaks(tracks.before, tracks.after, std::move(left_out),
+                                    track_noise(tracks.before, noise_samples), frame_rate_hz);
+  summary.peak_speed_before_deg_s = peaks.before * degrees_per_radian;
+  summary.peak_speed_after_deg_s = peaks.after * degrees_per_radian;
+  summary.peak_frames = peaks.frames;
+  report.warning =
+      peak_warning(name, peaks, degrees_per_radian, "deg/s", slow_deg_s, peak_loss_limit);
   report.spans = spans_of(static_cast<std::int32_t>(joint), changes, first_frame);
+  return report;
+}
+
+MarkerTrackReport report_marker(const std::string& name, std::size_t marker,
+                                const MarkerTrack& track, const TrackChanges& changes,
+                                const MarkerScale& scale, double peak_loss_limit) {
+  const std::size_t frames = track.before.size();
+  MarkerTrackReport report;
+  MarkerSummary& summary = report.summary;
+  summary.name = name;
+  std::vector<std::uint8_t> left_out(frames);
+  std::vector<Vec3> seen;
+  double squares = 0;
+  for (std::size_t f = 0; f < frames; ++f) {
+    const double change = changes.amounts[f];
+    squares += change * change;
+    summary.max_change = std::max(summary.max_change, change);
+    summary.frames_changed += changes.actions[f] != Action::kept;
+    summary.frames_repaired += repaired(changes.actions[f]);
+    if (!track.observed_after[f]) {
+      ++summary.frames_missing;
+      summary.gaps_left += f == 0 || track.observed_after[f - 1] != 0;
+    }
+    left_out[f] = repaired(changes.actions[f]) || !track.observed[f];
+    if (track.observed[f]) seen.push_back(track.before[f]);
+  }
+  if (seen.empty()) {
+    report.spans = spans_of(static_cast<std::int32_t>(marker), changes, 0);
+    return report;
+  }
+  summary.rms_change = std::sqrt(squares / static_cast<double>(seen.size()));
+  const Peaks peaks = measure_peaks(track.before, track.after, std::move(left_out),
+                                    track_noise(seen, noise_samples), scale.frame_rate_hz);
+  summary.peak_speed_before = peaks.before;
+  summary.peak_speed_after = peaks.after;
+  summary.peak_frames = peaks.frames;
+  report.warning = peak_warning(name, peaks, 1, scale.unit.empty() ? "units/s" : scale.unit + "/s",
+                                slow_heights_s * scale.body_height, peak_loss_limit);
+  report.spans = spans_of(static_cast<std::int32_t>(marker), changes, 0);
   return report;
 }
 

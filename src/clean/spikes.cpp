@@ -150,6 +150,25 @@ SampleMarks accuse(const Predictions& predictions, const SampleMarks& accused,
   return next;
 }
 
+// The accused, and the gaps whose bridges rest on one of them.
+SampleMarks with_bridges_beside(const SampleMarks& accused, const SampleMarks& missing) {
+  SampleMarks result = accused;
+  for (std::size_t n = 0; n < accused.tracks; ++n) {
+    for (std::size_t t = 0; t < accused.frames;) {
+      if (missing(t, n) == 0) {
+        ++t;
+        continue;
+      }
+      const std::size_t first = t;
+      while (t < accused.frames && missing(t, n) != 0) ++t;
+      const bool rests_on_accused =
+          (first > 0 && accused(first - 1, n) != 0) || (t < accused.frames && accused(t, n) != 0);
+      for (std::size_t f = first; rests_on_accused && f < t; ++f) result(f, n) = 1;
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<std::vector<std::size_t>> joints_nearby(std::span<const std::int32_t> parents) {
@@ -180,8 +199,8 @@ std::vector<std::vector<std::size_t>> joints_nearby(std::span<const std::int32_t
 }
 
 SpikeVerdicts find_spikes(VectorTracks& tracks, const SampleMarks& suspects,
-                          const std::vector<std::vector<std::size_t>>& nearby,
-                          double frame_rate_hz) {
+                          const std::vector<std::vector<std::size_t>>& nearby, double frame_rate_hz,
+                          const SampleMarks* missing) {
   const std::size_t frames = tracks.frames(), count = tracks.tracks();
   if (frames < 6) {
     return {SampleMarks(frames, count), std::vector<double>(count)};
@@ -191,23 +210,29 @@ SpikeVerdicts find_spikes(VectorTracks& tracks, const SampleMarks& suspects,
   SampleMarks accused = suspects;
   const auto refill = [&] {
     tracks = measured;
-    fill_marked(tracks, accused);
+    fill_marked(tracks, missing ? with_bridges_beside(accused, *missing) : accused);
+  };
+  const auto noise_without_accused = [&] {
+    return noise_levels(measured, missing ? either(accused, *missing) : accused);
   };
   refill();
   for (int round = 0; round < rounds; ++round) {
-    const std::vector<double> noise = noise_levels(measured, accused);
+    const std::vector<double> noise = noise_without_accused();
     const Predictions predictions = predict(measured, tracks, accused, noise, grid);
     SampleMarks next = accuse(predictions, accused, noise, frame_rate_hz);
+    for (std::size_t i = 0; missing && i < next.marks.size(); ++i) {
+      if (missing->marks[i] != 0) next.marks[i] = 0;
+    }
     if (next == accused) break;
     accused = std::move(next);
     refill();
   }
-  std::vector<double> noise = noise_levels(measured, accused);
+  std::vector<double> noise = noise_without_accused();
   const std::vector<double> shares = cleaning_shares(noise, frame_rate_hz);
   const Predictions predictions = predict(measured, tracks, accused, noise, grid);
   accused = judge_spikes({measured, predictions, accused, noise, shares, nearby, frame_rate_hz});
   refill();
-  noise = noise_levels(measured, accused);
+  noise = noise_without_accused();
   return {std::move(accused), std::move(noise)};
 }
 

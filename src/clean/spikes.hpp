@@ -25,9 +25,10 @@ struct SpikeVerdicts {
 /// the worst of their neighbourhood are accused and the smoother fitted again without them, until
 /// nothing changes. On tracks that are quiet a verdict needs more: a spike there is large, alone,
 /// and no joint nearby moves with it. `suspects` are the first accused; `nearby[n]` the tracks that
-/// move with track n. Marked samples of `tracks` come back interpolated.
+/// move with track n; `missing` samples are gaps already bridged, of which none is a spike. Marked
+/// samples of `tracks` come back interpolated, and so do bridges that start or end at one.
 SpikeVerdicts find_spikes(VectorTracks& tracks, const SampleMarks& suspects,
-                          const std::vector<std::vector<std::size_t>>& nearby,
-                          double frame_rate_hz);
+                          const std::vector<std::vector<std::size_t>>& nearby, double frame_rate_hz,
+                          const SampleMarks* missing = nullptr);
 
 }  // namespace kinemend

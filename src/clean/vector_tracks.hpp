@@ -46,6 +46,9 @@ struct SampleMarks {
   friend bool operator==(const SampleMarks&, const SampleMarks&) = default;
 };
 
+/// Marked in one or the other.
+SampleMarks either(const SampleMarks& a, const SampleMarks& b);
+
 /// Puts the straight line between its unmarked neighbours (the nearest one at the ends) into each
 /// marked sample.
 void fill_marked(VectorTracks& tracks, const SampleMarks& marked);

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "clean/track_noise.hpp"
+#include "clean/tracks.hpp"
+#include "kinemend/rotation.hpp"
+
+// Peak speeds of a track before and after cleaning, in radians or the points' unit.
+namespace kinemend {
+
+struct Peaks {
+  double before = 0;  ///< a second
+  double after = 0;
+  std::size_t frames = 1;  ///< the step over which they are measured
+  double noise = 0;        ///< by how much noise may have raised the first
+};
+
+namespace peaks {
+
+inline double between(Quat a, Quat b) { return angle_between(a, b); }
+inline double between(Vec3 a, Vec3 b) { return norm(a - b); }
+/// Grows with the distance, and is cheap.
+inline double order_of_distance(Quat a, Quat b) { return -std::fabs(dot(a, b)); }
+inline double order_of_distance(Vec3 a, Vec3 b) { return dot(a - b, a - b); }
+
+/// Marks samples that lie far off the path of their neighbours: out and back within two frames is
+/// no motion of a person, and spikes that the method left in are no peaks.
+template <class Sample>
+void leave_out_spikes(const std::vector<Sample>& track, double noise,
+                      std::vector<std::uint8_t>& left_out) {
+  constexpr double clear_noise = 8, clear_detour = 3;
+  for (std::size_t f = 1; f + 1 < track.size(); ++f) {
+    if (second_difference(track[f - 1], track[f], track[f + 1]) < 2 * clear_noise * noise) continue;
+    const double step = std::min(between(track[f - 1], track[f]), between(track[f], track[f + 1]));
+    const double past = between(track[f - 1], track[f + 1]);
+    if (step > clear_noise * noise && step > clear_detour * past) left_out[f] = 1;
+  }
+}
+
+/// Largest way within `gap` frames, as a speed; negative where there is none. `left_out` marks
+/// samples that do not count.
+template <class Sample>
+double peak_speed(const std::vector<Sample>& track, const std::vector<std::uint8_t>& left_out,
+                  std::size_t gap, double rate_hz) {
+  bool found = false;
+  double largest = 0;
+  std::size_t at = 0;
+  for (std::size_t f = 0; f + gap < track.size(); ++f) {
+    if (left_out[f] || left_out[f + gap]) continue;
+    const double order = order_of_distance(track[f], track[f + gap]);
+    if (!found || order > largest) largest = order, at = f, found = true;
+  }
+  if (!found) return -1;
+  return between(track[at], track[at + gap]) * rate_hz / static_cast<double>(gap);
+}
+
+}  // namespace peaks
+
+/// The peaks of a track with white noise of this size; `left_out` marks samples that do not count.
+/// They are measured over the shortest step (one frame to 50 ms) in which noise adds less than a
+/// tenth.
+template <class Sample>
+Peaks measure_peaks(const std::vector<Sample>& before, const std::vector<Sample>& after,
+                    std::vector<std::uint8_t> left_out, double noise, double rate_hz) {
+  constexpr double longest_s = 0.05;
+  constexpr double noise_share = 0.1;
+  // Four standard deviations of the difference of two samples: the largest of many.
+  const double largest_noise = 4 * std::sqrt(2.0) * noise;
+  peaks::leave_out_spikes(before, noise, left_out);
+  const std::size_t most = frames_in(longest_s, rate_hz, 1);
+  Peaks result;
+  for (std::size_t gap = 1; gap <= most; ++gap) {
+    const double peak = peaks::peak_speed(before, left_out, gap, rate_hz);
+    if (peak < 0) break;
+    result.before = peak;
+    result.frames = gap;
+    result.noise = largest_noise * rate_hz / static_cast<double>(gap);
+    if (result.noise <= noise_share * peak) break;
+  }
+  result.after = std::max(0.0, peaks::peak_speed(after, left_out, result.frames, rate_hz));
+  return result;
+}
+
+}  // namespace kinemend

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemend/clean.hpp"
+
+namespace kinemend {
+
+/// Errors: `ErrorKind::usage` for a number or range that is out of range.
+void check_settings(const CleanSettings& settings, std::size_t frames);
+
+/// 1 for each of `names` that `settings.joints` means and `settings.exclude` does not. `kind`
+/// ("joint", "marker") stands in messages. Errors: `ErrorKind::usage` for a pattern that matches
+/// nothing.
+std::vector<std::uint8_t> select_names(const std::vector<std::string>& names,
+                                       const CleanSettings& settings, std::string_view kind);
+
+}  // namespace kinemend
