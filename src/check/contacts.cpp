@@ -13,6 +13,7 @@ constexpr double begin_speed = 0.15, go_on_speed = 0.25;
 
 // One point of a foot, without the jitter that would pass for travel.
 struct SolePoint {
+  std::vector<Vec3> path;
   std::vector<double> heights;
   std::vector<Vec3> velocities;  // horizontal, m/s; of the step that ends in the frame
   std::vector<double> speeds;    // in all directions, m/s
@@ -56,7 +57,8 @@ double standing_level(const SolePoint& point, double body_height) {
 
 SolePoint sole_point(const BodyPoints& body, std::size_t index, Up up) {
   SolePoint point;
-  const std::vector<Vec3> path = smoothed(body, index);
+  point.path = smoothed(body, index);
+  const std::vector<Vec3>& path = point.path;
   for (std::size_t f = 0; f < body.frames; ++f) {
     const std::size_t before = f == 0 ? 0 : f - 1;
     const Vec3 velocity = body.frame_rate_hz * (path[f] - path[before]);
@@ -95,20 +97,25 @@ std::vector<SolePoint> sole_points(const BodyPoints& body, const Foot& foot, Up 
 Contact measure(const std::vector<SolePoint>& points,
                 const std::vector<std::vector<std::uint8_t>>& touching, std::size_t foot,
                 const Span& span, double frame_rate_hz) {
-  Contact contact{foot, span, 0, 0};
+  Contact contact{foot, span, 0, {}};
   Vec3 travel;
+  std::vector<double> x, y, z;
   for (std::size_t f = span.first; f <= span.last; ++f) {
     const SolePoint* slowest = nullptr;
+    const SolePoint* lowest = nullptr;
     for (std::size_t p = 0; p < points.size(); ++p) {
       if (touching[p][f] == 0) continue;
-      contact.sink_m = std::max(contact.sink_m, points[p].level - points[p].heights[f]);
+      if (lowest == nullptr || points[p].heights[f] < lowest->heights[f]) lowest = &points[p];
       if (slowest == nullptr || norm(points[p].velocities[f]) < norm(slowest->velocities[f]))
         slowest = &points[p];
     }
     if (slowest != nullptr && f > span.first)
       travel += (1 / frame_rate_hz) * slowest->velocities[f];
     contact.slide_m = std::max(contact.slide_m, norm(travel));
+    if (lowest == nullptr) continue;
+    x.push_back(lowest->path[f].x), y.push_back(lowest->path[f].y), z.push_back(lowest->path[f].z);
   }
+  contact.place = {median_of(x), median_of(y), median_of(z)};
   return contact;
 }
 

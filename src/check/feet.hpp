@@ -53,12 +53,18 @@ struct Contact {
   std::size_t foot = 0;
   Span span;
   double slide_m = 0;  ///< how far the point that moves least has travelled from where it was
-  double sink_m = 0;   ///< depth of its lowest point below where that point stands as a rule
+  Vec3 place;          ///< of its lowest points, on the whole
 };
 
 /// A point touches the floor where it is as low as where it stands as a rule and slow; thresholds
 /// to begin are tighter than those to go on (hysteresis). By foot, then frame.
 std::vector<Contact> find_contacts(const BodyPoints& body, Up up);
+
+/// How deep each foot stands below the floor, metres; negative above it. The floor is the plane
+/// (level where the contacts are few) that most contacts lie on, so that a tilted calibration is no
+/// fault of a foot. Empty where less than two thirds of them lie within 2 cm of it: stairs,
+/// climbing.
+std::vector<double> depths_below_floor(const std::vector<Contact>& contacts, Up up);
 
 /// Spans in which every point of every foot is clear of the floor.
 std::vector<Span> find_flights(const BodyPoints& body, Up up);

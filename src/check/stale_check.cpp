@@ -48,6 +48,28 @@ bool has_sharp_end(const std::vector<double>& sizes, const Span& run, double usu
   return before || after;
 }
 
+// Whether a hinge rests at an end of its range, as a stretched knee does: nothing turns about any
+// axis but one, and all of the take lies on one side.
+bool is_at_end_of_hinge(const Clip& clip, std::size_t joint, std::size_t frame) {
+  constexpr double part_about_other_axes = 0.05, slack = 1e-4;
+  const Quat at = conjugate(clip.rotation(frame, joint));
+  Vec3 farthest;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    const Vec3 turn = log(at * clip.rotation(f, joint));
+    if (norm(turn) > norm(farthest)) farthest = turn;
+  }
+  const double range = norm(farthest);
+  if (range == 0) return true;
+  const Vec3 axis = (1 / range) * farthest;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    const Vec3 turn = log(at * clip.rotation(f, joint));
+    const double about_axis = dot(turn, axis);
+    if (about_axis < -slack || norm(turn - about_axis * axis) > part_about_other_axes * range)
+      return false;
+  }
+  return true;
+}
+
 // How each kind of span lies among the samples.
 struct StaleSpans {
   std::vector<std::vector<Span>> frozen, bridged;  // one list a track
@@ -175,8 +197,16 @@ void check_stale(const Clip& clip, const CheckSettings& settings, CheckReport& r
   std::vector<TrackChanges> changes(joints.size());
   for_each_parallel(joints.size(), clip.local_rotations.size(),
                     [&](std::size_t i) { changes[i] = rotation_changes(clip, joints[i]); });
-  report_stale(find_stale(changes, clip.frame_count(), shortest_frames(report, settings)), joints,
-               report);
+  StaleSpans spans = find_stale(changes, clip.frame_count(), shortest_frames(report, settings));
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    auto& frozen = spans.frozen[i];
+    frozen.erase(std::remove_if(frozen.begin(), frozen.end(),
+                                [&](const Span& span) {
+                                  return is_at_end_of_hinge(clip, joints[i], span.first);
+                                }),
+                 frozen.end());
+  }
+  report_stale(spans, joints, report);
 }
 
 void check_stale(const MarkerClip& clip, const std::vector<std::size_t>& markers,
