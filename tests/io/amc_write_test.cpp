@@ -1,0 +1,250 @@
+#include <fmt/format.h>
+
+#include <map>
+
+#include "acclaim.hpp"
+#include "kinemend/kinematics.hpp"
+#include "kinemend/random.hpp"
+
+namespace kinemend {
+namespace {
+
+using namespace test;
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines(1);
+  for (const char c : text) {
+    if (c == '\n') {
+      lines.emplace_back();
+    } else {
+      lines.back() += c;
+    }
+  }
+  return lines;
+}
+
+Clip written_and_read(const Clip& clip) {
+  const Clip again = read_pair(write_clip(clip, "amc"), write_clip(clip, "asf")).clip;
+  again.validate();
+  return again;
+}
+
+// Positions by name; the joints between are those that ASF needs and the other format does not.
+void expect_same_positions(const Clip& clip, const Clip& again, double relative,
+                           std::vector<std::string> names = {}) {
+  ASSERT_EQ(clip.frame_count(), again.frame_count());
+  if (names.empty()) names = clip.skeleton.names;
+  names[0] = "root";
+  const double size = skeleton_height(clip.skeleton) + 1;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    const Pose expected = forward_kinematics(clip, f), found = forward_kinematics(again, f);
+    for (std::size_t j = 0; j < names.size(); ++j) {
+      const std::int32_t k = again.skeleton.find(names[j]);
+      ASSERT_GE(k, 0) << names[j];
+      ASSERT_LT(norm(expected.positions[j] - found.positions[static_cast<std::size_t>(k)]),
+                relative * size)
+          << names[j];
+    }
+  }
+}
+
+TEST(AmcWriter, AnUnchangedTakeComesBackToTheByte) {
+  for (const char* name : {"figure", "gaps", "order", "radians", "three_dofs", "header_only"}) {
+    const std::string text = read_file(acclaim_fixture(std::string("amc/good/") + name + ".amc"));
+    const Clip clip = read_pair(text, figure_asf()).clip;
+    EXPECT_EQ(write_clip(clip, "amc"), text) << name;
+    EXPECT_EQ(write_clip(clip, "asf"), figure_asf()) << name;
+  }
+}
+
+TEST(AmcWriter, OnlyChangedSamplesAreWrittenAnew) {
+  Clip clip = read_figure();
+  const auto foot = static_cast<std::size_t>(clip.skeleton.find("foot"));
+  clip.rotation(1, foot) = rotation_of({20, 10, 0}, "ZX");
+  clip.root_positions[2].y += 0.5;
+  const auto before = lines_of(figure_amc()), after = lines_of(write_clip(clip, "amc"));
+  ASSERT_EQ(before.size(), after.size());
+  std::map<std::size_t, std::string> changed;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (before[i] != after[i]) changed[i] = after[i];
+  }
+  ASSERT_EQ(changed.size(), 2u);
+  EXPECT_EQ(changed.begin()->second.substr(0, 5), "foot ");
+  const Clip again = read_pair(write_clip(clip, "amc"), figure_asf()).clip;
+  EXPECT_LT(angle_between(again.rotation(1, foot), clip.rotation(1, foot)), 1e-6);
+  EXPECT_NEAR(again.root_positions[2].y, clip.root_positions[2].y, 1e-6);
+  EXPECT_EQ(again.root_positions[2].x, clip.root_positions[2].x);
+}
+
+TEST(AmcWriter, ChangesOfEverySampleReadBack) {
+  for (const char* name : {"figure", "gaps", "order", "radians", "three_dofs"}) {
+    const std::string text = read_file(acclaim_fixture(std::string("amc/good/") + name + ".amc"));
+    Clip clip = read_pair(text, figure_asf()).clip;
+    Random random(4);
+    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+      for (std::size_t j = 0; j < clip.joint_count(); ++j) {
+        const RotationOrder order = clip.skeleton.rotation_order(j);
+        if (order.count == 0) continue;
+        clip.rotation(f, j) = from_euler(
+            {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}, order);
+      }
+      clip.root_positions[f] += {random.normal(), random.normal(), random.normal()};
+    }
+    for (Vec3& v : clip.joint_translations) v += {0.25, random.normal(), -0.5};
+    const Clip again = read_pair(write_clip(clip, "amc"), figure_asf()).clip;
+    expect_same_motion(clip, again, 1e-4);
+  }
+}
+
+TEST(AmcWriter, AnglesContinueTheFrameBefore) {
+  const std::string asf = chain_asf({"dof rx ry rz"});
+  std::string amc;
+  for (int f = 0; f < 40; ++f) {
+    amc += fmt::format("{}\nroot 0 0 0 0 0 0\na {} 10.0000 20.0000\n", f + 1, 170.0 + f);
+  }
+  Clip clip = read_pair(amc, asf).clip;
+  for (std::size_t f = 5; f < 30; ++f)
+    clip.rotation(f, 1) = clip.rotation(f, 1) * exp({0.01, 0, 0});
+  const auto lines = lines_of(write_clip(clip, "amc"));
+  double previous = 170;
+  for (std::size_t i = 2; i < lines.size(); i += 3) {
+    const double x = std::stod(lines[i].substr(2));
+    EXPECT_LT(std::fabs(x - previous), 3) << lines[i];
+    previous = x;
+  }
+}
+
+TEST(AmcWriter, OtherFramesKeepHeaderOrderAndColumns) {
+  const Clip clip = read_figure();
+  Clip shorter = slice(clip, 1, 3);
+  shorter.source = clip.source;
+  const std::string text = write_clip(shorter, "amc");
+  EXPECT_EQ(text.substr(0, text.find("1\n")), figure_amc().substr(0, figure_amc().find("1\n")));
+  const Clip again = read_pair(text, figure_asf()).clip;
+  expect_same_motion(shorter, again, 1e-4);
+}
+
+TEST(AmcWriter, AnyClipBecomesASkeletonAndItsMotion) {
+  Random random(9);
+  for (const char* order : {"XYZ", "ZXY", "YZX", "ZYX", "XZY", "YXZ"}) {
+    Clip clip;
+    const auto channels = make_channels(false, parse_rotation_order(order));
+    clip.skeleton.add_joint("Hips", -1, {1, 2, 3},
+                            make_channels(true, parse_rotation_order(order)));
+    clip.skeleton.add_joint("Spine", 0, {0, 4, 1}, channels);
+    clip.skeleton.add_joint("Left", 1, {2, 1, 0}, channels);
+    clip.skeleton.add_joint("Right", 1, {-2, 1, 0},
+                            make_channels(true, parse_rotation_order(order)));
+    clip.skeleton.add_joint("Hand", 3, {-3, 0, 0}, {Channel::x_rotation});
+    clip.skeleton.add_joint("Tail", 0, {}, channels);
+    clip.skeleton.end_sites = {{2, {1, 1, 0}, ""}, {4, {-1, 0, 0}, ""}, {1, {0, 5, 0}, "head"}};
+    for (Quat& rest : clip.skeleton.rest_rotations) {
+      rest = normalized({random.normal(), random.normal(), random.normal(), random.normal()});
+    }
+    clip.frame_rate_hz = 60;
+    clip.metres_per_unit = 0.01;
+    clip.translated_joints = {3};
+    for (int f = 0; f < 5; ++f) {
+      clip.root_positions.push_back({random.normal(), random.normal(), random.normal()});
+      clip.joint_translations.push_back({random.normal(), random.normal(), random.normal()});
+      for (std::size_t j = 0; j < clip.joint_count(); ++j) {
+        clip.local_rotations.push_back(
+            from_euler({random.uniform(-3, 3), random.uniform(-1.5, 1.5), random.uniform(-3, 3)},
+                       clip.skeleton.rotation_order(j)));
+      }
+    }
+    clip.validate();
+    const Clip again = written_and_read(clip);
+    expect_same_positions(clip, again, 1e-9);
+    EXPECT_DOUBLE_EQ(again.metres_per_unit, 0.01);
+    for (const char* name : {"Spine", "Left", "Right", "Hand"}) {
+      const auto a = static_cast<std::size_t>(clip.skeleton.find(name));
+      const auto b = static_cast<std::size_t>(again.skeleton.find(name));
+      EXPECT_EQ(clip.skeleton.rotation_order(a), again.skeleton.rotation_order(b)) << name;
+    }
+  }
+}
+
+TEST(AmcWriter, EndsOfChainsStayWhereTheyAre) {
+  Clip clip;
+  clip.skeleton.add_joint("a", -1, {}, make_channels(true, parse_rotation_order("ZXY")));
+  clip.skeleton.add_joint("b", 0, {0, 1, 0}, make_channels(false, parse_rotation_order("ZXY")));
+  clip.skeleton.end_sites = {{1, {0, 2, 0}, ""}, {0, {3, 0, 0}, ""}};
+  clip.frame_rate_hz = 30;
+  clip.root_positions = {{1, 1, 1}};
+  clip.local_rotations = {rotation_of({10, 20, 30}, "ZXY"), rotation_of({40, 50, 60}, "ZXY")};
+  const Clip again = written_and_read(clip);
+  const auto expected = joint_positions(clip, true), found = joint_positions(again, true);
+  for (std::size_t i = 2; i < expected.size(); ++i) {
+    EXPECT_TRUE(std::any_of(found.begin(), found.end(),
+                            [&](Vec3 p) { return norm(p - expected[i]) < 1e-8; }));
+  }
+}
+
+TEST(AmcWriter, NamesThatTheFormatCannotHoldAreAltered) {
+  Clip clip;
+  const auto channels = make_channels(false, parse_rotation_order("ZXY"));
+  clip.skeleton.add_joint("hips", -1, {}, make_channels(true, parse_rotation_order("ZXY")));
+  for (const char* name : {"left arm", "left_arm", "root", "12", "", "a(b),c#d", ":mark", "end",
+                           "mixamorig:Hips", "nan"}) {
+    clip.skeleton.add_joint(name, 0, {1, 0, 0}, channels);
+  }
+  clip.frame_rate_hz = 30;
+  clip.root_positions = {{}};
+  clip.local_rotations.assign(clip.joint_count(), rotation_of({1, 2, 3}, "ZXY"));
+  const Clip again = written_and_read(clip);
+  expect_same_positions(clip, again, 1e-9,
+                        {"root", "left_arm", "left_arm_2", "_root", "_12", "joint", "a_b__c_d",
+                         "_mark", "_end", "mixamorig:Hips", "_nan"});
+}
+
+TEST(AmcWriter, LimitsAreWritten) {
+  Clip clip = read_figure();
+  clip.source = {};
+  const Clip again = written_and_read(clip);
+  const auto a = static_cast<std::size_t>(clip.skeleton.find("thigh"));
+  const auto b = static_cast<std::size_t>(again.skeleton.find("thigh"));
+  ASSERT_EQ(again.skeleton.limits[b].size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(again.skeleton.limits[b][i].minimum, clip.skeleton.limits[a][i].minimum);
+    EXPECT_EQ(again.skeleton.limits[b][i].maximum, clip.skeleton.limits[a][i].maximum);
+  }
+  expect_same_positions(clip, again, 1e-9);
+}
+
+TEST(AmcWriter, RefusesWhatTheFormatCannotHold) {
+  const auto refuse = [](auto change) {
+    Clip clip;
+    clip.skeleton.add_joint("a", -1, {}, make_channels(true, parse_rotation_order("ZXY")));
+    clip.skeleton.add_joint("b", 0, {1, 2, 3}, {});
+    clip.frame_rate_hz = 30;
+    clip.root_positions = {{}};
+    clip.local_rotations = {{}, {}};
+    change(clip);
+    return message_of([&] { write_clip(clip, "amc"); }, ErrorKind::usage);
+  };
+  EXPECT_EQ(refuse([](Clip&) {}), "no error");
+  EXPECT_EQ(refuse([](Clip& clip) { clip.skeleton.parents[1] = -1; }),
+            "ASF holds one root; joint \"b\" is another");
+  EXPECT_EQ(refuse([](Clip& clip) {
+              clip.skeleton.channels[1] = make_channels(false, parse_rotation_order("ZXZ"));
+            }),
+            "ASF cannot hold joint \"b\", which turns about one axis twice");
+  EXPECT_EQ(refuse([](Clip& clip) {
+              clip.rotation(0, 1) = rotation_of({5, 0, 0}, "Z");
+            }),
+            "joint \"b\" turns but has no rotation channels");
+}
+
+TEST(AmcWriter, ARootWithoutPositionsKeepsItsPlace) {
+  Clip clip;
+  clip.skeleton.add_joint("a", -1, {1, 2, 3}, make_channels(false, parse_rotation_order("ZXY")));
+  clip.skeleton.add_joint("b", 0, {0, 1, 0}, make_channels(false, parse_rotation_order("ZXY")));
+  clip.frame_rate_hz = 30;
+  clip.root_positions = {{1, 2, 3}};
+  clip.local_rotations = {rotation_of({10, 20, 30}, "ZXY"), rotation_of({40, 50, 60}, "ZXY")};
+  expect_same_positions(clip, written_and_read(clip), 1e-9);
+}
+
+}  // namespace
+}  // namespace kinemend
