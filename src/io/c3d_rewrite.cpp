@@ -21,6 +21,7 @@ class Rewriter {
       if (block_is_same()) continue;
       for (std::size_t f = 0; f < source_.count(); ++f) rewrite_frame(f);
     }
+    if (changed_) mark_zero_gaps();
     if (!fits_) return std::nullopt;
     return std::move(out_);
   }
@@ -51,8 +52,23 @@ class Rewriter {
       if (here) {
         write_sample(place, f, p);
       } else {
-        for (std::size_t i = 0; i < 3; ++i) write_value(place, i, 0);
-        write_value(place, 3, missing_point_word);
+        write_missing(place);
+      }
+    }
+  }
+
+  void write_missing(char* place) {
+    for (std::size_t i = 0; i < 3; ++i) write_value(place, i, 0);
+    write_value(place, 3, missing_point_word);
+  }
+
+  // What was seen to be missing by the samples around it must not depend on them any more.
+  void mark_zero_gaps() {
+    for (const C3dZeroGap& gap : document_.zero_gaps) {
+      for (std::size_t f = gap.first; f < gap.last; ++f) {
+        if (clip_.is_observed(f, gap.marker)) continue;
+        write_missing(out_.data() + layout().data_begin + f * layout().frame_bytes() +
+                      4 * gap.marker * layout().value_bytes());
       }
     }
   }
@@ -73,6 +89,7 @@ class Rewriter {
 
   // In steps of the scale where the file holds integers.
   void write_value(char* sample, std::size_t index, double value) {
+    changed_ = true;
     with_words(document_.processor, [&](auto words) {
       char* const place = sample + index * layout().value_bytes();
       const double whole = layout().is_float ? value : std::round(value);
@@ -114,6 +131,7 @@ class Rewriter {
   C3dSourceFrames source_;
   std::string out_;
   bool fits_ = true;
+  bool changed_ = false;
 };
 
 }  // namespace

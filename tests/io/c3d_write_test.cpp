@@ -83,6 +83,19 @@ TEST(C3dWriter, SamplesThatAreNowMissingBecomeZerosWithMinusOne) {
   }
 }
 
+// Zeros that were told to mean missing by the samples around them say so themselves once those
+// change.
+TEST(C3dWriter, GapsOfZerosAreMarkedInAFileThatChanges) {
+  MarkerClip clip = read_good_c3d("zeros");
+  ASSERT_FALSE(clip.is_observed(0, 1));
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    if (clip.is_observed(f, 0)) clip.position(f, 0) = {0.125, 0, 0};
+  }
+  const C3dResult again = read_c3d_bytes(write_markers(clip, "c3d"));
+  EXPECT_TRUE(again.diagnostics.empty());
+  expect_same_samples(clip, again.clip);
+}
+
 TEST(C3dWriter, ResidualsAreWrittenInStepsOfTheScale) {
   for (const char* const name : encodings) {
     SCOPED_TRACE(name);

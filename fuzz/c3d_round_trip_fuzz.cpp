@@ -1,0 +1,97 @@
+// The bytes are a take; their hash chooses what is changed in it. What is written must read back as
+// the clip that was written, whether in place or as a new file, and samples that were not changed
+// must keep their value exactly.
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "kinemend/error.hpp"
+#include "kinemend/io.hpp"
+#include "kinemend/random.hpp"
+
+namespace {
+
+using namespace kinemend;
+
+void check(bool condition) {
+  if (!condition) std::abort();
+}
+
+MarkerClip read(const std::string& bytes) {
+  ReadOptions options;
+  options.format = "c3d";
+  return std::get<MarkerClip>(read_take(bytes, "fuzz.c3d", options).take);
+}
+
+// Positions of a size at which a real holds what is added to them, and nowhere zeros that a reader
+// could take for missing.
+bool is_sensible(const MarkerClip& clip) {
+  for (std::size_t i = 0; i < clip.positions.size(); ++i) {
+    const double size = norm(clip.positions[i]);
+    if (clip.observed[i] != 0 && !(size > 1e-3 && size < 1e4)) return false;
+  }
+  return true;
+}
+
+// Between the positions that a file can hold; 0 for reals.
+double step_of(const MarkerClip& clip) {
+  const std::string& encoding = clip.source.facts.at(0).text;
+  const std::size_t at = encoding.find("steps of ");
+  return at == encoding.npos ? 0 : std::strtod(encoding.c_str() + at + 9, nullptr);
+}
+
+void change(MarkerClip& clip, Random& random) {
+  const double share = random.uniform();
+  for (std::size_t i = 0; i < clip.positions.size(); ++i) {
+    if (!random.chance(share)) continue;
+    clip.observed[i] = random.chance(0.8) ? 1 : 0;
+    clip.residuals[i] = clip.observed[i] != 0 ? 0.0f : -1.0f;
+    clip.positions[i] = {random.uniform(50, 100), random.uniform(-100, 100), random.normal()};
+  }
+}
+
+// `source`: unless null, what keeps its value where the clip has it; positions lie `step` apart.
+void check_round_trip(const MarkerClip& clip, const MarkerClip* source, double step) {
+  const MarkerClip again = read(write_markers(clip, "c3d"));
+  again.validate();
+  check(again.frame_count() == clip.frame_count());
+  check(again.marker_count() == clip.marker_count());
+  for (std::size_t i = 0; i < clip.positions.size(); ++i) {
+    check(again.observed[i] == clip.observed[i]);
+    if (clip.observed[i] == 0) continue;
+    const Vec3 now = clip.positions[i];
+    const bool kept = source != nullptr && source->observed[i] != 0 && now == source->positions[i];
+    check(norm(again.positions[i] - now) <= (kept ? 0 : step + 1e-3));
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string bytes(reinterpret_cast<const char*>(data), size);
+  std::uint64_t seed = 14695981039346656037u;
+  for (const char byte : bytes) seed = (seed ^ static_cast<unsigned char>(byte)) * 1099511628211u;
+  MarkerClip clip;
+  try {
+    clip = read(bytes);
+  } catch (const Error&) {
+    return 0;
+  }
+  const double step = step_of(clip);
+  if (step > 10 || !is_sensible(clip)) return 0;
+  const MarkerClip source = clip;
+  Random random(seed);
+  change(clip, random);
+  try {
+    check_round_trip(clip, &source, step);
+    if (random.chance(0.5)) clip.source.document.reset();
+    clip.first_frame = 3;
+    clip.events.push_back({"again", "", 2});
+    check_round_trip(clip, nullptr, 0);
+  } catch (const Error& error) {
+    // A file's parameters may be too many for a new one.
+    check(error.kind() == ErrorKind::usage);
+  }
+  return 0;
+}
