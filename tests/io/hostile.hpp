@@ -51,10 +51,10 @@ inline std::vector<std::string> fixture_bytes(const std::string& format) {
 }
 
 /// Whatever the bytes are: a take that keeps the rules and writes back the same, or an error of one
-/// line that names the file.
-inline void expect_take_or_error(const std::string& bytes, const std::string& format) {
+/// line that names the file. `options`: what the format needs beside the file.
+inline void expect_take_or_error(const std::string& bytes, const std::string& format,
+                                 ReadOptions options = {}) {
   const std::string name = "take." + format;
-  ReadOptions options;
   options.format = format;
   const std::size_t peak = peak_memory([&] {
     try {
@@ -71,17 +71,20 @@ inline void expect_take_or_error(const std::string& bytes, const std::string& fo
   ASSERT_LT(peak, memory_allowed);
 }
 
-inline void expect_sane_when_cut_at_any_length(const std::string& format) {
+inline void expect_sane_when_cut_at_any_length(const std::string& format,
+                                               const ReadOptions& options = {}) {
   for (const std::string& bytes : fixture_bytes(format)) {
     for (std::size_t length = 0; length <= bytes.size(); ++length) {
-      ASSERT_NO_FATAL_FAILURE(expect_take_or_error(bytes.substr(0, length), format)) << length;
+      ASSERT_NO_FATAL_FAILURE(expect_take_or_error(bytes.substr(0, length), format, options))
+          << length;
     }
   }
 }
 
 /// `likely`: bytes that mean something to the format.
 inline void expect_sane_when_patched_at_any_byte(const std::string& format,
-                                                 const std::string& likely) {
+                                                 const std::string& likely,
+                                                 const ReadOptions& options = {}) {
   Random random(99);
   for (const std::string& bytes : fixture_bytes(format)) {
     for (std::size_t at = 0; at < bytes.size(); ++at) {
@@ -91,12 +94,13 @@ inline void expect_sane_when_patched_at_any_byte(const std::string& format,
         patched[at + i] = random.chance(0.7) ? likely[random.below(likely.size())]
                                              : static_cast<char>(random.below(256));
       }
-      ASSERT_NO_FATAL_FAILURE(expect_take_or_error(patched, format)) << at;
+      ASSERT_NO_FATAL_FAILURE(expect_take_or_error(patched, format, options)) << at;
     }
   }
 }
 
-inline void expect_sane_when_pieces_move(const std::string& format) {
+inline void expect_sane_when_pieces_move(const std::string& format,
+                                         const ReadOptions& options = {}) {
   Random random(100);
   const auto all = fixture_bytes(format);
   for (int i = 0; i < 3000; ++i) {
@@ -105,14 +109,14 @@ inline void expect_sane_when_pieces_move(const std::string& format) {
     if (bytes.empty() || other.empty()) continue;
     const std::size_t from = random.below(other.size());
     bytes.insert(random.below(bytes.size()), other.substr(from, random.below(200)));
-    ASSERT_NO_FATAL_FAILURE(expect_take_or_error(bytes, format)) << i;
+    ASSERT_NO_FATAL_FAILURE(expect_take_or_error(bytes, format, options)) << i;
   }
 }
 
 /// Large nonsense is read or refused within two seconds and in little memory.
 inline void expect_quick_verdicts(const std::string& format,
-                                  const std::vector<std::pair<const char*, std::string>>& files) {
-  ReadOptions options;
+                                  const std::vector<std::pair<const char*, std::string>>& files,
+                                  ReadOptions options = {}) {
   options.format = format;
   for (const auto& [title, bytes] : files) {
     SCOPED_TRACE(title);
