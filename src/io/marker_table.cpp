@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 
+#include "io/cell_patch.hpp"
 #include "io/marker_zeros.hpp"
 #include "io/memory_limit.hpp"
 
@@ -36,6 +38,7 @@ class TableReader {
       if (row.fault != nullptr && is_trailing_text(row)) break;
       if (row.fault != nullptr) fail(row.fault);
       if (row.used > width_) return wider_than(row.used);
+      if (table_.is_filler(row)) continue;
       store(row);
     }
     finish();
@@ -87,6 +90,7 @@ class TableReader {
     table_.frames = 0;
     TableFinding finding;
     finding.widest = widest;
+    finding.wide_row = row_begin_;
     return finding;
   }
 
@@ -210,16 +214,16 @@ double rounding_of(const std::vector<double>& times_s) {
 
 // The rate in use, or the whole number of hertz, that rounded times can stand for.
 double rate_of(double mean_step_s, double tolerance_s) {
-  constexpr std::array<double, 5> broadcast{23.976, 29.97, 59.94, 119.88, 239.76};
-  const double rate = 1 / mean_step_s;
-  const auto fits = [&](double candidate) {
-    return std::fabs(1 / candidate - mean_step_s) <= tolerance_s;
-  };
-  const double tens = std::round(rate / 10) * 10, whole = std::round(rate);
-  if (tens > 0 && fits(tens)) return tens;
-  if (whole > 0 && fits(whole)) return whole;
-  const auto* const found = std::find_if(broadcast.begin(), broadcast.end(), fits);
-  return found != broadcast.end() ? *found : rate;
+  constexpr std::array<double, 20> in_use{23.976, 24,  25,  29.97,  30,  50,  59.94,
+                                          60,     90,  100, 119.88, 120, 200, 239.76,
+                                          240,    250, 300, 400,    500, 1000};
+  const auto error_of = [&](double rate) { return std::fabs(1 / rate - mean_step_s); };
+  const auto fits = [&](double rate) { return error_of(rate) <= tolerance_s; };
+  const double nearest = *std::min_element(
+      in_use.begin(), in_use.end(), [&](double a, double b) { return error_of(a) < error_of(b); });
+  if (fits(nearest)) return nearest;
+  const double rate = 1 / mean_step_s, whole = std::round(rate);
+  return whole > 0 && fits(whole) ? whole : rate;
 }
 
 }  // namespace
@@ -236,8 +240,8 @@ TableFinding read_marker_table(const SourceText& text, Diagnostics& diagnostics,
   return TableReader(text, diagnostics, declared_frames, table, clip).read();
 }
 
-double check_row_labels(const SourceText& text, Diagnostics& diagnostics, const MarkerTable& table,
-                        const RowLabels& labels, MarkerClip& clip) {
+RowRate check_row_labels(const SourceText& text, Diagnostics& diagnostics, const MarkerTable& table,
+                         const RowLabels& labels, MarkerClip& clip) {
   const auto count_steps = [](const std::vector<double>& values, auto is_odd) {
     std::size_t odd = 0;
     for (std::size_t i = 1; i < values.size(); ++i)
@@ -254,10 +258,10 @@ double check_row_labels(const SourceText& text, Diagnostics& diagnostics, const 
                 "frame numbers do not go up by one: rows are taken as successive frames", jumps);
   }
   const auto& times = labels.times_s;
-  if (times.size() < 2) return 0;
+  if (times.size() < 2) return {};
   const double steps = static_cast<double>(times.size() - 1);
   const double mean_step_s = (times.back() - times.front()) / steps;
-  if (!(mean_step_s > 0) || !std::isfinite(1 / mean_step_s)) return 0;
+  if (!(mean_step_s > 0) || !std::isfinite(1 / mean_step_s)) return {};
   const double rounding_s = rounding_of(times);
   const std::size_t uneven = count_steps(times, [&](double step) {
     return !(std::fabs(step - mean_step_s) <= 0.1 * mean_step_s + 2 * rounding_s);
@@ -266,28 +270,25 @@ double check_row_labels(const SourceText& text, Diagnostics& diagnostics, const 
     note_repair(text, diagnostics, "time_uneven", table.begin,
                 "times are uneven: rows are taken as evenly spaced", uneven);
   }
-  return rate_of(mean_step_s, 2.01 * rounding_s / steps);
+  const double tolerance_s = 2.01 * rounding_s / steps;
+  return {rate_of(mean_step_s, tolerance_s), mean_step_s, tolerance_s};
 }
 
-std::string_view coordinate_text(double value, char* room) {
-  constexpr unsigned most_decimals = 9;
+std::string_view coordinate_text(double value, char* room, unsigned most_decimals) {
+  const auto text_until = [&](const char* end) {
+    return std::string_view(room, static_cast<std::size_t>(end - room));
+  };
   const auto single = static_cast<float>(value);
-  // The shortest digits of a float are found through the double that they read as.
-  char* end = nullptr;
-  if (static_cast<double>(single) == value && std::fabs(value) < 1e9) {
-    for (unsigned decimals = 0; decimals <= most_decimals; ++decimals) {
-      end = write_fixed(room, value, decimals);
-      const NumberToken token = read_number(room, end);
-      if (static_cast<float>(token.value) == single)
-        return {room, static_cast<std::size_t>(end - room)};
-    }
+  if (static_cast<double>(single) == value) {
+    return text_until(std::to_chars(room, room + fixed_number_room, single == 0 ? 0.0F : single,
+                                    std::chars_format::fixed)
+                          .ptr);
   }
-  end = write_shortest(room, value);
-  const std::string_view digits(room, static_cast<std::size_t>(end - room));
+  const std::string_view digits = text_until(write_shortest(room, value));
   const std::size_t dot = digits.find('.');
-  if (dot == digits.npos || digits.size() - dot - 1 <= most_decimals) return digits;
-  end = write_fixed(room, value, most_decimals);
-  return {room, static_cast<std::size_t>(end - room)};
+  const bool short_enough = most_decimals > most_fixed_decimals || dot == digits.npos ||
+                            digits.size() - dot - 1 <= most_decimals;
+  return short_enough ? digits : text_until(write_fixed(room, value, most_decimals));
 }
 
 }  // namespace kinemend

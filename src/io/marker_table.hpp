@@ -13,6 +13,9 @@
 
 namespace kinemend {
 
+/// More markers than this are taken for garbage.
+inline constexpr std::size_t most_markers = 16384;
+
 /// A table with a frame in each row and the coordinates of markers in its cells, as TRC and CSV
 /// have it; and what a reader made of it.
 struct MarkerTable {
@@ -27,6 +30,11 @@ struct MarkerTable {
 
   /// Cells in a full row.
   std::size_t width() const;
+  /// A row of separators only, as spreadsheets leave behind, where a frame would have its number or
+  /// time.
+  bool is_filler(const CellRow& row) const {
+    return row.used == 0 && (frame_column >= 0 || time_column >= 0);
+  }
 };
 
 /// Frame numbers and times in seconds of the rows, NaN where a cell is empty; empty vectors where
@@ -39,7 +47,8 @@ struct RowLabels {
 /// What the rows of a table have in common with no marker.
 struct TableFinding {
   RowLabels labels;
-  std::size_t widest = 0;  ///< used cells of the widest row, when it is wider than the table
+  std::size_t widest = 0;    ///< used cells of the widest row, when it is wider than the table
+  std::size_t wide_row = 0;  ///< byte of the first such row
 };
 
 /// Reads the rows from `table.begin` into `clip`, whose names are set, until the end or, once
@@ -50,10 +59,17 @@ struct TableFinding {
 TableFinding read_marker_table(const SourceText& text, Diagnostics& diagnostics,
                                std::size_t declared_frames, MarkerTable& table, MarkerClip& clip);
 
+/// What the times of the rows tell.
+struct RowRate {
+  double rate_hz = 0;      ///< 0 where they tell none
+  double step_s = 0;       ///< mean of the steps
+  double tolerance_s = 0;  ///< by which rounded times may be off
+};
+
 /// Notes what is odd about frame numbers and times, and sets the clip's first frame:
-/// `frame_number_gap`, `time_uneven`. Returns the rate that the times have, 0 where they tell none.
-double check_row_labels(const SourceText& text, Diagnostics& diagnostics, const MarkerTable& table,
-                        const RowLabels& labels, MarkerClip& clip);
+/// `frame_number_gap`, `time_uneven`.
+RowRate check_row_labels(const SourceText& text, Diagnostics& diagnostics, const MarkerTable& table,
+                         const RowLabels& labels, MarkerClip& clip);
 
 /// Most decimals of any coordinate; 10 where it is more than 9, or one has an exponent.
 unsigned decimals_of(std::string_view bytes, const MarkerTable& table);
@@ -65,7 +81,8 @@ std::string rewrite_marker_table(const MarkerClip& clip, std::string_view bytes,
                                  const MarkerTable& table);
 
 /// A coordinate of a file without a layout of its own: the fewest digits that read back as the same
-/// number (as a float, where it is one), at most nine decimals.
-std::string_view coordinate_text(double value, char* room);
+/// float where the value is one, else as the same number, then with no more than `most_decimals`
+/// unless that is more than 9. `room` holds `fixed_number_room` characters.
+std::string_view coordinate_text(double value, char* room, unsigned most_decimals);
 
 }  // namespace kinemend

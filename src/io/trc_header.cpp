@@ -57,6 +57,10 @@ class HeaderReader {
     }
     const std::string_view line = take_line();
     if (is_empty(line)) return;
+    if (static_cast<std::size_t>(std::count_if(line.begin(), line.end(), is_space)) >
+        3 * most_markers) {
+      throw text_.error_at(place_, fmt::format("no more than {} markers are read", most_markers));
+    }
     const std::vector<std::string> cells = split_cells(line, separator_of(line));
     const auto key = std::find_if(cells.begin(), cells.end(), [](const std::string& cell) {
       return equal_ignoring_case(cell, "DataRate");

@@ -13,7 +13,6 @@ namespace kinemend {
 namespace {
 
 constexpr double rate_when_unknown_hz = 100;
-constexpr std::size_t most_markers = 65536;
 
 std::size_t whole(double number) {
   constexpr double most = 1e15;
@@ -52,16 +51,20 @@ class TrcReader {
     TableFinding rows = read_marker_table(text_, diagnostics_, declared, document_.table, clip_);
     if (rows.widest == 0) return rows;
     // Coordinates beyond the labels: markers without a name.
-    clip_.names.resize((rows.widest - leading_columns() + 2) / 3);
+    const std::size_t markers = (rows.widest - leading_columns() + 2) / 3;
+    check_marker_count(markers);
+    clip_.names.resize(markers);
     set_columns();
     return read_marker_table(text_, diagnostics_, declared, document_.table, clip_);
   }
 
+  void check_marker_count(std::size_t markers) const {
+    if (markers <= most_markers) return;
+    throw text_.error_at(header_.labels_line, fmt::format("{} markers: no more than {} are read",
+                                                          markers, most_markers));
+  }
+
   void set_columns() {
-    if (clip_.names.size() > most_markers) {
-      throw text_.error_at(header_.labels_line, fmt::format("{} markers: no more than {} are read",
-                                                            clip_.names.size(), most_markers));
-    }
     auto& columns = document_.table.columns;
     columns.clear();
     for (std::size_t m = 0; m < clip_.names.size(); ++m) {
@@ -109,27 +112,28 @@ class TrcReader {
     }
   }
 
-  void choose_rate(double rate_of_times_hz) {
+  void choose_rate(const RowRate& times) {
     constexpr double tolerance = 0.01;
     const double declared = header_.number("DataRate");
     if (declared > 0 && std::isfinite(1 / declared)) {
       clip_.frame_rate_hz = declared;
-      if (rate_of_times_hz > 0 && std::fabs(rate_of_times_hz / declared - 1) > tolerance) {
+      const double off_s = std::fabs(1 / declared - times.step_s);
+      if (times.rate_hz > 0 && off_s > tolerance / declared + times.tolerance_s) {
         note_repair(text_, diagnostics_, "time_mismatch", header_.values_line,
                     fmt::format("DataRate says {} Hz, the times {:.6g} Hz: DataRate is taken",
-                                declared, rate_of_times_hz));
+                                declared, times.rate_hz));
       }
       return;
     }
-    clip_.frame_rate_hz = rate_of_times_hz > 0         ? rate_of_times_hz
-                          : options_.frame_rate_hz > 0 ? options_.frame_rate_hz
-                                                       : rate_when_unknown_hz;
-    note_repair(
-        text_, diagnostics_, "frame_rate_assumed", header_.values_line,
-        fmt::format("the header has no usable DataRate: {:.6g} Hz from {}", clip_.frame_rate_hz,
-                    rate_of_times_hz > 0         ? "the times"
-                    : options_.frame_rate_hz > 0 ? "the options"
-                                                 : "custom"));
+    const bool by_times = times.rate_hz > 0, by_options = options_.frame_rate_hz > 0;
+    clip_.frame_rate_hz = by_times     ? times.rate_hz
+                          : by_options ? options_.frame_rate_hz
+                                       : rate_when_unknown_hz;
+    note_repair(text_, diagnostics_, "frame_rate_assumed", header_.values_line,
+                fmt::format("the header has no usable DataRate: {:.6g} Hz {}", clip_.frame_rate_hz,
+                            by_times     ? "from the times"
+                            : by_options ? "as asked for"
+                                         : "assumed"));
   }
 
   void note_facts() {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "io/cell_patch.hpp"
 #include "io/text_buffer.hpp"
 #include "io/trc.hpp"
 #include "io/trc_document.hpp"
@@ -104,10 +105,9 @@ class PlainWriter {
   }
 
   void write_coordinate(double value) {
-    constexpr unsigned most_fixed_decimals = 9;
     if (style_.decimals <= most_fixed_decimals) return out_.append_fixed(value, style_.decimals);
     char room[fixed_number_room];
-    out_.append(coordinate_text(value, room));
+    out_.append(coordinate_text(value, room, most_fixed_decimals));
   }
 
   const MarkerClip& clip_;
