@@ -39,35 +39,25 @@ std::vector<std::size_t> observed_behind(const Track& track, std::size_t frame, 
   return found;
 }
 
-// Slope at 0 of the parabola c0 + c1 u + c2 u^2 with the least weighted squares, a line through few
-// samples; by the normal equations, u being scaled to [0, 1].
+// Slope of the line with the least weighted squares; what it leaves in `residuals`.
 double fitted_slope(std::span<const double> u, std::span<const double> y, std::span<const double> w,
                     std::span<double> residuals) {
-  const std::size_t terms = std::min<std::size_t>(u.size() >= 4 ? 3 : 2, u.size());
-  std::array<std::array<double, 4>, 3> system{};
+  double weight = 0, mean_u = 0, mean_y = 0;
   for (std::size_t i = 0; i < u.size(); ++i) {
-    const std::array<double, 3> powers = {1, u[i], u[i] * u[i]};
-    for (std::size_t r = 0; r < terms; ++r) {
-      for (std::size_t c = 0; c < terms; ++c) system[r][c] += w[i] * powers[r] * powers[c];
-      system[r][3] += w[i] * powers[r] * y[i];
-    }
+    weight += w[i];
+    mean_u += w[i] * u[i];
+    mean_y += w[i] * y[i];
   }
-  for (std::size_t r = 0; r < terms; ++r) {
-    for (std::size_t below = r + 1; below < terms; ++below) {
-      const double factor = system[below][r] / system[r][r];
-      for (std::size_t c = r; c < 4; ++c) system[below][c] -= factor * system[r][c];
-    }
-  }
-  std::array<double, 3> solution{};
-  for (std::size_t r = terms; r-- > 0;) {
-    double sum = system[r][3];
-    for (std::size_t c = r + 1; c < terms; ++c) sum -= system[r][c] * solution[c];
-    solution[r] = sum / system[r][r];
-  }
+  mean_u /= weight;
+  mean_y /= weight;
+  double spread = 0, product = 0;
   for (std::size_t i = 0; i < u.size(); ++i) {
-    residuals[i] = y[i] - solution[0] - u[i] * (solution[1] + u[i] * solution[2]);
+    spread += w[i] * (u[i] - mean_u) * (u[i] - mean_u);
+    product += w[i] * (u[i] - mean_u) * (y[i] - mean_y);
   }
-  return solution[1];
+  const double slope = product / spread;
+  for (std::size_t i = 0; i < u.size(); ++i) residuals[i] = y[i] - mean_y - slope * (u[i] - mean_u);
+  return slope;
 }
 
 // Huber's weights, by iterated least squares about the median deviation.
@@ -153,6 +143,40 @@ void fill_hermite(const Track& track, Span span, const Slopes& slopes) {
     const auto u = static_cast<double>(f - span.first + 1);
     for (std::size_t c = 0; c < track.channels; ++c) {
       track.row(f)[c] = hermite(y0[c], slopes.before[c], y1[c], slopes.behind[c], length, u);
+    }
+  }
+}
+
+// A velocity of 1 at the end u frames away, which has faded after `reach` frames. On a gap of that
+// length the line between its ends and both fading velocities make the cubic Hermite.
+double fading(double u, double reach) {
+  return u < reach ? u * (1 - u / reach) * (1 - u / reach) : 0.0;
+}
+
+// The straight line between two ends, left and reached with their velocities.
+struct Crossing {
+  double length = 0, reach = 0;
+  double value(double y0, double v0, double y1, double v1, double u) const {
+    const double slope = (y1 - y0) / length;
+    return y0 + slope * u + (v0 - slope) * fading(u, reach) -
+           (v1 - slope) * fading(length - u, reach);
+  }
+};
+
+Crossing crossing_of(Span span, double reach_s, const CurveSettings& settings) {
+  const auto length = static_cast<double>(span.length() + 1);
+  return {length, std::min(length, std::max(2.0, to_frames(reach_s, settings)))};
+}
+
+void fill_between_velocities(const Track& track, Span span, const CurveSettings& settings) {
+  const EndState before = state_before(track, span, settings);
+  const EndState behind = state_behind(track, span, settings);
+  const Crossing crossing = crossing_of(span, settings.reach_s, settings);
+  for (std::size_t f = span.first; f <= span.last; ++f) {
+    const auto u = static_cast<double>(f - span.first + 1);
+    for (std::size_t c = 0; c < track.channels; ++c) {
+      track.row(f)[c] = crossing.value(before.value[c], before.velocity[c], behind.value[c],
+                                       behind.velocity[c], u);
     }
   }
 }
@@ -246,9 +270,11 @@ void fill_spline(const Track& track, Span span, bool quintic, const CurveSetting
   NaturalSpline spline(half_order, std::move(knots), values, track.channels);
   if (quintic && frames.size() >= 12) {
     // A spline smoothed by s passes half of a wave of w radians a frame where s w^6 = 1.
-    constexpr double least = 1e-4;
-    const double cutoff = 2 * pi * settings.least_cutoff_hz / settings.frame_rate_hz;
-    spline.fit_by_cross_validation(least, std::max(2 * least, std::pow(cutoff, -6)));
+    const auto smoothing_of = [&](double cutoff_hz) {
+      return std::pow(2 * pi * cutoff_hz / settings.frame_rate_hz, -6);
+    };
+    spline.fit_by_cross_validation(smoothing_of(settings.most_cutoff_hz),
+                                   smoothing_of(settings.least_cutoff_hz));
   } else {
     spline.fit(0);
   }
@@ -304,9 +330,7 @@ bool fill_with_curve(const Track& track, Span span, Curve curve, const CurveSett
       fill_shape_preserving(track, span);
       break;
     case Curve::hermite:
-      fill_hermite(track, span,
-                   {state_before(track, span, settings).velocity,
-                    state_behind(track, span, settings).velocity});
+      fill_between_velocities(track, span, settings);
       break;
   }
   return true;
@@ -332,24 +356,19 @@ void place_guess(const Track& track, Span span, const Guess& guess, const CurveS
   const Span inner{span.first - from, span.last - from};
   const EndState before = state_before(difference, inner, settings);
   const EndState behind = state_behind(difference, inner, settings);
-  const auto length = static_cast<double>(span.length() + 1);
-  const double blend = std::min(length, std::max(2.0, to_frames(blend_s, settings)));
+  const Crossing crossing = crossing_of(span, blend_s, settings);
   const double decay = std::max(1.0, to_frames(settings.decay_s, settings));
-  const auto fading = [&](double u) {
-    return u < blend ? u * (1 - u / blend) * (1 - u / blend) : 0;
-  };
   for (std::size_t f = span.first; f <= span.last; ++f) {
     const auto u = static_cast<double>(f - span.first + 1);
     for (std::size_t c = 0; c < track.channels; ++c) {
       double miss = 0;
       if (before.known && behind.known) {
-        const double slope = (behind.value[c] - before.value[c]) / length;
-        miss = before.value[c] + slope * u + (before.velocity[c] - slope) * fading(u) -
-               (behind.velocity[c] - slope) * fading(length - u);
+        miss = crossing.value(before.value[c], before.velocity[c], behind.value[c],
+                              behind.velocity[c], u);
       } else if (before.known) {
         miss = coast(before.value[c], before.velocity[c], u, decay);
       } else if (behind.known) {
-        miss = coast(behind.value[c], -behind.velocity[c], length - u, decay);
+        miss = coast(behind.value[c], -behind.velocity[c], crossing.length - u, decay);
       }
       track.row(f)[c] = guess.values[(f - from) * track.channels + c] + miss;
     }

@@ -34,15 +34,17 @@ enum class Curve : std::uint8_t {
   cubic,             ///< natural cubic spline through the samples around the gap
   quintic,           ///< quintic smoothing spline, smoothed as their noise demands (Woltring 1986)
   shape_preserving,  ///< PCHIP: no overshoot (Fritsch & Carlson 1980, Fritsch & Butland 1984)
-  hermite            ///< cubic between robust velocities at both ends
+  hermite            ///< cubic between robust velocities at both ends, straight far from them
 };
 
 struct CurveSettings {
   double frame_rate_hz = 0;
-  double support_s = 0.5;          ///< of the splines: samples used on either side, 48 at least
-  double least_cutoff_hz = 4;      ///< of `quintic`: cross-validation smooths no further
-  double velocity_window_s = 0.1;  ///< of end velocities, 5 samples at least
-  double decay_s = 0.15;           ///< an end velocity that nothing continues fades so fast
+  double support_s = 0.5;           ///< of the splines: samples used on either side, 48 at least
+  double least_cutoff_hz = 3;       ///< of `quintic`: cross-validation smooths between these two;
+  double most_cutoff_hz = 6;        ///< less would throw the curve where noise is not white
+  double velocity_window_s = 0.06;  ///< of end velocities, 5 samples at least
+  double reach_s = 0.25;            ///< of `hermite`: end velocities fade so far into the gap
+  double decay_s = 0.15;            ///< an end velocity that nothing continues fades so fast
 };
 
 /// Fills the span on the curve, which meets the samples at its ends in value and velocity (`linear`
@@ -62,13 +64,13 @@ struct Guess {
 /// velocity fades within `blend_s`. The guess has to cover the observed frames next to the span,
 /// about `velocity_window_s` of them on either side; a side it does not cover is not met.
 void place_guess(const Track& track, Span span, const Guess& guess, const CurveSettings& settings,
-                 double blend_s = 0.2);
+                 double blend_s = 0.1);
 
 /// Value and velocity (per frame) at one end of a span.
 struct EndState {
   bool known = false;
   std::vector<double> value;     ///< of the end's own sample
-  std::vector<double> velocity;  ///< of a parabola fitted to the samples near it, outliers aside
+  std::vector<double> velocity;  ///< of a line through the samples near it, outliers aside
 };
 
 /// The state at the last observed frame before the span, and at the first one behind it.
