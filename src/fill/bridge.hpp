@@ -10,20 +10,29 @@ namespace kinemend::fill {
 
 /// Carries the errors that a guess has at the observed frames beside a gap into the gap, so that
 /// the corrected guess meets both ends in value and velocity: the mean of a Gaussian process
-/// through these errors (Rasmussen & Williams 2006, eq. 2.23). Its covariance is Matern's with nu =
-/// 5/2, twice differentiable; far from both ends the guess is left as it is.
+/// through these errors (Rasmussen & Williams 2006, eq. 2.23). Most of what a guess of a pose
+/// misses it has missed for long already, so the process is a sum of two: one that is forgotten
+/// within a step, by Matern's covariance of nu = 5/2 with the given memory, and a slower one of nu
+/// = 3/2. Far from both ends the guess is left as it is.
 class Bridge {
  public:
-  /// `beside`: observed frames next to the span, ascending, at least one; `wanted`: the frames of
-  /// the span that are asked for; `memory_s`: the time after which errors are forgotten.
-  Bridge(std::span<const std::size_t> beside, std::span<const std::size_t> wanted,
-         double memory_frames);
+  struct Settings {
+    double memory_s = 0.083;  ///< of the fast part
+    /// Variance of the samples' noise as a share of the errors' variance. The samples next to the
+    /// gap are met whatever it is.
+    double noise = 1e-4;
+  };
+
+  /// `beside`: observed frames next to the span, ascending; `wanted`: the frames of the span that
+  /// are asked for.
+  Bridge(std::span<const std::size_t> beside, Span span, std::span<const std::size_t> wanted,
+         double frame_rate_hz, const Settings& settings);
 
   /// The errors (sample less guess) at `wanted`, from those at `beside`.
   std::vector<Vec3> carry(std::span<const Vec3> errors) const;
 
  private:
-  std::size_t beside_;
+  std::size_t wanted_, beside_;
   std::vector<double> weights_;  // wanted x beside
 };
 

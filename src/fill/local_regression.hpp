@@ -5,18 +5,13 @@
 #include <span>
 #include <vector>
 
+#include "fill/bridge.hpp"
 #include "fill/marker_group.hpp"
 
 namespace kinemend::fill {
 
-struct LocalSettings {
-  std::size_t companions = 8;  ///< markers that predict, at most
-  std::size_t training_frames = 512;
-  double memory_s = 0.08;  ///< of the errors at the ends
-};
-
-/// The place of a marker among the markers that keep their distance to it. In the frame of
-/// reference that moves with these companions its coordinates y are predicted from theirs, x, by
+/// Where a marker is among the markers that keep their distance to it, its companions. In the frame
+/// of reference that moves with them the marker's coordinates y are predicted from theirs, x, by
 /// ridge regression over the frames of the take in which all are seen:
 ///
 ///     B = argmin |Y - X B|^2 + n stiffness^2 |B|^2,      y = mean(Y) + (x - mean(X)) B.
@@ -24,35 +19,58 @@ struct LocalSettings {
 /// With infinite stiffness the companions and the marker are one rigid body.
 class LocalRegression {
  public:
-  LocalRegression(const Samples& samples, const MarkerGap& gap,
-                  std::span<const std::size_t> helpers, const LocalSettings& settings = {});
+  /// Rows of three coordinates, or of all companions', in the companions' frame of reference.
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  /// Whether there are companions and frames to learn from.
+  /// Learns from at most 256 frames outside the gap, with the first `most_companions` of those
+  /// given
+  /// (`companions_of`).
+  LocalRegression(const Samples& samples, const MarkerGap& gap,
+                  std::span<const Companion> companions, std::size_t most_companions);
+
+  /// Whether there are companions, and frames to learn from.
   bool usable() const { return training_.size() >= least_training_frames; }
   const MarkerGroup& group() const { return group_; }
-  /// Spread of the distances to the nearest three companions, or as many as there are.
-  double rigidity() const { return rigidity_; }
 
-  /// Positions at the frames `wanted` of the span for each of the stiffnesses (file units;
-  /// infinity: rigid), none of the marker's samples in the span being used; they meet the ends.
-  std::vector<std::vector<Vec3>> predict(Span span, std::span<const std::size_t> wanted,
-                                         std::span<const double> stiffness) const;
+  /// A span of the take to be predicted: what is seen of the companions in its frames, and of the
+  /// marker beside it.
+  struct Scene {
+    Span span;
+    std::vector<std::size_t> beside;  ///< observed frames near the span, ascending
+    std::vector<std::size_t> wanted;  ///< frames of the span
+    std::vector<Placement> placed;    ///< in the frames beside, then in those wanted
+    Rows inputs;                      ///< likewise: the companions' coordinates about their shape
+    Rows seen;                        ///< the marker's own coordinates in the frames beside
+  };
+  Scene scene_of(Span span, std::span<const std::size_t> wanted) const;
+
+  /// The marker's coordinates in all frames of the scene, by the regression on the frames outside
+  /// its span, for each stiffness (file units; infinity: rigid).
+  std::vector<Rows> predict(const Scene& scene, std::span<const double> stiffness) const;
+  /// What carries errors beside the scene's span into it.
+  Bridge bridge_of(const Scene& scene, const Bridge::Settings& settings = {}) const;
+  /// Positions in the frames wanted, of such coordinates moved so that they meet the ends.
+  static std::vector<Vec3> meet_ends(const Scene& scene, const Bridge& bridge,
+                                     const Rows& coordinates);
+
+  /// The companions' coordinates about their shape, and the marker's, in the frames learned from.
+  Rows training_inputs() const;
+  Rows training_outputs() const;
+  const std::vector<std::size_t>& training_frames() const { return training_; }
 
   static constexpr std::size_t least_training_frames = 8;
 
  private:
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-  Placement local_row(std::size_t frame, double* row) const;
-  Rows sums_without(Span span, Eigen::Index& count) const;
+  Placement put_inputs(std::size_t frame, double* row) const;
+  void learn();
+  Rows sums_without(Span span, double& count) const;
+  Eigen::Index inputs() const { return static_cast<Eigen::Index>(3 * group_.markers().size()); }
 
   const Samples& samples_;
   std::size_t marker_;
-  LocalSettings settings_;
   MarkerGroup group_;
-  double rigidity_ = 0;
   std::vector<std::size_t> training_;
-  Rows rows_;  // training frames x (1, companions' coordinates about the shape, the marker's)
+  Rows rows_;  // training frames x (1, inputs, outputs)
   Rows sums_;  // rows^T rows
 };
 

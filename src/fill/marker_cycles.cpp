@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <cmath>
 
+#include "fill/cycles.hpp"
 #include "fill/marker_group.hpp"
 #include "fill/marker_methods.hpp"
 
@@ -8,20 +8,17 @@ namespace kinemend::fill {
 
 namespace {
 
-constexpr double beside_s = 0.25;
-constexpr double least_cycle_s = 0.3;
-constexpr std::size_t most_cycles = 4;
 constexpr std::size_t most_companions = 12;
-// Cycles are alike when they differ beside the gap by less than this share of the marker's
-// movement.
-constexpr double largest_mismatch = 0.35;
+constexpr std::size_t least_cycles = 2;
 
-// The marker's track in the frame of reference of the rest of the body.
+// The marker's track in the frame of reference of the rest of the body, so that a cycle may be
+// walked elsewhere and in another direction.
 struct BodyTrack {
-  std::vector<Placement> placements;
-  std::vector<Vec3> local;
-  std::vector<std::uint8_t> seen;  ///< the marker and the body
-  std::vector<std::uint8_t> placed;
+  std::vector<Placement> placements;   // F
+  std::vector<double> values;          // F x 3
+  std::vector<std::uint8_t> observed;  // F: the marker and the body
+
+  Track track() { return {values, 3, observed}; }
 };
 
 BodyTrack track_in_body(const Samples& samples, const MarkerGap& gap) {
@@ -34,115 +31,42 @@ BodyTrack track_in_body(const Samples& samples, const MarkerGap& gap) {
   for (std::size_t f = 0; f < samples.frames; ++f) {
     if (body.seen_in(samples, f)) whole.push_back(f);
   }
+  // The body as a whole: by its shape it is placed alike in every cycle, however the gap's marker
+  // moves.
   if (!markers.empty() && !whole.empty()) body.fit_shape(samples, evenly(whole, 128));
-  BodyTrack track;
-  track.placements.resize(samples.frames);
-  track.local.resize(samples.frames);
-  track.seen.resize(samples.frames);
-  track.placed.resize(samples.frames);
+  BodyTrack track{std::vector<Placement>(samples.frames), std::vector<double>(3 * samples.frames),
+                  std::vector<std::uint8_t>(samples.frames)};
   for (const std::size_t f : whole) {
-    track.placed[f] = 1;
-    track.placements[f] = markers.empty() ? Placement{} : body.placement(samples, f);
+    if (!markers.empty()) track.placements[f] = body.placement(samples, f);
     if (!samples.sees(f, gap.marker) || gap.covers(f)) continue;
-    track.seen[f] = 1;
-    track.local[f] = track.placements[f].to_local(samples.at(f, gap.marker));
+    const Vec3 local = track.placements[f].to_local(samples.at(f, gap.marker));
+    track.observed[f] = 1;
+    track.values[3 * f] = local.x;
+    track.values[3 * f + 1] = local.y;
+    track.values[3 * f + 2] = local.z;
   }
   return track;
-}
-
-double movement_of(const BodyTrack& track) {
-  Vec3 sum;
-  double squares = 0, count = 0;
-  for (std::size_t f = 0; f < track.local.size(); ++f) {
-    if (!track.seen[f]) continue;
-    sum += track.local[f];
-    squares += dot(track.local[f], track.local[f]);
-    count += 1;
-  }
-  return count > 0 ? std::sqrt(std::max(0.0, squares / count - dot(sum, sum) / count / count)) : 0;
-}
-
-struct Cycle {
-  std::ptrdiff_t shift = 0;
-  double mismatch = 0;
-};
-
-// How unlike the frames beside the gap are to those `shift` frames later, an offset aside; negative
-// where the marker is not seen there.
-double mismatch_of(const BodyTrack& track, const std::vector<std::size_t>& beside, Span span,
-                   std::ptrdiff_t shift) {
-  const auto moved = [&](std::size_t f) {
-    return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(f) + shift);
-  };
-  if (static_cast<std::ptrdiff_t>(beside.front()) + shift < 0 ||
-      moved(beside.back()) >= track.local.size()) {
-    return -1;
-  }
-  for (std::size_t f = span.first; f <= span.last; ++f) {
-    if (!track.seen[moved(f)]) return -1;
-  }
-  Vec3 sum;
-  double squares = 0;
-  for (const std::size_t f : beside) {
-    if (!track.seen[moved(f)]) return -1;
-    const Vec3 off = track.local[f] - track.local[moved(f)];
-    sum += off;
-    squares += dot(off, off);
-  }
-  const auto count = static_cast<double>(beside.size());
-  return std::sqrt(std::max(0.0, squares / count - dot(sum, sum) / count / count));
-}
-
-// The shifts at which the mismatch is least among those around them, best first.
-std::vector<Cycle> cycles_of(const Samples& samples, const BodyTrack& track,
-                             const std::vector<std::size_t>& beside, Span span, double largest) {
-  const auto frames = static_cast<std::ptrdiff_t>(samples.frames);
-  const auto apart = static_cast<std::ptrdiff_t>(samples.frames_in(least_cycle_s, 2));
-  std::vector<Cycle> found;
-  for (std::ptrdiff_t shift = -frames; shift <= frames; ++shift) {
-    if (std::abs(shift) < apart) continue;
-    const double mismatch = mismatch_of(track, beside, span, shift);
-    if (mismatch < 0 || mismatch > largest) continue;
-    if (!found.empty() && shift - found.back().shift < apart) {
-      if (mismatch < found.back().mismatch) found.back() = {shift, mismatch};
-    } else {
-      found.push_back({shift, mismatch});
-    }
-  }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Cycle& a, const Cycle& b) { return a.mismatch < b.mismatch; });
-  if (found.size() > most_cycles) found.resize(most_cycles);
-  return found;
 }
 
 }  // namespace
 
 Filling fill_by_cycles(const Samples& samples, const MarkerGap& gap, const MarkerRequest& request) {
   constexpr std::string_view name = "cyclic";
-  const BodyTrack track = track_in_body(samples, gap);
-  const std::size_t reach = samples.frames_in(beside_s, 4);
-  std::vector<std::size_t> beside = frames_beside(samples, gap, reach, reach);
-  std::erase_if(beside, [&](std::size_t f) { return track.seen[f] == 0; });
-  if (beside.size() < 4) {
-    return Filling::refused(name, "the marker is hardly seen beside the gap");
-  }
-  const double largest = request.lenient ? std::numeric_limits<double>::infinity()
-                                         : largest_mismatch * movement_of(track);
-  const std::vector<Cycle> cycles = cycles_of(samples, track, beside, gap.span, largest);
-  if (cycles.size() < (request.lenient ? 1U : 2U)) {
+  const CurveSettings settings{.frame_rate_hz = samples.frame_rate_hz};
+  CycleSettings rules;
+  if (request.lenient) rules.largest_mismatch = 1;
+  BodyTrack body = track_in_body(samples, gap);
+  const std::vector<Cycle> cycles = find_cycles(body.track(), gap.span, settings, rules);
+  if (cycles.size() < (request.lenient ? 1 : least_cycles)) {
     return Filling::refused(name, "no two other times of the take show the same movement");
   }
-  const std::size_t first = beside.front() < gap.span.first ? beside.front() : gap.span.first;
-  const std::size_t last = std::max(beside.back(), gap.span.last);
-  std::vector<Vec3> guess;
-  for (std::size_t f = first; f <= last; ++f) {
-    Vec3 sum;
-    for (const Cycle& cycle : cycles) {
-      sum += track.local[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(f) + cycle.shift)];
-    }
-    guess.push_back(track.placements[f].to_world((1 / static_cast<double>(cycles.size())) * sum));
+  fill_with_cycles(body.track(), gap.span, cycles, settings);
+  Filling filling{{}, std::string(name), {}, 0, false};
+  for (std::size_t f = gap.span.first; f <= gap.span.last; ++f) {
+    const Vec3 local{body.values[3 * f], body.values[3 * f + 1], body.values[3 * f + 2]};
+    filling.positions.push_back(body.placements[f].to_world(local));
   }
-  return {meet_ends(samples, gap, first, guess), std::string(name), {}, 0, false};
+  return filling;
 }
 
 }  // namespace kinemend::fill

@@ -71,7 +71,7 @@ void MarkerGroup::fit_shape(const Samples& samples, std::span<const std::size_t>
   };
   take_shape(frames[frames.size() / 2]);
   turns_ = spans_a_plane();
-  constexpr int rounds = 3;
+  constexpr int rounds = 2;
   for (int round = 0; round < rounds; ++round) {
     std::vector<Vec3> mean(markers_.size());
     for (const std::size_t f : frames) {

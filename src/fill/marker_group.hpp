@@ -55,6 +55,6 @@ struct Companion {
 /// never seen together with it are left out. At most `most_frames` frames are looked at.
 std::vector<Companion> companions_of(const Samples& samples, const MarkerGap& gap,
                                      std::span<const std::size_t> helpers,
-                                     std::size_t most_frames = 256);
+                                     std::size_t most_frames = 192);
 
 }  // namespace kinemend::fill

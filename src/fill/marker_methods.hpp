@@ -49,15 +49,15 @@ Filling fill_by_local_regression(const Samples& samples, const MarkerGap& gap,
 Filling fill_by_cycles(const Samples& samples, const MarkerGap& gap, const MarkerRequest& request);
 Filling fill_by_auto(const Samples& samples, const MarkerGap& gap, const MarkerRequest& request);
 
-/// The curve through the marker's own samples, at the span's frames; false where it has none.
+/// The curve through the marker's own samples, at the span's frames; empty where it has none.
 std::vector<Vec3> curve_positions(const Samples& samples, const MarkerGap& gap, Curve curve);
 /// The guess of the span's frames and those beside it, moved so that it meets the ends.
 std::vector<Vec3> meet_ends(const Samples& samples, const MarkerGap& gap, std::size_t first_frame,
                             const std::vector<Vec3>& guess);
 
-/// Root mean square distance of the take's markers to their centre, file units: the size by which
-/// errors are judged. Over at most 64 frames.
-double body_radius(const Samples& samples);
+/// Markers of one segment keep their distance to within this share of the body's radius (standard
+/// deviation).
+inline constexpr double segment_spread = 0.02;
 
 /// Up to `most` spans as long as the gap in which its marker is seen, evenly over the take, for
 /// trying a method; shorter ones where there is no room. `helpers` are seen in all of them.

@@ -20,7 +20,6 @@ constexpr double weight_radius = 0.45;
 constexpr double least_weight = 0.02;
 // Components are kept until they hold this share of the weighted variance.
 constexpr double kept_variance = 0.9999;
-constexpr double memory_s = 0.08;
 
 // Frames that the marker and all helpers are seen in, without the gap.
 std::vector<std::size_t> complete_frames(const Samples& samples, const MarkerGap& gap,
@@ -122,8 +121,8 @@ Filling fill_by_pca(const Samples& samples, const MarkerGap& gap, const MarkerRe
     refused.may_wait = true;
     return refused;
   }
-  const ComponentRegression regression(samples, gap.marker, helpers, frames, body_radius(samples));
-  std::vector<std::size_t> beside = frames_beside(samples, gap, 24, samples.frames_in(0.4, 24));
+  const ComponentRegression regression(samples, gap.marker, helpers, frames, samples.radius);
+  std::vector<std::size_t> beside = frames_beside(samples, gap, 12, samples.frames_in(0.5, 12));
   std::erase_if(beside, [&](std::size_t f) {
     return !std::all_of(helpers.begin(), helpers.end(),
                         [&](std::size_t m) { return samples.sees(f, m); });
@@ -135,11 +134,9 @@ Filling fill_by_pca(const Samples& samples, const MarkerGap& gap, const MarkerRe
     errors.push_back(samples.at(f, gap.marker) - regression(f));
   }
   for (const std::size_t f : wanted) positions.push_back(regression(f));
-  if (!beside.empty()) {
-    const std::vector<Vec3> carried =
-        Bridge(beside, wanted, memory_s * samples.frame_rate_hz).carry(errors);
-    for (std::size_t i = 0; i < wanted.size(); ++i) positions[i] += carried[i];
-  }
+  const Bridge bridge(beside, gap.span, wanted, samples.frame_rate_hz, {});
+  const std::vector<Vec3> moves = bridge.carry(errors);
+  for (std::size_t i = 0; i < wanted.size(); ++i) positions[i] += moves[i];
   return {std::move(positions), std::string(name), {}, 0, false};
 }
 

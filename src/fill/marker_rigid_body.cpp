@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <numeric>
 
@@ -10,36 +9,36 @@
 
 namespace kinemend::fill {
 
-namespace {
-
-// Markers of one segment keep their distances to this share of the body's radius.
-constexpr double largest_spread = 0.02;
-
-}  // namespace
-
 Filling fill_by_rigid_body(const Samples& samples, const MarkerGap& gap,
                            const MarkerRequest& request) {
   constexpr std::string_view name = "rigid-body";
-  const double limit = largest_spread * body_radius(samples);
-  std::vector<std::size_t> segment;
-  for (const Companion& companion : companions_of(samples, gap, helpers_of(samples, gap))) {
-    if (companion.spread <= limit || (request.lenient && segment.size() < 3)) {
-      segment.push_back(companion.marker);
-    }
-  }
-  const LocalRegression body(samples, gap, segment);
-  if (segment.size() < 3 || !body.usable() || !body.group().turns()) {
+  constexpr std::size_t most_companions = 8, least_companions = 3;
+  constexpr double rigid = std::numeric_limits<double>::infinity();
+  const double limit = segment_spread * samples.radius;
+  std::vector<Companion> segment = companions_of(samples, gap, helpers_of(samples, gap));
+  const auto strangers = std::find_if(segment.begin(), segment.end(),
+                                      [&](const Companion& c) { return c.spread > limit; });
+  const std::size_t count = static_cast<std::size_t>(strangers - segment.begin());
+  segment.resize(
+      std::min(segment.size(), request.lenient ? std::max(count, least_companions) : count));
+  const LocalRegression body(samples, gap, segment, most_companions);
+  if (segment.size() < least_companions || !body.usable() || !body.group().turns()) {
     Filling refused = Filling::refused(
-        name, fmt::format("{} other markers of its segment are seen throughout the gap, and three "
-                          "that are not on one line are needed",
-                          segment.size()));
+        name, fmt::format("{} other markers of its segment are seen throughout the gap; three that "
+                          "are not on one line are needed",
+                          count));
     refused.may_wait = true;
     return refused;
   }
   std::vector<std::size_t> frames(gap.span.length());
   std::iota(frames.begin(), frames.end(), gap.span.first);
-  constexpr std::array stiffness = {std::numeric_limits<double>::infinity()};
-  return {body.predict(gap.span, frames, stiffness).front(), std::string(name), {}, 0, false};
+  const LocalRegression::Scene scene = body.scene_of(gap.span, frames);
+  const LocalRegression::Rows still = body.predict(scene, {&rigid, 1}).front();
+  return {LocalRegression::meet_ends(scene, body.bridge_of(scene), still),
+          std::string(name),
+          {},
+          0,
+          false};
 }
 
 }  // namespace kinemend::fill

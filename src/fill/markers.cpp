@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "fill/marker_group.hpp"
 #include "fill/marker_methods.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/fill.hpp"
@@ -79,11 +80,16 @@ std::size_t donor_of(const MarkerClip& clip, const FillSettings& settings) {
 }
 
 Samples samples_of(const MarkerClip& clip, const std::vector<std::uint8_t>& seen) {
-  Samples samples{
-      clip.frame_count(), clip.marker_count(), clip.frame_rate_hz, clip.positions, seen, {}};
+  Samples samples;
+  samples.frames = clip.frame_count();
+  samples.markers = clip.marker_count();
+  samples.frame_rate_hz = clip.frame_rate_hz;
+  samples.positions = clip.positions;
+  samples.seen = seen;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
     if (clip.is_position.empty() || clip.is_position[m] != 0) samples.bodies.push_back(m);
   }
+  samples.radius = body_radius(samples);
   return samples;
 }
 
@@ -111,11 +117,17 @@ class Filler {
     }
   }
 
-  // Once more, with the samples that the rounds have filled beside each gap as evidence.
+  // Once more where a steady companion was missing too: what was filled of it is evidence now.
   void refine() {
+    const Samples samples = samples_of(clip_, seen_);
+    std::vector<std::uint8_t> gains(gaps_.size());
+    tbb::parallel_for(std::size_t{0}, gaps_.size(), [&](std::size_t g) {
+      gains[g] = !fillings_[g].positions.empty() && overlaps_another(g) &&
+                 has_filled_companion(samples, gaps_[g]);
+    });
     std::vector<std::size_t> again;
     for (std::size_t g = 0; g < gaps_.size(); ++g) {
-      if (!fillings_[g].positions.empty() && overlaps_another(g)) again.push_back(g);
+      if (gains[g]) again.push_back(g);
     }
     try_gaps(again);
   }
@@ -170,6 +182,18 @@ class Filler {
       return other.track != gaps_[g].track && other.first_frame <= gaps_[g].last_frame &&
              gaps_[g].first_frame <= other.last_frame;
     });
+  }
+
+  bool has_filled_companion(const Samples& samples, const Gap& gap) const {
+    constexpr std::size_t steadiest = 8;
+    const MarkerGap asked{gap.track, {gap.first_frame, gap.last_frame}};
+    const auto companions = companions_of(samples, asked, helpers_of(samples, asked));
+    for (std::size_t k = 0; k < std::min(steadiest, companions.size()); ++k) {
+      for (std::size_t f = gap.first_frame; f <= gap.last_frame; ++f) {
+        if (!clip_.is_observed(f, companions[k].marker)) return true;
+      }
+    }
+    return false;
   }
 
   MarkerClip& clip_;

@@ -10,6 +10,27 @@ std::size_t Samples::frames_in(double seconds, std::size_t least) const {
   return std::max(least, static_cast<std::size_t>(std::clamp(count, 0.0, 1e9)));
 }
 
+double body_radius(const Samples& samples) {
+  double sum = 0, count = 0;
+  constexpr std::size_t most_frames = 64;
+  const std::size_t step = samples.frames / most_frames + 1;
+  for (std::size_t f = 0; f < samples.frames; f += step) {
+    Vec3 centre;
+    double seen = 0;
+    for (const std::size_t m : samples.bodies) {
+      if (samples.sees(f, m)) centre += samples.at(f, m), seen += 1;
+    }
+    if (seen < 2) continue;
+    centre = (1 / seen) * centre;
+    for (const std::size_t m : samples.bodies) {
+      if (!samples.sees(f, m)) continue;
+      const Vec3 off = samples.at(f, m) - centre;
+      sum += dot(off, off), count += 1;
+    }
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
 std::vector<std::size_t> frames_beside(const Samples& samples, const MarkerGap& gap,
                                        std::size_t most, std::size_t reach) {
   std::vector<std::size_t> found;

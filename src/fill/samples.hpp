@@ -18,6 +18,7 @@ struct Samples {
   std::span<const Vec3> positions;
   std::span<const std::uint8_t> seen;  ///< 0 where a position has no meaning
   std::vector<std::size_t> bodies;     ///< the markers that are positions at all
+  double radius = 0;                   ///< of the body, by which errors are judged (`body_radius`)
 
   bool sees(std::size_t frame, std::size_t marker) const {
     return seen[frame * markers + marker] != 0;
@@ -37,6 +38,10 @@ struct MarkerGap {
 
   bool covers(std::size_t frame) const { return frame >= span.first && frame <= span.last; }
 };
+
+/// Root mean square distance of the take's markers to their centre, file units, over at most 64
+/// frames; 0 where no two are seen together.
+double body_radius(const Samples& samples);
 
 /// Observed frames of the gap's marker near the gap, up to `most` on either side and none farther
 /// than `reach` frames, ascending.

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "fill/marker_methods.hpp"
 
@@ -19,27 +18,6 @@ std::vector<std::size_t> starts_of(const std::vector<std::uint8_t>& usable, std:
 }
 
 }  // namespace
-
-double body_radius(const Samples& samples) {
-  double sum = 0, count = 0;
-  constexpr std::size_t most_frames = 64;
-  const std::size_t step = samples.frames / most_frames + 1;
-  for (std::size_t f = 0; f < samples.frames; f += step) {
-    Vec3 centre;
-    double seen = 0;
-    for (const std::size_t m : samples.bodies) {
-      if (samples.sees(f, m)) centre += samples.at(f, m), seen += 1;
-    }
-    if (seen < 2) continue;
-    centre = (1 / seen) * centre;
-    for (const std::size_t m : samples.bodies) {
-      if (!samples.sees(f, m)) continue;
-      const Vec3 off = samples.at(f, m) - centre;
-      sum += dot(off, off), count += 1;
-    }
-  }
-  return count > 0 ? std::sqrt(sum / count) : 0;
-}
 
 std::vector<Span> trial_spans(const Samples& samples, const MarkerGap& gap,
                               std::span<const std::size_t> helpers, std::size_t most) {
