@@ -12,6 +12,7 @@ namespace kinemend {
 namespace {
 
 constexpr double most_in_a_word = 65535;
+constexpr std::size_t most_frames_looked_at = 200;
 
 // The low and the high word of a frame's number.
 C3dParameter frame_field(const char* name, std::int64_t frame) {
@@ -20,10 +21,11 @@ C3dParameter frame_field(const char* name, std::int64_t frame) {
                       {static_cast<double>(number % 65536), static_cast<double>(number / 65536)});
 }
 
-// How far the markers of a frame lie apart along y and z, summed over the frames.
+// How far the markers of a frame lie apart along y and z, summed over some frames.
 std::array<double, 2> extents(const MarkerClip& clip) {
   std::array<double, 2> sums{};
-  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+  const std::size_t stride = clip.frame_count() / most_frames_looked_at + 1;
+  for (std::size_t f = 0; f < clip.frame_count(); f += stride) {
     Vec3 low, high;
     bool any = false;
     for (std::size_t m = 0; m < clip.marker_count(); ++m) {

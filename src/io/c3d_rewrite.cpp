@@ -19,9 +19,11 @@ class Rewriter {
     if (clip_.frame_rate_hz != document_.frame_rate_hz) replace_rate();
     while (source_.next()) {
       if (block_is_same()) continue;
-      for (std::size_t f = 0; f < source_.count(); ++f) rewrite_frame(f);
+      with_words(document_.processor, [&](auto words) { rewrite_block<decltype(words)>(); });
     }
-    if (changed_) mark_zero_gaps();
+    if (changed_) {
+      with_words(document_.processor, [&](auto words) { mark_zero_gaps<decltype(words)>(); });
+    }
     if (!fits_) return std::nullopt;
     return std::move(out_);
   }
@@ -42,6 +44,12 @@ class Rewriter {
            (clip_.residuals.empty() || same(clip_.residuals, before.residuals));
   }
 
+  template <class Words>
+  void rewrite_block() {
+    for (std::size_t f = 0; f < source_.count(); ++f) rewrite_frame<Words>(f);
+  }
+
+  template <class Words>
   void rewrite_frame(std::size_t f) {
     const std::size_t points = layout().point_count;
     for (std::size_t p = 0; p < points; ++p) {
@@ -50,57 +58,59 @@ class Rewriter {
       if (!here && !was_here) continue;
       char* const place = out_.data() + source_.frame_begin(f) + 4 * p * layout().value_bytes();
       if (here) {
-        write_sample(place, f, p);
+        write_sample<Words>(place, f, p);
       } else {
-        write_missing(place);
+        write_missing<Words>(place);
       }
     }
   }
 
+  template <class Words>
   void write_missing(char* place) {
-    for (std::size_t i = 0; i < 3; ++i) write_value(place, i, 0);
-    write_value(place, 3, missing_point_word);
+    for (std::size_t i = 0; i < 3; ++i) write_value<Words>(place, i, 0);
+    write_value<Words>(place, 3, missing_point_word);
   }
 
   // What was seen to be missing by the samples around it must not depend on them any more.
+  template <class Words>
   void mark_zero_gaps() {
     for (const C3dZeroGap& gap : document_.zero_gaps) {
       for (std::size_t f = gap.first; f < gap.last; ++f) {
         if (clip_.is_observed(f, gap.marker)) continue;
-        write_missing(out_.data() + layout().data_begin + f * layout().frame_bytes() +
-                      4 * gap.marker * layout().value_bytes());
+        write_missing<Words>(out_.data() + layout().data_begin + f * layout().frame_bytes() +
+                             4 * gap.marker * layout().value_bytes());
       }
     }
   }
 
+  template <class Words>
   void write_sample(char* place, std::size_t f, std::size_t p) {
     const std::size_t now = clip_sample(f) + p, before = f * layout().point_count + p;
     const bool was_here = source_.points().observed[before] != 0;
     const Vec3 position = clip_.positions[now], old = source_.points().positions[before];
     const double scale = layout().is_float ? 1 : layout().scale;
-    if (!was_here || position.x != old.x) write_value(place, 0, position.x / scale);
-    if (!was_here || position.y != old.y) write_value(place, 1, position.y / scale);
-    if (!was_here || position.z != old.z) write_value(place, 2, position.z / scale);
+    if (!was_here || position.x != old.x) write_value<Words>(place, 0, position.x / scale);
+    if (!was_here || position.y != old.y) write_value<Words>(place, 1, position.y / scale);
+    if (!was_here || position.z != old.z) write_value<Words>(place, 2, position.z / scale);
     const float old_residual = source_.points().residuals[before];
     const float residual = !clip_.residuals.empty() ? clip_.residuals[now] : old_residual;
     if (was_here && residual == old_residual) return;
-    write_value(place, 3, c3d_point_word(residual, layout().scale, source_.word(f, p)));
+    write_value<Words>(place, 3, c3d_point_word(residual, layout().scale, source_.word(f, p)));
   }
 
   // In steps of the scale where the file holds integers.
+  template <class Words>
   void write_value(char* sample, std::size_t index, double value) {
     changed_ = true;
-    with_words(document_.processor, [&](auto words) {
-      char* const place = sample + index * layout().value_bytes();
-      const double whole = layout().is_float ? value : std::round(value);
-      if (!(std::fabs(whole) <= (layout().is_float ? largest_c3d_real : 32767.0))) {
-        fits_ = false;
-      } else if (layout().is_float) {
-        words.put_real(place, static_cast<float>(value));
-      } else {
-        words.put_word(place, static_cast<std::uint16_t>(static_cast<std::int16_t>(whole)));
-      }
-    });
+    char* const place = sample + index * layout().value_bytes();
+    const double whole = layout().is_float ? value : std::round(value);
+    if (!(std::fabs(whole) <= (layout().is_float ? largest_c3d_real : 32767.0))) {
+      fits_ = false;
+    } else if (layout().is_float) {
+      Words::put_real(place, static_cast<float>(value));
+    } else {
+      Words::put_word(place, static_cast<std::uint16_t>(static_cast<std::int16_t>(whole)));
+    }
   }
 
   void put_real(std::size_t offset, double value) {
