@@ -29,6 +29,7 @@ struct GapOutcome {
   std::string reason;  ///< why it was refused; empty where filled
   double expected_error =
       0;  ///< file units (degrees for rotations) as the method judged; 0: unknown
+  bool is_position = false;  ///< of a joint's position, not of its rotation
 };
 
 struct FillReport {
@@ -56,7 +57,8 @@ std::span<const FillMethod> fill_methods();
 /// span meets its ends in value and velocity. What the method's rules refuse stays missing and is
 /// listed. Errors: `ErrorKind::usage` for a method, a name or a donor that there is not.
 FillReport fill_gaps(MarkerClip& clip, const FillSettings& settings = {});
-/// The same for rotations that are not observed.
+/// The same for rotations, and positions of joints, that are not observed. A joint with one or two
+/// rotation channels gets rotations that these can hold.
 FillReport fill_gaps(Clip& clip, const FillSettings& settings = {});
 
 }  // namespace kinemend
