@@ -6,6 +6,7 @@
 namespace kinemend::cli {
 
 Command clean_command();
+Command batch_command();
 Command info_command();
 Command check_command();
 Command compare_command();

@@ -75,23 +75,15 @@ bool write_all(int descriptor, std::string_view bytes) {
   return true;
 }
 
-// A new file in `folder` that vanishes again unless it is given its final name.
+// A new file in the target's folder that vanishes again unless it is given its final name. Where
+// the file system can do it, the file has no name at all until it is whole: then nothing is left of
+// a process that is killed.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& target) : target_(target) {
-    static std::atomic<unsigned> counter{0};
-    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-    int descriptor = -1;
-    for (int attempt = 0; attempt < 100 && descriptor < 0; ++attempt) {
-      path_ = folder / fmt::format(".kinemend-{}-{}.tmp", ::getpid(), counter++);
-      descriptor = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-      if (descriptor < 0 && errno != EEXIST) break;
-    }
-    if (descriptor < 0) {
-      const int error = errno;
-      path_.clear();
-      fail_writing(target_, reason(error));
-    }
+    folder_ = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    int descriptor = open_unnamed();
+    if (descriptor < 0) descriptor = open_named();
     file_.emplace(descriptor);
   }
   TemporaryFile(const TemporaryFile&) = delete;
@@ -112,24 +104,73 @@ class TemporaryFile {
     const bool written =
         write_all(descriptor, bytes) && (::fsync(descriptor) == 0 || errno == EINVAL);
     if (!written) fail_writing(target_, reason(errno));
-    if (!file_->close()) fail_writing(target_, reason(errno));
+    // An unnamed file is gone once it is closed.
+    if (!path_.empty() && !file_->close()) fail_writing(target_, reason(errno));
   }
 
   void replace_target() {
+    if (path_.empty() && !name_it()) fail_writing(target_, reason(errno));
     if (::rename(path_.c_str(), target_.c_str()) != 0) fail_writing(target_, reason(errno));
     path_.clear();
   }
 
   // A link fails where the name is taken, also when it was taken a moment ago.
   void become_target() {
-    if (::link(path_.c_str(), target_.c_str()) == 0) return;
+    const bool linked =
+        path_.empty() ? link_to(target_) : ::link(path_.c_str(), target_.c_str()) == 0;
+    if (linked) return;
     if (errno == EEXIST) fail_writing(target_, "exists already and may not be replaced");
     replace_target();
   }
 
  private:
+  int open_unnamed() const {
+#ifdef O_TMPFILE
+    return ::open(folder_.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+#else
+    return -1;
+#endif
+  }
+
+  int open_named() {
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+      path_ = temporary_name();
+      const int descriptor = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (descriptor >= 0) return descriptor;
+      if (errno != EEXIST) break;
+    }
+    const int error = errno;
+    path_.clear();
+    fail_writing(target_, reason(error));
+  }
+
+  // False with errno set. By way of /proc, which needs no privilege.
+  bool link_to(const fs::path& name) const {
+    const std::string open_file = fmt::format("/proc/self/fd/{}", file_->get());
+    return ::linkat(AT_FDCWD, open_file.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+  }
+
+  bool name_it() {
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+      const fs::path name = temporary_name();
+      if (link_to(name)) {
+        path_ = name;
+        return true;
+      }
+      if (errno != EEXIST) return false;
+    }
+    return false;
+  }
+
+  fs::path temporary_name() const {
+    static std::atomic<unsigned> counter{0};
+    return folder_ / fmt::format(".kinemend-{}-{}.tmp", ::getpid(), counter++);
+  }
+
+  static constexpr int most_attempts = 100;
   fs::path target_;
-  fs::path path_;
+  fs::path folder_;
+  fs::path path_;  // empty while the file has no name
   std::optional<Descriptor> file_;
 };
 

@@ -1,0 +1,300 @@
+// kinemend batch: cleans whole trees of takes, and can be stopped and taken up again at any moment.
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "batch_list.hpp"
+#include "batch_record.hpp"
+#include "batch_summary.hpp"
+#include "clean_flags.hpp"
+#include "clean_plan.hpp"
+#include "clean_take.hpp"
+#include "commands.hpp"
+#include "config.hpp"
+#include "content_hash.hpp"
+#include "kinemend/io.hpp"
+#include "kinemend/version.hpp"
+#include "method_options.hpp"
+#include "takes.hpp"
+#include "terminal.hpp"
+
+namespace kinemend::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// All that a batch was asked for.
+struct Batch {
+  CleanPlan plan;
+  std::string folder;  ///< for the results
+  std::string options_hash;
+  Shard shard;
+  bool quiet = false;
+};
+
+/// What came of one file.
+struct Done {
+  Json row;
+  int code = 0;
+  bool is_new = false;  ///< false where an earlier run had done it
+  std::string error;
+  std::vector<std::string> warnings;
+};
+
+/// Every setting that a result depends on, as one text. Where results go and how many threads make
+/// them is left out.
+std::string options_text(const Arguments& arguments) {
+  std::string text = settings_text(*arguments.command, merged_settings(arguments), "");
+  for (const Flag& flag : cleaning_flags()) {
+    const std::string& name = flag.spec.name;
+    if (name == "config" || name == "preset" || flag.configurable) continue;
+    if (const auto value = arguments.values.find(name); value != arguments.values.end())
+      text += fmt::format("{}: {}\n", name, json_of(value->second).dump());
+    if (const auto list = arguments.lists.find(name); list != arguments.lists.end())
+      text += fmt::format("{}: {}\n", name, fmt::join(list->second, ","));
+  }
+  return text;
+}
+
+/// The bytes a take's result depends on: its own, and those of an ASF that it is read with.
+std::string input_hash(const BatchItem& item) {
+  std::string hash = content_hash(read_file(item.input));
+  const Format* format = format_of_path(item.input);
+  if (format == nullptr || format->name != "amc") return hash;
+  std::vector<fs::path> skeletons;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(fs::path(item.input).parent_path(), error)) {
+    const Format* known = format_of_path(entry.path());
+    if (known != nullptr && known->name == "asf") skeletons.push_back(entry.path());
+  }
+  std::sort(skeletons.begin(), skeletons.end());
+  for (const fs::path& skeleton : skeletons) hash += content_hash(read_file(skeleton));
+  return content_hash(hash);
+}
+
+bool is_done(const BatchRecord& record, const BatchKey& key, const std::string& output) {
+  std::error_code ignored;
+  return record.key == key && !record.output.empty() && fs::is_regular_file(output, ignored) &&
+         content_hash(read_file(output)) == record.output;
+}
+
+/// A row is what `clean --json` says of a take, without its long tables.
+Json row_of(const BatchItem& item, const Json& entry, const char* status) {
+  Json row = {{"name", item.name}, {"status", status}};
+  for (const auto& [key, value] : entry.items()) {
+    const bool is_table = value.is_array() && !value.empty() && value.front().is_object();
+    if (!is_table && key != "options") row[key] = value;
+  }
+  return row;
+}
+
+Done copy_skeleton(const BatchItem& item, const std::string& output, bool may_replace) {
+  Done done;
+  const std::string bytes = read_file(item.input);
+  std::error_code ignored;
+  if (fs::is_regular_file(output, ignored) && read_file(output) == bytes) {
+    done.row = {{"name", item.name}, {"status", "copied"}};
+    return done;
+  }
+  write_output(output, bytes, may_replace);
+  done.row = {{"name", item.name}, {"status", "copied"}};
+  done.is_new = true;
+  return done;
+}
+
+Done clean_item(const BatchItem& item, const std::string& output, const Batch& batch,
+                const BatchKey& key) {
+  const Outcome outcome = try_take({item.input, output, true}, batch.plan);
+  Done done;
+  done.is_new = true;
+  done.code = outcome.code;
+  done.error = outcome.error;
+  done.warnings = outcome.warnings;
+  done.row = row_of(item, *outcome.json, outcome.code == 0 ? "cleaned" : "failed");
+  const std::string result = outcome.code == 0 ? content_hash(read_file(output)) : std::string();
+  write_record(batch.folder, item.name, {key, result, done.row});
+  return done;
+}
+
+Done do_item(const BatchItem& item, const Batch& batch) {
+  const std::string output = (fs::path(batch.folder) / item.name).string();
+  fs::create_directories(fs::path(output).parent_path());
+  if (item.is_copied) return copy_skeleton(item, output, true);
+  const BatchKey key{input_hash(item), batch.options_hash, std::string(version())};
+  const auto record = read_record(batch.folder, item.name);
+  if (record && is_done(*record, key, output)) return {record->row, 0, false, {}, {}};
+  // What an earlier run of the batch made, or had begun, may be replaced; what somebody else put
+  // there may not.
+  if (!record) {
+    check_free(output, batch.plan.force);
+    write_record(batch.folder, item.name, {key, "", {{"name", item.name}, {"status", "begun"}}});
+  }
+  return clean_item(item, output, batch, key);
+}
+
+/// Whatever goes wrong with one file stops no other.
+Done try_item(const BatchItem& item, const Batch& batch) {
+  Done done;
+  done.is_new = true;
+  try {
+    return do_item(item, batch);
+  } catch (const Error& error) {
+    done.code = static_cast<int>(error.kind());
+    done.error = error.what();
+  } catch (const fs::filesystem_error& error) {
+    done.code = static_cast<int>(ErrorKind::cannot_write);
+    done.error = fmt::format("{}: {}", item.name, error.code().message());
+  } catch (const std::bad_alloc&) {
+    done.code = static_cast<int>(ErrorKind::unreadable_input);
+    done.error = item.input + ": out of memory";
+  }
+  done.row = {{"name", item.name},
+              {"status", "failed"},
+              {"input", item.input},
+              {"error", done.error},
+              {"exit_code", done.code}};
+  return done;
+}
+
+std::vector<Done> do_all(const std::vector<BatchItem>& items, const Batch& batch) {
+  std::optional<tbb::global_control> limit;
+  if (batch.plan.threads > 0) {
+    limit.emplace(tbb::global_control::max_allowed_parallelism,
+                  static_cast<std::size_t>(batch.plan.threads));
+  }
+  std::vector<Done> done(items.size());
+  ProgressBar bar(items.size());
+  std::mutex mutex;
+  std::atomic<std::size_t> next{0};
+  tbb::parallel_for(0, tbb::this_task_arena::max_concurrency(), [&](int) {
+    for (std::size_t i = next++; i < items.size(); i = next++) {
+      done[i] = try_item(items[i], batch);
+      {
+        const std::lock_guard lock(mutex);
+        if (!done[i].error.empty() || !done[i].warnings.empty()) bar.clear();
+        if (!done[i].error.empty()) say_error(done[i].error);
+        for (const std::string& warning : done[i].warnings) {
+          if (!batch.quiet) say_warning(warning);
+        }
+      }
+      bar.step();
+    }
+  });
+  bar.clear();
+  return done;
+}
+
+int run(const Arguments& arguments) {
+  Batch batch;
+  batch.folder = arguments.text("output_dir");
+  if (batch.folder.empty())
+    throw Error(ErrorKind::usage, "batch: --output-dir is missing (see kinemend batch -h)");
+  std::vector<std::string> inputs = arguments.positionals;
+  if (const std::string list = arguments.text("list"); !list.empty()) {
+    const std::vector<std::string> listed = listed_inputs(read_file(list));
+    inputs.insert(inputs.end(), listed.begin(), listed.end());
+  }
+  if (inputs.empty()) {
+    throw Error(ErrorKind::usage, "batch: IN or --list is missing (see kinemend batch -h)");
+  }
+  batch.plan = make_cleaning(arguments);
+  batch.plan.json = true;
+  batch.quiet = arguments.flag("quiet");
+  batch.options_hash = content_hash(options_text(arguments));
+  if (const std::string shard = arguments.text("shard"); !shard.empty())
+    batch.shard = parse_shard(shard);
+
+  const std::vector<BatchItem> all = find_items(inputs, batch.folder, arguments.text("files"));
+  std::vector<BatchItem> mine;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(mine),
+               [&](const BatchItem& item) { return in_shard(item.name, batch.shard); });
+  fs::create_directories(batch.folder);
+  remove_leftovers(batch.folder);
+  const std::vector<Done> done = do_all(mine, batch);
+
+  BatchCounts counts;
+  std::vector<Json> rows;
+  for (const Done& one : done) {
+    counts.add(one.row, one.is_new, one.code);
+    rows.push_back(one.row);
+  }
+  write_rows(batch.folder, batch.shard, rows);
+  const Json summary = write_summary(batch.folder, all, batch.options_hash);
+  if (arguments.flag("json")) {
+    write_out(json_text(summary));
+  } else if (!batch.quiet) {
+    write_out(summary_text(counts, summary, batch.shard));
+  }
+  return counts.exit_code;
+}
+
+std::vector<Flag> batch_flags() {
+  Flag folder = text_flag("output_dir", "DIR", "Output", "folder for the results: the same tree");
+  folder.letter = 'o';
+  folder.completion = Completion::folder;
+  Flag list =
+      text_flag("list", "FILE", "Input", "further takes and folders, one a line",
+                "Blank lines and lines that start with # are left out; - is standard input.");
+  list.completion = Completion::file;
+  std::vector<Flag> flags = {
+      std::move(folder),
+      force_flag(),
+      json_flag("print the merged summary as JSON instead of text"),
+      switch_flag("quiet", "Output", "print errors only"),
+      std::move(list),
+      text_flag("files", "PATTERN", "Input", "of a folder only files of such names",
+                "In PATTERN * is any text and ? any character; quote it."),
+      text_flag("shard", "I/N", "Work", "do part I of N",
+                "The split depends on the names of the takes alone, so that N jobs on any machines "
+                "do each take once. A last run without --shard finds nothing to do and sums up.")};
+  for (Flag& flag : cleaning_flags()) flags.push_back(std::move(flag));
+  flags.push_back(jobs_flag());
+  for (Flag& flag : flags) {
+    if (flag.spec.name == "quiet") flag.letter = 'q';
+  }
+  return flags;
+}
+
+}  // namespace
+
+Command batch_command() {
+  Command command;
+  command.name = "batch";
+  command.summary = "clean whole trees of takes; stop and go on at any moment";
+  command.description =
+      "Cleans every take in the folders and lists, in parallel, into the same tree below "
+      "--output-dir. A take that cannot be read stops no other; the exit code is the highest of "
+      "all.\n\n"
+      "Of each result it is remembered, below .kinemend in the output folder, from which input, "
+      "with "
+      "which settings and by which version it was made. A second run does only what is missing, "
+      "has "
+      "changed or has failed. A run that is killed leaves whole files only.\n\n"
+      "rows.jsonl there holds a line for each take (rows.I-of-N.jsonl for a shard), summary.json "
+      "the "
+      "sums over all takes of all shards so far. Skeleton files (ASF) are copied along.";
+  command.positionals = {{"IN", "folder or take", 0, 1000000, {}}};
+  command.flags = batch_flags();
+  command.group_heading = "With --method %";
+  command.groups = method_groups();
+  command.groups_are_flags = true;
+  command.examples = {
+      {"kinemend batch raw -o clean", "every take below raw, to the same place below clean"},
+      {"kinemend batch raw -o clean --shard 3/8", "one of eight jobs of a scheduler"},
+      {"find raw -name '*.c3d' | kinemend batch --list - -o clean", "a list of takes"}};
+  command.run = run;
+  return command;
+}
+
+}  // namespace kinemend::cli

@@ -1,0 +1,141 @@
+#include "batch_list.hpp"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "content_hash.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/io.hpp"
+
+namespace kinemend::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_hidden(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return !name.empty() && name.front() == '.';
+}
+
+bool is_skeleton(const fs::path& path) {
+  const Format* format = format_of_path(path);
+  return format != nullptr && format->name == "asf";
+}
+
+// Any program writes tables; only those with the head of a take count.
+bool looks_like_take(const fs::path& path) {
+  const Format* format = format_of_path(path);
+  if (format == nullptr || format->read == nullptr) return false;
+  if (format->name != "csv") return true;
+  std::string head(4096, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  return format->sniff(head) > 0;
+}
+
+void add_folder(const fs::path& folder, const fs::path& output, const std::string& pattern,
+                std::vector<BatchItem>& items) {
+  std::error_code error;
+  fs::recursive_directory_iterator entries(folder, error);
+  if (error) {
+    throw Error(ErrorKind::unreadable_input,
+                fmt::format("{}: {}", folder.string(), error.message()));
+  }
+  for (; entries != fs::recursive_directory_iterator(); entries.increment(error)) {
+    const fs::path& path = entries->path();
+    if (entries->is_directory(error)) {
+      if (is_hidden(path) || fs::equivalent(path, output, error))
+        entries.disable_recursion_pending();
+      continue;
+    }
+    if (is_hidden(path) || !entries->is_regular_file(error)) continue;
+    const std::string name = path.filename().string();
+    if (is_skeleton(path)) {
+      items.push_back({path.string(), path.lexically_relative(folder).generic_string(), true});
+    } else if ((pattern.empty() || fnmatch(pattern.c_str(), name.c_str(), 0) == 0) &&
+               looks_like_take(path)) {
+      items.push_back({path.string(), path.lexically_relative(folder).generic_string(), false});
+    }
+  }
+}
+
+void add_file(const std::string& input, std::vector<BatchItem>& items) {
+  const fs::path name = fs::path(input).lexically_normal();
+  if (name.is_absolute() || name.empty() || *name.begin() == "..") {
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("batch: {} has no place below the output folder; name its folder, or the "
+                    "file relative to the current one",
+                    input));
+  }
+  items.push_back({input, name.generic_string(), is_skeleton(name)});
+}
+
+}  // namespace
+
+Shard parse_shard(const std::string& text) {
+  Shard shard;
+  const char* end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, shard.index);
+  const bool slash = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
+  const auto second = slash ? std::from_chars(first.ptr + 1, end, shard.count) : first;
+  const bool valid = slash && second.ec == std::errc() && second.ptr == end && shard.index >= 1 &&
+                     shard.index <= shard.count;
+  if (!valid) {
+    throw Error(ErrorKind::usage,
+                fmt::format("--shard: \"{}\" is not I/N with I from 1 to N", text));
+  }
+  return shard;
+}
+
+bool in_shard(std::string_view name, const Shard& shard) {
+  const std::string digits = content_hash(name).substr(0, 16);
+  std::uint64_t value = 0;
+  std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+  return value % shard.count == shard.index - 1;
+}
+
+std::vector<BatchItem> find_items(const std::vector<std::string>& inputs, const std::string& output,
+                                  const std::string& pattern) {
+  std::vector<BatchItem> items;
+  for (const std::string& input : inputs) {
+    std::error_code error;
+    if (fs::is_directory(input, error)) {
+      add_folder(input, output, pattern, items);
+    } else {
+      add_file(input, items);
+    }
+  }
+  std::map<std::string, std::string> taken;
+  for (const BatchItem& item : items) {
+    const auto [known, is_new] = taken.emplace(item.name, item.input);
+    if (is_new) continue;
+    throw Error(ErrorKind::usage, fmt::format("batch: {} and {} would both be written to {}",
+                                              known->second, item.input, item.name));
+  }
+  std::sort(items.begin(), items.end(),
+            [](const BatchItem& a, const BatchItem& b) { return a.name < b.name; });
+  return items;
+}
+
+std::vector<std::string> listed_inputs(std::string_view text) {
+  std::vector<std::string> inputs;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
+    if (!line.empty() && line.front() != '#') inputs.emplace_back(line);
+  }
+  return inputs;
+}
+
+}  // namespace kinemend::cli

@@ -1,0 +1,256 @@
+#include <signal.h>
+
+#include <chrono>
+#include <map>
+#include <random>
+#include <set>
+#include <thread>
+
+#include "cli/program.hpp"
+
+namespace kinemend::test {
+namespace {
+
+using testing::Each;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+class Batch : public Program {
+ protected:
+  /// raw/a.bvh, raw/deep/b.bvh, ...: `count` noisy takes, all different.
+  void make_tree(int count) {
+    fs::create_directories(folder / "raw/deep");
+    synth("truth.bvh", "walk", "0.4");
+    for (int i = 0; i < count; ++i) {
+      const std::string name = std::string(i % 2 ? "raw/deep/" : "raw/") + char('a' + i) + ".bvh";
+      const Ran ran = run({"corrupt", "truth.bvh", "-o", name, "--damage", "gaussian:std_deg=1.5",
+                           "--seed", std::to_string(i + 1)});
+      ASSERT_EQ(ran.code, 0) << ran.err;
+    }
+  }
+
+  /// The takes below a folder with their bytes.
+  std::map<std::string, std::string> takes(const std::string& name) const {
+    std::map<std::string, std::string> result;
+    if (!fs::exists(folder / name)) return result;
+    for (const auto& entry : fs::recursive_directory_iterator(folder / name)) {
+      if (entry.path().extension() == ".bvh")
+        result[fs::relative(entry.path(), folder / name).string()] = contents(entry.path());
+    }
+    return result;
+  }
+
+  std::vector<Json> rows(const std::string& file) const {
+    std::vector<Json> result;
+    for (const std::string& line : lines_of(contents(folder / file)))
+      result.push_back(Json::parse(line));
+    return result;
+  }
+};
+
+TEST_F(Batch, MakesTheSameTreeAsCleaningEachTake) {
+  make_tree(4);
+  const Ran ran = run({"batch", "raw", "-o", "clean"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("4 cleaned, 0 done already, 0 failed"));
+  const auto results = takes("clean");
+  ASSERT_EQ(results.size(), 4u);
+  for (const auto& [name, bytes] : results) {
+    ASSERT_EQ(run({"clean", "raw/" + name, "-o", "alone.bvh", "--force"}).code, 0);
+    EXPECT_EQ(bytes, contents(folder / "alone.bvh")) << name;
+  }
+}
+
+TEST_F(Batch, WritesARowForEachTakeAndTheSums) {
+  make_tree(3);
+  ASSERT_EQ(run({"batch", "raw", "-o", "clean"}).code, 0);
+  const std::vector<Json> table = rows("clean/rows.jsonl");
+  ASSERT_EQ(table.size(), 3u);
+  for (const Json& row : table) {
+    EXPECT_EQ(row.at("status"), "cleaned");
+    EXPECT_EQ(row.at("frames"), 24);
+    EXPECT_FALSE(row.contains("joints"));
+  }
+  const Json summary = Json::parse(contents(folder / "clean/summary.json"));
+  EXPECT_EQ(summary.at("takes"), 3);
+  EXPECT_EQ(summary.at("cleaned"), 3);
+  EXPECT_EQ(summary.at("frames"), 72);
+  EXPECT_EQ(summary.at("to_do"), 0);
+}
+
+TEST_F(Batch, DoesNothingTheSecondTime) {
+  make_tree(3);
+  ASSERT_EQ(run({"batch", "raw", "-o", "clean"}).code, 0);
+  const auto before = fs::last_write_time(folder / "clean/a.bvh");
+  const auto first_rows = contents(folder / "clean/rows.jsonl");
+  const Ran ran = run({"batch", "raw", "-o", "clean", "--jobs", "2"});
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_THAT(ran.out, HasSubstr("0 cleaned, 3 done already, 0 failed"));
+  EXPECT_EQ(fs::last_write_time(folder / "clean/a.bvh"), before);
+  EXPECT_EQ(contents(folder / "clean/rows.jsonl"), first_rows);
+}
+
+TEST_F(Batch, DoesAgainWhatIsMissingOrHasChanged) {
+  make_tree(4);
+  ASSERT_EQ(run({"batch", "raw", "-o", "clean"}).code, 0);
+  const auto reference = takes("clean");
+  fs::remove(folder / "clean/a.bvh");
+  put(folder / "clean/deep/b.bvh", "half a take");
+  put(folder / "raw/c.bvh", contents(folder / "raw/deep/d.bvh"));
+  const Ran ran = run({"batch", "raw", "-o", "clean"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("3 cleaned, 1 done already, 0 failed"));
+  EXPECT_EQ(takes("clean").at("a.bvh"), reference.at("a.bvh"));
+  EXPECT_EQ(takes("clean").at("deep/b.bvh"), reference.at("deep/b.bvh"));
+  EXPECT_EQ(takes("clean").at("c.bvh"), reference.at("deep/d.bvh"));
+}
+
+TEST_F(Batch, DoesEverythingAgainWithOtherSettings) {
+  make_tree(2);
+  ASSERT_EQ(run({"batch", "raw", "-o", "clean"}).code, 0);
+  const auto settings = {"--method", "gaussian"};
+  std::vector<std::string> words = {"batch", "raw", "-o", "clean"};
+  words.insert(words.end(), settings.begin(), settings.end());
+  EXPECT_THAT(run(words).out, HasSubstr("2 cleaned, 0 done already"));
+  EXPECT_THAT(run(words).out, HasSubstr("0 cleaned, 2 done already"));
+  words.insert(words.end(), {"--width-s", "0.2"});
+  EXPECT_THAT(run(words).out, HasSubstr("2 cleaned, 0 done already"));
+  words.insert(words.end(), {"--range", "3:9"});
+  EXPECT_THAT(run(words).out, HasSubstr("2 cleaned, 0 done already"));
+}
+
+TEST_F(Batch, TreatsOptionsOfThePresetAndOfTheCommandLineAlike) {
+  make_tree(1);
+  put(folder / "gauss.toml", "method = \"gaussian\"\n");
+  ASSERT_EQ(run({"batch", "raw", "-o", "clean", "--config", "gauss.toml"}).code, 0);
+  EXPECT_THAT(run({"batch", "raw", "-o", "clean", "--method", "gaussian"}).out,
+              HasSubstr("0 cleaned, 1 done already"));
+}
+
+TEST_F(Batch, OneBadTakeStopsNoOther) {
+  make_tree(2);
+  put(folder / "raw/broken.bvh", "HIERARCHY\nROOT Hips\n{\n");
+  const Ran ran = run({"batch", "raw", "-o", "clean"});
+  EXPECT_EQ(ran.code, 3);
+  EXPECT_THAT(ran.err, HasSubstr("raw/broken.bvh:"));
+  EXPECT_EQ(takes("clean").size(), 2u);
+  EXPECT_THAT(ran.out, HasSubstr("2 cleaned, 0 done already, 1 failed"));
+  const Json summary = Json::parse(contents(folder / "clean/summary.json"));
+  EXPECT_EQ(summary.at("failed"), 1);
+  EXPECT_EQ(summary.at("failures").at(0).at("name"), "broken.bvh");
+  EXPECT_EQ(run({"batch", "raw", "-o", "clean"}).code, 3) << "it has not become better";
+}
+
+TEST_F(Batch, ShardsDoEachTakeOnceAndSumUpTogether) {
+  make_tree(8);
+  ASSERT_EQ(run({"batch", "raw", "-o", "whole"}).code, 0);
+  std::multiset<std::string> done;
+  for (const char* shard : {"1/3", "2/3", "3/3"}) {
+    const Ran ran = run({"batch", "raw", "-o", "clean", "--shard", shard});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    std::string file = std::string("clean/rows.") + shard[0] + "-of-3.jsonl";
+    for (const Json& row : rows(file)) done.insert(row.at("name"));
+  }
+  EXPECT_EQ(done.size(), 8u);
+  EXPECT_EQ(std::set<std::string>(done.begin(), done.end()).size(), 8u);
+  EXPECT_EQ(takes("clean"), takes("whole"));
+  EXPECT_EQ(Json::parse(contents(folder / "clean/summary.json")).at("cleaned"), 8);
+  EXPECT_THAT(run({"batch", "raw", "-o", "clean"}).out, HasSubstr("0 cleaned, 8 done already"));
+}
+
+TEST_F(Batch, RefusesAShardThatIsNone) {
+  make_tree(1);
+  for (const char* shard : {"0/3", "4/3", "1", "a/b", "1/3x", "1/0"}) {
+    const Ran ran = run({"batch", "raw", "-o", "clean", "--shard", shard});
+    EXPECT_EQ(ran.code, 2) << shard;
+    EXPECT_THAT(ran.err, IsOneLine());
+  }
+}
+
+TEST_F(Batch, LeavesFilesThatItDidNotMakeAlone) {
+  make_tree(2);
+  fs::create_directory(folder / "clean");
+  put(folder / "clean/a.bvh", "dear");
+  const Ran ran = run({"batch", "raw", "-o", "clean"});
+  EXPECT_EQ(ran.code, 4);
+  EXPECT_EQ(contents(folder / "clean/a.bvh"), "dear");
+  EXPECT_EQ(takes("clean").size(), 2u);
+  EXPECT_EQ(run({"batch", "raw", "-o", "clean"}).code, 4) << "asking again is not enough";
+  EXPECT_EQ(contents(folder / "clean/a.bvh"), "dear");
+  EXPECT_EQ(run({"batch", "raw", "-o", "clean", "--force"}).code, 0);
+  EXPECT_NE(contents(folder / "clean/a.bvh"), "dear");
+}
+
+TEST_F(Batch, TakesAListFromStandardInput) {
+  make_tree(3);
+  Setting setting;
+  setting.in = "# two takes\nraw/a.bvh\n\nraw/deep/b.bvh\r\n";
+  const Ran ran = run({"batch", "--list", "-", "-o", "clean"}, setting);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_TRUE(fs::exists(folder / "clean/raw/a.bvh"));
+  EXPECT_TRUE(fs::exists(folder / "clean/raw/deep/b.bvh"));
+  EXPECT_EQ(takes("clean").size(), 2u);
+}
+
+TEST_F(Batch, RefusesNamesThatWouldLeaveTheOutputFolder) {
+  make_tree(1);
+  for (const std::string& name : {std::string("../a.bvh"), (folder / "raw/a.bvh").string()}) {
+    const Ran ran = run({"batch", name, "-o", "clean"});
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_THAT(ran.err, HasSubstr("no place below the output folder"));
+  }
+}
+
+TEST_F(Batch, MayWriteIntoAFolderBelowItsInput) {
+  make_tree(2);
+  ASSERT_EQ(run({"batch", "raw", "-o", "raw/clean"}).code, 0);
+  EXPECT_THAT(run({"batch", "raw", "-o", "raw/clean"}).out,
+              HasSubstr("0 cleaned, 2 done already, 0 failed"));
+}
+
+TEST_F(Batch, NarrowsAFolderByName) {
+  make_tree(4);
+  ASSERT_EQ(run({"batch", "raw", "-o", "clean", "--files", "[ab].bvh"}).code, 0);
+  EXPECT_EQ(takes("clean").size(), 2u);
+}
+
+TEST_F(Batch, KilledAtAnyMomentItLeavesWholeFilesOnlyAndGoesOn) {
+  make_tree(12);
+  ASSERT_EQ(run({"batch", "raw", "-o", "whole"}).code, 0);
+  const auto reference = takes("whole");
+  const unsigned seed = std::random_device()();
+  RecordProperty("seed", static_cast<int>(seed));
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  std::size_t seen = 0;
+  for (int attempt = 0; attempt < 25; ++attempt) {
+    const pid_t child = fork();
+    if (child == 0) {
+      // What it says is not looked at, save that it finds no fault.
+      const int nowhere = open("/dev/null", O_WRONLY);
+      dup2(nowhere, STDOUT_FILENO);
+      const int errors = open((folder / "errors").c_str(), O_WRONLY | O_CREAT | O_APPEND, 0666);
+      dup2(errors, STDERR_FILENO);
+      execute({"batch", "raw", "-o", "clean", "--jobs", "2"}, {});
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(random() % 60000));
+    kill(child, SIGKILL);
+    wait_for(child);
+    for (const auto& [name, bytes] : takes("clean")) {
+      ASSERT_EQ(bytes, reference.at(name)) << name << " after attempt " << attempt;
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 0u) << "no run got as far as a result";
+  EXPECT_THAT(contents(folder / "errors"), IsEmpty());
+  const Ran ran = run({"batch", "raw", "-o", "clean"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(takes("clean"), reference);
+  for (const std::string& name : files()) EXPECT_THAT(name, Not(EndsWith(".tmp")));
+}
+
+}  // namespace
+}  // namespace kinemend::test
