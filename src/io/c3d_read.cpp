@@ -118,7 +118,7 @@ class C3dReader {
 
   void repair_points(const C3dPointCounts& counts) {
     if (counts.not_finite > 0) {
-      source_.note("position_not_finite", layout().data_begin,
+      source_.note("value_not_finite", layout().data_begin,
                    "a position is no number although it is not marked as missing; it is missing",
                    counts.not_finite);
     }
@@ -128,7 +128,7 @@ class C3dReader {
     apply_zero_gaps(document_.zero_gaps, clip_);
     std::size_t samples = 0;
     for (const C3dZeroGap& gap : document_.zero_gaps) samples += gap.last - gap.first;
-    source_.note("zeros_mean_missing", layout().data_begin,
+    source_.note("zero_is_missing", layout().data_begin,
                  "a marker is at 0, 0, 0 where it cannot have been; it is missing", samples);
   }
 

@@ -54,13 +54,13 @@ TEST(RealC3d, OnlyTheKnownFilesAreRepaired) {
       {"MACsample.c3d", "scale_mismatch"},
       {"bad_parameter_section.c3d", "damaged_parameters event_count_mismatch"},
       {"badParameterOffset.c3d", "damaged_parameter_pointer scale_mismatch"},
-      {"parameterOverflow.c3d", "zeros_mean_missing"},
-      {"kinematics_racing_full.c3d", "position_not_finite"},
-      {"kinematics_racing_probing_acromion_R.c3d", "position_not_finite"},
-      {"kinematics_racing_probing_olecrane_R.c3d", "position_not_finite"},
-      {"kinematics_racing_probing_radial_styloid_R.c3d", "position_not_finite"},
-      {"kinematics_racing_propulsion.c3d", "position_not_finite"},
-      {"kinematics_racing_static.c3d", "position_not_finite"},
+      {"parameterOverflow.c3d", "zero_is_missing"},
+      {"kinematics_racing_full.c3d", "value_not_finite"},
+      {"kinematics_racing_probing_acromion_R.c3d", "value_not_finite"},
+      {"kinematics_racing_probing_olecrane_R.c3d", "value_not_finite"},
+      {"kinematics_racing_probing_radial_styloid_R.c3d", "value_not_finite"},
+      {"kinematics_racing_propulsion.c3d", "value_not_finite"},
+      {"kinematics_racing_static.c3d", "value_not_finite"},
   };
   for (const fs::path& path : real_files()) {
     if (path.filename() == "Empty.c3d") continue;
