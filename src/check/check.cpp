@@ -78,6 +78,7 @@ CheckReport check_take(const Clip& clip, const CheckSettings& settings) {
   check::check_unit(clip, settings, report);
   check::check_body(motion, settings, report);
   shift_frames(report, report.calibration_frames);
+  check::check_zero_frames(clip, report);
   check::check_euler_flips(clip, report);
   report_calibration(report);
   check::sort_worst_first(report.findings);

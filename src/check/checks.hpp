@@ -31,9 +31,14 @@ void check_lengths(const Clip& clip, const CheckSettings& settings, CheckReport&
 void check_lengths(const MarkerClip& clip, const std::vector<std::size_t>& markers,
                    const CheckSettings& settings, CheckReport& report);
 
+/// Takes the clip with its calibration frames, as its file has them.
 void check_euler_flips(const Clip& clip, CheckReport& report);
 
-/// Whole frames that repeat or hold nothing but zeros, and a rate that such repeats betray.
+/// Whole frames that hold nothing but zeros. Takes the clip with its calibration frames, among
+/// which some stand.
+void check_zero_frames(const Clip& clip, CheckReport& report);
+
+/// Whole frames that repeat, and a rate that such repeats betray.
 void check_frames(const Clip& clip, CheckReport& report);
 void check_frames(const MarkerClip& clip, const std::vector<std::size_t>& markers,
                   CheckReport& report);

@@ -112,20 +112,24 @@ bool is_zero(const Clip& clip, std::size_t frame) {
 void check_frames(const Clip& clip, CheckReport& report) {
   const std::size_t frames = clip.frame_count();
   if (frames < 2) return;
+  std::vector<std::uint8_t> repeated(frames);
+  for (std::size_t t = 1; t < frames; ++t)
+    repeated[t] = repeats(clip, t) && !(is_zero(clip, t) && is_zero(clip, t - 1));
+  report_repeats(repeated, report);
+}
+
+void check_zero_frames(const Clip& clip, CheckReport& report) {
+  const std::size_t frames = clip.frame_count();
   const std::vector<Span> zeros =
       runs_where(frames, [&](std::size_t t) { return is_zero(clip, t); });
-  std::vector<std::uint8_t> repeated(frames);
-  for (std::size_t t = 1; t < frames; ++t) repeated[t] = repeats(clip, t);
-  // A take that is zero all along is one that does not move.
-  if (!zeros.empty() && zeros.front().length() < frames) {
-    for (const Span& run : zeros) {
-      for (std::size_t t = run.first; t <= run.last; ++t) repeated[t] = 0;
-      report.findings.push_back({FindingKind::zero_frames, Severity::serious, "", run.first,
-                                 run.last, static_cast<double>(run.length()), "frames",
-                                 "every channel is zero"});
-    }
+  for (const Span& run : zeros) {
+    // A take that is zero all along does not move, and one such frame at the start is a pose.
+    const bool is_pose = run.last == 0 && report.calibration_frames > 0;
+    if (is_pose || run.length() == frames) continue;
+    report.findings.push_back({FindingKind::zero_frames, Severity::serious, "", run.first, run.last,
+                               static_cast<double>(run.length()), "frames",
+                               "every channel is zero"});
   }
-  report_repeats(repeated, report);
 }
 
 void check_frames(const MarkerClip& clip, const std::vector<std::size_t>& markers,

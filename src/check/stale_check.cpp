@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
+#include <limits>
 
 #include "check/checks.hpp"
 #include "check/runs.hpp"
@@ -24,7 +24,7 @@ struct TrackChanges {
   std::vector<double> bends;
 };
 
-double usual(const std::vector<double>& sizes) {
+double usual_size(const std::vector<double>& sizes) {
   std::vector<double> known;
   for (const double s : sizes) {
     if (s > 0) known.push_back(s);
@@ -39,13 +39,38 @@ void set_flags(const std::vector<double>& sizes, double most, std::size_t track,
   }
 }
 
+// The digits of a file: no size but 0 lies below it.
+double smallest(const std::vector<double>& sizes) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const double s : sizes) {
+    if (s > 0) least = std::min(least, s);
+  }
+  return least;
+}
+
+// What counts as a change on a track.
+struct ChangeScale {
+  double usual = 0;
+  double digits = 0;  // no more than rounding makes
+
+  explicit ChangeScale(const std::vector<double>& sizes)
+      : usual(usual_size(sizes)), digits(4 * smallest(sizes)) {}
+  double clear() const { return std::max(0.3 * usual, digits); }
+};
+
 // Motion slows down before it rests and bends before it is straight; a stale span has at least one
 // end where it does neither.
-bool has_sharp_end(const std::vector<double>& sizes, const Span& run, double usual_size) {
-  constexpr double clear = 0.3;
-  const bool before = run.first > 0 && sizes[run.first - 1] > clear * usual_size;
-  const bool after = run.last + 1 < sizes.size() && sizes[run.last + 1] > clear * usual_size;
+bool has_sharp_end(const std::vector<double>& sizes, const Span& run, const ChangeScale& scale) {
+  const bool before = run.first > 0 && sizes[run.first - 1] > scale.clear();
+  const bool after = run.last + 1 < sizes.size() && sizes[run.last + 1] > scale.clear();
   return before || after;
+}
+
+// A slow line may be straight by rounding.
+bool moves_along(const std::vector<double>& steps, const Span& run, const ChangeScale& scale) {
+  return *std::min_element(steps.begin() + static_cast<std::ptrdiff_t>(run.first),
+                           steps.begin() + static_cast<std::ptrdiff_t>(run.last) + 1) >
+         scale.digits;
 }
 
 // Whether a hinge rests at an end of its range, as a stretched knee does: nothing turns about any
@@ -81,13 +106,13 @@ StaleSpans find_stale(const std::vector<TrackChanges>& tracks, std::size_t frame
                    std::vector<std::vector<Span>>(tracks.size())};
   if (frames < 4) return spans;
   FlagTable repeats(frames - 1, tracks.size()), straight(frames - 2, tracks.size());
-  std::vector<double> usual_steps, usual_bends;
+  std::vector<ChangeScale> step_scales, bend_scales;
   for (std::size_t n = 0; n < tracks.size(); ++n) {
-    usual_steps.push_back(usual(tracks[n].steps));
-    usual_bends.push_back(usual(tracks[n].bends));
-    if (usual_steps[n] == 0) continue;
-    set_flags(tracks[n].steps, part_of_usual * usual_steps[n], n, repeats);
-    set_flags(tracks[n].bends, part_of_usual * usual_bends[n], n, straight);
+    step_scales.emplace_back(tracks[n].steps);
+    bend_scales.emplace_back(tracks[n].bends);
+    if (step_scales[n].usual == 0) continue;
+    set_flags(tracks[n].steps, part_of_usual * step_scales[n].usual, n, repeats);
+    set_flags(tracks[n].bends, part_of_usual * bend_scales[n].usual, n, straight);
     // A frozen span is a straight line too.
     for (std::size_t t = 0; t + 2 < frames; ++t) {
       if (repeats(t, n) == Flag::yes || repeats(t + 1, n) == Flag::yes) straight(t, n) = Flag::no;
@@ -100,11 +125,12 @@ StaleSpans find_stale(const std::vector<TrackChanges>& tracks, std::size_t frame
   for (std::size_t n = 0; n < tracks.size(); ++n) {
     for (const Span& run : frozen_runs[n]) {
       // The first of the equal samples was measured.
-      if (has_sharp_end(tracks[n].steps, run, usual_steps[n]))
+      if (has_sharp_end(tracks[n].steps, run, step_scales[n]))
         spans.frozen[n].push_back({run.first + 1, run.last + 1});
     }
     for (const Span& run : straight_runs[n]) {
-      if (has_sharp_end(tracks[n].bends, run, usual_bends[n]))
+      if (has_sharp_end(tracks[n].bends, run, bend_scales[n]) &&
+          moves_along(tracks[n].steps, run, step_scales[n]))
         spans.bridged[n].push_back({run.first + 1, run.last + 1});
     }
   }

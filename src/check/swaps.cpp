@@ -15,10 +15,17 @@ namespace {
 
 using check::Exchange;
 
-std::vector<std::size_t> position_markers(const MarkerClip& clip) {
+// A track that nobody named (`*12` stands for such a one) has no label to lose.
+bool is_named(const std::string& name) {
+  const std::string_view own = without_subject(name);
+  return !own.empty() && own.front() != '*' && own.substr(0, 5) != "uname";
+}
+
+std::vector<std::size_t> named_markers(const MarkerClip& clip) {
   std::vector<std::size_t> markers;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
-    if (clip.is_position.empty() || clip.is_position[m] != 0) markers.push_back(m);
+    if ((clip.is_position.empty() || clip.is_position[m] != 0) && is_named(clip.names[m]))
+      markers.push_back(m);
   }
   return markers;
 }
@@ -57,7 +64,7 @@ bool neighbours_agree(const MarkerClip& clip, const std::vector<std::size_t>& ma
 }  // namespace
 
 std::vector<MarkerSwap> find_swaps(const MarkerClip& clip) {
-  const std::vector<std::size_t> markers = position_markers(clip);
+  const std::vector<std::size_t> markers = named_markers(clip);
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Exchange>> by_pair;
   for (const Exchange& e : check::find_exchanges(clip, check::find_breaks(clip, markers)))
     by_pair[{e.first_marker, e.second_marker}].push_back(e);
