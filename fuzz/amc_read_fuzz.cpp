@@ -1,0 +1,117 @@
+// The bytes are a skeleton and its motion, which begins at `:FULLY-SPECIFIED`; without one that
+// could be ASF, the skeleton is a fixed one. Read, written, changed and written again.
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <utility>
+
+#include "io/amc.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/io.hpp"
+#include "kinemend/random.hpp"
+
+namespace {
+
+using namespace kinemend;
+
+// The skeleton of the tests' fixtures, by its degrees of freedom.
+const std::string fixed_skeleton =
+    ":root order tx rz tz ry ty rx\n:bonedata\n"
+    "begin name hip length 2 end begin name thigh length 3 axis 0 0 20 XYZ dof rx ry rz end\n"
+    "begin name shin length 3 axis 10 -15 20 ZYX dof rx end\n"
+    "begin name foot length 2 axis -90 7 20 YZX dof rx rz end\n"
+    "begin name spine length 4 dof rz ry rx end begin name arm length 5 dof rz rx end\n"
+    "begin name slider length 1 axis 20 -35 50 YXZ dof ty rx tx tz rz end\n"
+    "begin name hand length 1 dof ry rz end begin name neck end\n"
+    ":hierarchy begin\nroot hip spine\nhip thigh\nthigh shin\nshin foot\nspine arm slider neck\n"
+    "slider hand\nend\n";
+
+void check(bool condition) {
+  if (!condition) std::abort();
+}
+
+Clip read(const std::string& amc, const std::string& asf) {
+  Clip clip = std::get<Clip>(read_amc(amc, "fuzz.amc", asf, "fuzz.asf", {}).take);
+  clip.validate();
+  return clip;
+}
+
+bool is_sensible(const Clip& clip) {
+  const auto sensible = [](Vec3 v) { return norm(v) < 1e6; };
+  for (const Vec3 v : clip.root_positions) {
+    if (!sensible(v)) return false;
+  }
+  for (const Vec3 v : clip.joint_translations) {
+    if (!sensible(v)) return false;
+  }
+  for (const Vec3 v : clip.skeleton.offsets) {
+    if (!sensible(v)) return false;
+  }
+  return true;
+}
+
+void check_same(const Clip& clip, const Clip& again) {
+  check(clip.frame_count() == again.frame_count());
+  check(clip.joint_count() == again.joint_count());
+  // A sample that is held follows what was changed before it.
+  if (!is_sensible(clip) || !clip.observed.empty()) return;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    for (std::size_t j = 0; j < clip.joint_count(); ++j) {
+      if (clip.skeleton.rotation_order(j).count != 3) continue;
+      check(angle_between(again.rotation(f, j), clip.rotation(f, j)) < 1e-4);
+    }
+  }
+}
+
+void change(Clip& clip, std::uint64_t seed) {
+  Random random(seed);
+  const double share = random.uniform(), size_rad = std::pow(10.0, random.uniform(-6, 0.5));
+  for (Quat& q : clip.local_rotations) {
+    if (!random.chance(share)) continue;
+    q = normalized(q * exp({size_rad * random.normal(), size_rad * random.normal(),
+                            size_rad * random.normal()}));
+  }
+  for (Vec3& v : clip.joint_translations) v += {random.normal(), 0, 0.5};
+}
+
+// Of a pair that was read: nothing of what is written from it may be refused.
+void check_written(Clip clip, const std::string& amc, const std::string& asf, std::uint64_t seed) {
+  check(write_clip(clip, "amc") == amc);
+  check(write_clip(clip, "asf") == asf);
+  const SourceInfo source = clip.source;
+  clip.source = {};
+  try {
+    const Clip plain = read(write_clip(clip, "amc"), write_clip(clip, "asf"));
+    check(plain.frame_count() == clip.frame_count());
+  } catch (const Error& error) {
+    check(error.kind() == ErrorKind::usage);
+  }
+  clip.source = source;
+  change(clip, seed);
+  check_same(clip, read(write_clip(clip, "amc"), asf));
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string bytes(reinterpret_cast<const char*>(data), size);
+  std::uint64_t seed = 14695981039346656037u;
+  for (const char byte : bytes) seed = (seed ^ static_cast<unsigned char>(byte)) * 1099511628211u;
+  const std::size_t motion = bytes.find(":FULLY-SPECIFIED");
+  const bool both = motion != bytes.npos && bytes.find(":root") < motion;
+  const std::string amc = both ? bytes.substr(motion) : bytes;
+  const std::string asf = both ? bytes.substr(0, motion) : fixed_skeleton;
+  Clip clip;
+  try {
+    clip = read(amc, asf);
+  } catch (const Error& error) {
+    const std::string message = error.what();
+    check(error.kind() == ErrorKind::unreadable_input);
+    check(message.rfind("fuzz.amc:", 0) == 0 || message.rfind("fuzz.asf:", 0) == 0);
+    check(message.find_first_of("\r\n") == message.npos);
+    return 0;
+  }
+  check_written(std::move(clip), amc, asf, seed);
+  return 0;
+}
