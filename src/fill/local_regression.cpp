@@ -17,7 +17,7 @@ constexpr double reach_s = 0.5;
 // The steadiest companions. They place the group the more, the less their distances vary.
 MarkerGroup make_group(std::span<const Companion> companions, std::size_t most) {
   // A distance cannot be known better than to a share of the spread that others have.
-  constexpr double least_share = 0.03;
+  constexpr double least_share = 0.003;
   const std::size_t count = std::min(most, companions.size());
   if (count == 0) return {{}, {}};
   const double floor = least_share * companions[count - 1].spread;
@@ -40,7 +40,7 @@ LocalRegression::LocalRegression(const Samples& samples, const MarkerGap& gap,
     : samples_(samples), marker_(gap.marker), group_(make_group(companions, most_companions)) {
   if (group_.markers().empty()) return;
   for (std::size_t f = 0; f < samples.frames; ++f) {
-    if (samples.sees(f, marker_) && !gap.covers(f) && group_.seen_in(samples, f)) {
+    if (samples.measures(f, marker_) && !gap.covers(f) && group_.seen_in(samples, f)) {
       training_.push_back(f);
     }
   }

@@ -144,8 +144,8 @@ Filling average(std::vector<Proposal> proposals, const std::vector<double>& squa
   Filling filling{std::vector<Vec3>(proposals[best].positions.size()),
                   std::string(proposals[best].method),
                   {},
-                  std::sqrt(squares[best]),
-                  false};
+                  std::sqrt(squares[best])};
+  filling.is_evidence = proposals.size() > 1;
   for (std::size_t c = 0; c < proposals.size(); ++c) {
     for (std::size_t i = 0; i < filling.positions.size(); ++i) {
       filling.positions[i] += (weights[c] / total) * proposals[c].positions[i];
@@ -181,7 +181,7 @@ Filling fill_by_auto(const Samples& samples, const MarkerGap& gap, const MarkerR
     }
     const Proposal& proposal =
         candidates.on_a_segment(radius) ? proposals.front() : proposals.back();
-    return {proposal.positions, std::string(proposal.method), {}, 0, false};
+    return {proposal.positions, std::string(proposal.method)};
   }
   Filling filling = average(std::move(proposals), squares);
   // Without other markers there is no size to judge by; a curve is short.

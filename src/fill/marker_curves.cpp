@@ -27,7 +27,7 @@ Window window_around(const Samples& samples, const MarkerGap& gap) {
   window.first_frame = gap.span.first - std::min(gap.span.first, reach);
   const std::size_t end = std::min(samples.frames, gap.span.last + 1 + reach);
   for (std::size_t f = window.first_frame; f < end; ++f) {
-    const bool seen = samples.sees(f, gap.marker) && !gap.covers(f);
+    const bool seen = samples.measures(f, gap.marker) && !gap.covers(f);
     const Vec3 p = seen ? samples.at(f, gap.marker) : Vec3{};
     window.values.insert(window.values.end(), {p.x, p.y, p.z});
     window.observed.push_back(seen ? 1 : 0);
@@ -59,7 +59,9 @@ Filling fill_by_curve(const Samples& samples, const MarkerGap& gap, const Marker
   }
   std::vector<Vec3> positions = curve_positions(samples, gap, curve);
   if (positions.empty()) return Filling::refused(name, "the marker is not seen near the gap");
-  return {std::move(positions), std::string(name), {}, 0, false};
+  Filling filling{std::move(positions), std::string(name)};
+  filling.is_evidence = false;
+  return filling;
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ BodyTrack track_in_body(const Samples& samples, const MarkerGap& gap) {
                   std::vector<std::uint8_t>(samples.frames)};
   for (const std::size_t f : whole) {
     if (!markers.empty()) track.placements[f] = body.placement(samples, f);
-    if (!samples.sees(f, gap.marker) || gap.covers(f)) continue;
+    if (!samples.measures(f, gap.marker) || gap.covers(f)) continue;
     const Vec3 local = track.placements[f].to_local(samples.at(f, gap.marker));
     track.observed[f] = 1;
     track.values[3 * f] = local.x;
@@ -61,7 +61,7 @@ Filling fill_by_cycles(const Samples& samples, const MarkerGap& gap, const Marke
     return Filling::refused(name, "no two other times of the take show the same movement");
   }
   fill_with_cycles(body.track(), gap.span, cycles, settings);
-  Filling filling{{}, std::string(name), {}, 0, false};
+  Filling filling{{}, std::string(name)};
   for (std::size_t f = gap.span.first; f <= gap.span.last; ++f) {
     const Vec3 local{body.values[3 * f], body.values[3 * f + 1], body.values[3 * f + 2]};
     filling.positions.push_back(body.placements[f].to_world(local));

@@ -92,11 +92,14 @@ bool MarkerGroup::spans_a_plane() const {
   // The sum of the principal 2 x 2 minors of the scatter is small beside its squared trace when all
   // points lie near one line.
   constexpr double least_share = 0.0025;
+  Vec3 centre;
+  for (const Vec3& p : shape_) centre += (1 / static_cast<double>(shape_.size())) * p;
   double s[3][3] = {};
-  for (std::size_t k = 0; k < markers_.size(); ++k) {
-    const double p[3] = {shape_[k].x, shape_[k].y, shape_[k].z};
+  for (const Vec3& place : shape_) {
+    const Vec3 off = place - centre;
+    const double p[3] = {off.x, off.y, off.z};
     for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) s[i][j] += weights_[k] * p[i] * p[j];
+      for (int j = 0; j < 3; ++j) s[i][j] += p[i] * p[j];
     }
   }
   const double trace = s[0][0] + s[1][1] + s[2][2];
@@ -110,7 +113,7 @@ std::vector<Companion> companions_of(const Samples& samples, const MarkerGap& ga
                                      std::size_t most_frames) {
   std::vector<std::size_t> frames;
   for (std::size_t f = 0; f < samples.frames; ++f) {
-    if (samples.sees(f, gap.marker) && !gap.covers(f)) frames.push_back(f);
+    if (samples.measures(f, gap.marker) && !gap.covers(f)) frames.push_back(f);
   }
   frames = evenly(frames, most_frames);
   std::vector<Companion> companions;

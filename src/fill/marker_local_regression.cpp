@@ -139,11 +139,7 @@ Filling fill_by_local_regression(const Samples& samples, const MarkerGap& gap,
   std::iota(frames.begin(), frames.end(), gap.span.first);
   const LocalRegression::Scene scene = body.scene_of(gap.span, frames);
   const Rows coordinates = averaged(body, scene, samples.radius);
-  return {LocalRegression::meet_ends(scene, body.bridge_of(scene), coordinates),
-          std::string(name),
-          {},
-          0,
-          false};
+  return {LocalRegression::meet_ends(scene, body.bridge_of(scene), coordinates), std::string(name)};
 }
 
 }  // namespace kinemend::fill

@@ -25,7 +25,7 @@ Filling fill_by_pattern(const Samples& samples, const MarkerGap& gap,
     ++last;
   }
   const auto meets = [&](bool at_end, std::size_t beside) {
-    return !at_end && samples.sees(beside, donor) && samples.sees(beside, gap.marker);
+    return !at_end && samples.sees(beside, donor) && samples.measures(beside, gap.marker);
   };
   const bool before = meets(gap.span.first == 0, gap.span.first - 1);
   const bool behind = meets(gap.span.last + 1 == samples.frames, gap.span.last + 1);
@@ -34,7 +34,7 @@ Filling fill_by_pattern(const Samples& samples, const MarkerGap& gap,
   }
   std::vector<Vec3> guess;
   for (std::size_t f = first; f <= last; ++f) guess.push_back(samples.at(f, donor));
-  return {meet_ends(samples, gap, first, guess), std::string(name), {}, 0, false};
+  return {meet_ends(samples, gap, first, guess), std::string(name)};
 }
 
 }  // namespace kinemend::fill

@@ -26,7 +26,7 @@ std::vector<std::size_t> complete_frames(const Samples& samples, const MarkerGap
                                          const std::vector<std::size_t>& helpers) {
   std::vector<std::size_t> frames;
   for (std::size_t f = 0; f < samples.frames; ++f) {
-    if (!samples.sees(f, gap.marker) || gap.covers(f)) continue;
+    if (!samples.measures(f, gap.marker) || gap.covers(f)) continue;
     if (std::all_of(helpers.begin(), helpers.end(),
                     [&](std::size_t m) { return samples.sees(f, m); })) {
       frames.push_back(f);
@@ -137,7 +137,7 @@ Filling fill_by_pca(const Samples& samples, const MarkerGap& gap, const MarkerRe
   const Bridge bridge(beside, gap.span, wanted, samples.frame_rate_hz, {});
   const std::vector<Vec3> moves = bridge.carry(errors);
   for (std::size_t i = 0; i < wanted.size(); ++i) positions[i] += moves[i];
-  return {std::move(positions), std::string(name), {}, 0, false};
+  return {std::move(positions), std::string(name)};
 }
 
 }  // namespace kinemend::fill

@@ -85,6 +85,7 @@ Samples samples_of(const MarkerClip& clip, const std::vector<std::uint8_t>& seen
   samples.markers = clip.marker_count();
   samples.frame_rate_hz = clip.frame_rate_hz;
   samples.positions = clip.positions;
+  samples.measured = clip.observed;
   samples.seen = seen;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
     if (clip.is_position.empty() || clip.is_position[m] != 0) samples.bodies.push_back(m);
@@ -156,6 +157,8 @@ class Filler {
       Filling& before = fillings_[chosen[i]];
       // A second look never takes back what the first has found.
       if (found[i].positions.empty() && !before.positions.empty()) continue;
+      // Trials know the true places of companions that were filled, and expect too little then.
+      if (!before.positions.empty()) found[i].expected_error = before.expected_error;
       before = std::move(found[i]);
       put(gaps_[chosen[i]], before);
     }
@@ -165,7 +168,7 @@ class Filler {
     for (std::size_t i = 0; i < filling.positions.size(); ++i) {
       const std::size_t frame = gap.first_frame + i;
       clip_.position(frame, gap.track) = filling.positions[i];
-      seen_[frame * clip_.marker_count() + gap.track] = 1;
+      seen_[frame * clip_.marker_count() + gap.track] = filling.is_evidence ? 1 : 0;
     }
   }
 

@@ -36,13 +36,13 @@ std::vector<std::size_t> frames_beside(const Samples& samples, const MarkerGap& 
   std::vector<std::size_t> found;
   const std::size_t lowest = gap.span.first - std::min(gap.span.first, reach);
   for (std::size_t f = gap.span.first; f-- > lowest && found.size() < most;) {
-    if (samples.sees(f, gap.marker)) found.push_back(f);
+    if (samples.measures(f, gap.marker)) found.push_back(f);
   }
   std::reverse(found.begin(), found.end());
   const std::size_t before = found.size();
   const std::size_t end = std::min(samples.frames, gap.span.last + 1 + reach);
   for (std::size_t f = gap.span.last + 1; f < end && found.size() < before + most; ++f) {
-    if (samples.sees(f, gap.marker)) found.push_back(f);
+    if (samples.measures(f, gap.marker)) found.push_back(f);
   }
   return found;
 }

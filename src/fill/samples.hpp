@@ -10,16 +10,21 @@
 
 namespace kinemend::fill {
 
-/// The samples of a marker take that are evidence: F x M, frame-major.
+/// The samples of a marker take: F x M, frame-major. A sample that was filled before tells where
+/// other markers are, but nothing of its own marker.
 struct Samples {
   std::size_t frames = 0;
   std::size_t markers = 0;
   double frame_rate_hz = 0;
   std::span<const Vec3> positions;
-  std::span<const std::uint8_t> seen;  ///< 0 where a position has no meaning
-  std::vector<std::size_t> bodies;     ///< the markers that are positions at all
-  double radius = 0;                   ///< of the body, by which errors are judged (`body_radius`)
+  std::span<const std::uint8_t> measured;  ///< 1 where the take has a position
+  std::span<const std::uint8_t> seen;      ///< 1 there, and where one was filled on good grounds
+  std::vector<std::size_t> bodies;         ///< the markers that are positions at all
+  double radius = 0;  ///< of the body, by which errors are judged (`body_radius`)
 
+  bool measures(std::size_t frame, std::size_t marker) const {
+    return measured[frame * markers + marker] != 0;
+  }
   bool sees(std::size_t frame, std::size_t marker) const {
     return seen[frame * markers + marker] != 0;
   }

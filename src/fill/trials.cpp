@@ -23,7 +23,7 @@ std::vector<Span> trial_spans(const Samples& samples, const MarkerGap& gap,
                               std::span<const std::size_t> helpers, std::size_t most) {
   std::vector<std::uint8_t> usable(samples.frames);
   for (std::size_t f = 0; f < samples.frames; ++f) {
-    usable[f] = samples.sees(f, gap.marker) && !gap.covers(f) &&
+    usable[f] = samples.measures(f, gap.marker) && !gap.covers(f) &&
                 std::all_of(helpers.begin(), helpers.end(),
                             [&](std::size_t m) { return samples.sees(f, m); });
   }

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "kinemend/clip.hpp"
+#include "kinemend/fill.hpp"
+#include "kinemend/gaps.hpp"
+#include "kinemend/kinematics.hpp"
+#include "kinemend/marker_clip.hpp"
+#include "kinemend/synth.hpp"
+
+namespace kinemend::fill {
+
+/// A synthetic motion as an optical system sees it: three markers on each of thirteen segments,
+/// centimetres. `names` are the joint's with _a, _b, _c.
+inline MarkerClip marker_take(const std::string& motion = "walk", double duration_s = 5,
+                              double frame_rate_hz = 120) {
+  const Clip clip =
+      synthesize({.motion = motion, .duration_s = duration_s, .frame_rate_hz = frame_rate_hz});
+  const char* joints[] = {"Hips",        "LeftUpLeg", "LeftLeg",     "LeftFoot", "RightUpLeg",
+                          "RightLeg",    "RightFoot", "Spine1",      "Head",     "LeftArm",
+                          "LeftForeArm", "RightArm",  "RightForeArm"};
+  const Vec3 places[] = {{4, -6, 5}, {-5, -8, 3}, {1, -11, -6}};
+  std::vector<std::size_t> used;
+  std::vector<std::string> names;
+  for (const char* joint : joints) {
+    used.push_back(static_cast<std::size_t>(clip.skeleton.find(joint)));
+    for (const char* suffix : {"_a", "_b", "_c"}) names.push_back(std::string(joint) + suffix);
+  }
+  MarkerClip take = make_marker_clip(names, clip.frame_count(), frame_rate_hz);
+  take.unit = "cm";
+  take.observed.assign(take.positions.size(), 1);
+  take.residuals.assign(take.positions.size(), 0.5F);
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    const Pose pose = forward_kinematics(clip, f);
+    for (std::size_t k = 0; k < used.size(); ++k) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        take.position(f, 3 * k + i) =
+            pose.positions[used[k]] + rotate(pose.rotations[used[k]], places[i]);
+      }
+    }
+  }
+  return take;
+}
+
+/// Frames `first` to `last`, inclusive, of a marker as missing.
+inline void hide(MarkerClip& clip, const std::string& name, std::size_t first, std::size_t last) {
+  const NamedGap gap{name, first, last};
+  mark_gaps(clip, {&gap, 1});
+}
+
+inline double mean_error(const MarkerClip& truth, const MarkerClip& filled, const Gap& gap) {
+  double sum = 0;
+  for (std::size_t f = gap.first_frame; f <= gap.last_frame; ++f) {
+    sum += norm(filled.position(f, gap.track) - truth.position(f, gap.track));
+  }
+  return sum / static_cast<double>(gap.length());
+}
+
+inline double mean_error(const MarkerClip& truth, const MarkerClip& filled,
+                         const FillReport& report) {
+  double sum = 0, count = 0;
+  for (const GapOutcome& outcome : report.gaps) {
+    const auto length = static_cast<double>(outcome.gap.length());
+    sum += length * mean_error(truth, filled, outcome.gap);
+    count += length;
+  }
+  return sum / count;
+}
+
+}  // namespace kinemend::fill

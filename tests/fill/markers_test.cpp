@@ -1,0 +1,341 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "fill/marker_takes.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/fill.hpp"
+#include "kinemend/random.hpp"
+
+namespace kinemend::fill {
+namespace {
+
+using ::testing::HasSubstr;
+
+FillReport fill_with(MarkerClip& clip, const std::string& method, bool fill_all = false) {
+  FillSettings settings;
+  settings.method = method;
+  settings.fill_all = fill_all;
+  return fill_gaps(clip, settings);
+}
+
+double largest_error(const MarkerClip& truth, const MarkerClip& filled) {
+  double largest = 0;
+  for (std::size_t i = 0; i < truth.positions.size(); ++i) {
+    if (filled.observed[i]) {
+      largest = std::max(largest, norm(filled.positions[i] - truth.positions[i]));
+    }
+  }
+  return largest;
+}
+
+TEST(RigidBodyFill, IsExactOnARigidCluster) {
+  // The thigh's three markers and one of the hips' that is fixed to the thigh as well.
+  const MarkerClip walk = marker_take();
+  MarkerClip truth = walk;
+  const auto a = static_cast<std::size_t>(walk.find("LeftUpLeg_a"));
+  const auto fourth = static_cast<std::size_t>(walk.find("Hips_a"));
+  for (std::size_t f = 0; f < walk.frame_count(); ++f) {
+    const Vec3 p = walk.position(f, a), q = walk.position(f, a + 1), r = walk.position(f, a + 2);
+    truth.position(f, fourth) = p + 0.7 * (q - p) - 0.4 * (r - p) + 0.05 * cross(q - p, r - p);
+  }
+  MarkerClip clip = truth;
+  hide(clip, "Hips_a", 150, 400);
+  const FillReport report = fill_with(clip, "rigid-body");
+  EXPECT_EQ(report.filled(), 1U);
+  EXPECT_LT(largest_error(truth, clip), 1e-4);
+}
+
+TEST(PatternFill, IsExactForADonorAtAConstantOffset) {
+  MarkerClip truth = marker_take();
+  const auto donor = static_cast<std::size_t>(truth.find("Head_a"));
+  for (std::size_t f = 0; f < truth.frame_count(); ++f) {
+    truth.position(f, donor + 1) = truth.position(f, donor) + Vec3{3, -7, 2};
+  }
+  MarkerClip clip = truth;
+  hide(clip, "Head_b", 100, 300);
+  FillSettings settings;
+  settings.method = "pattern";
+  settings.donor = "Head_a";
+  EXPECT_EQ(fill_gaps(clip, settings).filled(), 1U);
+  EXPECT_LT(largest_error(truth, clip), 1e-9);
+}
+
+TEST(PcaFill, IsExactWhereTheMovementHasFewComponents) {
+  // Twelve markers whose coordinates are mixtures of four waves.
+  const std::size_t frames = 600;
+  std::vector<std::string> names;
+  for (int m = 0; m < 12; ++m) names.push_back("m" + std::to_string(m));
+  MarkerClip truth = make_marker_clip(names, frames, 100);
+  truth.observed.assign(truth.positions.size(), 1);
+  Random random(3);
+  for (std::size_t m = 0; m < 12; ++m) {
+    const Vec3 home{100 * random.normal(), 100 * random.normal(), 100 * random.normal()};
+    Vec3 mixture[4];
+    for (Vec3& part : mixture) part = {random.normal(), random.normal(), random.normal()};
+    for (std::size_t f = 0; f < frames; ++f) {
+      Vec3 p = home;
+      for (int k = 0; k < 4; ++k) {
+        p += 20 * std::sin(0.017 * (1 + 0.37 * k) * static_cast<double>(f) + k) * mixture[k];
+      }
+      truth.position(f, m) = p;
+    }
+  }
+  MarkerClip clip = truth;
+  hide(clip, "m4", 250, 400);
+  EXPECT_EQ(fill_with(clip, "pca").filled(), 1U);
+  EXPECT_LT(largest_error(truth, clip), 1e-5);
+}
+
+TEST(CyclicFill, FindsTheSamePhaseOfOtherSteps) {
+  const MarkerClip truth = marker_take("walk", 8);
+  MarkerClip clip = truth;
+  hide(clip, "LeftFoot_a", 400, 460);
+  const FillReport report = fill_with(clip, "cyclic");
+  ASSERT_EQ(report.filled(), 1U) << report.gaps[0].reason;
+  EXPECT_LT(mean_error(truth, clip, report), 2.0);
+}
+
+TEST(LocalRegressionFill, FollowsALimbWhoseOwnMarkersBend) {
+  const MarkerClip truth = marker_take("walk", 8);
+  MarkerClip clip = truth;
+  hide(clip, "LeftLeg_a", 300, 420);
+  hide(clip, "LeftLeg_b", 300, 420);
+  const FillReport report = fill_with(clip, "local-regression");
+  EXPECT_EQ(report.filled(), 2U);
+  EXPECT_LT(mean_error(truth, clip, report), 0.8);
+}
+
+TEST(AutoFill, ExpectsAboutTheErrorThatItMakes) {
+  const MarkerClip truth = marker_take("stroll", 12);
+  MarkerClip clip = truth;
+  for (const char* name : {"LeftFoot_b", "RightForeArm_a", "Head_c", "Spine1_a", "RightLeg_b"}) {
+    hide(clip, name, 500, 620);
+    hide(clip, name, 900, 930);
+  }
+  const FillReport report = fill_with(clip, "auto");
+  ASSERT_EQ(report.filled(), 10U);
+  double expected = 0;
+  for (const GapOutcome& outcome : report.gaps) {
+    EXPECT_GT(outcome.expected_error, 0);
+    expected += outcome.expected_error / 10;
+  }
+  const double error = mean_error(truth, clip, report);
+  EXPECT_LT(error, 1.0);
+  EXPECT_LT(error, 3 * expected + 0.01);
+  EXPECT_GT(error, expected / 20);
+}
+
+TEST(AutoFill, PrefersACurveWhereNoOtherMarkerIsSeen) {
+  MarkerClip clip = marker_take();
+  hide(clip, "*", 300, 306);
+  const FillReport report = fill_with(clip, "auto");
+  EXPECT_EQ(report.refused(), 0U);
+  for (const GapOutcome& outcome : report.gaps) EXPECT_EQ(outcome.method, "spline");
+}
+
+TEST(AutoFill, RefusesALongSpanWithoutAnyMarkerAndSaysSo) {
+  MarkerClip clip = marker_take("punch");
+  const MarkerClip before = [&] {
+    hide(clip, "*", 200, 350);
+    return clip;
+  }();
+  const FillReport report = fill_with(clip, "auto");
+  EXPECT_EQ(report.filled() + report.refused(), clip.marker_count());
+  EXPECT_GT(report.refused(), clip.marker_count() / 2);
+  for (const GapOutcome& outcome : report.gaps) {
+    if (outcome.filled) continue;
+    EXPECT_THAT(outcome.reason, HasSubstr("fewer than three other markers"));
+    EXPECT_FALSE(clip.is_observed(250, outcome.gap.track));
+    EXPECT_EQ(clip.position(250, outcome.gap.track), Vec3{});
+  }
+  MarkerClip forced = before;
+  EXPECT_EQ(fill_with(forced, "auto", true).refused(), 0U);
+}
+
+TEST(AutoFill, FillsWhatAnEarlierRoundMadePossible) {
+  // Only two other markers are seen throughout the long gap; the others go missing one at a time.
+  MarkerClip clip = marker_take();
+  const MarkerClip truth = clip;
+  for (std::size_t m = 0; m + 2 < clip.marker_count(); ++m) {
+    hide(clip, clip.names[m], 200 + 5 * m, 205 + 5 * m);
+  }
+  hide(clip, "RightForeArm_b", 195, 420);
+  const FillReport report = fill_with(clip, "auto");
+  EXPECT_EQ(report.refused(), 0U);
+  EXPECT_LT(mean_error(truth, clip, report), 1.0);
+}
+
+TEST(AutoFill, FillsToTheEndOfTheTakeWhereOthersAreSeen) {
+  const MarkerClip truth = marker_take();
+  MarkerClip clip = truth;
+  hide(clip, "LeftFoot_a", 0, 60);
+  hide(clip, "LeftFoot_b", 520, truth.frame_count() - 1);
+  const FillReport report = fill_with(clip, "auto");
+  EXPECT_EQ(report.refused(), 0U);
+  EXPECT_LT(mean_error(truth, clip, report), 0.5);
+}
+
+TEST(SplineFill, RefusesWhatIsLongOrOpenAndSaysWhy) {
+  MarkerClip clip = marker_take();
+  hide(clip, "Head_a", 100, 140);
+  hide(clip, "Head_b", 0, 5);
+  hide(clip, "Head_c", 100, 110);
+  FillReport report = fill_with(clip, "spline");
+  ASSERT_EQ(report.gaps.size(), 3U);
+  EXPECT_THAT(report.gaps[0].reason, HasSubstr("longer than 0.25 s"));
+  EXPECT_THAT(report.gaps[1].reason, HasSubstr("end of the take"));
+  EXPECT_TRUE(report.gaps[2].filled);
+  FillSettings settings;
+  settings.method = "spline";
+  settings.longest_gap_s = 0.5;
+  report = fill_gaps(clip, settings);
+  EXPECT_EQ(report.filled(), 1U);
+}
+
+TEST(MarkerFill, FillsOnlyTheMarkersThatAreNamed) {
+  MarkerClip clip = marker_take();
+  hide(clip, "Head_a", 100, 110);
+  hide(clip, "LeftLeg_a", 100, 110);
+  FillSettings settings;
+  settings.names = {"Left*"};
+  const FillReport report = fill_gaps(clip, settings);
+  ASSERT_EQ(report.gaps.size(), 1U);
+  EXPECT_FALSE(clip.is_observed(105, static_cast<std::size_t>(clip.find("Head_a"))));
+}
+
+TEST(MarkerFill, LeavesWhatIsNoPositionAlone) {
+  MarkerClip clip = marker_take();
+  const auto angle = static_cast<std::size_t>(clip.find("Head_a"));
+  clip.is_position[angle] = 0;
+  hide(clip, "Head_a", 100, 110);
+  hide(clip, "Head_b", 100, 110);
+  const FillReport report = fill_with(clip, "auto");
+  ASSERT_EQ(report.gaps.size(), 1U);
+  EXPECT_FALSE(clip.is_observed(105, angle));
+}
+
+TEST(MarkerFill, SaysWhichMethodMarkerOrDonorThereIsNot) {
+  MarkerClip clip = marker_take("walk", 0.5);
+  const auto message = [&](const FillSettings& settings) -> std::string {
+    try {
+      fill_gaps(clip, settings);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+      return error.what();
+    }
+    return "no error";
+  };
+  FillSettings settings;
+  settings.method = "magic";
+  EXPECT_THAT(message(settings), HasSubstr("expected a method for markers (auto, spline"));
+  settings.method = "slerp";
+  EXPECT_THAT(message(settings), HasSubstr("found \"slerp\""));
+  settings.method = "pattern";
+  EXPECT_THAT(message(settings), HasSubstr("needs a donor"));
+  settings.donor = "Tail";
+  EXPECT_THAT(message(settings), HasSubstr("no donor \"Tail\""));
+  settings = {};
+  settings.names = {"Tail*"};
+  EXPECT_THAT(message(settings), HasSubstr("no marker matches \"Tail*\""));
+}
+
+// Takes that give little to go by.
+class MeagreTakes : public ::testing::TestWithParam<std::string> {
+ protected:
+  static FillSettings settings() {
+    FillSettings settings;
+    settings.method = GetParam();
+    if (GetParam() == "pattern") settings.donor = "m0";
+    return settings;
+  }
+  static MarkerClip take(std::size_t markers, std::size_t frames) {
+    std::vector<std::string> names;
+    for (std::size_t m = 0; m < markers; ++m) names.push_back("m" + std::to_string(m));
+    MarkerClip clip = make_marker_clip(names, frames, 100);
+    clip.observed.assign(clip.positions.size(), 1);
+    for (std::size_t i = 0; i < clip.positions.size(); ++i) {
+      const auto x = static_cast<double>(i);
+      clip.positions[i] = {std::sin(0.1 * x), x, std::cos(0.37 * x)};
+    }
+    return clip;
+  }
+  // Fills with and without rules; every result is finite, and what is not filled stays missing.
+  static void check(const MarkerClip& damaged) {
+    for (const bool fill_all : {false, true}) {
+      MarkerClip clip = damaged;
+      FillSettings chosen = settings();
+      chosen.fill_all = fill_all;
+      const FillReport report = fill_gaps(clip, chosen);
+      clip.validate();
+      for (const GapOutcome& outcome : report.gaps) {
+        EXPECT_EQ(outcome.reason.empty(), outcome.filled);
+        for (std::size_t f = outcome.gap.first_frame; f <= outcome.gap.last_frame; ++f) {
+          EXPECT_EQ(clip.is_observed(f, outcome.gap.track), outcome.filled);
+        }
+      }
+    }
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Methods, MeagreTakes,
+                         ::testing::Values("auto", "spline", "quintic", "pchip", "pattern",
+                                           "rigid-body", "pca", "local-regression", "cyclic"),
+                         [](const auto& method) {
+                           std::string name = method.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST_P(MeagreTakes, AreFilledOrRefusedWithoutHarm) {
+  for (const std::size_t markers : {1U, 2U, 3U, 4U, 7U}) {
+    for (const std::size_t frames : {1U, 2U, 3U, 10U, 60U}) {
+      MarkerClip whole = take(markers, frames);
+      SCOPED_TRACE(std::to_string(markers) + " markers, " + std::to_string(frames) + " frames");
+      check(whole);
+      MarkerClip clip = whole;
+      hide(clip, "m0", 0, 0);
+      check(clip);
+      clip = whole;
+      hide(clip, "m0", frames - 1, frames - 1);
+      check(clip);
+      clip = whole;
+      hide(clip, "m0", 0, frames - 1);  // never seen
+      check(clip);
+      clip = whole;
+      hide(clip, "*", frames / 3, frames / 2);
+      check(clip);
+      clip = whole;
+      hide(clip, "*", 0, frames - 1);
+      check(clip);
+      clip = whole;
+      for (std::size_t f = 0; f < frames; f += 2) hide(clip, "m0", f, f);
+      check(clip);
+    }
+  }
+}
+
+TEST_P(MeagreTakes, MayHaveMarkersOnOneLineOrInOnePlace) {
+  for (const double spread : {0.0, 1.0}) {
+    MarkerClip clip = take(6, 80);
+    for (std::size_t f = 0; f < 80; ++f) {
+      for (std::size_t m = 0; m < 6; ++m) {
+        clip.position(f, m) = {0.3 * static_cast<double>(f), spread * static_cast<double>(m), 0};
+      }
+    }
+    hide(clip, "m2", 30, 37);
+    check(clip);
+    hide(clip, "m3", 33, 60);
+    check(clip);
+  }
+}
+
+TEST(MarkerFill, ReturnsAnEmptyTakeAsItIs) {
+  MarkerClip clip = make_marker_clip({}, 0, 100);
+  EXPECT_TRUE(fill_with(clip, "auto").gaps.empty());
+  clip = make_marker_clip({"a"}, 0, 100);
+  EXPECT_TRUE(fill_with(clip, "auto").gaps.empty());
+}
+
+}  // namespace
+}  // namespace kinemend::fill
