@@ -140,8 +140,9 @@ Command clean_command() {
   command.name = "clean";
   command.summary = "clean takes: jitter, spikes, gaps";
   command.description =
-      "Reads each take, cleans its rotations and its root position, and writes it back in its own "
-      "format and layout: what no step changed keeps its digits. Without --output and --output-dir "
+      "Reads each take, cleans its rotations and its root position, or its markers, and writes it "
+      "back in its own format (or that of the output's name) and layout: what no step changed "
+      "keeps its digits. Without --output and --output-dir "
       "the result of walk.bvh is walk.clean.bvh beside it; that of standard input (-) goes to "
       "standard output.\n\n"
       "The report goes to standard output, or to standard error where standard output holds the "
@@ -162,6 +163,7 @@ Command clean_command() {
       {"kinemend clean *.bvh --output-dir clean --preset sport", "many takes in parallel"},
       {"kinemend clean take.bvh --joints 'Left*' --exclude LeftHand --range 2s:5s",
        "part of the body, part of the time"},
+      {"kinemend clean trial.c3d --fix-swaps --fill auto", "markers: labels, gaps, then noise"},
       {"kinemend clean - < in.bvh > out.bvh", "in a pipeline"},
       {"kinemend clean --preset biomech --print-config > lab.toml",
        "a file of settings to keep and change"}};

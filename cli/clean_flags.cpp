@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "config.hpp"
+#include "kinemend/fill.hpp"
 #include "method_options.hpp"
 #include "takes.hpp"
 
@@ -21,6 +22,12 @@ Flag list_flag(std::string name, std::string help, std::string details) {
   Flag flag = text_flag(std::move(name), "A,B,...", "Where", std::move(help), std::move(details));
   flag.takes = Takes::list;
   return configurable(flag);
+}
+
+Flag markers_flag() {
+  Flag flag = list_flag("markers", "the same as --joints", {});
+  flag.configurable = false;
+  return flag;
 }
 
 Flag method_flag() {
@@ -53,6 +60,29 @@ Flag file_flag(std::string name, std::string value, std::string group, std::stri
   return flag;
 }
 
+std::vector<std::string> fill_choices() {
+  std::vector<std::string> names = {"off"};
+  for (const FillMethod& method : fill_methods()) names.emplace_back(method.name);
+  return names;
+}
+
+Flag fill_flag() {
+  Flag flag = text_flag("fill", "METHOD", "Cleaning", "fill gaps before anything is smoothed",
+                        "auto picks a method for each gap, and refuses what it would only guess; "
+                        "what is refused is listed, and stays missing in marker files.");
+  flag.spec.default_value = std::string("off");
+  flag.spec.choices = fill_choices();
+  flag.has_default = true;
+  return configurable(flag);
+}
+
+Flag rate_flag() {
+  Flag flag = number_flag("fps", "Hz", 0, 0, 1e5, "Input",
+                          "frame rate of a take whose format has none (AMC)");
+  flag.has_default = false;
+  return flag;
+}
+
 Flag root_position_flag() {
   Flag flag = switch_flag("root_position", "Where", "also clean the root's path");
   flag.spec.default_value = true;
@@ -81,7 +111,7 @@ std::vector<Flag> clean_output_flags() {
        file_flag("report", "FILE", "Output",
                  "write what was done to each span of samples, as JSON"),
        json_flag("print the summary as JSON instead of text"),
-       switch_flag("verbose", "Output", "list every joint that changed"),
+       switch_flag("verbose", "Output", "list every joint or marker that changed"),
        switch_flag("quiet", "Output", "print warnings and errors only")});
 }
 
@@ -92,25 +122,39 @@ std::vector<Flag> cleaning_flags() {
                                 "how far to go from the input (0) to the cleaned motion (1)",
                                 "Typical: 0.5 to 1.")),
        configurable(number_flag("max_change_deg", "deg", 180, 0, 180, "Cleaning",
-                                "no sample turns further than this from its input",
+                                "no rotation goes further than this from its input",
                                 "Typical: 5 to 30 against jitter alone; spikes need more.")),
+       configurable(number_flag("max_change", "", 0, 0, 1e12, "Cleaning",
+                                "no marker moves further than this, file units; 0: no limit",
+                                "Typical: 5 to 20 mm against jitter alone; spikes need more.")),
+       fill_flag(),
+       configurable(switch_flag("fill_all", "Cleaning",
+                                "fill every gap, also where the rules of --fill refuse")),
+       configurable(switch_flag("fix_swaps", "Cleaning", "undo swapped labels of markers first",
+                                "As kinemend check finds them; nothing happens to joints.")),
        configurable(number_flag("peak_loss_limit", "", 0.1, 0, 1, "Cleaning",
-                                "share of a joint's peak speed that may go without a warning",
+                                "share of a peak speed that may go without a warning",
                                 "Typical: 0.05 for impacts to 0.2 for slow motion.")),
        preset_flag(),
        file_flag("config", "FILE", "Cleaning", "settings from a TOML file, over those of --preset"),
        switch_flag("print_config", "Cleaning",
                    "print the settings as a TOML file with comments, and stop"),
-       list_flag("joints", "joints that may change (default all)",
+       list_flag("joints", "joints or markers that may change (default all)",
                  "Names or patterns in which * is any text and ? any character; quote them."),
-       list_flag("exclude", "joints that may not change after all", "Written like --joints."),
+       markers_flag(),
+       list_flag("exclude", "what may not change after all", "Written like --joints."),
        root_position_flag(),
        text_flag(
            "range", "FIRST:LAST", "Where",
            "what may change: frames 121:240, counted from 1, or seconds 1s:2.5s",
            "Either end may be left out. The method sees all of the take; the result is blended "
            "in over 0.1 s."),
-       from_flag(), configurable(strict_flag("what needs a repair or a warning becomes an error")),
+       file_flag("gaps", "FILE", "Input", "samples that count as missing: lines name,first,last",
+                 "Frames from 1; for formats that cannot hold a gap. The name * means all."),
+       from_flag(),
+       file_flag("asf", "FILE", "Input", "the skeleton of an AMC file, where it is not beside it"),
+       rate_flag(),
+       configurable(strict_flag("what needs a repair or a warning becomes an error")),
        seed_flag("seed of the methods that draw random numbers")});
 }
 

@@ -60,6 +60,11 @@ Settings command_line_settings(const Arguments& arguments) {
     if (const auto list = arguments.lists.find(name); list != arguments.lists.end())
       settings.lists[name] = list->second;
   }
+  // --markers says --joints in the words of marker files.
+  if (const auto markers = arguments.lists.find("markers"); markers != arguments.lists.end()) {
+    std::vector<std::string>& names = settings.lists["joints"];
+    names.insert(names.end(), markers->second.begin(), markers->second.end());
+  }
   return settings;
 }
 
@@ -79,6 +84,17 @@ void pass_seed(const Arguments& arguments, const Method& method, OptionValues& o
   }
 }
 
+/// What `--fill` and `--fill-all` ask for.
+std::optional<FillSettings> fill_settings(const Settings& settings) {
+  const std::string method = std::get<std::string>(settings.values.find("fill")->second);
+  const bool fill_all = std::get<bool>(settings.values.find("fill_all")->second);
+  if (method == "off" && !fill_all) return std::nullopt;
+  FillSettings fill;
+  fill.method = method == "off" ? "auto" : method;
+  fill.fill_all = fill_all;
+  return fill;
+}
+
 CleanSettings clean_settings(const Settings& settings) {
   const auto list = [&](std::string_view name) {
     const auto found = settings.lists.find(name);
@@ -90,7 +106,9 @@ CleanSettings clean_settings(const Settings& settings) {
   CleanSettings result;
   result.strength = number("strength");
   result.max_change_deg = number("max_change_deg");
+  if (const double most = number("max_change"); most > 0) result.max_change = most;
   result.peak_loss_limit = number("peak_loss_limit");
+  result.fill = fill_settings(settings);
   result.root_position = std::get<bool>(settings.values.find("root_position")->second);
   result.joints = list("joints");
   result.exclude = list("exclude");
@@ -129,8 +147,14 @@ CleanPlan make_cleaning(const Arguments& arguments) {
   plan.settings = clean_settings(settings);
   if (const std::string range = arguments.text("range"); !range.empty())
     plan.range = parse_range(range);
-  plan.format = arguments.text("from");
   plan.strict = std::get<bool>(settings.values.find("strict")->second);
+  plan.reading.format = arguments.text("from");
+  plan.reading.strict = plan.strict;
+  plan.reading.skeleton = arguments.text("asf");
+  plan.reading.frame_rate_hz = arguments.number("fps");
+  if (const std::string path = arguments.text("gaps"); !path.empty())
+    plan.gaps = parse_gaps(read_file(path), input_name(path));
+  plan.fix_swaps = std::get<bool>(settings.values.find("fix_swaps")->second);
   plan.force = arguments.flag("force");
   plan.threads = static_cast<int>(arguments.whole("jobs"));
   return plan;
@@ -146,7 +170,7 @@ CleanPlan make_clean_plan(const Arguments& arguments) {
   plan.verbose = arguments.flag("verbose");
   plan.quiet = arguments.flag("quiet");
   std::vector<std::string> outputs = {plan.report_path};
-  std::vector<std::string> inputs = {arguments.text("config")};
+  std::vector<std::string> inputs = {arguments.text("config"), arguments.text("gaps")};
   for (const CleanJob& job : plan.jobs) {
     inputs.push_back(job.input);
     if (!plan.dry_run) outputs.push_back(job.output);

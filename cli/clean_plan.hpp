@@ -8,6 +8,8 @@
 #include "config.hpp"
 #include "frame_range.hpp"
 #include "kinemend/clean.hpp"
+#include "kinemend/gaps.hpp"
+#include "kinemend/io.hpp"
 
 namespace kinemend::cli {
 
@@ -26,7 +28,9 @@ struct CleanPlan {
   std::unique_ptr<Cleaner> cleaner;
   CleanSettings settings;
   std::optional<FrameRange> range;
-  std::string format;       ///< of the input; empty: by content
+  ReadOptions reading;
+  std::vector<NamedGap> gaps;  ///< of --gaps
+  bool fix_swaps = false;
   std::string folder;       ///< --output-dir; made where it does not exist
   std::string report_path;  ///< empty: none
   bool strict = false;

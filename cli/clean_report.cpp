@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "json.hpp"
 #include "table.hpp"
@@ -13,27 +14,25 @@ namespace kinemend::cli {
 namespace {
 
 constexpr std::size_t short_list = 8;
-// Below this much jitter a take is not called noisy.
-constexpr double noticeable_deg = 0.1;
 
 bool is_repair(Action action) {
   return action == Action::despiked || action == Action::filled || action == Action::foot_adjusted;
 }
 
-std::size_t count_spans(const CleanReport& report, Action action) {
+std::size_t count_spans(const ReportView& report, Action action) {
   return static_cast<std::size_t>(
       std::count_if(report.spans.begin(), report.spans.end(),
                     [&](const ReportSpan& span) { return span.action == action; }));
 }
 
-std::size_t count_changed(const CleanReport& report) {
+std::size_t count_changed(const ReportView& report) {
   return static_cast<std::size_t>(
-      std::count_if(report.joints.begin(), report.joints.end(),
-                    [](const JointSummary& joint) { return joint.frames_changed > 0; }));
+      std::count_if(report.rows.begin(), report.rows.end(),
+                    [](const ReportView::Row& row) { return row.frames_changed > 0; }));
 }
 
-/// Frames in which at least one joint was repaired.
-std::size_t frames_repaired(const CleanReport& report) {
+/// Frames in which at least one joint or marker was repaired.
+std::size_t frames_repaired(const ReportView& report) {
   std::vector<bool> repaired(report.frames, false);
   for (const ReportSpan& span : report.spans) {
     if (!is_repair(span.action)) continue;
@@ -43,74 +42,127 @@ std::size_t frames_repaired(const CleanReport& report) {
   return static_cast<std::size_t>(std::count(repaired.begin(), repaired.end(), true));
 }
 
-/// Joints that changed, those that changed most first.
-std::vector<const JointSummary*> changed_joints(const CleanReport& report) {
-  std::vector<const JointSummary*> joints;
-  for (const JointSummary& joint : report.joints) {
-    if (joint.frames_changed > 0) joints.push_back(&joint);
-  }
-  std::stable_sort(joints.begin(), joints.end(), [](const auto* a, const auto* b) {
-    return a->rms_change_deg > b->rms_change_deg;
-  });
-  return joints;
+std::size_t gaps_left(const ReportView& report) {
+  std::size_t gaps = 0;
+  for (const ReportView::Row& row : report.rows) gaps += row.gaps_left;
+  return gaps;
 }
 
-/// The middle one of the noises of the joints that changed and have one; 0 without any.
-double typical_noise_deg(const CleanReport& report, std::size_t& joints) {
-  std::vector<double> noises;
-  for (const JointSummary& joint : report.joints) {
-    if (joint.frames_changed > 0 && joint.noise_deg > 0) noises.push_back(joint.noise_deg);
+/// What changed, most first.
+std::vector<const ReportView::Row*> changed_rows(const ReportView& report) {
+  std::vector<const ReportView::Row*> rows;
+  for (const ReportView::Row& row : report.rows) {
+    if (row.frames_changed > 0) rows.push_back(&row);
   }
-  joints = noises.size();
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const auto* a, const auto* b) { return a->rms_change > b->rms_change; });
+  return rows;
+}
+
+/// The middle one of the noises of what changed and has one; 0 without any.
+double typical_noise(const ReportView& report, std::size_t& count) {
+  std::vector<double> noises;
+  for (const ReportView::Row& row : report.rows) {
+    if (row.frames_changed > 0 && row.noise > 0) noises.push_back(row.noise);
+  }
+  count = noises.size();
   if (noises.empty()) return 0;
   const auto middle = noises.begin() + static_cast<std::ptrdiff_t>(noises.size() / 2);
   std::nth_element(noises.begin(), middle, noises.end());
   return *middle;
 }
 
-double frames_per_second(const CleanReport& report) {
+double frames_per_second(const ReportView& report) {
   return report.seconds > 0 ? static_cast<double>(report.frames) / report.seconds : 0;
 }
 
-std::string joint_table(const CleanReport& report, bool all_joints) {
-  const std::vector<const JointSummary*> joints = changed_joints(report);
-  if (joints.empty()) return "";
+std::string change_table(const ReportView& report, bool all_rows) {
+  const std::vector<const ReportView::Row*> rows = changed_rows(report);
+  if (rows.empty()) return "";
   Table table({Align::left, Align::right, Align::right, Align::right, Align::right, Align::right,
                Align::right});
-  table.add({"joint", "noise deg", "change rms deg", "max deg", "frames repaired",
-             "peak deg/s before", "after"});
-  const std::size_t shown = all_joints ? joints.size() : std::min(joints.size(), short_list);
+  const std::string& unit = report.unit;
+  table.add({report.noun(), "noise " + unit, "change rms " + unit, "max " + unit, "frames repaired",
+             "peak " + unit + "/s before", "after"});
+  const std::size_t shown = all_rows ? rows.size() : std::min(rows.size(), short_list);
   for (std::size_t i = 0; i < shown; ++i) {
-    const JointSummary& joint = *joints[i];
-    table.add({printable(joint.name), joint.noise_deg > 0 ? figure(joint.noise_deg) : "-",
-               figure(joint.rms_change_deg), figure(joint.max_change_deg),
-               joint.frames_repaired > 0 ? grouped(joint.frames_repaired) : "-",
-               figure(joint.peak_speed_before_deg_s), figure(joint.peak_speed_after_deg_s)});
+    const ReportView::Row& row = *rows[i];
+    table.add({printable(row.name), row.noise > 0 ? figure(row.noise) : "-", figure(row.rms_change),
+               figure(row.max_change), row.frames_repaired > 0 ? grouped(row.frames_repaired) : "-",
+               figure(row.peak_speed_before), figure(row.peak_speed_after)});
   }
   std::string text = table.text();
-  if (shown < joints.size())
+  if (shown < rows.size())
     text += fmt::format("  and {} that changed less (--verbose lists them)\n",
-                        counted(joints.size() - shown, "joint"));
+                        counted(rows.size() - shown, report.noun()));
   return text;
 }
 
-Json joint_json(const JointSummary& joint) {
-  return {{"name", joint.name},
-          {"noise_deg", joint.noise_deg},
-          {"rms_change_deg", joint.rms_change_deg},
-          {"max_change_deg", joint.max_change_deg},
-          {"frames_changed", joint.frames_changed},
-          {"frames_repaired", joint.frames_repaired},
-          {"peak_speed_before_deg_s", joint.peak_speed_before_deg_s},
-          {"peak_speed_after_deg_s", joint.peak_speed_after_deg_s},
-          {"peak_frames", joint.peak_frames}};
+/// Gaps that were filled, by method, and those that were refused, one a line.
+std::string fill_text(const ReportView& report, bool all_rows) {
+  if (report.fill.gaps.empty()) return "";
+  std::map<std::string, std::size_t> filled;
+  std::string refused;
+  std::size_t listed = 0;
+  for (const GapOutcome& outcome : report.fill.gaps) {
+    if (outcome.filled) {
+      ++filled[outcome.method];
+      continue;
+    }
+    if (++listed > short_list && !all_rows) continue;
+    refused +=
+        fmt::format("    {}, frames {} to {}: {}\n", printable(report.rows[outcome.gap.track].name),
+                    outcome.gap.first_frame + 1, outcome.gap.last_frame + 1, outcome.reason);
+  }
+  std::vector<std::string> methods;
+  for (const auto& [method, count] : filled)
+    methods.push_back(fmt::format("{} by {}", grouped(count), method));
+  std::string text = fmt::format("  {} of {} filled", report.fill.filled(),
+                                 counted(report.fill.gaps.size(), "gap"));
+  if (!methods.empty()) text += fmt::format(": {}", fmt::join(methods, ", "));
+  text += "\n";
+  if (listed > 0) text += fmt::format("  {} refused:\n{}", listed, refused);
+  if (listed > short_list && !all_rows)
+    text += fmt::format("    and {} more (--verbose lists them)\n", listed - short_list);
+  return text;
+}
+
+std::string swap_text(const ReportView& report) {
+  std::string text;
+  for (const MarkerSwap& swap : report.swaps) {
+    text += fmt::format("  {} and {} were swapped in frames {} to {}\n",
+                        printable(report.rows[swap.first_marker].name),
+                        printable(report.rows[swap.second_marker].name), swap.first_frame + 1,
+                        swap.last_frame + 1);
+  }
+  return text;
+}
+
+/// The keys of joints end in their unit; markers are in the file's, which `unit` names.
+Json row_json(const ReportView::Row& row, const ReportView& report) {
+  const std::string unit = report.is_markers ? "" : "_deg";
+  const std::string speed_unit = report.is_markers ? "" : "_deg_s";
+  Json json = {{"name", row.name},
+               {"noise" + unit, row.noise},
+               {"rms_change" + unit, row.rms_change},
+               {"max_change" + unit, row.max_change},
+               {"frames_changed", row.frames_changed},
+               {"frames_repaired", row.frames_repaired},
+               {"peak_speed_before" + speed_unit, row.peak_speed_before},
+               {"peak_speed_after" + speed_unit, row.peak_speed_after},
+               {"peak_frames", row.peak_frames}};
+  if (report.is_markers) {
+    json["gaps_left"] = row.gaps_left;
+    json["frames_missing"] = row.frames_missing;
+  }
+  return json;
 }
 
 /// The root position's changes are in file units, and its span says so by its keys.
-Json span_json(const ReportSpan& span, const CleanReport& report) {
+Json span_json(const ReportSpan& span, const ReportView& report) {
   const bool is_root = span.joint < 0;
-  const std::string unit = is_root ? "" : "_deg";
-  return {{"joint", is_root ? Json() : Json(report.joints[span.joint].name)},
+  const std::string unit = is_root || report.is_markers ? "" : "_deg";
+  return {{report.noun(), is_root ? Json() : Json(report.rows[span.joint].name)},
           {"index", span.joint},
           {"first_frame", span.first_frame + 1},
           {"last_frame", span.last_frame + 1},
@@ -119,33 +171,63 @@ Json span_json(const ReportSpan& span, const CleanReport& report) {
           {"rms_change" + unit, span.rms_change}};
 }
 
+Json fill_json(const ReportView& report) {
+  Json gaps = Json::array();
+  for (const GapOutcome& outcome : report.fill.gaps) {
+    Json gap = {{report.noun(), report.rows[outcome.gap.track].name},
+                {"first_frame", outcome.gap.first_frame + 1},
+                {"last_frame", outcome.gap.last_frame + 1},
+                {"filled", outcome.filled},
+                {"method", outcome.method}};
+    if (!outcome.filled) gap["reason"] = outcome.reason;
+    gaps.push_back(std::move(gap));
+  }
+  return {{"filled", report.fill.filled()}, {"refused", report.fill.refused()}, {"gaps", gaps}};
+}
+
+Json swaps_json(const ReportView& report) {
+  Json swaps = Json::array();
+  for (const MarkerSwap& swap : report.swaps) {
+    swaps.push_back(
+        {{"markers", {report.rows[swap.first_marker].name, report.rows[swap.second_marker].name}},
+         {"first_frame", swap.first_frame + 1},
+         {"last_frame", swap.last_frame + 1}});
+  }
+  return swaps;
+}
+
 }  // namespace
 
-std::string verdict(const CleanReport& report) {
+std::string verdict(const ReportView& report) {
   const std::size_t changed = count_changed(report);
   const std::size_t spikes = count_spans(report, Action::despiked);
   const std::size_t gaps = count_spans(report, Action::filled);
-  if (changed == 0 && report.root_max_change == 0) return "clean: nothing changed";
-  std::size_t noisy_joints = 0;
-  const double noise_deg = typical_noise_deg(report, noisy_joints);
+  const std::size_t left = gaps_left(report);
+  const std::string unfilled = left > 0 ? counted(left, "gap") + " left" : "";
+  if (changed == 0 && report.root_max_change == 0) {
+    return left > 0 ? "nothing changed: " + unfilled : "clean: nothing changed";
+  }
+  std::size_t noisy = 0;
+  const double noise = typical_noise(report, noisy);
   std::vector<std::string> findings;
-  if (noise_deg > 0) {
-    findings.push_back(
-        fmt::format("{} deg jitter on {}", figure(noise_deg), counted(noisy_joints, "joint")));
+  if (noise > 0) {
+    findings.push_back(fmt::format("{} {} jitter on {}", figure(noise), report.unit,
+                                   counted(noisy, report.noun())));
   } else if (changed > 0) {
-    findings.push_back(counted(changed, "joint") + " changed");
+    findings.push_back(counted(changed, report.noun()) + " changed");
   } else {
     findings.push_back("the root position changed");
   }
   if (spikes > 0) findings.push_back(counted(spikes, "spike"));
   if (gaps > 0) findings.push_back(counted(gaps, "gap"));
+  if (left > 0) findings.push_back(unfilled);
   const std::string all = fmt::format("{}", fmt::join(findings, ", "));
-  if (noise_deg >= noticeable_deg) return "noisy: " + all;
+  if (noise >= report.noticeable_noise) return "noisy: " + all;
   if (spikes + gaps > 0) return "damaged: " + all;
-  return noise_deg > 0 ? "nearly clean: " + all : "smoothed: " + all;
+  return noise > 0 ? "nearly clean: " + all : "smoothed: " + all;
 }
 
-std::string headline(const CleanJob& job, const CleanReport& report, const CleanPlan& plan,
+std::string headline(const CleanJob& job, const ReportView& report, const CleanPlan& plan,
                      const Colours& colours) {
   const std::string result = verdict(report);
   const bool is_good = result.compare(0, 5, "noisy") != 0 && result.compare(0, 7, "damaged") != 0;
@@ -156,7 +238,7 @@ std::string headline(const CleanJob& job, const CleanReport& report, const Clean
   return line + "\n";
 }
 
-std::string report_text(const CleanReport& report, bool all_joints) {
+std::string report_text(const ReportView& report, bool all_rows) {
   std::string text = fmt::format("  {}, method {}",
                                  length_text(report.frames, report.frame_rate_hz), report.method);
   if (report.calibration_frames > 0) {
@@ -165,14 +247,15 @@ std::string report_text(const CleanReport& report, bool all_joints) {
         report.calibration_frames == 1 ? "is" : fmt::format("{} are", report.calibration_frames));
   }
   text += "\n";
-  if (const std::string table = joint_table(report, all_joints); !table.empty())
+  if (const std::string table = change_table(report, all_rows); !table.empty())
     text += "\n" + table + "\n";
   if (report.root_max_change > 0) {
     text += fmt::format("  root position: change rms {}, max {} (file units)\n",
                         figure(report.root_rms_change), figure(report.root_max_change));
   }
+  text += swap_text(report) + fill_text(report, all_rows);
   text += fmt::format("  {} of {} changed, {} repaired", count_changed(report),
-                      counted(report.joints.size(), "joint"),
+                      counted(report.rows.size(), report.noun()),
                       counted(frames_repaired(report), "frame"));
   if (report.seconds > 0)
     text +=
@@ -180,7 +263,7 @@ std::string report_text(const CleanReport& report, bool all_joints) {
   return text + "\n";
 }
 
-Json report_json(const CleanJob& job, const CleanReport& report, const Diagnostics& diagnostics,
+Json report_json(const CleanJob& job, const ReportView& report, const Diagnostics& diagnostics,
                  const CleanPlan& plan, bool with_spans) {
   Json json = {{"input", job.input},
                {"output", plan.dry_run ? Json() : Json(job.output)},
@@ -190,18 +273,25 @@ Json report_json(const CleanJob& job, const CleanReport& report, const Diagnosti
                {"frames", report.frames},
                {"frame_rate_hz", report.frame_rate_hz},
                {"calibration_frames", report.calibration_frames},
-               {"joints_changed", count_changed(report)},
+               {std::string(report.noun()) + "s_changed", count_changed(report)},
                {"frames_repaired", frames_repaired(report)},
                {"spikes", count_spans(report, Action::despiked)},
-               {"gaps", count_spans(report, Action::filled)},
-               {"root_rms_change", report.root_rms_change},
-               {"root_max_change", report.root_max_change},
-               {"seconds", report.seconds},
-               {"frames_per_second", frames_per_second(report)},
-               {"warnings", report.warnings},
-               {"diagnostics", json_of(diagnostics)}};
-  json["joints"] = Json::array();
-  for (const JointSummary& joint : report.joints) json["joints"].push_back(joint_json(joint));
+               {"gaps", count_spans(report, Action::filled)}};
+  if (report.is_markers) {
+    json["unit"] = report.unit;
+    json["gaps_left"] = gaps_left(report);
+  } else {
+    json["root_rms_change"] = report.root_rms_change;
+    json["root_max_change"] = report.root_max_change;
+  }
+  if (!report.fill.gaps.empty()) json["fill"] = fill_json(report);
+  if (plan.fix_swaps && report.is_markers) json["swaps_undone"] = swaps_json(report);
+  json["seconds"] = report.seconds;
+  json["frames_per_second"] = frames_per_second(report);
+  json["warnings"] = report.warnings;
+  json["diagnostics"] = json_of(diagnostics);
+  Json& rows = json[std::string(report.noun()) + "s"] = Json::array();
+  for (const ReportView::Row& row : report.rows) rows.push_back(row_json(row, report));
   if (with_spans) {
     json["spans"] = Json::array();
     for (const ReportSpan& span : report.spans) json["spans"].push_back(span_json(span, report));

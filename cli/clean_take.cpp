@@ -5,8 +5,12 @@
 
 #include <filesystem>
 #include <new>
+#include <utility>
+#include <variant>
 
 #include "clean_report.hpp"
+#include "kinemend/check.hpp"
+#include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
 #include "takes.hpp"
 
@@ -16,10 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void write_result(const CleanJob& job, const Clip& clip, const CleanPlan& plan) {
+void write_result(const CleanJob& job, const Take& take, const CleanPlan& plan) {
   const Format* named = job.output == "-" ? nullptr : format_of_path(job.output);
-  const std::string_view format = named ? named->name : std::string_view(clip.source.format);
-  const std::string bytes = write_clip(clip, format);
+  const std::string format = named ? std::string(named->name) : source_of(take).format;
+  const std::string bytes = write_take(take, format);
   std::error_code error;
   if (!plan.folder.empty()) fs::create_directories(plan.folder, error);
   if (error)
@@ -27,35 +31,66 @@ void write_result(const CleanJob& job, const Clip& clip, const CleanPlan& plan) 
   write_output(job.output, bytes, plan.force || job.may_replace);
 }
 
-void refuse_warnings(const std::string& name, const CleanReport& report) {
-  if (report.warnings.empty()) return;
+void refuse_warnings(const std::string& name, const std::vector<std::string>& warnings) {
+  if (warnings.empty()) return;
   throw Error(ErrorKind::quality_limit,
-              fmt::format("{}: {} (an error under --strict)", name, report.warnings.front()));
+              fmt::format("{}: {} (an error under --strict)", name, warnings.front()));
+}
+
+// The steps before the cleaner: labels, then gaps.
+std::vector<MarkerSwap> prepare(Take& take, const CleanPlan& plan) {
+  std::vector<MarkerSwap> swaps;
+  if (auto* markers = std::get_if<MarkerClip>(&take); markers && plan.fix_swaps) {
+    swaps = find_swaps(*markers);
+    undo_swaps(*markers, swaps);
+  }
+  if (!plan.gaps.empty()) std::visit([&](auto& clip) { mark_gaps(clip, plan.gaps); }, take);
+  return swaps;
+}
+
+CleanResult run_cleaner(const Clip& clip, const CleanPlan& plan, const CleanSettings& settings) {
+  return clean_clip(clip, *plan.cleaner, settings, plan.method);
+}
+MarkerResult run_cleaner(const MarkerClip& clip, const CleanPlan& plan,
+                         const CleanSettings& settings) {
+  return clean_markers(clip, *plan.cleaner, settings, plan.method);
+}
+
+// Cleans the take in place.
+ReportView clean_in_place(Take& take, const CleanPlan& plan) {
+  const std::vector<MarkerSwap> swaps = prepare(take, plan);
+  return std::visit(
+      [&](auto& clip) {
+        CleanSettings settings = plan.settings;
+        if (plan.range)
+          settings.range = frames_of(*plan.range, clip.frame_count(), clip.frame_rate_hz);
+        auto result =
+            tbb::this_task_arena::isolate([&] { return run_cleaner(clip, plan, settings); });
+        clip = std::move(result.clip);
+        ReportView view = view_of(std::move(result.report));
+        view.swaps = swaps;
+        return view;
+      },
+      take);
 }
 
 void clean_take(const CleanJob& job, const CleanPlan& plan, Outcome& outcome) {
   const std::string name = input_name(job.input);
   if (!plan.dry_run) check_free(job.output, plan.force || job.may_replace);
-  ReadOptions options;
-  options.format = plan.format;
-  options.strict = plan.strict;
-  ReadResult take = read_clip(fs::path(job.input), options);
-  for (const Diagnostic& entry : take.diagnostics.entries())
+  TakeResult read = read_take(fs::path(job.input), plan.reading);
+  for (const Diagnostic& entry : read.diagnostics.entries())
     outcome.warnings.push_back(diagnostic_line(name, entry));
-  CleanSettings settings = plan.settings;
-  if (plan.range) settings.range = frames_of(*plan.range, take.clip);
-  const CleanResult result = tbb::this_task_arena::isolate(
-      [&] { return clean_clip(take.clip, *plan.cleaner, settings, plan.method); });
-  if (plan.strict) refuse_warnings(name, result.report);
-  for (const std::string& warning : result.report.warnings)
+  const ReportView report = clean_in_place(read.take, plan);
+  if (plan.strict) refuse_warnings(name, report.warnings);
+  for (const std::string& warning : report.warnings)
     outcome.warnings.push_back(fmt::format("{}: {}", name, warning));
-  if (!plan.dry_run) write_result(job, result.clip, plan);
+  if (!plan.dry_run) write_result(job, read.take, plan);
   const bool is_only = plan.jobs.size() == 1;
-  outcome.text = headline(job, result.report, plan, Colours::of_out());
-  if (is_only || plan.verbose) outcome.text += report_text(result.report, plan.verbose);
+  outcome.text = headline(job, report, plan, Colours::of_out());
+  if (is_only || plan.verbose) outcome.text += report_text(report, plan.verbose);
   const auto entry = [&](bool with_spans) {
     return std::make_shared<const Json>(
-        report_json(job, result.report, take.diagnostics, plan, with_spans));
+        report_json(job, report, read.diagnostics, plan, with_spans));
   };
   if (plan.json) outcome.json = entry(false);
   if (!plan.report_path.empty()) outcome.report = entry(true);

@@ -58,17 +58,18 @@ FrameRange parse_range(const std::string& text) {
   return {first.in_seconds || last.in_seconds, first.value, last.value};
 }
 
-std::pair<std::size_t, std::size_t> frames_of(const FrameRange& range, const Clip& clip) {
-  const auto frames = static_cast<double>(clip.frame_count());
+std::pair<std::size_t, std::size_t> frames_of(const FrameRange& range, std::size_t frame_count,
+                                              double frame_rate_hz) {
+  const auto frames = static_cast<double>(frame_count);
   double first = 0;
   double last = frames - 1;
   if (range.in_seconds) {
     // A frame that lies on an end, give or take the rounding of the rate, belongs to the range.
     constexpr double slack = 1e-6;
-    if (range.last && *range.last * clip.frame_rate_hz > frames + slack)
-      refuse(fmt::format("{}s is after the end, {:.3f}s", *range.last, clip.duration_s()));
-    if (range.first) first = std::ceil(*range.first * clip.frame_rate_hz - slack);
-    if (range.last) last = std::min(last, std::floor(*range.last * clip.frame_rate_hz + slack));
+    if (range.last && *range.last * frame_rate_hz > frames + slack)
+      refuse(fmt::format("{}s is after the end, {:.3f}s", *range.last, frames / frame_rate_hz));
+    if (range.first) first = std::ceil(*range.first * frame_rate_hz - slack);
+    if (range.last) last = std::min(last, std::floor(*range.last * frame_rate_hz + slack));
   } else {
     if (range.last && *range.last > frames)
       refuse(fmt::format("frame {} is outside 1 to {}", *range.last, frames));
@@ -76,7 +77,7 @@ std::pair<std::size_t, std::size_t> frames_of(const FrameRange& range, const Cli
     if (range.last) last = *range.last - 1;
   }
   if (first > last || first >= frames)
-    refuse(fmt::format("holds none of the {} frames", clip.frame_count()));
+    refuse(fmt::format("holds none of the {} frames", frame_count));
   return {static_cast<std::size_t>(first), static_cast<std::size_t>(last)};
 }
 

@@ -5,8 +5,6 @@
 #include <string>
 #include <utility>
 
-#include "kinemend/clip.hpp"
-
 namespace kinemend::cli {
 
 /// `--range`: "121:240" are frames counted from 1, "1.5s:2s" seconds from the start; either end may
@@ -20,8 +18,9 @@ struct FrameRange {
 /// Errors: `ErrorKind::usage`.
 FrameRange parse_range(const std::string& text);
 
-/// Frames [first, last] of this clip, counted from 0. Errors: `ErrorKind::usage` when the range
-/// leaves the clip or holds no frame.
-std::pair<std::size_t, std::size_t> frames_of(const FrameRange& range, const Clip& clip);
+/// Frames [first, last] of a take, counted from 0. Errors: `ErrorKind::usage` when the range leaves
+/// the take or holds no frame.
+std::pair<std::size_t, std::size_t> frames_of(const FrameRange& range, std::size_t frame_count,
+                                              double frame_rate_hz);
 
 }  // namespace kinemend::cli
