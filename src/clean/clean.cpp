@@ -157,6 +157,7 @@ CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner, const CleanSett
     }
     report.warnings = report.fill.warnings;
   }
+  bridge_positions(motion);
   CleanTrace trace = cleaner.clean(motion, selection);
   report.warnings.insert(report.warnings.end(), trace.warnings.begin(), trace.warnings.end());
   state_filled(observed, motion, trace);
@@ -177,6 +178,8 @@ CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner, const CleanSett
   } else {
     result.clip = clip;
     put_back(result.clip.observed, motion.observed, first, clip.joint_count());
+    put_back(result.clip.observed_positions, motion.observed_positions, first,
+             1 + clip.translated_joints.size());
     put_back(result.clip.local_rotations, motion.local_rotations, first, clip.joint_count());
     put_back(result.clip.root_positions, motion.root_positions, first, 1);
     put_back(result.clip.joint_translations, motion.joint_translations, first,

@@ -28,6 +28,26 @@ void for_each_filled(std::vector<std::uint8_t>& observed,
   }
 }
 
+// The same of the root position and the translations, which are selected with their joints.
+void take_over_positions(Clip& clip, const Clip& filled, const std::vector<std::uint8_t>& selected,
+                         const std::vector<double>& weights) {
+  const std::size_t translated = clip.translated_joints.size();
+  std::vector<std::uint8_t> tracks{selected[0]};
+  for (const auto joint : clip.translated_joints)
+    tracks.push_back(selected[static_cast<std::size_t>(joint)]);
+  std::vector<std::uint8_t> all(clip.observed_positions.size(), 1);
+  const auto& now = filled.observed_positions.empty() ? all : filled.observed_positions;
+  for_each_filled(clip.observed_positions, now, tracks, weights, [&](std::size_t i) {
+    const std::size_t frame = i / tracks.size(), track = i % tracks.size();
+    if (track == 0) {
+      clip.root_positions[frame] = filled.root_positions[frame];
+    } else {
+      const std::size_t at = frame * translated + track - 1;
+      clip.joint_translations[at] = filled.joint_translations[at];
+    }
+  });
+}
+
 void drop_unselected(FillReport& report, const std::vector<std::uint8_t>& selected) {
   std::erase_if(report.gaps,
                 [&](const GapOutcome& outcome) { return selected[outcome.gap.track] == 0; });
@@ -37,7 +57,7 @@ void drop_unselected(FillReport& report, const std::vector<std::uint8_t>& select
 
 FillReport fill_step(Clip& clip, const std::vector<std::uint8_t>& selected,
                      const std::vector<double>& weights, const FillSettings& settings) {
-  if (find_gaps(clip).empty()) return {};
+  if (clip.observed.empty() && clip.observed_positions.empty()) return {};
   Clip filled = clip;
   despike(filled);
   FillReport report = fill_gaps(filled, settings);
@@ -45,6 +65,7 @@ FillReport fill_step(Clip& clip, const std::vector<std::uint8_t>& selected,
   if (filled.observed.empty()) filled.observed.assign(filled.local_rotations.size(), 1);
   for_each_filled(clip.observed, filled.observed, selected, weights,
                   [&](std::size_t i) { clip.local_rotations[i] = filled.local_rotations[i]; });
+  take_over_positions(clip, filled, selected, weights);
   return report;
 }
 

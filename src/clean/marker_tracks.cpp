@@ -115,8 +115,7 @@ std::size_t longest_bridge(double frame_rate_hz) { return frames_in(0.25, frame_
 std::size_t bridge_support(double frame_rate_hz) { return frames_in(0.05, frame_rate_hz, 3); }
 
 bool marker_selected(const MarkerClip& clip, const MarkerSelection& selection, std::size_t marker) {
-  return selection.markers[marker] != 0 &&
-         (clip.is_position.empty() || clip.is_position[marker] != 0);
+  return selection.markers[marker] != 0 && clip.holds_positions(marker);
 }
 
 std::vector<MarkerPath> marker_paths(const MarkerClip& clip, const MarkerSelection& selection) {

@@ -165,6 +165,31 @@ void bridge_gaps(Clip& clip, std::span<const std::size_t> joints, CleanTrace& tr
   }
 }
 
+void bridge_positions(Clip& clip) {
+  if (clip.observed_positions.empty()) return;
+  const std::size_t translated = clip.translated_joints.size(), frames = clip.frame_count();
+  for (std::size_t p = 0; p <= translated; ++p) {
+    Vec3* values = p == 0 ? clip.root_positions.data() : clip.joint_translations.data() + p - 1;
+    const std::size_t stride = p == 0 ? 1 : translated;
+    std::vector<std::size_t> seen;
+    for (std::size_t f = 0; f < frames; ++f) {
+      if (clip.is_position_observed(f, p)) seen.push_back(f);
+    }
+    if (seen.empty() || seen.size() == frames) continue;
+    for (std::size_t f = 0, next = 0; f < frames; ++f) {
+      while (next < seen.size() && seen[next] < f) ++next;
+      const std::size_t after = seen[std::min(next, seen.size() - 1)];
+      const std::size_t before = next == 0 || after == f ? after : seen[next - 1];
+      if (after == f) continue;
+      const double share =
+          after > before ? static_cast<double>(f - before) / static_cast<double>(after - before)
+                         : 0;
+      const Vec3 start = values[before * stride];
+      values[f * stride] = start + share * (values[after * stride] - start);
+    }
+  }
+}
+
 double typical_bone_length(const Skeleton& skeleton) {
   double sum = 0, count = 0;
   for (const Vec3& offset : skeleton.offsets) {

@@ -37,6 +37,9 @@ void mark_gaps(const Clip& clip, std::span<const std::size_t> joints, CleanTrace
 /// (the nearest observed sample at the ends of the take), and marks it as filled.
 void bridge_gaps(Clip& clip, std::span<const std::size_t> joints, CleanTrace& trace);
 
+/// Puts the straight line between its observed neighbours into each position that was not observed.
+void bridge_positions(Clip& clip);
+
 /// Mean length of the bones (offsets that are not zero), file units; 1 when there are none. It puts
 /// positions and rotations on one scale: a turn of one radian moves a bone's end by about this.
 double typical_bone_length(const Skeleton& skeleton);

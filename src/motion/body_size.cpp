@@ -47,8 +47,7 @@ double body_height(const MarkerClip& clip) {
     const std::size_t f = sampled < 2 ? 0 : i * (frames - 1) / (sampled - 1);
     seen.clear();
     for (std::size_t m = 0; m < clip.marker_count(); ++m) {
-      const bool is_position = clip.is_position.empty() || clip.is_position[m] != 0;
-      if (is_position && clip.is_observed(f, m)) seen.push_back(clip.position(f, m));
+      if (clip.holds_positions(m) && clip.is_observed(f, m)) seen.push_back(clip.position(f, m));
     }
     for (std::size_t a = 0; a < seen.size(); ++a) {
       for (std::size_t b = a + 1; b < seen.size(); ++b)
