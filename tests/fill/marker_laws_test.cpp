@@ -13,9 +13,12 @@
 namespace kinemend::fill {
 namespace {
 
+// Markers that sway, so that no guess is right by itself.
+MarkerClip swaying_take() { return marker_take("walk", 5, 0.8); }
+
 // Two gaps of half a second and less in the same shank, one elsewhere at the same time.
 MarkerClip damaged_take() {
-  MarkerClip clip = marker_take();
+  MarkerClip clip = swaying_take();
   hide(clip, "LeftLeg_b", 200, 223);
   hide(clip, "LeftLeg_b", 400, 459);
   hide(clip, "LeftLeg_c", 430, 470);
@@ -48,7 +51,7 @@ Vec3 second_difference(const MarkerClip& clip, std::size_t frame, std::size_t ma
 }
 
 TEST_P(MarkerLaws, FilledSpanMeetsItsEndsInValueAndVelocity) {
-  const MarkerClip truth = marker_take();
+  const MarkerClip truth = swaying_take();
   MarkerClip clip = damaged_take();
   const FillReport report = fill_with(clip, GetParam());
   for (const GapOutcome& outcome : report.gaps) {

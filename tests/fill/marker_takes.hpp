@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -14,9 +15,11 @@
 namespace kinemend::fill {
 
 /// A synthetic motion as an optical system sees it: three markers on each of thirteen segments,
-/// centimetres. `names` are the joint's with _a, _b, _c.
+/// centimetres. `names` are the joint's with _a, _b, _c. Each marker sways on its skin by
+/// `sway_cm`, at a pace of its own that no other marker tells of.
 inline MarkerClip marker_take(const std::string& motion = "walk", double duration_s = 5,
-                              double frame_rate_hz = 120) {
+                              double sway_cm = 0) {
+  constexpr double frame_rate_hz = 120;
   const Clip clip =
       synthesize({.motion = motion, .duration_s = duration_s, .frame_rate_hz = frame_rate_hz});
   const char* joints[] = {"Hips",        "LeftUpLeg", "LeftLeg",     "LeftFoot", "RightUpLeg",
@@ -37,8 +40,11 @@ inline MarkerClip marker_take(const std::string& motion = "walk", double duratio
     const Pose pose = forward_kinematics(clip, f);
     for (std::size_t k = 0; k < used.size(); ++k) {
       for (std::size_t i = 0; i < 3; ++i) {
+        const auto m = static_cast<double>(3 * k + i);
+        const double phase = 2 * pi * (0.5 + 0.011 * m) * static_cast<double>(f) / frame_rate_hz;
+        const Vec3 sway{std::sin(phase + m), std::cos(phase + 2 * m), std::sin(phase + 4 * m)};
         take.position(f, 3 * k + i) =
-            pose.positions[used[k]] + rotate(pose.rotations[used[k]], places[i]);
+            pose.positions[used[k]] + rotate(pose.rotations[used[k]], places[i] + sway_cm * sway);
       }
     }
   }
