@@ -13,7 +13,8 @@ namespace fs = std::filesystem;
 std::vector<fs::path> real_takes() {
   std::vector<fs::path> paths;
   for (const auto& entry : fs::recursive_directory_iterator(KINEMEND_DATA_FOLDER)) {
-    if (format_of_path(entry.path()) != nullptr) paths.push_back(entry.path());
+    const Format* const format = format_of_path(entry.path());
+    if (format != nullptr && format->name == "bvh") paths.push_back(entry.path());
   }
   std::sort(paths.begin(), paths.end());
   return paths;
