@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "io/c3d_gaps.hpp"
 #include "io/c3d_layout.hpp"
 #include "io/c3d_parameters.hpp"
+#include "io/marker_zeros.hpp"
 #include "kinemend/marker_clip.hpp"
 
 namespace kinemend {
@@ -19,7 +19,7 @@ struct C3dDocument : SourceDocument {
   C3dProcessor processor = C3dProcessor::intel;
   C3dLayout layout;
   C3dParameters parameters;
-  std::vector<C3dZeroGap> zero_gaps;
+  std::vector<ZeroGap> zero_gaps;
   std::vector<std::string> names;  ///< of the clip, as are the next three
   std::string unit;
   double frame_rate_hz = 0;

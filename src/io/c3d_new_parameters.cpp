@@ -18,7 +18,7 @@ constexpr std::size_t most_frames_looked_at = 200;
 C3dParameter frame_field(const char* name, std::int64_t frame) {
   const auto number = static_cast<std::uint64_t>(std::clamp<std::int64_t>(frame, 0, 0xFFFFFFFF));
   return c3d_integers(name,
-                      {static_cast<double>(number % 65536), static_cast<double>(number / 65536)});
+                      {static_cast<double>(number & 0xFFFF), static_cast<double>(number >> 16)});
 }
 
 // How far the markers of a frame lie apart along y and z, summed over some frames.

@@ -41,13 +41,17 @@ class EntryReader {
 
  private:
   bool has(std::size_t count) const { return end_ - position_ >= count; }
+  int signed_byte(std::size_t offset) const {
+    const int value = source_.byte(offset);
+    return value < 128 ? value : value - 256;
+  }
 
   // False at the end of the list.
   bool read_entry() {
     entry_ = position_;
     if (!has(2)) return false;
-    const int name_length = static_cast<std::int8_t>(source_.byte(position_));
-    const int group = static_cast<std::int8_t>(source_.byte(position_ + 1));
+    const int name_length = signed_byte(position_);
+    const int group = signed_byte(position_ + 1);
     if (name_length == 0 || group == 0) return false;
     position_ += 2;
     const std::size_t length = static_cast<std::size_t>(std::abs(name_length));

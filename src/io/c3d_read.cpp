@@ -123,20 +123,12 @@ class C3dReader {
                    counts.not_finite);
     }
     if (counts.zeros == 0) return;
-    document_.zero_gaps = find_zero_gaps(clip_, resolution());
+    document_.zero_gaps = find_zero_gaps(clip_, layout().is_float ? 0 : layout().scale);
     if (document_.zero_gaps.empty()) return;
-    apply_zero_gaps(document_.zero_gaps, clip_);
-    std::size_t samples = 0;
-    for (const C3dZeroGap& gap : document_.zero_gaps) samples += gap.last - gap.first;
+    mark_missing(document_.zero_gaps, clip_);
     source_.note("zero_is_missing", layout().data_begin,
-                 "a marker is at 0, 0, 0 where it cannot have been; it is missing", samples);
-  }
-
-  // Of a position, in file units: what no measurement is finer than.
-  double resolution() const {
-    constexpr double finest_m = 1e-4;
-    const double metres = metres_per_unit(clip_.unit);
-    return std::max(layout().is_float ? 0 : layout().scale, metres > 0 ? finest_m / metres : 0);
+                 "a marker is at 0, 0, 0 where it cannot have been; it is missing",
+                 sample_count(document_.zero_gaps));
   }
 
   void remember() {

@@ -74,7 +74,7 @@ class Rewriter {
   // What was seen to be missing by the samples around it must not depend on them any more.
   template <class Words>
   void mark_zero_gaps() {
-    for (const C3dZeroGap& gap : document_.zero_gaps) {
+    for (const ZeroGap& gap : document_.zero_gaps) {
       for (std::size_t f = gap.first; f < gap.last; ++f) {
         if (clip_.is_observed(f, gap.marker)) continue;
         write_missing<Words>(out_.data() + layout().data_begin + f * layout().frame_bytes() +

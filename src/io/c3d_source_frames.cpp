@@ -10,7 +10,7 @@ C3dSourceFrames::C3dSourceFrames(const C3dDocument& document)
   points_.resize(c3d_block_frames(layout) * layout.point_count);
   if (document.zero_gaps.empty()) return;
   hidden_.resize(layout.frame_count * layout.point_count);
-  for (const C3dZeroGap& gap : document.zero_gaps) {
+  for (const ZeroGap& gap : document.zero_gaps) {
     for (std::size_t f = gap.first; f < gap.last; ++f)
       hidden_[f * layout.point_count + gap.marker] = 1;
   }

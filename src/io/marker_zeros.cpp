@@ -1,43 +1,114 @@
 #include "io/marker_zeros.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace kinemend {
 
 namespace {
 
-constexpr double near_origin_m = 0.05;
+constexpr double steps_of_a_jump = 20;
+// No measurement is finer than this.
+constexpr double finest_resolution_m = 1e-4;
 constexpr double metres_of_unknown_unit = 0.001;
+// Of a marker whose usual step is not known.
+constexpr double longest_jump_m = 0.05;
+
+// One marker's path.
+class MarkerPath {
+ public:
+  MarkerPath(const MarkerClip& clip, std::size_t marker) : clip_(clip), marker_(marker) {}
+
+  std::size_t frames() const { return clip_.frame_count(); }
+  bool is_seen(std::size_t frame) const { return clip_.is_observed(frame, marker_); }
+  double distance(std::size_t frame) const { return norm(clip_.position(frame, marker_)); }
+  bool is_zero(std::size_t frame) const {
+    return is_seen(frame) && clip_.position(frame, marker_) == Vec3{};
+  }
+  bool is_elsewhere(std::size_t frame) const { return is_seen(frame) && !is_zero(frame); }
+
+  // From frame to frame where it is elsewhere in both; nothing where it never is.
+  std::optional<double> usual_step() const {
+    std::vector<double> steps;
+    for (std::size_t f = 1; f < frames(); ++f) {
+      if (is_elsewhere(f - 1) && is_elsewhere(f))
+        steps.push_back(norm(clip_.position(f, marker_) - clip_.position(f - 1, marker_)));
+    }
+    if (steps.empty()) return std::nullopt;
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+    std::nth_element(steps.begin(), middle, steps.end());
+    return *middle;
+  }
+
+ private:
+  const MarkerClip& clip_;
+  std::size_t marker_;
+};
+
+// What is longer cannot be a step of the marker.
+double longest_step(const MarkerPath& path, double resolution, double metre) {
+  const std::optional<double> usual = path.usual_step();
+  if (!usual) return std::max(longest_jump_m * metre, steps_of_a_jump * resolution);
+  return steps_of_a_jump * std::max({*usual, resolution, finest_resolution_m * metre});
+}
+
+void find_in_path(const MarkerPath& path, std::size_t marker, double resolution, double metre,
+                  std::vector<ZeroGap>& gaps) {
+  double jump = -1;
+  double before = -1;    // distance where it was last elsewhere; negative where it never was
+  std::size_t next = 0;  // where it is elsewhere again
+  for (std::size_t f = 0; f < path.frames(); ++f) {
+    if (path.is_elsewhere(f)) before = path.distance(f);
+    if (!path.is_zero(f)) continue;
+    std::size_t last = f;
+    while (last < path.frames() && path.is_zero(last)) ++last;
+    next = std::max(next, last);
+    while (next < path.frames() && !path.is_elsewhere(next)) ++next;
+    const double after = next < path.frames() ? path.distance(next) : -1;
+    if (jump < 0) jump = longest_step(path, resolution, metre);
+    const bool never_elsewhere = before < 0 && after < 0;
+    if (never_elsewhere ? path.frames() > 1 : std::max(before, after) > jump)
+      gaps.push_back({marker, f, last});
+    f = last - 1;
+  }
+}
 
 }  // namespace
 
-MissingZeros mark_zeros_missing(MarkerClip& clip) {
+std::vector<ZeroGap> find_zero_gaps(const MarkerClip& clip, double resolution) {
+  std::vector<ZeroGap> gaps;
+  // Few takes have any.
+  if (std::find(clip.positions.begin(), clip.positions.end(), Vec3{}) == clip.positions.end())
+    return gaps;
   const double unit_m = metres_per_unit(clip.unit);
-  const double near_origin = near_origin_m / (unit_m > 0 ? unit_m : metres_of_unknown_unit);
-  const std::size_t frames = clip.frame_count(), markers = clip.marker_count();
-  MissingZeros found{0, frames};
-  const auto is_zero = [&](std::size_t f, std::size_t m) {
-    return clip.is_observed(f, m) && clip.position(f, m) == Vec3{};
-  };
-  const auto is_near = [&](std::size_t f, std::size_t m) {
-    return clip.is_observed(f, m) && norm(clip.position(f, m)) < near_origin;
-  };
-  if (std::find(clip.positions.begin(), clip.positions.end(), Vec3{}) == clip.positions.end()) {
-    return found;
+  const double metre = 1 / (unit_m > 0 ? unit_m : metres_of_unknown_unit);
+  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+    if (clip.holds_positions(m)) find_in_path({clip, m}, m, resolution, metre, gaps);
   }
-  for (std::size_t m = 0; m < markers; ++m) {
-    for (std::size_t f = 0; f < frames; ++f) {
-      if (!is_zero(f, m)) continue;
-      const std::size_t first = f;
-      while (f < frames && is_zero(f, m)) ++f;
-      const bool really_there =
-          (first > 0 && is_near(first - 1, m)) || (f < frames && is_near(f, m));
-      if (really_there) continue;
-      for (std::size_t i = first; i < f; ++i) clip.observed[i * markers + m] = 0;
-      found.samples += f - first;
-      found.first_frame = std::min(found.first_frame, first);
+  return gaps;
+}
+
+std::size_t sample_count(const std::vector<ZeroGap>& gaps) {
+  std::size_t samples = 0;
+  for (const ZeroGap& gap : gaps) samples += gap.last - gap.first;
+  return samples;
+}
+
+void mark_missing(const std::vector<ZeroGap>& gaps, MarkerClip& clip) {
+  for (const ZeroGap& gap : gaps) {
+    for (std::size_t f = gap.first; f < gap.last; ++f) {
+      const std::size_t sample = f * clip.marker_count() + gap.marker;
+      clip.observed[sample] = 0;
+      if (!clip.residuals.empty()) clip.residuals[sample] = -1;
     }
   }
+}
+
+MissingZeros mark_zeros_missing(MarkerClip& clip) {
+  const std::vector<ZeroGap> gaps = find_zero_gaps(clip);
+  mark_missing(gaps, clip);
+  MissingZeros found{sample_count(gaps), clip.frame_count()};
+  for (const ZeroGap& gap : gaps) found.first_frame = std::min(found.first_frame, gap.first);
   return found;
 }
 

@@ -1,10 +1,32 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "kinemend/marker_clip.hpp"
 
 namespace kinemend {
+
+/// Frames [first, last) in which a marker stands at the origin because it is missing.
+struct ZeroGap {
+  std::size_t marker = 0;
+  std::size_t first = 0;
+  std::size_t last = 0;
+};
+
+/// Many programs write 0 0 0 where a marker was not seen. Finds the samples at exactly the origin
+/// that no marker can have been at: it would have to jump there, or back, from farther away than 20
+/// times the step that it usually makes from frame to frame (5 cm where that is not known), than 20
+/// `resolution` (file units), and than 2 mm; or it is there in every frame of several. Millimetres
+/// are taken where the clip names no unit that is known. A marker that rests at the origin or
+/// passes through it keeps its samples; so do points that are no positions.
+std::vector<ZeroGap> find_zero_gaps(const MarkerClip& clip, double resolution = 0);
+
+/// How many samples the gaps hold.
+std::size_t sample_count(const std::vector<ZeroGap>& gaps);
+
+/// Makes the samples of gaps missing.
+void mark_missing(const std::vector<ZeroGap>& gaps, MarkerClip& clip);
 
 /// What was found by `mark_zeros_missing`.
 struct MissingZeros {
@@ -12,9 +34,7 @@ struct MissingZeros {
   std::size_t first_frame = 0;  ///< of the first of them
 };
 
-/// Many programs write 0 0 0 where a marker was not seen. Samples at exactly the origin become
-/// missing, unless the marker is really there: a sample beside their run lies within 5 cm of the
-/// origin (in millimetres where the clip names no unit that is known).
+/// Finds gaps of zeros and makes their samples missing.
 MissingZeros mark_zeros_missing(MarkerClip& clip);
 
 }  // namespace kinemend
