@@ -10,8 +10,8 @@ namespace {
 using Help = Program;
 using testing::HasSubstr;
 
-const std::vector<std::string> commands = {"clean",   "info",  "compare",    "methods", "convert",
-                                           "corrupt", "synth", "completion", "man"};
+const std::vector<std::string> commands = {"clean",   "info",    "check", "compare",    "methods",
+                                           "convert", "corrupt", "synth", "completion", "man"};
 
 /// Every `--name` in a command's long help; `--[no-]name` stands for two.
 std::set<std::string> options_in(const std::string& help) {
