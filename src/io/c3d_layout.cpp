@@ -33,16 +33,19 @@ void add_frames(std::vector<FrameClaim>& claims, std::int64_t first, double coun
     claims.push_back({static_cast<std::size_t>(count), first});
 }
 
+std::size_t claimed(std::size_t count) { return count; }
+std::size_t claimed(const FrameClaim& claim) { return claim.count; }
+
 // The claim that most others agree with comes first; else their order stays.
-void sort_by_agreement(std::vector<FrameClaim>& claims) {
-  std::vector<FrameClaim> sorted = claims;
-  const auto agreeing = [&](const FrameClaim& claim) {
+template <class Claim>
+void sort_by_agreement(std::vector<Claim>& claims) {
+  std::vector<Claim> sorted = claims;
+  const auto agreeing = [&](const Claim& claim) {
     return std::count_if(claims.begin(), claims.end(),
-                         [&](const FrameClaim& other) { return other.count == claim.count; });
+                         [&](const Claim& other) { return claimed(other) == claimed(claim); });
   };
-  std::stable_sort(sorted.begin(), sorted.end(), [&](const FrameClaim& a, const FrameClaim& b) {
-    return agreeing(a) > agreeing(b);
-  });
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](const Claim& a, const Claim& b) { return agreeing(a) > agreeing(b); });
   claims = std::move(sorted);
 }
 
@@ -80,7 +83,8 @@ class LayoutFinder {
       if (header_.point_count > 0)
         note("scale_assumed", 7, "the file has no scale; its integers are taken as they are");
     } else if (parameter && usable(*parameter) && usable(in_header) &&
-               std::fabs(*parameter - in_header) > 1e-4 * std::fabs(in_header)) {
+               std::fabs(std::fabs(*parameter) - std::fabs(in_header)) >
+                   1e-4 * std::fabs(in_header)) {
       note("scale_mismatch", 7,
            fmt::format("the header's scale is {:.6g}, POINT:SCALE is {:.6g}, which is taken",
                        in_header, *parameter));
@@ -128,13 +132,13 @@ class LayoutFinder {
   }
 
   void collect_analog_claims() {
-    add_claim(analog_, std::optional(header_.analog_values));
     const std::size_t used = analog_count();
-    add_claim(analog_, std::optional(used * header_.analog_instants));
+    std::vector<std::size_t> claims{header_.analog_values, used * header_.analog_instants};
     const double ratio = parameters_.number("ANALOG", "RATE").value_or(0) / layout_.rate_hz;
-    if (ratio >= 1 && ratio < most_in_a_word) {
-      add_claim(analog_, std::optional(used * static_cast<std::size_t>(std::lround(ratio))));
-    }
+    if (ratio >= 1 && ratio < most_in_a_word)
+      claims.push_back(used * static_cast<std::size_t>(std::lround(ratio)));
+    sort_by_agreement(claims);
+    for (const std::size_t claim : claims) add_claim(analog_, std::optional(claim));
   }
 
   // The numbers of the first and the last frame, each as low word, high word. Some writers multiply
@@ -242,15 +246,15 @@ class LayoutFinder {
            fmt::format("the header says {} points, POINT:USED {}; {} are read", header_.point_count,
                        points_[0], layout_.point_count));
     }
-    if (layout_.is_float != first.is_float) {
+    if (floats_.size() > 1) {
       note("number_format_mismatch", 7,
            fmt::format("the signs of the header's scale and POINT:SCALE differ; the file's length "
                        "is that of {}",
                        layout_.is_float ? "reals" : "integers"));
     }
-    if (layout_.analog_values != first.analog_values) {
+    if (layout_.analog_values != header_.analog_values) {
       note("analog_count_mismatch", 3,
-           fmt::format("the header says {} analog values a frame; the file's length is that of {}",
+           fmt::format("the header says {} analog values a frame, where there are {}",
                        header_.analog_values, layout_.analog_values));
     }
     if (layout_.frame_count != first.frame_count) {

@@ -173,6 +173,14 @@ TEST(RealC3d, ReadsWhatIsKnownOfTheTakes) {
   EXPECT_EQ(std::count(paired.is_position.begin(), paired.is_position.end(), 0), 11);
 }
 
+TEST(RealC3d, ReadsMoreThan255AnalogChannels) {
+  const MarkerClip clip = read_real(suite / "others/many_analogs.c3d");
+  const C3dAnalog analog = decode_c3d_analog(document_of(clip));
+  ASSERT_EQ(analog.names.size(), 922u);
+  EXPECT_NE(analog.names[921], "");
+  EXPECT_EQ(analog.values.size(), 922u * clip.frame_count());
+}
+
 // This program writes 65,535 and zeros where a marker is missing.
 TEST(RealC3d, NoMarkerOfTheRollingTakeIsAtTheOrigin) {
   const MarkerClip clip = read_real(data / "c3d/other/03_rolling.c3d");
