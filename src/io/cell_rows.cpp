@@ -58,6 +58,11 @@ std::size_t next_line(std::string_view text, std::size_t begin) {
   return end + (text.substr(end, 2) == "\r\n" ? 2 : 1);
 }
 
+std::size_t estimate_rows(std::string_view text, std::size_t begin) {
+  constexpr std::size_t spare = 16;
+  return (text.size() - begin) / (line_from(text, begin).size() + 1) + spare;
+}
+
 std::vector<std::string> split_cells(std::string_view line, char separator) {
   std::vector<std::string> cells;
   const char* p = line.data();

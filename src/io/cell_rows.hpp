@@ -22,6 +22,9 @@ std::string_view line_from(std::string_view text, std::size_t begin);
 /// Where the line after the one at `begin` starts; the text's size after the last.
 std::size_t next_line(std::string_view text, std::size_t begin);
 
+/// About how many rows there are from `begin`, by the length of the first.
+std::size_t estimate_rows(std::string_view text, std::size_t begin);
+
 /// The cells of a line without blanks or quotes around them; two quotes within quotes are one. An
 /// empty cell after the last separator is left out.
 std::vector<std::string> split_cells(std::string_view line, char separator);

@@ -7,6 +7,8 @@
 #include "io/asf.hpp"
 #include "io/bvh.hpp"
 #include "io/c3d.hpp"
+#include "io/csv.hpp"
+#include "io/gltf.hpp"
 #include "io/text.hpp"
 #include "io/trc.hpp"
 #include "kinemend/error.hpp"
@@ -73,6 +75,20 @@ std::span<const Format> formats() {
       {"asf", "Acclaim skeleton", {".asf"}, &sniff_asf, &read_asf, &write_asf, nullptr},
       {"c3d", "C3D motion capture", {".c3d"}, &sniff_c3d, &read_c3d, nullptr, &write_c3d},
       {"trc", "Track Row Column", {".trc"}, &sniff_trc, &read_trc, nullptr, &write_trc},
+      {"csv",
+       "Table of markers or joints",
+       {".csv"},
+       &sniff_csv,
+       &read_csv,
+       &write_csv,
+       &write_csv_markers},
+      {"glb",
+       "Binary glTF 2.0, an animated skeleton or markers",
+       {".glb"},
+       &sniff_glb,
+       nullptr,
+       &write_glb,
+       &write_glb_markers},
   };
   return list;
 }

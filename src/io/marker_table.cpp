@@ -31,12 +31,12 @@ class TableReader {
 
   TableFinding read() {
     table_.end = table_.begin;
-    reserve();
+    reserve(std::min(declared_frames_, estimate_rows(text_.bytes, table_.begin)));
     while (rows_.next()) {
       row_begin_ = rows_.position();
       const CellRow row = rows_.read(values_.data(), width_);
       if (row.fault != nullptr && is_trailing_text(row)) break;
-      if (row.fault != nullptr) fail(row.fault);
+      if (row.fault != nullptr) fail_at_cell(text_, row.fault, table_.style.separator);
       if (row.used > width_) return wider_than(row.used);
       if (table_.is_filler(row)) continue;
       store(row);
@@ -57,10 +57,10 @@ class TableReader {
 
   std::size_t bytes_per_frame() const { return markers_ * (sizeof(Vec3) + 2) + 16; }
 
-  void reserve() {
-    const std::size_t most = (text_.bytes.size() - table_.begin) / std::max<std::size_t>(1, width_);
+  // Never for more frames than may be.
+  void reserve(std::size_t frames) {
     const std::size_t affordable = memory_limit(text_.bytes.size()) / bytes_per_frame();
-    const std::size_t count = std::min({declared_frames_, most + 1, affordable});
+    const std::size_t count = std::min(frames, affordable);
     clip_.positions.reserve(count * markers_);
     clip_.observed.reserve(count * markers_);
   }
@@ -73,14 +73,6 @@ class TableReader {
     if (std::any_of(line.begin(), line.end(), [](char c) { return !is_space(c); })) return false;
     note_repair(text_, diagnostics_, "trailing_text", place, "text after the last frame");
     return true;
-  }
-
-  [[noreturn]] void fail(const char* place) const {
-    const auto offset = static_cast<std::size_t>(place - text_.bytes.data());
-    std::string_view cell = line_from(text_.bytes, offset);
-    cell = cell.substr(0, table_.style.separator == ' ' ? cell.find_first_of(" \t")
-                                                        : cell.find(table_.style.separator));
-    throw text_.error_at(place, fmt::format("expected a number, found {}", quote(cell)));
   }
 
   TableFinding wider_than(std::size_t widest) {
@@ -106,6 +98,8 @@ class TableReader {
     label(table_.frame_column, finding_.labels.frames);
     label(table_.time_column, finding_.labels.times_s);
     const std::size_t first = clip_.positions.size();
+    // More frames than expected: room for all there can be, at once rather than by doubling.
+    if (first + markers_ > clip_.positions.capacity()) reserve(text_.bytes.size());
     clip_.positions.resize(first + markers_);
     clip_.observed.resize(first + markers_);
     Vec3* const positions = clip_.positions.data() + first;
@@ -238,6 +232,13 @@ std::size_t MarkerTable::width() const {
 TableFinding read_marker_table(const SourceText& text, Diagnostics& diagnostics,
                                std::size_t declared_frames, MarkerTable& table, MarkerClip& clip) {
   return TableReader(text, diagnostics, declared_frames, table, clip).read();
+}
+
+void fail_at_cell(const SourceText& text, const char* place, char separator) {
+  std::string_view cell =
+      line_from(text.bytes, static_cast<std::size_t>(place - text.bytes.data()));
+  cell = cell.substr(0, separator == ' ' ? cell.find_first_of(" \t") : cell.find(separator));
+  throw text.error_at(place, fmt::format("expected a number, found {}", quote(cell)));
 }
 
 RowRate check_row_labels(const SourceText& text, Diagnostics& diagnostics, const MarkerTable& table,

@@ -71,6 +71,9 @@ struct RowRate {
 RowRate check_row_labels(const SourceText& text, Diagnostics& diagnostics, const MarkerTable& table,
                          const RowLabels& labels, MarkerClip& clip);
 
+/// Throws that the cell at `place` is no number.
+[[noreturn]] void fail_at_cell(const SourceText& text, const char* place, char separator);
+
 /// Most decimals of any coordinate; 10 where it is more than 9, or one has an exponent.
 unsigned decimals_of(std::string_view bytes, const MarkerTable& table);
 

@@ -110,7 +110,8 @@ TEST(TrcWriter, SpacesAndCommasStay) {
 TEST(TrcWriter, RandomChangesReadBackAndLeaveTheRestAlone) {
   Random random(5);
   for (const auto& path : fixture_paths("trc")) {
-    if (path.parent_path().filename() != "good") continue;
+    // Markers without a name are as many as the widest row has, which may change.
+    if (path.parent_path().filename() != "good" || path.stem() == "unnamed") continue;
     SCOPED_TRACE(path.filename());
     const MarkerClip source = read_markers(read_file(path));
     for (int round = 0; round < 40; ++round) {

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "kinemend/io.hpp"
+
+namespace kinemend {
+
+/// How surely the head of a file is a CSV table of markers or joints, 0 to 100.
+int sniff_csv(std::string_view head);
+/// Reads tables of markers or joints (docs/formats/csv.md). Errors: `unreadable_input`, naming the
+/// line.
+TakeResult read_csv(std::string bytes, std::string_view name, const ReadOptions& options);
+/// A take read from CSV comes out in its source's layout, with the digits of every sample that has
+/// not changed; any other in a plain layout. Errors: `usage` when the format cannot hold the take.
+std::string write_csv(const Clip& clip);
+std::string write_csv_markers(const MarkerClip& clip);
+
+}  // namespace kinemend
