@@ -8,7 +8,7 @@ namespace kinemend::fill {
 
 namespace {
 
-constexpr std::size_t most_training_frames = 256;
+constexpr std::size_t most_training_frames = 192;
 constexpr std::size_t most_shape_frames = 64;
 // Observed frames on either side of a gap that tell how a prediction has to be moved.
 constexpr std::size_t most_beside = 12;
@@ -39,7 +39,8 @@ LocalRegression::LocalRegression(const Samples& samples, const MarkerGap& gap,
                                  std::span<const Companion> companions, std::size_t most_companions)
     : samples_(samples), marker_(gap.marker), group_(make_group(companions, most_companions)) {
   if (group_.markers().empty()) return;
-  for (std::size_t f = 0; f < samples.frames; ++f) {
+  const Span evidence = evidence_around(samples, gap);
+  for (std::size_t f = evidence.first; f <= evidence.last; ++f) {
     if (samples.measures(f, marker_) && !gap.covers(f) && group_.seen_in(samples, f)) {
       training_.push_back(f);
     }

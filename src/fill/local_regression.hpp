@@ -22,7 +22,7 @@ class LocalRegression {
   /// Rows of three coordinates, or of all companions', in the companions' frame of reference.
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  /// Learns from at most 256 frames outside the gap, with the first `most_companions` of those
+  /// Learns from at most 192 frames outside the gap, with the first `most_companions` of those
   /// given
   /// (`companions_of`).
   LocalRegression(const Samples& samples, const MarkerGap& gap,

@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view name = "auto";
 constexpr double longest_curve_s = 0.1;
 constexpr std::size_t trials = 5;
-constexpr std::size_t trial_frames = 16;
+constexpr std::size_t trial_frames = 12;
 constexpr std::size_t least_companions = 3;
 // Expected errors beyond this share of the body's radius are refused.
 constexpr double largest_error = 0.1;

@@ -112,7 +112,8 @@ std::vector<Companion> companions_of(const Samples& samples, const MarkerGap& ga
                                      std::span<const std::size_t> helpers,
                                      std::size_t most_frames) {
   std::vector<std::size_t> frames;
-  for (std::size_t f = 0; f < samples.frames; ++f) {
+  const Span evidence = evidence_around(samples, gap);
+  for (std::size_t f = evidence.first; f <= evidence.last; ++f) {
     if (samples.measures(f, gap.marker) && !gap.covers(f)) frames.push_back(f);
   }
   frames = evenly(frames, most_frames);

@@ -31,6 +31,12 @@ double body_radius(const Samples& samples) {
   return count > 0 ? std::sqrt(sum / count) : 0;
 }
 
+Span evidence_around(const Samples& samples, const MarkerGap& gap) {
+  const std::size_t reach = std::max(samples.frames_in(60, 1), 10 * gap.span.length());
+  return {gap.span.first - std::min(gap.span.first, reach),
+          std::min(samples.frames - 1, gap.span.last + reach)};
+}
+
 std::vector<std::size_t> frames_beside(const Samples& samples, const MarkerGap& gap,
                                        std::size_t most, std::size_t reach) {
   std::vector<std::size_t> found;

@@ -48,6 +48,10 @@ struct MarkerGap {
 /// frames; 0 where no two are seen together.
 double body_radius(const Samples& samples);
 
+/// The frames that a gap is filled from: a minute on either side, or ten times its length where
+/// that is more, so that the cost of a gap does not grow with the take.
+Span evidence_around(const Samples& samples, const MarkerGap& gap);
+
 /// Observed frames of the gap's marker near the gap, up to `most` on either side and none farther
 /// than `reach` frames, ascending.
 std::vector<std::size_t> frames_beside(const Samples& samples, const MarkerGap& gap,

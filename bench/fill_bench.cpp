@@ -1,0 +1,92 @@
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "kinemend/fill.hpp"
+#include "kinemend/gaps.hpp"
+#include "kinemend/kinematics.hpp"
+#include "kinemend/random.hpp"
+#include "kinemend/synth.hpp"
+
+// Filling all gaps of a take of 41 markers at 120 Hz: 60 gaps of 10 to 200 frames in a take of
+// 4,500 frames, and as many a second in longer ones. ms is the figure.
+namespace {
+
+using kinemend::Vec3;
+
+constexpr std::size_t marker_count = 41;
+constexpr std::size_t frames_per_gap = 75;
+
+// Markers about the joints of a walker who turns about, each with a sway of its own.
+kinemend::MarkerClip whole_take(std::size_t frames) {
+  const kinemend::Clip clip = kinemend::synthesize(
+      {.motion = "stroll", .duration_s = (static_cast<double>(frames) + 1) / 120});
+  std::vector<std::string> names;
+  for (std::size_t m = 0; m < marker_count; ++m) names.push_back("m" + std::to_string(m));
+  kinemend::MarkerClip take = kinemend::make_marker_clip(names, frames, 120);
+  take.observed.assign(take.positions.size(), 1);
+  kinemend::Random random(1);
+  std::vector<Vec3> places;
+  for (std::size_t m = 0; m < marker_count; ++m) {
+    places.push_back({random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(-9, 9)});
+  }
+  for (std::size_t f = 0; f < frames; ++f) {
+    const kinemend::Pose pose = kinemend::forward_kinematics(clip, f);
+    for (std::size_t m = 0; m < marker_count; ++m) {
+      const std::size_t joint = m % 24;
+      const auto phase = 0.03 * static_cast<double>(f) + static_cast<double>(m);
+      const Vec3 sway{0.4 * std::sin(phase), 0.4 * std::cos(1.3 * phase), 0.02 * random.normal()};
+      take.position(f, m) =
+          pose.positions[joint] + kinemend::rotate(pose.rotations[joint], places[m] + sway);
+    }
+  }
+  return take;
+}
+
+kinemend::MarkerClip damaged_take(std::size_t frames) {
+  kinemend::MarkerClip take = whole_take(frames);
+  kinemend::Random random(2);
+  for (std::size_t gap = 0; gap < frames / frames_per_gap; ++gap) {
+    const std::size_t length = 10 + random.below(191);
+    const std::size_t first = 1 + random.below(frames - length - 2);
+    const kinemend::NamedGap named{take.names[random.below(marker_count)], first,
+                                   first + length - 1};
+    kinemend::mark_gaps(take, {&named, 1});
+  }
+  return take;
+}
+
+void fill(benchmark::State& state, const char* method) {
+  const kinemend::MarkerClip damaged = damaged_take(static_cast<std::size_t>(state.range(0)));
+  kinemend::FillSettings settings;
+  settings.method = method;
+  settings.fill_all = true;
+  settings.donor = damaged.names[0];
+  std::size_t filled = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    kinemend::MarkerClip take = damaged;
+    state.ResumeTiming();
+    filled = kinemend::fill_gaps(take, settings).filled();
+    benchmark::DoNotOptimize(take.positions.data());
+  }
+  state.counters["gaps"] = static_cast<double>(filled);
+}
+
+// CPU time is that of all threads together.
+void settle(benchmark::internal::Benchmark* bench) {
+  bench->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+}
+
+BENCHMARK_CAPTURE(fill, auto, "auto") -> Arg(4500) -> Arg(18000) -> Arg(71900) -> Apply(settle);
+BENCHMARK_CAPTURE(fill, spline, "spline")->Arg(4500)->Apply(settle);
+BENCHMARK_CAPTURE(fill, quintic, "quintic")->Arg(4500)->Apply(settle);
+BENCHMARK_CAPTURE(fill, pattern, "pattern")->Arg(4500)->Apply(settle);
+BENCHMARK_CAPTURE(fill, rigid_body, "rigid-body")->Arg(4500)->Apply(settle);
+BENCHMARK_CAPTURE(fill, pca, "pca")->Arg(4500)->Apply(settle);
+BENCHMARK_CAPTURE(fill, local_regression, "local-regression")->Arg(4500)->Apply(settle);
+BENCHMARK_CAPTURE(fill, cyclic, "cyclic")->Arg(4500)->Apply(settle);
+
+}  // namespace
