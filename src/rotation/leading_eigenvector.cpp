@@ -11,15 +11,15 @@ Quat leading_eigenvector(Matrix4 matrix, Quat fallback) {
   }
   for (int squaring = 0; squaring < 48; ++squaring) {
     Matrix4 square{};
-    double trace = 0;
     for (std::size_t r = 0; r < 4; ++r) {
-      for (std::size_t c = 0; c < 4; ++c) {
-        for (std::size_t k = 0; k < 4; ++k) square[r][c] += matrix[r][k] * matrix[k][c];
+      for (std::size_t c = r; c < 4; ++c) {
+        for (std::size_t k = 0; k < 4; ++k) square[r][c] += matrix[r][k] * matrix[c][k];
       }
-      trace += square[r][r];
     }
+    const double trace = square[0][0] + square[1][1] + square[2][2] + square[3][3];
+    const double scale = 1 / trace;
     for (std::size_t r = 0; r < 4; ++r) {
-      for (std::size_t c = 0; c < 4; ++c) matrix[r][c] = square[r][c] / trace;
+      for (std::size_t c = r; c < 4; ++c) matrix[r][c] = matrix[c][r] = scale * square[r][c];
     }
     if (trace > 1 - 1e-15) break;  // of rank one
   }
