@@ -3,7 +3,9 @@ SHELL := /bin/bash
 JOBS ?= $(shell nproc)
 PYTHON ?= /usr/bin/python3
 BUILD := build
-KINEMEND := $(BUILD)/release/cli/kinemend
+# What `build`, `demo` and `install-test` use: `dev` has the same code in it, with tests and benchmarks beside it.
+PRESET ?= release
+KINEMEND := $(BUILD)/$(PRESET)/cli/kinemend
 DEMO := build/demo
 
 .PHONY: help setup build demo test asan lint format bench bench-quick papers papers-quick fuzz install-test clean
@@ -15,8 +17,8 @@ setup: ## install the Debian packages of packages.txt that are missing
 	@tools/install_packages packages.txt
 
 build: setup ## the command line and the library, as they ship
-	cmake --preset release >/dev/null
-	cmake --build --preset release -j $(JOBS)
+	cmake --preset $(PRESET) >/dev/null
+	cmake --build --preset $(PRESET) -j $(JOBS)
 
 demo: build ## clean the noisy take that ships with the project
 	@mkdir -p $(DEMO)
@@ -68,7 +70,7 @@ fuzz: setup ## fuzz each reader for a minute (FUZZ_SECONDS=60)
 	tools/run_fuzzers $${FUZZ_SECONDS:-60}
 
 install-test: build ## install into a folder and build the README's snippet against it
-	tools/install_test $(BUILD)/release
+	tools/install_test $(BUILD)/$(PRESET)
 
 clean: ## remove everything that was built
 	rm -rf $(BUILD)
