@@ -11,9 +11,9 @@ namespace kinemend::cli {
 
 const std::vector<Command>& commands() {
   static const std::vector<Command> table = {
-      clean_command(),   batch_command(),      info_command(),    check_command(),
-      compare_command(), methods_command(),    convert_command(), corrupt_command(),
-      synth_command(),   completion_command(), man_command()};
+      clean_command(),   batch_command(),   fill_command(),       info_command(),
+      check_command(),   compare_command(), methods_command(),    convert_command(),
+      corrupt_command(), synth_command(),   completion_command(), man_command()};
   return table;
 }
 

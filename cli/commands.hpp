@@ -7,6 +7,7 @@ namespace kinemend::cli {
 
 Command clean_command();
 Command batch_command();
+Command fill_command();
 Command info_command();
 Command check_command();
 Command compare_command();

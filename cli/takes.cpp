@@ -107,11 +107,29 @@ std::vector<std::string> format_names() {
   return names;
 }
 
+std::vector<Flag> reading_flags(std::string strict_help) {
+  Flag asf = text_flag("asf", "FILE", "Input", "skeleton of an AMC file",
+                       "Without it: the ASF file that the AMC file names, or one beside it.");
+  asf.completion = Completion::file;
+  Flag fps = number_flag("fps", "Hz", 120, 0.001, 100000, "Input",
+                         "frame rate of a file that does not state it",
+                         "Formats that state one ignore it.");
+  fps.has_default = false;
+  return {from_flag(), asf, fps, strict_flag(std::move(strict_help))};
+}
+
 ReadOptions read_options(const Arguments& arguments) {
   ReadOptions options;
   options.format = arguments.text("from");
   options.strict = arguments.flag("strict");
+  if (arguments.given("asf")) options.skeleton = arguments.text("asf");
+  if (arguments.given("fps")) options.frame_rate_hz = arguments.number("fps");
   return options;
+}
+
+std::string format_for(const std::string& output, const SourceInfo& source) {
+  const Format* format = output == "-" ? nullptr : format_of_path(output);
+  return format ? std::string(format->name) : source.format;
 }
 
 }  // namespace kinemend::cli

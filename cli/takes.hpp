@@ -36,10 +36,14 @@ Flag force_flag();
 Flag json_flag(std::string help);
 Flag output_flag(std::string help);
 Flag seed_flag(std::string help);
-/// The flags of reading: --from, --strict.
 Flag from_flag();
 Flag strict_flag(std::string help);
+/// All flags that `read_options` understands: --from, --asf, --fps, --strict.
+std::vector<Flag> reading_flags(std::string strict_help);
 std::vector<std::string> format_names();
+/// Of the flags that the command has.
 ReadOptions read_options(const Arguments& arguments);
+/// The format to write: that of the output's extension, else the input's own.
+std::string format_for(const std::string& output, const SourceInfo& source);
 
 }  // namespace kinemend::cli
