@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::string_view name = "auto";
 constexpr double longest_curve_s = 0.1;
+constexpr double longest_spline_s = 1;
 constexpr std::size_t trials = 5;
 constexpr std::size_t trial_frames = 12;
 constexpr std::size_t least_companions = 3;
@@ -158,7 +159,11 @@ Filling without_support(const Samples& samples, const MarkerGap& gap,
                         const MarkerRequest& request) {
   Filling filling = fill_by_cycles(samples, gap, request);
   if (!filling.positions.empty()) return filling;
-  if (request.lenient) return fill_by_quintic(samples, gap, request);
+  if (request.lenient) {
+    // A spline goes far astray in a long gap; a curve without overshoot does not.
+    const bool is_long = gap.span.length() > samples.frames_in(longest_spline_s, 1);
+    return (is_long ? fill_by_pchip : fill_by_spline)(samples, gap, request);
+  }
   filling = Filling::refused(name,
                              "too long for a curve, fewer than three other markers are seen "
                              "throughout the gap, and no other cycles are alike");

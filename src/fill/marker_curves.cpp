@@ -58,7 +58,7 @@ Filling fill_by_curve(const Samples& samples, const MarkerGap& gap, const Marker
     }
   }
   std::vector<Vec3> positions = curve_positions(samples, gap, curve);
-  if (positions.empty()) return Filling::refused(name, "the marker is not seen near the gap");
+  if (positions.empty()) return Filling::refused(name, "the marker is never seen");
   Filling filling{std::move(positions), std::string(name)};
   filling.is_evidence = false;
   return filling;

@@ -32,10 +32,10 @@ constexpr NamedMethod marker_methods[] = {
     {"cyclic", fill::fill_by_cycles},
 };
 
-fill::FillMarkerGap method_of(std::string_view name) {
+const NamedMethod& method_of(std::string_view name) {
   std::vector<std::string_view> known;
   for (const NamedMethod& method : marker_methods) {
-    if (method.name == name) return method.fill;
+    if (method.name == name) return method;
     known.push_back(method.name);
   }
   throw Error(ErrorKind::usage,
@@ -97,10 +97,11 @@ Samples samples_of(const MarkerClip& clip, const std::vector<std::uint8_t>& seen
 // Fills the gaps of a clip in rounds: what one round fills is evidence for the next.
 class Filler {
  public:
-  Filler(MarkerClip& clip, fill::FillMarkerGap method, const MarkerRequest& request,
+  Filler(MarkerClip& clip, const NamedMethod& method, const MarkerRequest& request,
          std::vector<Gap> gaps)
       : clip_(clip),
-        method_(method),
+        name_(method.name),
+        method_(method.fill),
         request_(request),
         gaps_(std::move(gaps)),
         fillings_(gaps_.size()),
@@ -151,7 +152,7 @@ class Filler {
     std::vector<Filling> found(chosen.size());
     tbb::parallel_for(std::size_t{0}, chosen.size(), [&](std::size_t i) {
       const Gap& gap = gaps_[chosen[i]];
-      found[i] = method_(samples, {gap.track, {gap.first_frame, gap.last_frame}}, request_);
+      found[i] = attempt(samples, {gap.track, {gap.first_frame, gap.last_frame}});
     });
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       Filling& before = fillings_[chosen[i]];
@@ -162,6 +163,16 @@ class Filler {
       before = std::move(found[i]);
       put(gaps_[chosen[i]], before);
     }
+  }
+
+  // The method, or where all are to be filled and it cannot, the best guess there is.
+  Filling attempt(const Samples& samples, const MarkerGap& gap) const {
+    if (gap.span.length() == samples.frames) {
+      return Filling::refused(name_, "the marker is never seen");
+    }
+    Filling filling = method_(samples, gap, request_);
+    if (!filling.positions.empty() || !request_.lenient) return filling;
+    return fill::fill_by_auto(samples, gap, request_);
   }
 
   void put(const Gap& gap, const Filling& filling) {
@@ -200,6 +211,7 @@ class Filler {
   }
 
   MarkerClip& clip_;
+  std::string_view name_;
   fill::FillMarkerGap method_;
   MarkerRequest request_;
   std::vector<Gap> gaps_;
@@ -211,7 +223,7 @@ class Filler {
 
 FillReport fill_gaps(MarkerClip& clip, const FillSettings& settings) {
   clip.validate();
-  const fill::FillMarkerGap method = method_of(settings.method);
+  const NamedMethod& method = method_of(settings.method);
   const std::vector<std::uint8_t> chosen = chosen_markers(clip, settings.names);
   const MarkerRequest request{donor_of(clip, settings), settings.longest_gap_s, settings.fill_all};
   std::vector<Gap> gaps = find_gaps(clip);

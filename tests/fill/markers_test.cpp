@@ -193,6 +193,23 @@ TEST(SplineFill, RefusesWhatIsLongOrOpenAndSaysWhy) {
   EXPECT_EQ(report.filled(), 1U);
 }
 
+TEST(MarkerFill, RefusesAMarkerThatIsNeverSeenHoweverMuchIsAskedFor) {
+  MarkerClip clip = marker_take("walk", 1);
+  hide(clip, "Head_a", 0, clip.frame_count() - 1);
+  const FillReport report = fill_with(clip, "auto", true);
+  ASSERT_EQ(report.refused(), 1U);
+  EXPECT_EQ(report.gaps[0].reason, "the marker is never seen");
+}
+
+TEST(MarkerFill, TakesTheBestGuessWhereAllIsAskedForAndTheMethodHasNone) {
+  MarkerClip clip = marker_take("punch", 3);
+  hide(clip, "Head_a", 100, 180);
+  MarkerClip other = clip;
+  EXPECT_EQ(fill_with(clip, "cyclic").refused(), 1U);
+  const FillReport report = fill_with(other, "cyclic", true);
+  ASSERT_EQ(report.filled(), 1U);
+}
+
 TEST(MarkerFill, FillsOnlyTheMarkersThatAreNamed) {
   MarkerClip clip = marker_take();
   hide(clip, "Head_a", 100, 110);
