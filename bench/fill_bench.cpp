@@ -1,4 +1,5 @@
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <string>
@@ -24,7 +25,7 @@ kinemend::MarkerClip whole_take(std::size_t frames) {
   const kinemend::Clip clip = kinemend::synthesize(
       {.motion = "stroll", .duration_s = (static_cast<double>(frames) + 1) / 120});
   std::vector<std::string> names;
-  for (std::size_t m = 0; m < marker_count; ++m) names.push_back("m" + std::to_string(m));
+  for (std::size_t m = 0; m < marker_count; ++m) names.push_back(fmt::format("m{}", m));
   kinemend::MarkerClip take = kinemend::make_marker_clip(names, frames, 120);
   take.observed.assign(take.positions.size(), 1);
   kinemend::Random random(1);

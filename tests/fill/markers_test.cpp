@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -65,7 +66,7 @@ TEST(PcaFill, IsExactWhereTheMovementHasFewComponents) {
   // Twelve markers whose coordinates are mixtures of four waves.
   const std::size_t frames = 600;
   std::vector<std::string> names;
-  for (int m = 0; m < 12; ++m) names.push_back("m" + std::to_string(m));
+  for (int m = 0; m < 12; ++m) names.push_back(fmt::format("m{}", m));
   MarkerClip truth = make_marker_clip(names, frames, 100);
   truth.observed.assign(truth.positions.size(), 1);
   Random random(3);
@@ -268,7 +269,7 @@ class MeagreTakes : public ::testing::TestWithParam<std::string> {
   }
   static MarkerClip take(std::size_t markers, std::size_t frames) {
     std::vector<std::string> names;
-    for (std::size_t m = 0; m < markers; ++m) names.push_back("m" + std::to_string(m));
+    for (std::size_t m = 0; m < markers; ++m) names.push_back(fmt::format("m{}", m));
     MarkerClip clip = make_marker_clip(names, frames, 100);
     clip.observed.assign(clip.positions.size(), 1);
     for (std::size_t i = 0; i < clip.positions.size(); ++i) {
@@ -308,7 +309,7 @@ TEST_P(MeagreTakes, AreFilledOrRefusedWithoutHarm) {
   for (const std::size_t markers : {1U, 2U, 3U, 4U, 7U}) {
     for (const std::size_t frames : {1U, 2U, 3U, 10U, 60U}) {
       MarkerClip whole = take(markers, frames);
-      SCOPED_TRACE(std::to_string(markers) + " markers, " + std::to_string(frames) + " frames");
+      SCOPED_TRACE(fmt::format("{} markers, {} frames", markers, frames));
       check(whole);
       MarkerClip clip = whole;
       hide(clip, "m0", 0, 0);
