@@ -48,14 +48,14 @@ void report_length(const std::vector<double>& change_percent, const std::string&
 struct RigidNeighbour {
   std::size_t marker = 0;
   double distance = 0;
-  double spread = 0;  // 5th to 95th percentile
+  double spread = 0;  // quartile range
 };
 
 // Markers at a distance that hardly changes: those of the same segment.
 std::vector<RigidNeighbour> rigid_neighbours(const MarkerClip& clip,
                                              const std::vector<std::size_t>& markers,
                                              std::size_t of) {
-  constexpr double rigid_share = 0.05;
+  constexpr double rigid_share = 0.022;
   constexpr std::size_t wanted = 4, fewest_frames = 20;
   const std::size_t frames = clip.frame_count(), count = std::min(frames, looked_at);
   std::vector<RigidNeighbour> found;
@@ -69,7 +69,7 @@ std::vector<RigidNeighbour> rigid_neighbours(const MarkerClip& clip,
         distances.push_back(norm(clip.position(f, of) - clip.position(f, n)));
     }
     if (distances.size() < fewest_frames) continue;
-    const double spread = quantile_of(distances, 0.95) - quantile_of(distances, 0.05);
+    const double spread = quantile_of(distances, 0.75) - quantile_of(distances, 0.25);
     const double middle = median_of(distances);
     if (middle > 0 && spread < rigid_share * middle) found.push_back({n, middle, spread});
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace kinemend::check {
 
@@ -28,22 +29,21 @@ double share_without(const Counts& all, const Counts& part) {
 std::vector<std::vector<Span>> improbable_runs(const FlagTable& table, std::size_t shortest) {
   constexpr double log_chance = -13.8;  // 1e-6
   std::vector<Counts> of_step(table.steps), of_track(table.tracks);
+  std::vector<std::uint8_t> is_witness(table.tracks);
   for (std::size_t n = 0; n < table.tracks; ++n) {
-    for (std::size_t t = 0; t < table.steps; ++t) {
-      of_step[t].add(table(t, n));
-      of_track[n].add(table(t, n));
-    }
+    for (std::size_t t = 0; t < table.steps; ++t) of_track[n].add(table(t, n));
+    // A track that is flagged as a rule says nothing about a moment.
+    is_witness[n] = 2 * of_track[n].yes < of_track[n].known;
+    for (std::size_t t = 0; is_witness[n] != 0 && t < table.steps; ++t) of_step[t].add(table(t, n));
   }
   const auto is_improbable = [&](std::size_t track, const Span& run) {
-    Counts inside;
+    const Counts inside{run.length(), run.length()};
+    if (is_witness[track] == 0) return false;
     double others = 0;
     for (std::size_t t = run.first; t <= run.last; ++t) {
-      inside.add(Flag::yes);
-      Counts own;
-      own.add(Flag::yes);
       if (of_step[t].known > 1)
-        others += static_cast<double>(of_step[t].yes - own.yes) /
-                  static_cast<double>(of_step[t].known - own.known);
+        others +=
+            static_cast<double>(of_step[t].yes - 1) / static_cast<double>(of_step[t].known - 1);
     }
     others /= static_cast<double>(run.length());
     const double share = std::max(share_without(of_track[track], inside), others);

@@ -39,13 +39,20 @@ void set_flags(const std::vector<double>& sizes, double most, std::size_t track,
   }
 }
 
-// The digits of a file: no size but 0 lies below it.
-double smallest(const std::vector<double>& sizes) {
+// The step of a file's digits: the smallest size but 0, where sizes of that kind are common; else
+// 0.
+double quantum(const std::vector<double>& sizes) {
+  constexpr double common_share = 0.05;
   double least = std::numeric_limits<double>::infinity();
   for (const double s : sizes) {
     if (s > 0) least = std::min(least, s);
   }
-  return least;
+  std::size_t known = 0, small = 0;
+  for (const double s : sizes) {
+    known += s > 0;
+    small += s > 0 && s < 1.5 * least;
+  }
+  return static_cast<double>(small) > common_share * static_cast<double>(known) ? least : 0;
 }
 
 // What counts as a change on a track.
@@ -54,16 +61,19 @@ struct ChangeScale {
   double digits = 0;  // no more than rounding makes
 
   explicit ChangeScale(const std::vector<double>& sizes)
-      : usual(usual_size(sizes)), digits(4 * smallest(sizes)) {}
+      : usual(usual_size(sizes)), digits(4 * quantum(sizes)) {}
   double clear() const { return std::max(0.3 * usual, digits); }
 };
 
 // Motion slows down before it rests and bends before it is straight; a stale span has at least one
-// end where it does neither.
+// end where it does neither: the size beside it is clear, and not on its way to 0.
 bool has_sharp_end(const std::vector<double>& sizes, const Span& run, const ChangeScale& scale) {
-  const bool before = run.first > 0 && sizes[run.first - 1] > scale.clear();
-  const bool after = run.last + 1 < sizes.size() && sizes[run.last + 1] > scale.clear();
-  return before || after;
+  constexpr double still_large = 0.6;
+  const auto is_sharp = [&](std::size_t beside, std::size_t beyond) {
+    return sizes[beside] > scale.clear() && sizes[beside] > still_large * sizes[beyond];
+  };
+  return (run.first > 1 && is_sharp(run.first - 1, run.first - 2)) ||
+         (run.last + 2 < sizes.size() && is_sharp(run.last + 1, run.last + 2));
 }
 
 // A slow line may be straight by rounding.

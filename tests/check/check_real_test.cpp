@@ -1,0 +1,60 @@
+#include <gtest/gtest.h>
+
+#include "check/support.hpp"
+#include "kinemend/io.hpp"
+
+// Faults that real takes are known to have.
+namespace kinemend::test {
+namespace {
+
+CheckReport report_of(const std::string& path) {
+  const TakeResult read = read_take(std::filesystem::path(KINEMEND_DATA_FOLDER) / path);
+  return std::visit([](const auto& take) { return check_take(take); }, read.take);
+}
+
+struct KnownFault {
+  const char* path;
+  FindingKind kind;
+  std::size_t first_frame, last_frame;  // from 1, as people count
+};
+
+std::ostream& operator<<(std::ostream& out, const KnownFault& fault) { return out << fault.path; }
+
+class KnownFaults : public testing::TestWithParam<KnownFault> {};
+
+TEST_P(KnownFaults, AreFound) {
+  const KnownFault& fault = GetParam();
+  for (const Finding& finding : of_kind(report_of(fault.path), fault.kind)) {
+    if (finding.first_frame + 1 == fault.first_frame && finding.last_frame + 1 == fault.last_frame)
+      return;
+  }
+  FAIL() << to_string(fault.kind) << " not found";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Takes, KnownFaults,
+    testing::Values(KnownFault{"cmu/bvh/07_12.bvh", FindingKind::zero_frames, 2, 2},
+                    KnownFault{"cmu/bvh/09_10.bvh", FindingKind::zero_frames, 2, 5},
+                    KnownFault{"cmu/amc/09/09_10.amc", FindingKind::zero_frames, 1, 4},
+                    KnownFault{"cmu/bvh/06_02.bvh", FindingKind::repeated_frames, 643, 723},
+                    KnownFault{"cmu/bvh/01_07.bvh", FindingKind::repeated_frames, 3345, 3366},
+                    KnownFault{"cmu/bvh/03_02.bvh", FindingKind::repeated_frames, 14, 26}));
+
+TEST(RealTakes, HaveWholeTurnsInTheirAngles) {
+  const CheckReport report = report_of("cmu/bvh/05_16.bvh");
+  EXPECT_GT(report.figures.flips, 0u);
+}
+
+TEST(RealTakes, OfMarkersThatAreCleanHaveNoFaultOfTheirSamples) {
+  for (const char* path : {"cmu/c3d/85_02.c3d", "cmu/c3d/85_12.c3d", "cmu/c3d/05_13.c3d",
+                           "paired/S02-Trial-Walk-1-vicon.c3d"}) {
+    const CheckReport report = report_of(path);
+    EXPECT_EQ(report.figures.gaps, 0u) << path;
+    EXPECT_EQ(report.figures.spikes, 0u) << path;
+    EXPECT_EQ(report.figures.frozen, 0u) << path;
+    EXPECT_EQ(report.figures.swaps, 0u) << path;
+  }
+}
+
+}  // namespace
+}  // namespace kinemend::test

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "kinemend/check.hpp"
+#include "kinemend/corrupt.hpp"
+#include "kinemend/random.hpp"
+#include "kinemend/synth.hpp"
+
+namespace kinemend::test {
+
+inline Clip synthetic_clip(const std::string& motion, double duration_s = 6,
+                           double frame_rate_hz = 120, bool t_pose_first = false) {
+  SynthOptions options;
+  options.motion = motion;
+  options.duration_s = duration_s;
+  options.frame_rate_hz = frame_rate_hz;
+  options.t_pose_first = t_pose_first;
+  return synthesize(options);
+}
+
+inline std::vector<Finding> of_kind(const CheckReport& report, FindingKind kind) {
+  std::vector<Finding> found;
+  for (const Finding& finding : report.findings) {
+    if (finding.kind == kind) found.push_back(finding);
+  }
+  return found;
+}
+
+/// What is found beside notes, for messages.
+inline std::string faults_of(const CheckReport& report) {
+  std::string text;
+  for (const Finding& f : report.findings) {
+    if (f.severity == Severity::note) continue;
+    text += std::string(to_string(f.kind)) + " of " + f.track + " at " +
+            std::to_string(f.first_frame) + "; ";
+  }
+  return text;
+}
+
+inline std::size_t joint_of(const Clip& clip, std::string_view name) {
+  return static_cast<std::size_t>(clip.skeleton.find(name));
+}
+
+}  // namespace kinemend::test
