@@ -334,7 +334,10 @@ TEST(C3dParameters, SurviveWritingAndReading) {
   EXPECT_EQ(again.text("POINT", "UNITS"), "mm");
   EXPECT_EQ(again.numbers("ANALOG", "TABLE"), (std::vector<double>{1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(again.find("ANALOG", "TABLE")->dimensions, (std::vector<std::uint8_t>{3, 2}));
+  // Also where a file has two of a name.
+  parameters.entries.push_back(*parameters.find("POINT", "LABELS"));
   remove_parameter(parameters, "POINT", "LABELS");
+  EXPECT_EQ(parameters.find("POINT", "LABELS"), nullptr);
   EXPECT_EQ(parameters.find("POINT", "LABELS3"), nullptr);
   remove_group(parameters, "ANALOG");
   EXPECT_FALSE(parameters.has_group("ANALOG"));
