@@ -160,9 +160,9 @@ Filling without_support(const Samples& samples, const MarkerGap& gap,
   Filling filling = fill_by_cycles(samples, gap, request);
   if (!filling.positions.empty()) return filling;
   if (request.lenient) {
-    // A spline goes far astray in a long gap; a curve without overshoot does not.
+    // A spline goes far astray in a long gap; a curve whose end velocities fade does not.
     const bool is_long = gap.span.length() > samples.frames_in(longest_spline_s, 1);
-    return (is_long ? fill_by_pchip : fill_by_spline)(samples, gap, request);
+    return (is_long ? fill_by_hermite : fill_by_spline)(samples, gap, request);
   }
   filling = Filling::refused(name,
                              "too long for a curve, fewer than three other markers are seen "

@@ -108,4 +108,9 @@ Filling fill_by_pchip(const Samples& samples, const MarkerGap& gap, const Marker
   return fill_by_curve(samples, gap, request, Curve::shape_preserving, "pchip");
 }
 
+Filling fill_by_hermite(const Samples& samples, const MarkerGap& gap,
+                        const MarkerRequest& request) {
+  return fill_by_curve(samples, gap, request, Curve::hermite, "hermite");
+}
+
 }  // namespace kinemend::fill

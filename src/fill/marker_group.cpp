@@ -45,21 +45,22 @@ Vec3 MarkerGroup::centre_of(const Samples& samples, std::size_t frame) const {
 }
 
 Placement MarkerGroup::placement(const Samples& samples, std::size_t frame) const {
-  Placement placement{{}, centre_of(samples, frame)};
-  if (!turns_) return placement;
+  if (!turns_) return {{}, centre_of(samples, frame)};
+  // The shape's weighted sum is zero, so that sums of products need no centre.
+  Vec3 centre;
   double sums[3][3] = {}, own = 0, other = 0;
   for (std::size_t k = 0; k < markers_.size(); ++k) {
-    const double w = weights_[k];
-    const Vec3 a = shape_[k], b = samples.at(frame, markers_[k]) - placement.centre;
-    const double left[3] = {w * a.x, w * a.y, w * a.z}, right[3] = {b.x, b.y, b.z};
+    const Vec3 a = shape_[k], b = samples.at(frame, markers_[k]), weighted = weights_[k] * b;
+    const double left[3] = {a.x, a.y, a.z}, right[3] = {weighted.x, weighted.y, weighted.z};
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) sums[i][j] += left[i] * right[j];
     }
-    own += w * dot(a, a);
-    other += w * dot(b, b);
+    centre += weighted;
+    own += weights_[k] * dot(a, a);
+    other += dot(weighted, b);
   }
-  placement.rotation = best_rotation(sums, std::sqrt(own * other));
-  return placement;
+  const double spread = std::max(0.0, other - dot(centre, centre));
+  return {best_rotation(sums, std::sqrt(own * spread)), centre};
 }
 
 void MarkerGroup::fit_shape(const Samples& samples, std::span<const std::size_t> frames) {
@@ -69,8 +70,13 @@ void MarkerGroup::fit_shape(const Samples& samples, std::span<const std::size_t>
       shape_[k] = samples.at(frame, markers_[k]) - centre;
     }
   };
-  take_shape(frames[frames.size() / 2]);
-  turns_ = spans_a_plane();
+  // A limb that is straight in one frame is bent in another.
+  turns_ = false;
+  for (const std::size_t part : {4U, 2U, 6U, 1U, 7U}) {
+    if (turns_) break;
+    take_shape(frames[part * frames.size() / 8]);
+    turns_ = spans_a_plane();
+  }
   constexpr int rounds = 2;
   for (int round = 0; round < rounds; ++round) {
     std::vector<Vec3> mean(markers_.size());
@@ -119,17 +125,20 @@ std::vector<Companion> companions_of(const Samples& samples, const MarkerGap& ga
   frames = evenly(frames, most_frames);
   std::vector<Companion> companions;
   for (const std::size_t m : helpers) {
-    double count = 0, mean = 0, squares = 0;
+    double count = 0, origin = 0, sum = 0, squares = 0;
     for (const std::size_t f : frames) {
       if (!samples.sees(f, m)) continue;
       const double distance = norm(samples.at(f, m) - samples.at(f, gap.marker));
+      if (count == 0) origin = distance;
+      const double off = distance - origin;
       count += 1;
-      const double step = distance - mean;
-      mean += step / count;
-      squares += step * (distance - mean);
+      sum += off;
+      squares += off * off;
     }
     // Too few common frames say nothing about a distance.
-    if (count >= 3) companions.push_back({m, std::sqrt(squares / count)});
+    if (count < 3) continue;
+    const double mean = sum / count;
+    companions.push_back({m, std::sqrt(std::max(0.0, squares / count - mean * mean))});
   }
   std::stable_sort(companions.begin(), companions.end(),
                    [](const Companion& a, const Companion& b) { return a.spread < b.spread; });

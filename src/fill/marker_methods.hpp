@@ -43,6 +43,7 @@ using FillMarkerGap = Filling (*)(const Samples& samples, const MarkerGap& gap,
 Filling fill_by_spline(const Samples& samples, const MarkerGap& gap, const MarkerRequest& request);
 Filling fill_by_quintic(const Samples& samples, const MarkerGap& gap, const MarkerRequest& request);
 Filling fill_by_pchip(const Samples& samples, const MarkerGap& gap, const MarkerRequest& request);
+Filling fill_by_hermite(const Samples& samples, const MarkerGap& gap, const MarkerRequest& request);
 Filling fill_by_pattern(const Samples& samples, const MarkerGap& gap, const MarkerRequest& request);
 Filling fill_by_rigid_body(const Samples& samples, const MarkerGap& gap,
                            const MarkerRequest& request);

@@ -25,10 +25,15 @@ struct NamedMethod {
 };
 
 constexpr NamedMethod marker_methods[] = {
-    {"auto", fill::fill_by_auto},       {"spline", fill::fill_by_spline},
-    {"quintic", fill::fill_by_quintic}, {"pchip", fill::fill_by_pchip},
-    {"pattern", fill::fill_by_pattern}, {"rigid-body", fill::fill_by_rigid_body},
-    {"pca", fill::fill_by_pca},         {"local-regression", fill::fill_by_local_regression},
+    {"auto", fill::fill_by_auto},
+    {"spline", fill::fill_by_spline},
+    {"quintic", fill::fill_by_quintic},
+    {"pchip", fill::fill_by_pchip},
+    {"hermite", fill::fill_by_hermite},
+    {"pattern", fill::fill_by_pattern},
+    {"rigid-body", fill::fill_by_rigid_body},
+    {"pca", fill::fill_by_pca},
+    {"local-regression", fill::fill_by_local_regression},
     {"cyclic", fill::fill_by_cycles},
 };
 
@@ -169,6 +174,11 @@ class Filler {
   Filling attempt(const Samples& samples, const MarkerGap& gap) const {
     if (gap.span.length() == samples.frames) {
       return Filling::refused(name_, "the marker is never seen");
+    }
+    const double length_s = static_cast<double>(gap.span.length()) / samples.frame_rate_hz;
+    if (!request_.lenient && request_.longest_gap_s > 0 && length_s > request_.longest_gap_s) {
+      return Filling::refused(name_, fmt::format("the gap of {:.2f} s is longer than {:.2f} s",
+                                                 length_s, request_.longest_gap_s));
     }
     Filling filling = method_(samples, gap, request_);
     if (!filling.positions.empty() || !request_.lenient) return filling;

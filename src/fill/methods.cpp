@@ -27,7 +27,7 @@ constexpr std::array methods = {
                "Fritsch & Carlson 1980, Monotone piecewise cubic interpolation",
                "both ends are seen; at most 0.25 s", yes, yes},
     FillMethod{"hermite", "cubic between robust velocities at both ends, which fade in long gaps",
-               "", "at most 0.25 s, 0.1 s at an end of the take", no, yes},
+               "", "at most 0.25 s; joints: also 0.1 s at an end of the take", yes, yes},
     FillMethod{"slerp", "the shortest turn between the ends",
                "Shoemake 1985, Animating rotation with quaternion curves",
                "both ends are seen; at most 0.25 s", no, yes},

@@ -37,8 +37,9 @@ FillReport fill_with(MarkerClip& clip, const std::string& method) {
 class MarkerLaws : public ::testing::TestWithParam<std::string> {};
 
 INSTANTIATE_TEST_SUITE_P(Methods, MarkerLaws,
-                         ::testing::Values("auto", "spline", "quintic", "pchip", "pattern",
-                                           "rigid-body", "pca", "local-regression", "cyclic"),
+                         ::testing::Values("auto", "spline", "quintic", "pchip", "hermite",
+                                           "pattern", "rigid-body", "pca", "local-regression",
+                                           "cyclic"),
                          [](const auto& method) {
                            std::string name = method.param;
                            std::erase(name, '-');
@@ -101,7 +102,8 @@ TEST_P(MarkerLaws, ResultMovesTurnsAndGrowsWithTheTake) {
   }
   // End velocities of curves are robust in each channel by itself, which a turn changes a little.
   const bool by_channel = GetParam() == "pchip" || GetParam() == "pattern" ||
-                          GetParam() == "quintic" || GetParam() == "cyclic";
+                          GetParam() == "quintic" || GetParam() == "cyclic" ||
+                          GetParam() == "hermite";
   EXPECT_LT(largest, by_channel ? 20.0 : 1e-4);
   for (std::size_t g = 0; g < report.gaps.size(); ++g) {
     EXPECT_NEAR(other_report.gaps[g].expected_error, 10 * report.gaps[g].expected_error, 1e-4);

@@ -194,6 +194,14 @@ TEST(SplineFill, RefusesWhatIsLongOrOpenAndSaysWhy) {
   EXPECT_EQ(report.filled(), 1U);
 }
 
+TEST(MarkerFill, RefusesGapsLongerThanAsked) {
+  MarkerClip clip = marker_take("walk", 2);
+  hide(clip, "Head_a", 100, 171);
+  FillSettings settings;
+  settings.longest_gap_s = 0.5;
+  EXPECT_EQ(fill_gaps(clip, settings).gaps[0].reason, "the gap of 0.60 s is longer than 0.50 s");
+}
+
 TEST(MarkerFill, RefusesAMarkerThatIsNeverSeenHoweverMuchIsAskedFor) {
   MarkerClip clip = marker_take("walk", 1);
   hide(clip, "Head_a", 0, clip.frame_count() - 1);
@@ -297,8 +305,9 @@ class MeagreTakes : public ::testing::TestWithParam<std::string> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Methods, MeagreTakes,
-                         ::testing::Values("auto", "spline", "quintic", "pchip", "pattern",
-                                           "rigid-body", "pca", "local-regression", "cyclic"),
+                         ::testing::Values("auto", "spline", "quintic", "pchip", "hermite",
+                                           "pattern", "rigid-body", "pca", "local-regression",
+                                           "cyclic"),
                          [](const auto& method) {
                            std::string name = method.param;
                            std::erase(name, '-');
