@@ -37,7 +37,7 @@ class ClipRows {
   void fill_leading_gaps();
   void fill_leading_positions(const MotionColumns::Position& position);
   const PositionFrame& frame_of(const MotionColumns::Position& position) const {
-    return position_frames_[static_cast<std::size_t>(position.translated + 1)];
+    return position_frames_[frame_index(position.translated)];
   }
   double& value(std::size_t frame, const MotionColumns::Position& position) {
     return component(position_of(clip_, frame, position.translated), position.axis);

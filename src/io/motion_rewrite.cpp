@@ -120,8 +120,7 @@ class Rewriter {
     const auto positions = source_.columns().positions();
     for (std::size_t i = 0, end = 0; i < positions.size(); i = end) {
       const std::int32_t translated = positions[i].translated;
-      const PositionFrame& in_file =
-          document_.position_frames[static_cast<std::size_t>(translated + 1)];
+      const PositionFrame& in_file = document_.position_frames[frame_index(translated)];
       Vec3 before = in_file.rest;
       for (end = i; end < positions.size() && positions[end].translated == translated; ++end) {
         component(before, positions[end].axis) = row[positions[end].column];

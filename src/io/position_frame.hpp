@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "kinemend/clip.hpp"
@@ -32,6 +34,11 @@ std::vector<PositionFrame> offset_replacing_frames(const Skeleton& skeleton);
 /// Positions are added to the joint's offset and lie in its rest frame; those of the root lie in
 /// the world's. As in AMC.
 std::vector<PositionFrame> offset_adding_frames(const Skeleton& skeleton);
+
+/// Which of the frames is that of `MotionColumns::Position::translated`.
+inline std::size_t frame_index(std::int32_t translated) {
+  return translated < 0 ? 0 : static_cast<std::size_t>(translated) + 1;
+}
 
 /// Where the clip keeps the position of a frame that `MotionColumns::Position::translated` numbers.
 template <class AnyClip>
