@@ -142,19 +142,4 @@ void write_new_c3d(benchmark::State& state) {
 }
 BENCHMARK(write_new_c3d)->Arg(intel_real)->Unit(benchmark::kMillisecond);
 
-// The floor: the bytes of a file from the disk cache, and as much memory as its clip takes.
-void copy_as_much_memory(benchmark::State& state) {
-  const std::string bytes = make_take(state.range(0));
-  const std::size_t samples = frame_count * marker_count;
-  for (auto _ : state) {
-    std::vector<char> out;
-    const std::size_t total = samples * (sizeof(Vec3) + 5);
-    out.reserve(total);
-    std::memset(out.data(), 1, total);
-    benchmark::DoNotOptimize(out.data());
-  }
-  report(state, bytes.size());
-}
-BENCHMARK(copy_as_much_memory)->Arg(intel_real)->Arg(intel_integer)->Unit(benchmark::kMillisecond);
-
 }  // namespace
