@@ -104,9 +104,10 @@ class HeaderReader {
   }
 
  private:
-  [[noreturn]] void fail(std::size_t place) const {
+  [[noreturn]] void fail() const {
     throw text_.error_at(
-        place, "expected a row of labels such as frame,time_s,LASI_x,LASI_y,LASI_z, found none");
+        first_row_.value_or(place_),
+        "expected a row of labels such as frame,time_s,LASI_x,LASI_y,LASI_z, found none");
   }
 
   std::string_view take_line() {
@@ -116,10 +117,11 @@ class HeaderReader {
   }
 
   void read_line() {
-    if (next_ == text_.bytes.size() || above_.size() == most_head_lines) fail(place_);
+    if (next_ == text_.bytes.size() || above_.size() == most_head_lines) fail();
     const std::string_view line = take_line(), bare = trimmed(line);
     if (bare.empty()) return;
     if (bare[0] == '#') return read_note(bare);
+    if (!first_row_) first_row_ = place_;
     const char separator = separator_of(line);
     if (static_cast<std::size_t>(std::count(line.begin(), line.end(), separator)) > most_columns) {
       throw text_.error_at(place_, fmt::format("no more than {} columns are read", most_columns));
@@ -273,6 +275,7 @@ class HeaderReader {
   const SourceText& text_;
   CsvHeader header_;
   std::vector<Cells> above_;
+  std::optional<std::size_t> first_row_;  // that is neither blank nor a note
   std::size_t place_ = 0;
   std::size_t next_ = 0;
 };

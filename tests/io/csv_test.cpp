@@ -176,7 +176,7 @@ TEST(CsvReader, FaultsNameTheLine) {
   const std::pair<const char*, const char*> expected[] = {
       {"empty", "take.csv:1: the file is empty"},
       {"other_table",
-       "take.csv:2: expected a row of labels such as frame,time_s,LASI_x,LASI_y,LASI_z, found "
+       "take.csv:1: expected a row of labels such as frame,time_s,LASI_x,LASI_y,LASI_z, found "
        "none"},
       {"text_in_row", "take.csv:5: expected a number, found \"7x\""},
       {"no_rows", "take.csv:4: expected a row for each frame, found none"},
