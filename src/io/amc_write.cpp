@@ -81,7 +81,7 @@ std::string write_with_header(const Clip& clip, const AmcDocument& document) {
 }
 
 std::string write_plain(const Clip& clip) {
-  // As many as 32-bit angles have; sums along a chain stay within 1e-9 of its length.
+  // Joint positions stay within 1e-9 of the figure's size.
   constexpr unsigned decimals = 9;
   check_channels(clip, RestRotations::apart);
   std::vector<PositionFrame> position_frames = offset_adding_frames(clip.skeleton);
