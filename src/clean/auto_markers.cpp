@@ -18,6 +18,19 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
+// A bridge follows the sample it starts at, also where that is a spike: the samples beside gaps are
+// the first to be doubted.
+SampleMarks beside_gaps(const SampleMarks& missing) {
+  SampleMarks marks(missing.frames, missing.tracks);
+  for (std::size_t t = 1; t < missing.frames; ++t) {
+    for (std::size_t n = 0; n < missing.tracks; ++n) {
+      if (missing(t - 1, n) == missing(t, n)) continue;
+      marks(missing(t, n) != 0 ? t - 1 : t, n) = 1;
+    }
+  }
+  return marks;
+}
+
 }  // namespace
 
 std::vector<std::vector<std::size_t>> rigid_neighbours(const MarkerClip& clip,
@@ -76,8 +89,8 @@ MarkerTrace clean_markers_by_evidence(MarkerClip& clip, const MarkerSelection& s
       tracks.set(t, n, degrees_per_unit * (wholes[n].positions[t] - origins[n]));
   }
   const CleanedTracks verdicts = clean_tracks(
-      tracks, SampleMarks(frames, count), missing,
-      rigid_neighbours(clip, markers, selection.body_height), clip.frame_rate_hz, options);
+      tracks, beside_gaps(missing), missing, rigid_neighbours(clip, markers, selection.body_height),
+      clip.frame_rate_hz, options);
 
   trace.actions.assign(clip.positions.size(), Action::kept);
   trace.noise.assign(clip.marker_count(), 0);

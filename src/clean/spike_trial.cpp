@@ -25,7 +25,8 @@ bool continues_a_side(const SpikeTrial& trial, std::size_t t, std::size_t n) {
     const auto frame = [&](std::ptrdiff_t k) { return static_cast<std::ptrdiff_t>(t) + side * k; };
     const auto seen = [&](std::ptrdiff_t k) {
       const std::ptrdiff_t f = frame(k);
-      return f >= 0 && f < frames && trial.accused(static_cast<std::size_t>(f), n) == 0;
+      return f >= 0 && f < frames && trial.accused(static_cast<std::size_t>(f), n) == 0 &&
+             !trial.is_missing(static_cast<std::size_t>(f), n);
     };
     const auto at = [&](std::ptrdiff_t k) {
       return trial.measured.at(static_cast<std::size_t>(frame(k)), n);
@@ -49,7 +50,8 @@ double largest_error_about(const SpikeTrial& trial, std::size_t t, std::size_t n
   const auto close = [](std::size_t a, std::size_t b) { return (a > b ? a - b : b - a) <= 1; };
   std::vector<double> about;
   for (std::size_t k = first; k < last; ++k) {
-    const bool left_out = close(k, t) || (!quiet && trial.accused(k, n) != 0);
+    const bool left_out =
+        close(k, t) || trial.is_missing(k, n) || (!quiet && trial.accused(k, n) != 0);
     about.push_back(left_out ? 0 : trial.predictions.errors(k, n));
   }
   if (quiet) {

@@ -28,6 +28,11 @@ struct SpikeTrial {
   const std::vector<double>& shares;  ///< 0: a quiet track, 1: a noisy one
   const std::vector<std::vector<std::size_t>>& nearby;
   double frame_rate_hz;
+  const SampleMarks* missing = nullptr;  ///< gaps already bridged: no witnesses; nullptr: none
+
+  bool is_missing(std::size_t frame, std::size_t track) const {
+    return missing && (*missing)(frame, track) != 0;
+  }
 };
 
 /// Which of the accused are spikes. On a noisy track: whoever stands clear of the errors about it

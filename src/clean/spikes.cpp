@@ -230,7 +230,8 @@ SpikeVerdicts find_spikes(VectorTracks& tracks, const SampleMarks& suspects,
   std::vector<double> noise = noise_without_accused();
   const std::vector<double> shares = cleaning_shares(noise, frame_rate_hz);
   const Predictions predictions = predict(measured, tracks, accused, noise, grid);
-  accused = judge_spikes({measured, predictions, accused, noise, shares, nearby, frame_rate_hz});
+  accused =
+      judge_spikes({measured, predictions, accused, noise, shares, nearby, frame_rate_hz, missing});
   refill();
   noise = noise_without_accused();
   return {std::move(accused), std::move(noise)};

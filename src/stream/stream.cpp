@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "kinemend/error.hpp"
+#include "stream/refusal.hpp"
 
 namespace kinemend {
 
@@ -134,9 +135,7 @@ std::unique_ptr<Stream> make_stream(const Cleaner& cleaner, const Clip& like) {
     case LiveSupport::Kind::none:
       break;
   }
-  throw Error(ErrorKind::usage,
-              "this method needs the whole take; for live use choose one with a window, or its "
-              "causal form");
+  refuse_whole_take_method();
 }
 
 }  // namespace kinemend

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "clean/marker_takes.hpp"
+#include "kinemend/clean.hpp"
+#include "quality/quality.hpp"
+
+namespace kinemend::quality {
+
+inline MarkerClip cleaned_markers(const MarkerClip& clip, std::string_view method,
+                                  const OptionValues& options = {}) {
+  return clean_markers(clip, *make_cleaner(method, options)).clip;
+}
+
+/// Damage as it happens: white noise of `noise_mm` per axis, and 0.5 % of the samples 100 mm off.
+inline MarkerClip damaged_markers(const MarkerClip& truth, double noise_mm, std::uint64_t seed) {
+  return test::damaged(truth, noise_mm, 0.005, 100, seed);
+}
+
+/// Every method but `auto` at its defaults.
+inline std::vector<std::string> other_methods() {
+  std::vector<std::string> names;
+  for (const Method& method : methods()) {
+    if (method.name != "auto") names.push_back(method.name);
+  }
+  return names;
+}
+
+}  // namespace kinemend::quality
