@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "fill/joint_trials.hpp"
 #include "kinemend/error.hpp"
@@ -98,10 +99,11 @@ class TrackFiller {
     }
     if (methods_.empty()) {
       outcome.reason = fmt::format("{} fills no positions", settings_.method);
-      return;
     }
-    for (const Trial& trial : trials_of(kind_of(track_, span))) {
-      if (try_one(trial, span, outcome)) return;
+    if (!methods_.empty()) {
+      for (const Trial& trial : trials_of(kind_of(track_, span))) {
+        if (try_one(trial, span, outcome)) return;
+      }
     }
     if (settings_.fill_all) fill_anyhow(span, outcome);
   }
@@ -213,11 +215,8 @@ void run_task(Task& task, const Clip& clip, const std::vector<const JointMethod*
   task.filled = filler.track();
 }
 
-}  // namespace
-
-FillReport fill_gaps(Clip& clip, const FillSettings& settings) {
-  clip.validate();
-  const std::vector<const JointMethod*> methods = chosen_methods(settings.method);
+FillReport fill_motion(Clip& clip, const std::vector<const JointMethod*>& methods,
+                       const FillSettings& settings) {
   std::vector<Task> tasks = tasks_of(clip, chosen_joints(clip, settings.names));
   FillReport report;
   if (tasks.empty()) return report;
@@ -233,9 +232,55 @@ FillReport fill_gaps(Clip& clip, const FillSettings& settings) {
       report.gaps.push_back(outcome);
     }
   }
-  std::stable_sort(
-      report.gaps.begin(), report.gaps.end(),
-      [](const GapOutcome& a, const GapOutcome& b) { return a.gap.track < b.gap.track; });
+  return report;
+}
+
+// The gaps of the calibration pose, which is no part of the motion.
+void refuse_gaps(const Clip& calibration, const FillSettings& settings, FillReport& report) {
+  for (Task& task : tasks_of(calibration, chosen_joints(calibration, settings.names))) {
+    for (Gap gap : task.gaps) {
+      if (task.is_position && gap.track > 0) {
+        gap.track = static_cast<std::size_t>(calibration.translated_joints[gap.track - 1]);
+      }
+      report.gaps.push_back(
+          {gap, settings.method, false, "is part of the calibration pose", 0, task.is_position});
+    }
+  }
+}
+
+template <class Values>
+void put_back(const Values& part, Values& whole) {
+  std::copy(part.begin(), part.end(), whole.end() - static_cast<std::ptrdiff_t>(part.size()));
+}
+
+}  // namespace
+
+FillReport fill_gaps(Clip& clip, const FillSettings& settings) {
+  clip.validate();
+  const std::vector<const JointMethod*> methods = chosen_methods(settings.method);
+  const std::size_t calibration = leading_calibration_frames(clip);
+  FillReport report;
+  if (calibration == 0) {
+    report = fill_motion(clip, methods, settings);
+  } else {
+    Clip motion = slice(clip, calibration, clip.frame_count());
+    report = fill_motion(motion, methods, settings);
+    put_back(motion.root_positions, clip.root_positions);
+    put_back(motion.local_rotations, clip.local_rotations);
+    put_back(motion.joint_translations, clip.joint_translations);
+    put_back(motion.observed, clip.observed);
+    put_back(motion.observed_positions, clip.observed_positions);
+    for (GapOutcome& outcome : report.gaps) {
+      outcome.gap.first_frame += calibration;
+      outcome.gap.last_frame += calibration;
+    }
+    refuse_gaps(slice(clip, 0, calibration), settings, report);
+  }
+  std::stable_sort(report.gaps.begin(), report.gaps.end(),
+                   [](const GapOutcome& a, const GapOutcome& b) {
+                     return std::tie(a.gap.track, a.is_position, a.gap.first_frame) <
+                            std::tie(b.gap.track, b.is_position, b.gap.first_frame);
+                   });
   return report;
 }
 
