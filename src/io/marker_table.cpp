@@ -223,7 +223,10 @@ double rate_of(double mean_step_s, double tolerance_s) {
 }  // namespace
 
 std::size_t MarkerTable::width() const {
-  std::size_t last = static_cast<std::size_t>(std::max(frame_column, time_column) + 1);
+  std::size_t last = 0;
+  for (const std::int32_t column : {frame_column, time_column}) {
+    if (column >= 0) last = std::max(last, static_cast<std::size_t>(column) + 1);
+  }
   for (const auto& marker : columns)
     last = std::max(last, *std::max_element(marker.begin(), marker.end()) + 1);
   return last;
