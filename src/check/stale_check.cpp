@@ -42,7 +42,7 @@ void set_flags(const std::vector<double>& sizes, double most, std::size_t track,
 // The step of a file's digits: the smallest size but 0, where sizes of that kind are common; else
 // 0.
 double quantum(const std::vector<double>& sizes) {
-  constexpr double common_share = 0.05;
+  constexpr double common_share = 0.05, same = 1e-3;
   double least = std::numeric_limits<double>::infinity();
   for (const double s : sizes) {
     if (s > 0) least = std::min(least, s);
@@ -50,7 +50,7 @@ double quantum(const std::vector<double>& sizes) {
   std::size_t known = 0, small = 0;
   for (const double s : sizes) {
     known += s > 0;
-    small += s > 0 && s < 1.5 * least;
+    small += s > 0 && s < (1 + same) * least;
   }
   return static_cast<double>(small) > common_share * static_cast<double>(known) ? least : 0;
 }
