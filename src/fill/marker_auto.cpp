@@ -24,7 +24,7 @@ constexpr double largest_error = 0.1;
 
 // Groups of companions, and how stiff the body is taken to be (shares of its radius).
 constexpr std::array<std::size_t, 2> group_sizes = {6, 12};
-constexpr std::array<double, 3> stiffnesses = {0.006, 0.02,
+constexpr std::array<double, 3> stiffnesses = {0.0015, 0.008,
                                                std::numeric_limits<double>::infinity()};
 // Clean samples, and trembling ones.
 constexpr std::array<double, 2> noises = {1e-4, 2e-2};

@@ -15,7 +15,7 @@ using Rows = LocalRegression::Rows;
 
 constexpr std::string_view name = "local-regression";
 constexpr std::size_t most_companions = 8;
-constexpr std::array<double, 3> stiffnesses = {0.006, 0.02,
+constexpr std::array<double, 3> stiffnesses = {0.0015, 0.008,
                                                std::numeric_limits<double>::infinity()};
 
 // What is known of the distance from the marker to one companion.

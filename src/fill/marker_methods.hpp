@@ -25,7 +25,7 @@ struct Filling {
   std::vector<Vec3> positions;  ///< of the span's frames; empty: refused
   std::string method = {};      ///< that made them
   std::string reason = {};      ///< why it was refused
-  double expected_error = 0;    ///< mean distance to the truth, file units; 0: unknown
+  double expected_error = 0;    ///< root mean square distance to the truth, file units; 0: unknown
   /// Refused for what other markers lack now; a later round may see more.
   bool may_wait = false;
   /// Made from what other markers show, so that it tells others something in turn; a curve does
