@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "io/c3d_parameter_writer.hpp"
 #include "io/c3d_rewrite.hpp"
@@ -45,6 +46,7 @@ class ParameterMaker {
   ParameterMaker(const MarkerClip& clip, const C3dDocument* source, const C3dNewFile& file)
       : clip_(clip), source_(source), file_(file) {
     if (source != nullptr) all_ = source->parameters;
+    part_groups();
   }
 
   C3dParameters make() {
@@ -61,6 +63,13 @@ class ParameterMaker {
   }
 
  private:
+  // In damaged files two groups have one number, and what is written into one stands in both.
+  void part_groups() {
+    std::set<std::int32_t> numbers;
+    std::erase_if(all_.groups,
+                  [&](const C3dGroup& group) { return !numbers.insert(group.number).second; });
+  }
+
   bool has_source_names() const { return source_ != nullptr && source_->names == clip_.names; }
 
   void describe_points() {

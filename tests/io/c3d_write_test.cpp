@@ -182,6 +182,14 @@ TEST(C3dWriter, OtherMarkersGetANewFileWithTheSourcesParameters) {
             decode_c3d_analog(document_of(source)).values);
 }
 
+// A damaged file may give two groups one number.
+TEST(C3dWriter, ANewFileKeepsGroupsApart) {
+  const std::string bytes = read_file(c3d_folder() / "found" / "groups_of_one_number.c3d");
+  MarkerClip clip = read_c3d_bytes(bytes).clip;
+  clip.events.push_back({"again", "", 2});
+  expect_same_samples(clip, read_c3d_bytes(write_markers(clip, "c3d")).clip);
+}
+
 TEST(C3dWriter, OtherFramesGetANewFileWithoutAnalogSamples) {
   const MarkerClip source = read_good_c3d("intel_real");
   MarkerClip clip = slice(source, 1, 4);
