@@ -37,7 +37,11 @@ class NewFile {
       file_.frame_count = source->layout.frame_count;
     const bool keeps_frames = source != nullptr && frames() == source->layout.frame_count;
     keeps_words_ = keeps_frames && clip.names == source->names;
-    if (keeps_frames) analog_values_ = source->layout.analog_values;
+    // Values that a damaged source does not tell the channels of mean nothing.
+    if (keeps_frames && source->layout.analog_count * source->layout.analog_instants() ==
+                            source->layout.analog_values) {
+      analog_values_ = source->layout.analog_values;
+    }
     file_.scale = scale();
     if (analog_values_ > 0) {
       file_.analog_count = source->layout.analog_count;

@@ -182,12 +182,14 @@ TEST(C3dWriter, OtherMarkersGetANewFileWithTheSourcesParameters) {
             decode_c3d_analog(document_of(source)).values);
 }
 
-// A damaged file may give two groups one number.
-TEST(C3dWriter, ANewFileKeepsGroupsApart) {
-  const std::string bytes = read_file(c3d_folder() / "found" / "groups_of_one_number.c3d");
-  MarkerClip clip = read_c3d_bytes(bytes).clip;
-  clip.events.push_back({"again", "", 2});
-  expect_same_samples(clip, read_c3d_bytes(write_markers(clip, "c3d")).clip);
+// Two groups of one number; analog values that belong to no channel.
+TEST(C3dWriter, NewFilesOfDamagedSourcesReadBack) {
+  for (const char* const name : {"groups_of_one_number.c3d", "analog_without_channels.c3d"}) {
+    SCOPED_TRACE(name);
+    MarkerClip clip = read_c3d_bytes(read_file(c3d_folder() / "found" / name)).clip;
+    clip.events.push_back({"again", "", 2});
+    expect_same_samples(clip, read_c3d_bytes(write_markers(clip, "c3d")).clip);
+  }
 }
 
 TEST(C3dWriter, OtherFramesGetANewFileWithoutAnalogSamples) {
