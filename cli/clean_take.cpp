@@ -21,9 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void write_result(const CleanJob& job, const Take& take, const CleanPlan& plan) {
-  const Format* named = job.output == "-" ? nullptr : format_of_path(job.output);
-  const std::string format = named ? std::string(named->name) : source_of(take).format;
-  const std::string bytes = write_take(take, format);
+  const std::string bytes = write_take(take, format_for(job.output, source_of(take)));
   std::error_code error;
   if (!plan.folder.empty()) fs::create_directories(plan.folder, error);
   if (error)
