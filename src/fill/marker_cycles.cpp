@@ -50,14 +50,12 @@ BodyTrack track_in_body(const Samples& samples, const MarkerGap& gap) {
 
 }  // namespace
 
-Filling fill_by_cycles(const Samples& samples, const MarkerGap& gap, const MarkerRequest& request) {
+Filling fill_by_cycles(const Samples& samples, const MarkerGap& gap, const MarkerRequest&) {
   constexpr std::string_view name = "cyclic";
   const CurveSettings settings{.frame_rate_hz = samples.frame_rate_hz};
-  CycleSettings rules;
-  if (request.lenient) rules.largest_mismatch = 1;
   BodyTrack body = track_in_body(samples, gap);
-  const std::vector<Cycle> cycles = find_cycles(body.track(), gap.span, settings, rules);
-  if (cycles.size() < (request.lenient ? 1 : least_cycles)) {
+  const std::vector<Cycle> cycles = find_cycles(body.track(), gap.span, settings);
+  if (cycles.size() < least_cycles) {
     return Filling::refused(name, "no two other times of the take show the same movement");
   }
   fill_with_cycles(body.track(), gap.span, cycles, settings);
