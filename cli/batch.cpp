@@ -258,7 +258,7 @@ std::vector<Flag> batch_flags() {
       text_flag("shard", "I/N", "Work", "do part I of N",
                 "The split depends on the names of the takes alone, so that N jobs on any machines "
                 "do each take once. A last run without --shard finds nothing to do and sums up.")};
-  for (Flag& flag : cleaning_flags()) flags.push_back(std::move(flag));
+  append(flags, cleaning_flags());
   flags.push_back(jobs_flag());
   for (Flag& flag : flags) {
     if (flag.spec.name == "quiet") flag.letter = 'q';

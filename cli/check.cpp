@@ -351,8 +351,8 @@ std::vector<Flag> flags() {
       up,
       without_default(number_flag("metres_per_unit", "m", 0, 1e-9, 1e6, "Checks",
                                   "length of a file unit, where the take does not tell")),
-      from_flag(),
-      strict_flag("what needs a repair becomes an error")};
+  };
+  append(list, reading_flags("what needs a repair becomes an error"));
   for (const Figure& entry : figures()) {
     list.push_back(without_default(
         number_flag(entry.limit, entry.unit == "noise" ? "" : entry.unit, 0, 0, infinity, "Limits",

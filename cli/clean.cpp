@@ -151,7 +151,7 @@ Command clean_command() {
       "others; the exit code is the highest of all.";
   command.positionals = {{"IN", "take to clean; - is standard input", 0, 1000000, {}}};
   command.flags = clean_output_flags();
-  for (Flag& flag : cleaning_flags()) command.flags.push_back(std::move(flag));
+  append(command.flags, cleaning_flags());
   command.flags.push_back(jobs_flag());
   command.group_heading = "With --method %";
   command.groups = method_groups();

@@ -76,13 +76,6 @@ Flag fill_flag() {
   return configurable(flag);
 }
 
-Flag rate_flag() {
-  Flag flag = number_flag("fps", "Hz", 0, 0, 1e5, "Input",
-                          "frame rate of a take whose format has none (AMC)");
-  flag.has_default = false;
-  return flag;
-}
-
 Flag root_position_flag() {
   Flag flag = switch_flag("root_position", "Where", "also clean the root's path");
   flag.spec.default_value = true;
@@ -116,7 +109,7 @@ std::vector<Flag> clean_output_flags() {
 }
 
 std::vector<Flag> cleaning_flags() {
-  return with_letters(
+  std::vector<Flag> list = with_letters(
       {method_flag(),
        configurable(number_flag("strength", "", 1, 0, 1, "Cleaning",
                                 "how far to go from the input (0) to the cleaned motion (1)",
@@ -151,11 +144,12 @@ std::vector<Flag> cleaning_flags() {
            "in over 0.1 s."),
        file_flag("gaps", "FILE", "Input", "samples that count as missing: lines name,first,last",
                  "Frames from 1; for formats that cannot hold a gap. The name * means all."),
-       from_flag(),
-       file_flag("asf", "FILE", "Input", "the skeleton of an AMC file, where it is not beside it"),
-       rate_flag(),
-       configurable(strict_flag("what needs a repair or a warning becomes an error")),
        seed_flag("seed of the methods that draw random numbers")});
+  append(list, reading_flags("what needs a repair or a warning becomes an error"));
+  for (Flag& flag : list) {
+    if (flag.spec.name == "strict") flag.configurable = true;
+  }
+  return list;
 }
 
 Flag jobs_flag() {

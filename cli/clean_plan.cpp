@@ -148,10 +148,8 @@ CleanPlan make_cleaning(const Arguments& arguments) {
   if (const std::string range = arguments.text("range"); !range.empty())
     plan.range = parse_range(range);
   plan.strict = std::get<bool>(settings.values.find("strict")->second);
-  plan.reading.format = arguments.text("from");
+  plan.reading = read_options(arguments);
   plan.reading.strict = plan.strict;
-  plan.reading.skeleton = arguments.text("asf");
-  plan.reading.frame_rate_hz = arguments.number("fps");
   if (const std::string path = arguments.text("gaps"); !path.empty())
     plan.gaps = parse_gaps(read_file(path), input_name(path));
   plan.fix_swaps = std::get<bool>(settings.values.find("fix_swaps")->second);

@@ -180,9 +180,8 @@ std::vector<Flag> flags() {
                              "length of a file unit; found from the skeleton's height otherwise"),
       number_without_default("psnr_peak", "rad", 1e-9, 1e6, "Figures",
                              "peak of psnr_db (default pi / 2)"),
-      up,
-      from_flag(),
-      strict_flag("what needs a repair becomes an error")};
+      up};
+  append(list, reading_flags("what needs a repair becomes an error"));
   for (const Figure& entry : figures()) {
     Flag limit = number_without_default(
         limit_name(entry), entry.unit, entry.more_is_better ? -1e9 : 0, 1e12, "Limits",

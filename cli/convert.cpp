@@ -192,7 +192,7 @@ Command convert_command() {
       "gets its skeleton beside it, as an ASF file of the same name.";
   command.positionals = {{"IN", "take to read; - is standard input", 1, 1, {}}};
   command.flags = {output_flag("where to write; - is standard output"), to};
-  for (Flag& flag : change_flags()) command.flags.push_back(std::move(flag));
+  append(command.flags, change_flags());
   command.flags.push_back(switch_flag("positions", "Change",
                                       "write the positions of joints as markers",
                                       "For formats that could hold the joints themselves (csv)."));
@@ -201,8 +201,7 @@ Command convert_command() {
   command.flags.push_back(
       switch_flag("plain", "Output", "drop the source's layout and write anew"));
   command.flags.push_back(force_flag());
-  command.flags.push_back(from_flag());
-  command.flags.push_back(strict_flag("what needs a repair becomes an error"));
+  append(command.flags, reading_flags("what needs a repair becomes an error"));
   command.examples = {
       {"kinemend convert odd.bvh --plain -o plain.bvh",
        "a file that other programs cannot read, in its plainest form"},

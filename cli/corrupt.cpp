@@ -163,13 +163,10 @@ Command corrupt_command() {
       "Applies controlled damage and prints how much of it came out. The same seed gives the same "
       "bytes on every machine. A calibration pose at the start stays as it is.";
   command.positionals = {{"IN", "take to read; - is standard input", 1, 1, {}}};
-  command.flags = {output_flag("where to write; - is standard output"),
-                   force_flag(),
-                   json_flag("print what was done as JSON"),
-                   damage,
-                   seed_flag("seed of the random numbers"),
-                   from_flag(),
-                   strict_flag("what needs a repair becomes an error")};
+  command.flags = {output_flag("where to write; - is standard output"), force_flag(),
+                   json_flag("print what was done as JSON"), damage,
+                   seed_flag("seed of the random numbers")};
+  append(command.flags, reading_flags("what needs a repair becomes an error"));
   for (const Damage& entry : damages()) {
     command.groups.push_back({entry.name, entry.summary, entry.paper, entry.options});
     command.flags[3].spec.choices.push_back(entry.name);

@@ -217,8 +217,7 @@ std::vector<Flag> fill_flags() {
       switch_flag("fill_all", "Work", "also fill what the rules refuse",
                   "By the best guess there is."),
       gaps_flag()};
-  for (Flag& flag : reading_flags("what needs a repair, and a gap that is refused, is an error"))
-    flags.push_back(std::move(flag));
+  append(flags, reading_flags("what needs a repair, and a gap that is refused, is an error"));
   return flags;
 }
 

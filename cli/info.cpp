@@ -93,7 +93,7 @@ void add_facts(const Subject& subject, const SourceInfo& source, Table& table) {
   for (const SourceFact& fact : source.facts)
     table.add({printable(fact.name), printable(fact.text)});
   for (const Diagnostic& entry : subject.read.diagnostics.entries())
-    table.add({"repaired", printable(diagnostic_line("line", entry))});
+    table.add({"repaired", printable(diagnostic_line(entry.first_line > 0 ? "line" : "", entry))});
 }
 
 std::string clip_text(const Subject& subject, const Clip& clip, bool with_tree) {
@@ -315,9 +315,10 @@ Command info_command() {
   command.flags = {
       json_flag("print JSON instead of text"),
       switch_flag("tree", "Output", "also show the skeleton with its channels, or the markers"),
-      switch_flag("noise", "Output", "also estimate the noise of each joint",
-                  "By a dry run of the method auto: jitter per axis, and samples it would repair."),
-      from_flag(), strict_flag("what needs a repair becomes an error")};
+      switch_flag(
+          "noise", "Output", "also estimate the noise of each joint",
+          "By a dry run of the method auto: jitter per axis, and samples it would repair.")};
+  append(command.flags, reading_flags("what needs a repair becomes an error"));
   command.examples = {{"kinemend info walk.bvh --tree", "the skeleton too"},
                       {"kinemend info trial.c3d", "markers, gaps, analog channels, events"},
                       {"kinemend info *.bvh --json", "for programs"}};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 
 #include "table.hpp"
@@ -39,7 +40,8 @@ void check_single_use(const std::vector<std::string>& inputs,
 std::string diagnostic_line(const std::string& name, const Diagnostic& diagnostic) {
   std::string line = name;
   if (diagnostic.first_line > 0) line += fmt::format(":{}", diagnostic.first_line);
-  line += ": " + diagnostic.message;
+  if (!line.empty()) line += ": ";
+  line += diagnostic.message;
   if (diagnostic.count > 1) line += fmt::format(" ({} times)", grouped(diagnostic.count));
   return line;
 }
@@ -101,6 +103,11 @@ Flag strict_flag(std::string help) {
                      "A file that is odd but usable is read with a warning otherwise.");
 }
 
+void append(std::vector<Flag>& list, std::vector<Flag> more) {
+  list.insert(list.end(), std::make_move_iterator(more.begin()),
+              std::make_move_iterator(more.end()));
+}
+
 std::vector<std::string> format_names() {
   std::vector<std::string> names;
   for (const Format& format : formats()) names.emplace_back(format.name);
@@ -111,7 +118,7 @@ std::vector<Flag> reading_flags(std::string strict_help) {
   Flag asf = text_flag("asf", "FILE", "Input", "skeleton of an AMC file",
                        "Without it: the ASF file that the AMC file names, or one beside it.");
   asf.completion = Completion::file;
-  Flag fps = number_flag("fps", "Hz", 120, 0.001, 100000, "Input",
+  Flag fps = number_flag("from_fps", "Hz", 120, 0.001, 100000, "Input",
                          "frame rate of a file that does not state it",
                          "Formats that state one ignore it.");
   fps.has_default = false;
@@ -123,7 +130,7 @@ ReadOptions read_options(const Arguments& arguments) {
   options.format = arguments.text("from");
   options.strict = arguments.flag("strict");
   if (arguments.given("asf")) options.skeleton = arguments.text("asf");
-  if (arguments.given("fps")) options.frame_rate_hz = arguments.number("fps");
+  if (arguments.given("from_fps")) options.frame_rate_hz = arguments.number("from_fps");
   return options;
 }
 

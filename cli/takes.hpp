@@ -38,8 +38,10 @@ Flag output_flag(std::string help);
 Flag seed_flag(std::string help);
 Flag from_flag();
 Flag strict_flag(std::string help);
-/// All flags that `read_options` understands: --from, --asf, --fps, --strict.
+/// All flags that `read_options` understands: --from, --asf, --from-fps, --strict.
 std::vector<Flag> reading_flags(std::string strict_help);
+/// Puts `more` behind `list`.
+void append(std::vector<Flag>& list, std::vector<Flag> more);
 std::vector<std::string> format_names();
 /// Of the flags that the command has.
 ReadOptions read_options(const Arguments& arguments);
