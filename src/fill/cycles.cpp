@@ -124,10 +124,12 @@ std::vector<Cycle> find_cycles(const Track& track, Span span, const CurveSetting
   if (!(own > 0)) return {};
 
   const auto step = std::max<std::ptrdiff_t>(1, std::lround(settings.frame_rate_hz / 40));
-  const auto frames = static_cast<std::ptrdiff_t>(track.frames());
+  const auto farthest =
+      std::min(static_cast<std::ptrdiff_t>(track.frames()),
+               static_cast<std::ptrdiff_t>(rules.farthest_s * settings.frame_rate_hz));
   std::vector<std::ptrdiff_t> lags;
   std::vector<double> squares;
-  for (std::ptrdiff_t lag = -(frames / step) * step; lag < frames; lag += step) {
+  for (std::ptrdiff_t lag = -(farthest / step) * step; lag < farthest; lag += step) {
     lags.push_back(lag);
     squares.push_back(matcher.squares_at(lag, few));
   }

@@ -18,6 +18,7 @@ struct Cycle {
 struct CycleSettings {
   double largest_mismatch = 0.35;
   std::size_t most_cycles = 3;
+  double farthest_s = 15;  ///< a lag goes no farther
 };
 
 /// The lags at which the samples around the span (half its length on either side, 0.15 to 0.5 s)

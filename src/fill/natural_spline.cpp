@@ -167,8 +167,11 @@ double NaturalSpline::cross_validation_score() const {
 }
 
 double NaturalSpline::fit_by_cross_validation(double least, double most) {
-  constexpr int coarse = 9, fine = 12;
-  const double low = std::log(least), step = (std::log(most) - low) / (coarse - 1);
+  constexpr int fine = 6;
+  const double low = std::log(least), width = std::log(most) - low;
+  // The score has its minima no nearer to each other than a factor of about 16.
+  const int coarse = 2 + static_cast<int>(width / std::log(16.0));
+  const double step = width / (coarse - 1);
   const auto score_at = [&](double log_smoothing) {
     fit(std::exp(log_smoothing));
     return cross_validation_score();
