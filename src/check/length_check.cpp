@@ -45,17 +45,26 @@ void report_length(const std::vector<double>& change_percent, const std::string&
                              peak.value, "%", std::move(words)});
 }
 
+// Some skeletons hang the body on a point of reference; the way from that to the hips is no bone.
+bool carries_the_body(const Skeleton& skeleton, std::int32_t joint) {
+  for (std::int32_t parent = skeleton.parents[static_cast<std::size_t>(joint)]; parent >= 0;
+       parent = skeleton.parents[static_cast<std::size_t>(parent)]) {
+    if (std::count(skeleton.parents.begin(), skeleton.parents.end(), parent) > 1) return false;
+  }
+  return true;
+}
+
 struct RigidNeighbour {
   std::size_t marker = 0;
   double distance = 0;
-  double spread = 0;  // quartile range
+  double spread = 0;  // 10th to 90th percentile
 };
 
 // Markers at a distance that hardly changes: those of the same segment.
 std::vector<RigidNeighbour> rigid_neighbours(const MarkerClip& clip,
                                              const std::vector<std::size_t>& markers,
                                              std::size_t of) {
-  constexpr double rigid_share = 0.022;
+  constexpr double rigid_share = 0.04;
   constexpr std::size_t wanted = 4, fewest_frames = 20;
   const std::size_t frames = clip.frame_count(), count = std::min(frames, looked_at);
   std::vector<RigidNeighbour> found;
@@ -69,7 +78,7 @@ std::vector<RigidNeighbour> rigid_neighbours(const MarkerClip& clip,
         distances.push_back(norm(clip.position(f, of) - clip.position(f, n)));
     }
     if (distances.size() < fewest_frames) continue;
-    const double spread = quantile_of(distances, 0.75) - quantile_of(distances, 0.25);
+    const double spread = quantile_of(distances, 0.9) - quantile_of(distances, 0.1);
     const double middle = median_of(distances);
     if (middle > 0 && spread < rigid_share * middle) found.push_back({n, middle, spread});
   }
@@ -103,6 +112,7 @@ void check_lengths(const Clip& clip, const CheckSettings& settings, CheckReport&
   const std::size_t width = clip.translated_joints.size(), frames = clip.frame_count();
   const double least_length = 0.01 * skeleton_height(clip.skeleton);
   for (std::size_t i = 0; i < width; ++i) {
+    if (carries_the_body(clip.skeleton, clip.translated_joints[i])) continue;
     std::vector<double> lengths(frames);
     for (std::size_t f = 0; f < frames; ++f)
       lengths[f] = norm(clip.joint_translations[f * width + i]);
