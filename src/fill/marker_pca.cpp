@@ -50,10 +50,10 @@ class ComponentRegression {
                       const std::vector<std::size_t>& frames, double radius)
       : samples_(samples), helpers_(helpers), weights_(helpers.size(), 0.0) {
     Rows x(frames.size(), 3 * helpers.size()), y(frames.size(), 3);
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-      const Vec3 own = samples.at(frames[i], marker);
+    for (const std::size_t frame : frames) {
+      const Vec3 own = samples.at(frame, marker);
       for (std::size_t k = 0; k < helpers.size(); ++k) {
-        weights_[k] += norm(samples.at(frames[i], helpers[k]) - own);
+        weights_[k] += norm(samples.at(frame, helpers[k]) - own);
       }
     }
     for (double& weight : weights_) {

@@ -34,6 +34,7 @@ std::vector<Span> trial_spans(const Samples& samples, const MarkerGap& gap,
     const std::vector<std::size_t> starts = evenly(starts_of(usable, evidence.first, length), most);
     if (starts.size() < std::min<std::size_t>(most, 3)) continue;
     std::vector<Span> spans;
+    spans.reserve(starts.size());
     for (const std::size_t start : starts) spans.push_back({start, start + length - 1});
     return spans;
   }
