@@ -100,11 +100,10 @@ TEST_P(MarkerLaws, ResultMovesTurnsAndGrowsWithTheTake) {
   for (std::size_t i = 0; i < clip.positions.size(); ++i) {
     largest = std::max(largest, norm(other.positions[i] - moved(clip.positions[i])));
   }
-  // End velocities of curves are robust in each channel by itself, which a turn changes a little.
-  const bool by_channel = GetParam() == "pchip" || GetParam() == "pattern" ||
-                          GetParam() == "quintic" || GetParam() == "cyclic" ||
-                          GetParam() == "hermite";
-  EXPECT_LT(largest, by_channel ? 20.0 : 1e-4);
+  // PCHIP keeps the shape of each channel by itself; end velocities are made robust likewise.
+  const std::string method = GetParam();
+  const bool robust = method == "hermite" || method == "pattern" || method == "cyclic";
+  EXPECT_LT(largest, method == "pchip" ? 20.0 : robust ? 0.2 : 1e-4);
   for (std::size_t g = 0; g < report.gaps.size(); ++g) {
     EXPECT_NEAR(other_report.gaps[g].expected_error, 10 * report.gaps[g].expected_error, 1e-4);
   }
