@@ -62,7 +62,9 @@ std::vector<std::uint8_t> chosen_joints(const Clip& clip, const std::vector<std:
 struct Kind {
   std::size_t length = 0;
   bool at_end = false;
-  auto operator<=>(const Kind&) const = default;
+  friend bool operator<(const Kind& a, const Kind& b) {
+    return std::tie(a.length, a.at_end) < std::tie(b.length, b.at_end);
+  }
 };
 
 Kind kind_of(const JointTrack& track, Span span) {
