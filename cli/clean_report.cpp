@@ -115,6 +115,7 @@ std::string fill_text(const ReportView& report, bool all_rows) {
                     outcome.gap.first_frame + 1, outcome.gap.last_frame + 1, outcome.reason);
   }
   std::vector<std::string> methods;
+  methods.reserve(filled.size());
   for (const auto& [method, count] : filled)
     methods.push_back(fmt::format("{} by {}", grouped(count), method));
   std::string text = fmt::format("  {} of {} filled", report.fill.filled(),
