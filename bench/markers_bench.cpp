@@ -28,7 +28,8 @@ MarkerClip noisy_markers() {
   clip.observed.assign(clip.positions.size(), 1);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     for (std::size_t m = 0; m < count; ++m)
-      clip.position(f, m) = joints.position(f, m % joints.marker_count()) + Vec3{0.1 * m, 0, 0};
+      clip.position(f, m) =
+          joints.position(f, m % joints.marker_count()) + Vec3{0.1 * static_cast<double>(m), 0, 0};
   }
   return clip;
 }
