@@ -138,7 +138,8 @@ MarkerClip turn_axes(const MarkerClip& clip, Axis from, Axis to) {
   MarkerClip result = clip;
   result.source.document.reset();
   for (std::size_t i = 0; i < result.positions.size(); ++i) {
-    if (clip.holds_positions(i % clip.marker_count())) result.positions[i] = turn(result.positions[i]);
+    if (clip.holds_positions(i % clip.marker_count()))
+      result.positions[i] = turn(result.positions[i]);
   }
   return result;
 }

@@ -81,7 +81,8 @@ TEST_F(Convert, BvhToAmcAndBackLeavesEveryJointInItsPlace) {
   convert("walk.bvh", "walk.amc");
   EXPECT_TRUE(fs::exists(folder / "walk.asf"));
   convert("walk.amc", "again.bvh", {"--from-fps", "60"});
-  const Columns before = positions("walk.bvh"), middle = positions("walk.amc"),
+  const Columns before = positions("walk.bvh"),
+                middle = positions("walk.amc", {"--from-fps", "60"}),
                 after = positions("again.bvh");
   expect_same(before, middle, 2e-3);
   expect_same(before, after, 2e-3);
@@ -147,7 +148,8 @@ TEST_F(Convert, SaysWhichAxisItTookForUp) {
 }
 
 TEST_F(Convert, RefusesMarkersWhereJointsAreNeeded) {
-  put(folder / "in.csv", "# rate_hz: 50\nframe,time_s,A_x,A_y,A_z\n1,0,1,2,3\n2,0.02,1,2,3\n");
+  put(folder / "in.csv",
+      "# units: mm\n# rate_hz: 50\nframe,time_s,A_x,A_y,A_z\n1,0,1,2,3\n2,0.02,1,2,3\n");
   const Ran ran = run({"convert", "in.csv", "-o", "out.bvh"});
   EXPECT_EQ(ran.code, 2);
   EXPECT_THAT(ran.err, HasSubstr("bvh files hold joints"));
