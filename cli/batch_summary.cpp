@@ -81,12 +81,12 @@ Json write_summary(const std::string& folder, const std::vector<BatchItem>& all,
     if (rate > 0) duration_s += static_cast<double>(whole(row, "frames")) / rate;
     seconds += number(row, "seconds");
   }
-  const Json summary = {{"kinemend", version()}, {"options_hash", options_hash},
-                        {"takes", takes},        {"cleaned", cleaned},
-                        {"failed", failed},      {"to_do", stale},
-                        {"frames", frames},      {"duration_s", duration_s},
-                        {"seconds", seconds},    {"spikes", spikes},
-                        {"gaps", gaps},          {"failures", std::move(failures)}};
+  Json summary = {{"kinemend", version()}, {"options_hash", options_hash},
+                  {"takes", takes},        {"cleaned", cleaned},
+                  {"failed", failed},      {"to_do", stale},
+                  {"frames", frames},      {"duration_s", duration_s},
+                  {"seconds", seconds},    {"spikes", spikes},
+                  {"gaps", gaps},          {"failures", std::move(failures)}};
   write_file(fs::path(folder) / "summary.json", json_text(summary), true);
   return summary;
 }

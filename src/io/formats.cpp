@@ -20,10 +20,12 @@ namespace {
 
 constexpr std::size_t sniffed_bytes = 4096;
 
-std::string known_formats() {
+std::string known_formats(bool only_readable) {
   std::string names;
-  for (const Format& format : formats())
+  for (const Format& format : formats()) {
+    if (only_readable && format.read == nullptr) continue;
     names += (names.empty() ? "" : ", ") + std::string(format.name);
+  }
   return names;
 }
 
@@ -32,7 +34,7 @@ const Format& format_called(std::string_view name) {
     if (format.name == name) return format;
   }
   throw Error(ErrorKind::usage,
-              fmt::format("unknown format {}; there is: {}", quote(name), known_formats()));
+              fmt::format("unknown format {}; there is: {}", quote(name), known_formats(false)));
 }
 
 const Format& format_of(std::string_view bytes, std::string_view name) {
@@ -48,8 +50,8 @@ const Format& format_of(std::string_view bytes, std::string_view name) {
   if (best == nullptr) best = format_of_path(std::filesystem::path(name));
   if (best != nullptr) return *best;
   if (bytes.empty()) throw Error::at_line(name, 1, "the file is empty");
-  throw Error::at_line(name, 1,
-                       fmt::format("not a motion file of a known format ({})", known_formats()));
+  throw Error::at_line(
+      name, 1, fmt::format("not a motion file of a known format ({})", known_formats(true)));
 }
 
 ReadResult clip_of(TakeResult result) {
