@@ -306,26 +306,16 @@ int run(const Arguments& arguments) {
     check_free(gaps_out, force);
   }
   Json takes = Json::array();
-  int code = 0;
-  for (const std::string& input : arguments.positionals) {
-    try {
-      const Checked take = check_file(input, arguments);
-      if (!gaps_out.empty()) write_output(gaps_out, gaps_text(take.report.stale), force);
-      if (json) {
-        takes.push_back(take_json(take));
-      } else if (gaps_out != "-") {
-        write_out(take_text(take, arguments.flag("verbose")));
-      }
-      code = std::max(code, check_limits(take, arguments));
-    } catch (const Error& error) {
-      if (error.kind() == ErrorKind::cannot_write) throw;
-      say_error(error.what());
-      code = std::max(code, static_cast<int>(error.kind()));
-      takes.push_back({{"input", input},
-                       {"error", error.what()},
-                       {"exit_code", static_cast<int>(error.kind())}});
+  const int code = for_each_input(arguments.positionals, takes, [&](const std::string& input) {
+    const Checked take = check_file(input, arguments);
+    if (!gaps_out.empty()) write_output(gaps_out, gaps_text(take.report.stale), force);
+    if (json) {
+      takes.push_back(take_json(take));
+    } else if (gaps_out != "-") {
+      write_out(take_text(take, arguments.flag("verbose")));
     }
-  }
+    return check_limits(take, arguments);
+  });
   if (json) write_out(json_text({{"kinemend", version()}, {"takes", std::move(takes)}}));
   return code;
 }

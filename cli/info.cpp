@@ -22,7 +22,13 @@ namespace {
 struct Subject {
   std::string name;
   TakeResult read;
-  std::optional<CleanReport> noise;  ///< of joints
+  /// With --noise: what the method auto finds of each joint or marker.
+  struct Noise {
+    std::string name;
+    double level = 0;  ///< degrees, or file units
+    std::size_t to_repair = 0;
+  };
+  std::vector<Noise> noise = {};
 };
 
 std::size_t channel_count(const Skeleton& skeleton) {
@@ -68,12 +74,11 @@ std::string tree_text(const Skeleton& skeleton) {
   return text + table.text();
 }
 
-std::string noise_text(const CleanReport& report) {
+std::string noise_text(const Subject& subject, const std::string& kind, const std::string& unit) {
   Table table({Align::left, Align::right, Align::right}, 4);
-  table.add({"joint", "noise deg", "samples to repair"});
-  for (const JointSummary& joint : report.joints) {
-    table.add({printable(joint.name), figure(joint.noise_deg), grouped(joint.frames_repaired)});
-  }
+  table.add({kind, "noise " + unit, "samples to repair"});
+  for (const Subject::Noise& track : subject.noise)
+    table.add({printable(track.name), figure(track.level), grouped(track.to_repair)});
   return "\n" + table.text();
 }
 
@@ -112,7 +117,7 @@ std::string clip_text(const Subject& subject, const Clip& clip, bool with_tree) 
   add_facts(subject, clip.source, table);
   std::string text = table.text();
   if (with_tree) text += tree_text(clip.skeleton);
-  if (subject.noise) text += noise_text(*subject.noise);
+  if (!subject.noise.empty()) text += noise_text(subject, "joint", "deg");
   return text;
 }
 
@@ -170,7 +175,9 @@ std::string markers_text(const Subject& subject, const MarkerClip& clip, bool wi
   table.add({"unit", clip.unit.empty() ? "not stated" : printable(clip.unit)});
   table.add({"missing", missing_text(missing, clip.frame_rate_hz)});
   add_facts(subject, clip.source, table);
-  if (!with_tree) return table.text();
+  std::string text = table.text();
+  if (!subject.noise.empty()) text += noise_text(subject, "marker", clip.unit);
+  if (!with_tree) return text;
   Table list({Align::left, Align::right}, 4);
   list.add({"marker", "missing %"});
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
@@ -178,7 +185,7 @@ std::string markers_text(const Subject& subject, const MarkerClip& clip, bool wi
     list.add({printable(clip.names[m]),
               clip.holds_positions(m) ? fmt::format("{:.2f}", share) : "no position"});
   }
-  return table.text() + "\n" + list.text();
+  return text + "\n" + list.text();
 }
 
 std::string subject_text(const Subject& subject, bool with_tree) {
@@ -194,9 +201,9 @@ Json joints_json(const Subject& subject, const Skeleton& skeleton) {
     Json joint = {{"name", skeleton.names[j]},
                   {"parent", skeleton.parents[j]},
                   {"channels", channel_names(skeleton.channels[j])}};
-    if (subject.noise) {
-      joint["noise_deg"] = subject.noise->joints[j].noise_deg;
-      joint["samples_to_repair"] = subject.noise->joints[j].frames_repaired;
+    if (!subject.noise.empty()) {
+      joint["noise_deg"] = subject.noise[j].level;
+      joint["samples_to_repair"] = subject.noise[j].to_repair;
     }
     joints.push_back(std::move(joint));
   }
@@ -237,9 +244,14 @@ Json markers_json(const Subject& subject, const MarkerClip& clip) {
   const double metres = metres_per_unit(clip.unit);
   Json markers = Json::array();
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
-    markers.push_back({{"name", clip.names[m]},
-                       {"is_position", clip.holds_positions(m)},
-                       {"missing_frames", missing.samples[m]}});
+    Json marker = {{"name", clip.names[m]},
+                   {"is_position", clip.holds_positions(m)},
+                   {"missing_frames", missing.samples[m]}};
+    if (!subject.noise.empty()) {
+      marker["noise"] = subject.noise[m].level;
+      marker["samples_to_repair"] = subject.noise[m].to_repair;
+    }
+    markers.push_back(std::move(marker));
   }
   Json events = Json::array();
   for (const MarkerEvent& event : clip.events) {
@@ -270,33 +282,33 @@ Json subject_json(const Subject& subject) {
   return markers_json(subject, std::get<MarkerClip>(subject.read.take));
 }
 
+void measure_noise(Subject& subject) {
+  const auto cleaner = make_cleaner("auto");
+  if (const Clip* clip = std::get_if<Clip>(&subject.read.take)) {
+    for (const JointSummary& joint : clean_clip(*clip, *cleaner).report.joints)
+      subject.noise.push_back({joint.name, joint.noise_deg, joint.frames_repaired});
+    return;
+  }
+  const MarkerResult result = clean_markers(std::get<MarkerClip>(subject.read.take), *cleaner);
+  for (const MarkerSummary& marker : result.report.markers)
+    subject.noise.push_back({marker.name, marker.noise, marker.frames_repaired});
+}
+
 int run(const Arguments& arguments) {
   const bool json = arguments.flag("json");
   check_single_use(arguments.positionals, {}, json);
   Json takes = Json::array();
-  int code = 0;
-  for (const std::string& input : arguments.positionals) {
-    try {
-      Subject subject{input_name(input),
-                      read_take(std::filesystem::path(input), read_options(arguments)),
-                      std::nullopt};
-      const Clip* clip = std::get_if<Clip>(&subject.read.take);
-      if (arguments.flag("noise") && clip != nullptr)
-        subject.noise = clean_clip(*clip, *make_cleaner("auto"), {}, "auto").report;
-      if (json) {
-        takes.push_back(subject_json(subject));
-      } else {
-        write_out(subject_text(subject, arguments.flag("tree")));
-      }
-    } catch (const Error& error) {
-      if (error.kind() == ErrorKind::cannot_write) throw;
-      say_error(error.what());
-      code = std::max(code, static_cast<int>(error.kind()));
-      takes.push_back({{"input", input},
-                       {"error", error.what()},
-                       {"exit_code", static_cast<int>(error.kind())}});
+  const int code = for_each_input(arguments.positionals, takes, [&](const std::string& input) {
+    Subject subject{input_name(input),
+                    read_take(std::filesystem::path(input), read_options(arguments))};
+    if (arguments.flag("noise")) measure_noise(subject);
+    if (json) {
+      takes.push_back(subject_json(subject));
+    } else {
+      write_out(subject_text(subject, arguments.flag("tree")));
     }
-  }
+    return 0;
+  });
   if (json) write_out(json_text({{"kinemend", version()}, {"takes", std::move(takes)}}));
   return code;
 }
@@ -316,7 +328,7 @@ Command info_command() {
       json_flag("print JSON instead of text"),
       switch_flag("tree", "Output", "also show the skeleton with its channels, or the markers"),
       switch_flag(
-          "noise", "Output", "also estimate the noise of each joint",
+          "noise", "Output", "also estimate the noise of each joint or marker",
           "By a dry run of the method auto: jitter per axis, and samples it would repair.")};
   append(command.flags, reading_flags("what needs a repair becomes an error"));
   command.examples = {{"kinemend info walk.bvh --tree", "the skeleton too"},

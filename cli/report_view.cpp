@@ -4,6 +4,22 @@
 
 namespace kinemend::cli {
 
+namespace {
+
+// What the reports of joints and of markers have alike.
+template <class Report>
+void take_common(Report& report, ReportView& view) {
+  view.method = std::move(report.method);
+  view.frames = report.frames;
+  view.frame_rate_hz = report.frame_rate_hz;
+  view.spans = std::move(report.spans);
+  view.fill = std::move(report.fill);
+  view.warnings = std::move(report.warnings);
+  view.seconds = report.seconds;
+}
+
+}  // namespace
+
 ReportView view_of(CleanReport report) {
   ReportView view;
   view.unit = "deg";
@@ -17,13 +33,7 @@ ReportView view_of(CleanReport report) {
                          joint.peak_speed_before_deg_s, joint.peak_speed_after_deg_s,
                          joint.peak_frames, 0, 0});
   }
-  view.method = std::move(report.method);
-  view.frames = report.frames;
-  view.frame_rate_hz = report.frame_rate_hz;
-  view.spans = std::move(report.spans);
-  view.fill = std::move(report.fill);
-  view.warnings = std::move(report.warnings);
-  view.seconds = report.seconds;
+  take_common(report, view);
   return view;
 }
 
@@ -39,13 +49,7 @@ ReportView view_of(MarkerReport report) {
                          marker.peak_speed_after, marker.peak_frames, marker.gaps_left,
                          marker.frames_missing});
   }
-  view.method = std::move(report.method);
-  view.frames = report.frames;
-  view.frame_rate_hz = report.frame_rate_hz;
-  view.spans = std::move(report.spans);
-  view.fill = std::move(report.fill);
-  view.warnings = std::move(report.warnings);
-  view.seconds = report.seconds;
+  take_common(report, view);
   return view;
 }
 

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 
+#include "json.hpp"
 #include "table.hpp"
 #include "terminal.hpp"
 
@@ -35,6 +36,23 @@ void check_single_use(const std::vector<std::string>& inputs,
     throw Error(ErrorKind::usage,
                 "standard output holds one thing: a take, a report or --json, not several");
   }
+}
+
+int for_each_input(const std::vector<std::string>& inputs, Json& takes,
+                   const std::function<int(const std::string&)>& visit) {
+  int code = 0;
+  for (const std::string& input : inputs) {
+    try {
+      code = std::max(code, visit(input));
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::cannot_write) throw;
+      say_error(error.what());
+      const int failure = static_cast<int>(error.kind());
+      code = std::max(code, failure);
+      takes.push_back({{"input", input}, {"error", error.what()}, {"exit_code", failure}});
+    }
+  }
+  return code;
 }
 
 std::string diagnostic_line(const std::string& name, const Diagnostic& diagnostic) {

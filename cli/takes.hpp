@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +22,11 @@ void write_output(const std::string& output, std::string_view bytes, bool force)
 /// Refuses a second use of standard input or standard output. Errors: `ErrorKind::usage`.
 void check_single_use(const std::vector<std::string>& inputs,
                       const std::vector<std::string>& outputs, bool json);
+/// Calls `visit` with each input and returns the highest exit code. An input that cannot be read is
+/// said, gets an entry in `takes` and stops none of the others; an output that cannot be written
+/// stops all.
+int for_each_input(const std::vector<std::string>& inputs, nlohmann::ordered_json& takes,
+                   const std::function<int(const std::string&)>& visit);
 /// A line a kind of repair, as a warning.
 std::string diagnostic_line(const std::string& name, const Diagnostic& diagnostic);
 void warn_of_repairs(const std::string& name, const Diagnostics& diagnostics);

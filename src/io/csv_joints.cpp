@@ -95,15 +95,6 @@ class JointReader {
   }
 
  private:
-  struct Repair {
-    std::size_t count = 0;
-    std::size_t first = 0;
-
-    void add(std::size_t place) {
-      if (count++ == 0) first = place;
-    }
-  };
-
   std::size_t joints() const { return columns_.rotations.size(); }
 
   void build_skeleton() {
@@ -263,7 +254,7 @@ class JointReader {
     document_.joint_translations = clip_.joint_translations;
   }
 
-  void note(const Repair& repair, std::string_view kind, std::string_view message) {
+  void note(const CountedRepair& repair, std::string_view kind, std::string_view message) {
     if (repair.count > 0)
       note_repair(text_, diagnostics_, kind, repair.first, message, repair.count);
   }
@@ -277,7 +268,7 @@ class JointReader {
   std::size_t width_;
   Clip clip_;
   std::vector<double> values_;
-  Repair too_short_, not_unit_, rotation_missing_, position_missing_;
+  CountedRepair too_short_, not_unit_, rotation_missing_, position_missing_;
 };
 
 class JointRewriter {

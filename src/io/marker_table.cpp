@@ -46,15 +46,6 @@ class TableReader {
   }
 
  private:
-  struct Repair {
-    std::size_t count = 0;
-    std::size_t first = 0;
-
-    void add(std::size_t place) {
-      if (count++ == 0) first = place;
-    }
-  };
-
   std::size_t bytes_per_frame() const { return markers_ * (sizeof(Vec3) + 2) + 16; }
 
   // Never for more frames than may be.
@@ -164,7 +155,7 @@ class TableReader {
     table_.observed = clip_.observed;
   }
 
-  void note(const Repair& repair, std::string_view kind, std::string_view message) {
+  void note(const CountedRepair& repair, std::string_view kind, std::string_view message) {
     if (repair.count > 0)
       note_repair(text_, diagnostics_, kind, repair.first, message, repair.count);
   }
@@ -187,8 +178,8 @@ class TableReader {
   std::size_t row_begin_ = 0;
   CellRow last_row_;
   TableFinding finding_;
-  Repair too_short_;
-  Repair incomplete_;
+  CountedRepair too_short_;
+  CountedRepair incomplete_;
 };
 
 // Half a unit in the last decimal that any of the first times has.

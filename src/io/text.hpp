@@ -34,6 +34,16 @@ struct SourceText {
   }
 };
 
+/// How often something was repaired, and where it was for the first time.
+struct CountedRepair {
+  std::size_t count = 0;
+  std::size_t first = 0;
+
+  void add(std::size_t place) {
+    if (count++ == 0) first = place;
+  }
+};
+
 /// Notes a repair; throws `ErrorKind::quality_limit` when the reading is strict.
 void note_repair(const SourceText& text, Diagnostics& diagnostics, std::string_view kind,
                  std::size_t offset, std::string_view message, std::size_t count = 1);
