@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace kinemend {
 
@@ -127,6 +128,59 @@ void acquit_clusters(SampleMarks& marked) {
   }
 }
 
+// Whether what a track does at its accused samples is within reach of a body, on average.
+bool could_be_motion(const SpikeTrial& trial, const SampleMarks& guilty, std::size_t n) {
+  constexpr double fast_deg_s = 2000;
+  double sum = 0, count = 0;
+  for (std::size_t t = 0; t < guilty.frames; ++t) {
+    if (guilty(t, n) == 0) continue;
+    sum += trial.predictions.errors(t, n);
+    ++count;
+  }
+  return sum * trial.frame_rate_hz < fast_deg_s * count;
+}
+
+// The tracks with far more verdicts than chance puts there, judged by all the others, where the
+// rate is so low that a joint gets there and back within two frames: a toe that leaves the ground
+// does so at every step. That is a habit, not damage.
+std::vector<std::uint8_t> find_habits(const SpikeTrial& trial, const SampleMarks& guilty) {
+  constexpr double high_rate_hz = 100, chance = 1e-4;
+  constexpr std::size_t fewest_verdicts = 4, fewest_tracks = 4;
+  std::vector<std::uint8_t> habits(guilty.tracks);
+  if (trial.frame_rate_hz >= high_rate_hz || guilty.tracks < fewest_tracks) return habits;
+  std::vector<std::size_t> verdicts(guilty.tracks);
+  std::size_t total = 0;
+  for (std::size_t i = 0; i < guilty.marks.size(); ++i) {
+    verdicts[i % guilty.tracks] += guilty.marks[i];
+    total += guilty.marks[i];
+  }
+  for (std::size_t others = guilty.tracks - 1; others > 0; --others) {
+    const auto worst = std::max_element(verdicts.begin(), verdicts.end());
+    const auto n = static_cast<std::size_t>(worst - verdicts.begin());
+    const double expected = static_cast<double>(total - *worst) / static_cast<double>(others);
+    if (*worst < fewest_verdicts || poisson_tail(expected, *worst) > chance) break;
+    habits[n] = could_be_motion(trial, guilty, n);
+    total -= *worst;
+    *worst = 0;
+  }
+  return habits;
+}
+
+// Of a track with a habit only what goes far beyond it stays marked.
+void acquit_habit(const SpikeTrial& trial, std::size_t n, SampleMarks& guilty) {
+  constexpr double beyond = 2;
+  std::vector<double> errors;
+  for (std::size_t t = 0; t < guilty.frames; ++t) {
+    if (guilty(t, n) != 0) errors.push_back(trial.predictions.errors(t, n));
+  }
+  if (errors.empty()) return;
+  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
+  std::nth_element(errors.begin(), middle, errors.end());
+  for (std::size_t t = 0; t < guilty.frames; ++t) {
+    guilty(t, n) = guilty(t, n) != 0 && trial.predictions.errors(t, n) > beyond * *middle;
+  }
+}
+
 }  // namespace
 
 SampleMarks judge_spikes(const SpikeTrial& trial) {
@@ -134,32 +188,38 @@ SampleMarks judge_spikes(const SpikeTrial& trial) {
   SampleMarks guilty(accused.frames, accused.tracks);
   std::size_t quiet_samples = 0, quiet_verdicts = 0;
   const auto judge_track = [&](std::size_t n, double share) {
-    std::size_t verdicts = 0;
     for (std::size_t t = 0; t < accused.frames; ++t) {
       guilty(t, n) = accused(t, n) != 0 && stands_clear(trial, t, n, share);
-      verdicts += guilty(t, n);
     }
-    return verdicts;
   };
+  const auto keep_impossible = [&](std::size_t n) {
+    for (std::size_t t = 0; t < accused.frames; ++t) {
+      if (guilty(t, n) != 0) guilty(t, n) = is_impossible(trial, t, n);
+    }
+  };
+  for (std::size_t n = 0; n < accused.tracks; ++n) judge_track(n, trial.shares[n]);
+  const std::vector<std::uint8_t> habits = find_habits(trial, guilty);
   for (std::size_t n = 0; n < accused.tracks; ++n) {
-    const std::size_t verdicts = judge_track(n, trial.shares[n]);
+    if (habits[n] != 0) acquit_habit(trial, n, guilty);
     if (trial.shares[n] >= 1) continue;
     quiet_samples += accused.frames;
-    quiet_verdicts += verdicts;
+    for (std::size_t t = 0; t < accused.frames; ++t) quiet_verdicts += guilty(t, n);
   }
   // A few odd samples in a quiet take are its own, and only what is impossible is repaired. Many
   // are damage: then the quiet tracks are judged again, as strictly as the noisy ones.
   const double damage = std::max(5.0, 0.0006 * static_cast<double>(quiet_samples));
   const bool damaged = static_cast<double>(quiet_verdicts) >= damage;
   for (std::size_t n = 0; n < accused.tracks; ++n) {
-    if (trial.shares[n] >= 1) continue;
+    if (habits[n] != 0 || trial.shares[n] >= 1) continue;
     if (damaged) {
       judge_track(n, 1);
-      continue;
+    } else {
+      keep_impossible(n);
     }
-    for (std::size_t t = 0; t < accused.frames; ++t) {
-      if (guilty(t, n) != 0) guilty(t, n) = is_impossible(trial, t, n);
-    }
+  }
+  const std::vector<std::uint8_t> late_habits = find_habits(trial, guilty);
+  for (std::size_t n = 0; n < accused.tracks; ++n) {
+    if (late_habits[n] != 0) acquit_habit(trial, n, guilty);
   }
   acquit_clusters(guilty);
   return guilty;

@@ -39,7 +39,8 @@ struct SpikeTrial {
 /// and does not go on where one of its sides is heading. On a quiet track it stands clearer still,
 /// and no joint nearby moves with it; and where a quiet take holds only a few of those, they are
 /// what no body can do: leaps faster than any joint turns, there and back within two frames. More
-/// verdicts in a cluster than chance puts together are acquitted: they are fast motion.
+/// verdicts in a cluster than chance puts together are acquitted: they are fast motion; so are,
+/// below 100 Hz, more on one track than chance puts there.
 SampleMarks judge_spikes(const SpikeTrial& trial);
 
 }  // namespace kinemend

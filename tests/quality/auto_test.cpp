@@ -255,6 +255,25 @@ TEST(Auto, RepairsManySpikesInAnOtherwiseCleanTake) {
   }
 }
 
+TEST(Auto, LeavesToesThatLeaveTheGroundAloneAtLowRates) {
+  for (const double rate_hz : {30.0, 60.0}) {
+    const Clip truth = take("run", 10, rate_hz);
+    EXPECT_LT(figures(truth, cleaned(truth, "auto")).rms, 0.05) << rate_hz;
+  }
+}
+
+TEST(Auto, RepairsWhatGoesFarBeyondTheHabitOfAToe) {
+  const Clip truth = take("run", 10, 60);
+  Clip thrown = truth;
+  const auto toe = static_cast<std::size_t>(truth.skeleton.find("LeftToeBase"));
+  const auto knee = static_cast<std::size_t>(truth.skeleton.find("LeftLeg"));
+  for (std::size_t f = 40; f < 560; f += 40) {
+    if (f % 120 == 0) thrown.rotation(f, toe) = thrown.rotation(f, toe) * exp({1.6, 0, 0});
+    thrown.rotation(f + 9, knee) = thrown.rotation(f + 9, knee) * exp({0, 1.2, 0});
+  }
+  EXPECT_LT(figures(truth, cleaned(thrown, "auto")).rms, 0.6 * figures(truth, thrown).rms);
+}
+
 TEST(Auto, SurvivesTheShortestTakes) {
   const Clip walk = damaged(take("walk"), 1.5, 0.004, 1);
   for (const std::size_t frames : {1U, 2U, 3U, 4U, 5U, 8U, 13U, 30U}) {
