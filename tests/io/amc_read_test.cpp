@@ -1,3 +1,5 @@
+#include <stdlib.h>
+
 #include <fstream>
 #include <map>
 #include <sstream>
