@@ -219,7 +219,10 @@ TEST_F(Batch, NarrowsAFolderByName) {
 
 TEST_F(Batch, KilledAtAnyMomentItLeavesWholeFilesOnlyAndGoesOn) {
   make_tree(12);
-  ASSERT_EQ(run({"batch", "raw", "-o", "whole"}).code, 0);
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_EQ(run({"batch", "raw", "-o", "whole", "--jobs", "2"}).code, 0);
+  const auto whole_run = std::chrono::duration_cast<std::chrono::microseconds>(
+      std::chrono::steady_clock::now() - start);
   const auto reference = takes("whole");
   const unsigned seed = std::random_device()();
   RecordProperty("seed", static_cast<int>(seed));
@@ -236,7 +239,9 @@ TEST_F(Batch, KilledAtAnyMomentItLeavesWholeFilesOnlyAndGoesOn) {
       dup2(errors, STDERR_FILENO);
       execute({"batch", "raw", "-o", "clean", "--jobs", "2"}, {});
     }
-    std::this_thread::sleep_for(std::chrono::microseconds(random() % 60000));
+    // At any moment of the run, however fast this machine and this build are.
+    std::uniform_int_distribution<long> moment(0, whole_run.count());
+    std::this_thread::sleep_for(std::chrono::microseconds(moment(random)));
     kill(child, SIGKILL);
     wait_for(child);
     for (const auto& [name, bytes] : takes("clean")) {
