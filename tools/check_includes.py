@@ -19,7 +19,10 @@ USES = {
     "synth": {"motion"},
     "signal": {"base"},
     "fill": {"motion", "signal"},
-    "clean": {"representation", "signal", "metrics", "fill"},
+    "nn": {"base"},
+    "priors": {"representation", "signal", "nn"},
+    "feet": {"motion"},
+    "clean": {"representation", "signal", "priors", "metrics", "fill", "feet"},
     "check": {"clean"},
     "stream": {"clean"},
 }
@@ -31,7 +34,8 @@ PUBLIC = {
     "marker_clip": "motion", "convert": "motion", "gaps": "motion", "fill": "fill", "check": "check",
     "io": "io", "representation": "representation", "metrics": "metrics", "corrupt": "corrupt",
     "synth": "synth", "signal": "signal", "cleaner": "clean", "methods": "clean", "clean": "clean",
-    "stream": "stream",
+    "stream": "stream", "tensor": "nn", "body": "representation", "model": "priors", "train": "priors",
+    "feet": "feet",
 }
 
 # Folders of programs: they see include/ (and their own folder) only.

@@ -8,6 +8,8 @@
 
 namespace kinemend {
 
+struct Model;
+
 // Every cleaning method as a plain options struct and the function that makes its cleaner. Times
 // are seconds and frequencies hertz, taken against the clip's own rate. The factories throw
 // `ErrorKind::usage` for a value out of range.
@@ -107,5 +109,56 @@ struct AutoOptions {
   bool despike = true;
 };
 std::unique_ptr<Cleaner> make_auto(const AutoOptions& options = {});
+
+// Methods with a learned model. `model` is the path of a model file; empty: the model that ships.
+// `map` is the path of a file of names (`parse_name_map`); empty: names and topology only. A model
+// handed over takes the place of the path. Errors, beside values out of range: those of `model_for`
+// and `parse_name_map`; of `clean`: `ErrorKind::usage` for a body that the model does not know.
+// Parts that the model does not know are cleaned by `auto`. Gaps of parts that it knows are filled
+// with `fill`, those of markers that are never seen included.
+
+/// Example-based denoising (Lou & Chai 2010): what the model's filter bases can express is kept
+/// (eq. 11 and 16).
+struct ExampleOptions {
+  std::string model;
+  std::string map;
+  bool self = false;             ///< bases from the take itself, by robust M-SSA; no model
+  bool robust = true;            ///< off: the linear filter of eq. 7
+  double welsch_deg = 0;         ///< p of eq. 9 (the paper: 3); 0: from the estimated noise
+  double lambda = 0;             ///< of eq. 10 (the paper: 0.1); 0: from the noise and the model
+  std::int64_t bases = 0;        ///< of those the model has; 0: from the noise, at most all
+  std::int64_t iterations = 50;  ///< at most
+  double tolerance = 1e-4;  ///< stop where the objective falls by less than this share of itself
+  double limits = 1;        ///< weight of the joint limits, a soft term; 0: none
+  bool fill = true;
+};
+std::unique_ptr<Cleaner> make_example(const ExampleOptions& options = {},
+                                      std::shared_ptr<const Model> model = nullptr);
+
+/// Posterior mean under a mixture of Gaussians over windows of half a second, in a temporal DCT:
+/// each window is explained by the kinds of motion that its evidence speaks for, or by nothing but
+/// smoothness.
+struct WienerOptions {
+  std::string model;
+  std::string map;
+  double noise_deg = 0;    ///< standard deviation per channel; 0: estimated, for each joint
+  double sensitivity = 1;  ///< scales the noise
+  bool despike = true;
+  bool fill = true;
+};
+std::unique_ptr<Cleaner> make_wiener(const WienerOptions& options = {},
+                                     std::shared_ptr<const Model> model = nullptr);
+
+/// Kalman filter or smoother with system matrices learned from clips (Lou & Chai 2010, section
+/// 4.2). No model ships.
+struct KalmanLearnedOptions {
+  std::string model;
+  std::string map;
+  bool smoother = true;  ///< off: the causal filter
+  double noise_deg = 0;  ///< measurement noise per channel; 0: estimated from the take
+  bool fill = true;
+};
+std::unique_ptr<Cleaner> make_kalman_learned(const KalmanLearnedOptions& options = {},
+                                             std::shared_ptr<const Model> model = nullptr);
 
 }  // namespace kinemend

@@ -73,6 +73,11 @@ class OptionTable {
                {std::move(name), "", Options{}.*member, 0, 0, std::move(choices), std::move(help)});
   }
 
+  /// A path or another text of the user's own; empty by default.
+  OptionTable& text(std::string Options::*member, std::string name, std::string help) {
+    return add(member, {std::move(name), "", Options{}.*member, 0, 0, {}, std::move(help)});
+  }
+
   const std::vector<OptionSpec>& specs() const noexcept { return specs_; }
 
   /// The struct with `values` put in. Errors: `ErrorKind::usage` for an unknown name, a wrong type

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemend/clip.hpp"
+#include "kinemend/marker_clip.hpp"
+#include "kinemend/pose_matrix.hpp"
+
+// Bodies as learned models see them: channels that do not depend on where a person stands, which
+// way the person faces, which way the file's axes point and how its joints' frames are turned.
+namespace kinemend {
+
+enum class BodyKind : std::uint8_t { joints, markers };
+std::string_view to_string(BodyKind kind);
+
+/// The parts of a body that a model knows, and what its channels are measured from.
+///
+/// The body's frame at a moment is upright (y up, z ahead), stands below the body and turns with
+/// its heading. It is a trend: place and heading smoothed over `trend_s`, so that noise of single
+/// parts does not move it and channels stay linear in what was measured.
+///
+/// Joints: three channels each, the rotation vector Log(r^-1 q) in degrees, where q is the joint's
+/// local rotation in frames that are parallel to the body's when all bones point along `bones`
+/// (of the first joint: its global rotation in the body's frame), and r its reference. Then, with
+/// `with_place`, the position of the first joint in the body's frame less `place`, in degrees: an
+/// arc of a radius that a turn moves a bone's end by, a quarter of the stature.
+///
+/// Markers: three channels each, the position in the body's frame less the marker's mean, in the
+/// same degrees.
+struct BodyLayout {
+  BodyKind kind = BodyKind::joints;
+  std::vector<std::string> names;     ///< N parts; joints: parents first, the root foremost
+  std::vector<std::int32_t> parents;  ///< N, joints: the nearest ancestor among the parts; -1
+  std::vector<Quat> references;       ///< N, joints
+  std::vector<Vec3> bones;            ///< N, joints: direction of the bone from the joint to its
+                                      ///< child at rest, unit, body's axes; zero where unknown
+  bool with_place = true;             ///< joints
+  Vec3 place;                         ///< joints: mean of the first joint's position, statures
+  std::vector<Vec3> means;            ///< N, markers: mean position, statures
+  std::vector<std::uint8_t> anchors;  ///< N, markers: 1 for those that carry the body's frame
+  double trend_s = 0.5;               ///< standard deviation of the smoothing of place and heading
+
+  std::size_t part_count() const noexcept { return names.size(); }
+  /// 3 a part, and 3 of the place.
+  std::size_t channel_count() const noexcept;
+  /// "LeftArm x"; "place y".
+  std::string channel_name(std::size_t channel) const;
+  /// The rules: lengths as above, unit rotations and bones, finite numbers, parents before
+  /// children, three anchors at least. Errors: `ErrorKind::usage` naming the first part that breaks
+  /// a rule.
+  void validate() const;
+};
+
+/// What is learned of a set of takes before a model: means and references. Takes are shown one by
+/// one and not kept.
+class BodyLayoutBuilder {
+ public:
+  /// `names`: joints or markers, or shell patterns, to be learned; empty: all that move.
+  explicit BodyLayoutBuilder(std::vector<std::string> names = {}, double trend_s = 0.5);
+  ~BodyLayoutBuilder();
+  BodyLayoutBuilder(BodyLayoutBuilder&&) noexcept;
+
+  /// The first take says which parts there are; of later ones at least half must be found again.
+  /// Errors: `ErrorKind::usage` for a take of the other kind, or in which parts are not found,
+  /// with their names.
+  void add(const Clip& clip);
+  void add(const MarkerClip& clip);
+  /// Errors: `ErrorKind::usage` when there was no take, or nothing that moves.
+  BodyLayout finish() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Names in a take for names in a model: "LeftArm" to "lhumerus".
+using NameMap = std::map<std::string, std::string, std::less<>>;
+/// Reads lines `model name,name in the take` (also with `=`; `#` starts a comment; a name left
+/// empty: the take has no such part). Errors: `ErrorKind::usage`, `<name>:<line>: ...`.
+NameMap parse_name_map(std::string_view text, std::string_view name);
+/// A mapping file that starts from what is known, for a person to complete: every part of the
+/// layout with what it matches, and the unmatched names of the take as comments.
+struct BodyMatch;
+std::string name_map_text(const BodyLayout& layout, const BodyMatch& match);
+
+/// Which parts of a take are those of a layout.
+struct BodyMatch {
+  std::vector<std::int32_t> parts;   ///< N: index of the joint or marker in the take; -1: none
+  std::vector<std::string> missing;  ///< parts of the layout that the take lacks
+  std::vector<std::string> unknown;  ///< joints that can turn, or markers, that the layout lacks
+  /// N, joints: the take's local rotation u as the layout's is q = before * u * after.
+  std::vector<Quat> before, after;
+  Axis up = Axis::y;   ///< of the take
+  double stature = 1;  ///< of the person, file units
+};
+
+/// By name (case, separators, subject and prefixes such as `mixamorig:` do not count; the usual
+/// spellings of one bone are one name), then by topology: a joint that hangs on the same parts and
+/// has the same children. A joint whose matched ancestors are not those of the layout is no match.
+/// Errors: `ErrorKind::usage` when less than half of the parts are found, or no root: `the model
+/// knows 24 joints, of which the take lacks 20: ...`; for a name of the map that there is not.
+BodyMatch match_body(const BodyLayout& layout, const Clip& clip, const NameMap& names = {});
+BodyMatch match_body(const BodyLayout& layout, const MarkerClip& clip, const NameMap& names = {});
+
+/// The channels of a take and what is needed to write them back.
+struct BodyChannels {
+  PoseMatrix poses;                    ///< F x D degrees; of missing samples the last seen value
+  std::vector<std::uint8_t> observed;  ///< F x D, 1 where there was a measurement
+  double frame_rate_hz = 0;
+  // The body's frame, and the scale:
+  std::vector<double> headings;  ///< F, radians about the up axis
+  std::vector<Vec3> places;      ///< F, on the floor, file units
+  double degrees_per_unit = 1;
+};
+
+/// Every frame of `clip` is motion. Samples of parts that the take lacks are not observed. Errors:
+/// none beyond those of `match_body`.
+BodyChannels encode_body(const Clip& clip, const BodyLayout& layout, const BodyMatch& match);
+BodyChannels encode_body(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match);
+/// Writes the channels of the parts with `chosen[part]` (N, and one of the place; empty: all) back
+/// into all frames of the clip that they came from. Parts that the take lacks go nowhere. Of
+/// markers `observed` is left as it is.
+void decode_body(const BodyChannels& channels, const BodyLayout& layout, const BodyMatch& match,
+                 Clip& clip, std::span<const std::uint8_t> chosen = {});
+void decode_body(const BodyChannels& channels, const BodyLayout& layout, const BodyMatch& match,
+                 MarkerClip& clip, std::span<const std::uint8_t> chosen = {});
+
+}  // namespace kinemend

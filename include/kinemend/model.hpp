@@ -1,0 +1,67 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemend/body.hpp"
+#include "kinemend/tensor.hpp"
+
+// Learned models: what a method knows of human motion, in a file (`walk.kmodel`, safetensors).
+namespace kinemend {
+
+/// What a model says of itself, for people.
+struct ModelCard {
+  std::string title;    ///< "Walks of subject 35"
+  std::string data;     ///< what it was trained on
+  std::string licence;  ///< words on the data and the model
+  std::string command;  ///< that made it
+  std::string figures;  ///< measured quality, as text
+};
+
+/// Plain data: immutable in use and shared between threads.
+struct Model {
+  std::string method;     ///< "example", "wiener", "kalman-learned"
+  int version = 1;        ///< of the method's tensors
+  double rate_hz = 30;    ///< of the motion it was trained on
+  std::size_t takes = 0;  ///< trained on
+  double seconds = 0;     ///< of motion trained on
+  ModelCard card;
+  BodyLayout layout;
+  std::map<std::string, double, std::less<>> numbers;  ///< settings and scalars of the method
+  std::map<std::string, Tensor, std::less<>> tensors;  ///< arrays of the method
+
+  /// Errors: `ErrorKind::unreadable_input` naming what is missing, or has another shape.
+  double number(std::string_view name) const;
+  const Tensor& tensor(std::string_view name, const std::vector<std::size_t>& shape) const;
+  /// Any shape of this many dimensions.
+  const Tensor& tensor(std::string_view name, std::size_t dimensions) const;
+};
+
+/// Errors: `ErrorKind::unreadable_input` as of `parse_tensors`, for a file that is no model, and
+/// for a version that is newer than this program, with both numbers.
+Model parse_model(std::string_view bytes, std::string_view name);
+Model read_model(const std::filesystem::path& path);
+/// The same model gives the same bytes.
+std::string write_model(const Model& model);
+/// XXH3 of the bytes of the file, hexadecimal: stands on the card.
+std::string model_checksum(std::string_view bytes);
+
+/// A model that is part of the program.
+struct ShippedModel {
+  std::string_view method;
+  std::string_view bytes;  ///< of the model file
+};
+std::vector<ShippedModel> shipped_models();
+/// Parsed once and kept. Errors: `ErrorKind::usage` when none ships for the method: `method
+/// kalman-learned needs a model: --model FILE, made by kinemend train kalman-learned`.
+std::shared_ptr<const Model> shipped_model(std::string_view method);
+
+/// The model that a method's option `model` means: a path, or the shipped one where empty. Errors:
+/// as above; `ErrorKind::usage` for a model of another method.
+std::shared_ptr<const Model> model_for(std::string_view method, const std::string& path);
+
+}  // namespace kinemend

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "kinemend/body.hpp"
+#include "kinemend/cleaner.hpp"
+
+// What the methods with a learned model share: a take becomes channels, the method filters them,
+// and they go back into the take.
+namespace kinemend {
+
+/// A take as such a method sees it.
+struct PriorWork {
+  /// Degrees. Samples that are missing, and those of parts that the take lacks, are not observed.
+  BodyChannels channels;
+  std::vector<double> noise;          ///< D, degrees per channel, as `auto` measures it; 0: none
+  std::vector<std::uint8_t> suspect;  ///< F x D, 1 where `auto` takes the sample for a spike
+  /// F x D, what `auto` makes of the take, for what the model cannot explain; gaps are bridged.
+  PoseMatrix fallback;
+  /// Set by the filter, F x D: 1 where a measurement counted for next to nothing. Empty: none.
+  std::vector<std::uint8_t> rejected;
+  std::vector<std::string> warnings;  ///< of the filter
+};
+
+/// Cleans `work.channels.poses` in place.
+using PriorFilter = std::function<void(PriorWork& work)>;
+
+/// Runs the filter on the parts that layout and take share, and `auto` on all others; fills gaps of
+/// the shared parts where `fill` is set. Errors: `ErrorKind::usage` as of `match_body`.
+CleanTrace clean_with_prior(Clip& clip, const Selection& selection, const BodyLayout& layout,
+                            const NameMap& names, bool fill, const PriorFilter& filter);
+MarkerTrace clean_with_prior(MarkerClip& clip, const MarkerSelection& selection,
+                             const BodyLayout& layout, const NameMap& names, bool fill,
+                             const PriorFilter& filter);
+
+/// The names of a mapping file; none for an empty path.
+NameMap name_map_at(const std::string& path);
+
+}  // namespace kinemend

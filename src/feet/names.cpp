@@ -1,0 +1,7 @@
+#include "kinemend/feet.hpp"
+
+namespace kinemend {
+
+std::string_view to_string(FootPart part) { return part == FootPart::heel ? "heel" : "toe"; }
+
+}  // namespace kinemend

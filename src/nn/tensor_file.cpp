@@ -1,0 +1,1 @@
+#include "kinemend/tensor.hpp"
