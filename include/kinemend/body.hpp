@@ -124,6 +124,12 @@ struct BodyChannels {
 /// none beyond those of `match_body`.
 BodyChannels encode_body(const Clip& clip, const BodyLayout& layout, const BodyMatch& match);
 BodyChannels encode_body(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match);
+/// The same in the body's frame of `guide`, the channels of a cleaner copy of this take with the
+/// same frames; rotation vectors are those nearest to the guide's.
+BodyChannels encode_body(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,
+                         const BodyChannels& guide);
+BodyChannels encode_body(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match,
+                         const BodyChannels& guide);
 /// Writes the channels of the parts with `chosen[part]` (N, and one of the place; empty: all) back
 /// into all frames of the clip that they came from. Parts that the take lacks go nowhere. Of
 /// markers `observed` is left as it is.
