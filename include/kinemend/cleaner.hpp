@@ -109,10 +109,10 @@ class Cleaner {
   /// depend on the number of threads.
   virtual CleanTrace clean(Clip& clip, const Selection& selection) const = 0;
 
-  /// Cleans the selected markers in place. Only observed samples change, and only they are looked
-  /// at: what stands in a gap never matters. Gaps up to 0.25 s are bridged while a track is
-  /// filtered, and no filter reaches across longer ones. Errors: `ErrorKind::usage` of a method
-  /// that does not work on markers, which is the default.
+  /// Cleans the selected markers in place. What stands in a gap never matters. Gaps up to 0.25 s
+  /// are bridged while a track is filtered, and no filter reaches across longer ones; only methods
+  /// with a learned model fill gaps: what they filled is observed. Errors: `ErrorKind::usage` of a
+  /// method that does not work on markers, which is the default.
   virtual MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const;
 
   /// What the method can do frame by frame at this rate; the default is nothing.

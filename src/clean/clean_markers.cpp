@@ -34,6 +34,17 @@ MarkerTrack track_of(const MarkerClip& before, const MarkerClip& after, const Ma
   return track;
 }
 
+// A cleaner that fills gaps sees no range: what it filled outside goes missing again.
+void empty_outside(MarkerClip& clip, const MarkerClip& before, const std::vector<double>& weights) {
+  const std::size_t markers = clip.marker_count();
+  for (std::size_t i = 0; i < clip.observed.size(); ++i) {
+    if (before.observed[i] != 0 || clip.observed[i] == 0 || weights[i / markers] > 0) continue;
+    clip.observed[i] = 0;
+    clip.positions[i] = before.positions[i];
+    if (!clip.residuals.empty()) clip.residuals[i] = before.residuals[i];
+  }
+}
+
 void add_fill_warnings(MarkerReport& report) {
   report.warnings.insert(report.warnings.end(), report.fill.warnings.begin(),
                          report.fill.warnings.end());
@@ -64,6 +75,8 @@ MarkerResult clean_markers(const MarkerClip& clip, const Cleaner& cleaner,
   }
   const MarkerTrace trace = cleaner.clean_markers(result.clip, selection);
   report.warnings.insert(report.warnings.end(), trace.warnings.begin(), trace.warnings.end());
+
+  empty_outside(result.clip, clip, weights);
 
   const std::vector<double> nothing(frames, 0.0);
   const MarkerScale scale{clip.frame_rate_hz, selection.body_height, clip.unit};

@@ -1,0 +1,303 @@
+#include "clean/prior_cleaning.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include "clean/tracks.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/methods.hpp"
+
+namespace kinemend {
+
+namespace {
+
+// Which parts of the layout may change, and one of the place behind them.
+std::vector<std::uint8_t> chosen_parts(const BodyMatch& match,
+                                       const std::vector<std::uint8_t>& selected) {
+  std::vector<std::uint8_t> chosen(match.parts.size(), 0);
+  for (std::size_t part = 0; part < chosen.size(); ++part) {
+    const std::int32_t index = match.parts[part];
+    if (index >= 0) chosen[part] = selected[static_cast<std::size_t>(index)];
+  }
+  return chosen;
+}
+
+// Sets the marks of a part's channels in one frame.
+void mark_part(std::vector<std::uint8_t>& marks, std::size_t channels, std::size_t frame,
+               std::size_t part) {
+  for (std::size_t axis = 0; axis < 3; ++axis) marks[frame * channels + 3 * part + axis] = 1;
+}
+
+bool is_rejected(const PriorWork& work, std::size_t frame, std::size_t part) {
+  if (work.rejected.empty()) return false;
+  const std::size_t first = frame * work.channels.poses.channels + 3 * part;
+  return (work.rejected[first] | work.rejected[first + 1] | work.rejected[first + 2]) != 0;
+}
+
+std::string lacking(const BodyMatch& match) {
+  return fmt::format("the take lacks {} of the {} parts that the model knows: {}",
+                     match.missing.size(), match.parts.size(), fmt::join(match.missing, ", "));
+}
+
+// ---- joints
+
+struct JointRun {
+  const BodyLayout& layout;
+  const BodyMatch& match;
+  const Selection& selection;
+  CleanTrace trace;  // of `auto` on the whole take
+  Clip fallback;     // what `auto` makes of it
+
+  std::size_t place_part() const { return layout.part_count(); }
+  bool is_chosen_place() const { return layout.with_place && selection.root_position; }
+};
+
+JointRun run_auto(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,
+                  const Selection& selection) {
+  JointRun run{layout, match, selection, {}, clip};
+  run.trace = make_auto()->clean(run.fallback, Selection::all(clip));
+  if (run.trace.actions.empty())
+    run.trace.actions.assign(clip.local_rotations.size(), Action::kept);
+  if (run.trace.noise_deg.empty()) run.trace.noise_deg.assign(clip.joint_count(), 0);
+  return run;
+}
+
+PriorWork work_of(const Clip& clip, const JointRun& run) {
+  PriorWork work;
+  const BodyChannels guide = encode_body(run.fallback, run.layout, run.match);
+  work.channels = encode_body(clip, run.layout, run.match, guide);
+  work.fallback = guide.poses;
+  const std::size_t channels = work.fallback.channels, joints = clip.joint_count();
+  work.noise.assign(channels, 0);
+  work.suspect.assign(clip.frame_count() * channels, 0);
+  for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
+    if (run.match.parts[part] < 0) continue;
+    const auto joint = static_cast<std::size_t>(run.match.parts[part]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      work.noise[3 * part + axis] = run.trace.noise_deg[joint];
+    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+      if (run.trace.actions[f * joints + joint] == Action::despiked)
+        mark_part(work.suspect, channels, f, part);
+    }
+  }
+  if (!run.layout.with_place) return work;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    work.noise[3 * run.place_part() + axis] =
+        run.trace.root_noise.value_or(0) * work.channels.degrees_per_unit;
+  }
+  for (std::size_t f = 0; f < run.trace.root_actions.size(); ++f) {
+    if (run.trace.root_actions[f] == Action::despiked)
+      mark_part(work.suspect, channels, f, run.place_part());
+  }
+  return work;
+}
+
+// What `auto` made of the joints and positions that the model does not know.
+void take_fallback(Clip& clip, const JointRun& run, const std::vector<std::uint8_t>& chosen) {
+  std::vector<std::uint8_t> known(clip.joint_count(), 0);
+  for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
+    if (chosen[part] != 0) known[static_cast<std::size_t>(run.match.parts[part])] = 1;
+  }
+  for (const std::size_t joint : selected_joints(clip, run.selection)) {
+    if (known[joint] != 0) continue;
+    for (std::size_t f = 0; f < clip.frame_count(); ++f)
+      clip.rotation(f, joint) = run.fallback.rotation(f, joint);
+  }
+  if (!run.layout.with_place && run.selection.root_position)
+    clip.root_positions = run.fallback.root_positions;
+  const std::size_t width = clip.translated_joints.size();
+  for (std::size_t i = 0; i < width; ++i) {
+    if (!translation_selected(clip, run.selection, i)) continue;
+    for (std::size_t f = 0; f < clip.frame_count(); ++f)
+      clip.joint_translations[f * width + i] = run.fallback.joint_translations[f * width + i];
+  }
+}
+
+// Where gaps are not to be filled by the model they hold the bridge that `auto` laid.
+void keep_bridges(Clip& clip, const JointRun& run, const std::vector<std::uint8_t>& chosen) {
+  for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
+    if (chosen[part] == 0) continue;
+    const auto joint = static_cast<std::size_t>(run.match.parts[part]);
+    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+      if (!clip.is_observed(f, joint)) clip.rotation(f, joint) = run.fallback.rotation(f, joint);
+    }
+  }
+}
+
+CleanTrace trace_of(const Clip& clip, const JointRun& run, const PriorWork& work,
+                    const std::vector<std::uint8_t>& chosen) {
+  CleanTrace trace = run.trace;
+  const std::size_t joints = clip.joint_count(), frames = clip.frame_count();
+  std::vector<std::uint8_t> selected(joints, 0);
+  for (const std::size_t joint : selected_joints(clip, run.selection)) selected[joint] = 1;
+  for (std::size_t i = 0; i < trace.actions.size(); ++i) {
+    if (selected[i % joints] == 0) trace.actions[i] = Action::kept;
+  }
+  for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
+    if (chosen[part] == 0) continue;
+    const auto joint = static_cast<std::size_t>(run.match.parts[part]);
+    for (std::size_t f = 0; f < frames; ++f) {
+      Action& action = trace.actions[f * joints + joint];
+      if (!clip.is_observed(f, joint)) {
+        action = Action::filled;
+      } else {
+        action = is_rejected(work, f, part) ? Action::despiked : Action::kept;
+      }
+    }
+  }
+  if (!run.selection.root_position) trace.root_actions.clear();
+  if (run.is_chosen_place() && !work.rejected.empty()) {
+    trace.root_actions.assign(frames, Action::kept);
+    for (std::size_t f = 0; f < frames; ++f) {
+      if (is_rejected(work, f, run.place_part())) trace.root_actions[f] = Action::despiked;
+    }
+  }
+  if (!run.match.missing.empty()) trace.warnings.push_back(lacking(run.match));
+  trace.warnings.insert(trace.warnings.end(), work.warnings.begin(), work.warnings.end());
+  return trace;
+}
+
+// ---- markers
+
+struct MarkerRun {
+  const BodyLayout& layout;
+  const BodyMatch& match;
+  MarkerTrace trace;
+  MarkerClip fallback;
+};
+
+MarkerRun run_auto(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match,
+                   double body_height) {
+  MarkerRun run{layout, match, {}, clip};
+  MarkerSelection everything = MarkerSelection::all(clip);
+  everything.body_height = body_height;
+  run.trace = make_auto()->clean_markers(run.fallback, everything);
+  if (run.trace.actions.empty()) run.trace.actions.assign(clip.positions.size(), Action::kept);
+  if (run.trace.noise.empty()) run.trace.noise.assign(clip.marker_count(), 0);
+  return run;
+}
+
+PriorWork work_of(const MarkerClip& clip, const MarkerRun& run) {
+  PriorWork work;
+  const BodyChannels guide = encode_body(run.fallback, run.layout, run.match);
+  work.channels = encode_body(clip, run.layout, run.match, guide);
+  work.fallback = guide.poses;
+  const std::size_t channels = work.fallback.channels, markers = clip.marker_count();
+  work.noise.assign(channels, 0);
+  work.suspect.assign(clip.frame_count() * channels, 0);
+  for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
+    if (run.match.parts[part] < 0) continue;
+    const auto marker = static_cast<std::size_t>(run.match.parts[part]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      work.noise[3 * part + axis] = run.trace.noise[marker] * work.channels.degrees_per_unit;
+    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+      if (run.trace.actions[f * markers + marker] == Action::despiked)
+        mark_part(work.suspect, channels, f, part);
+    }
+  }
+  return work;
+}
+
+MarkerTrace trace_of(const MarkerClip& clip, const MarkerSelection& selection, const MarkerRun& run,
+                     const PriorWork& work, const std::vector<std::uint8_t>& chosen) {
+  MarkerTrace trace = run.trace;
+  const std::size_t markers = clip.marker_count();
+  for (std::size_t i = 0; i < trace.actions.size(); ++i) {
+    if (selection.markers[i % markers] == 0) trace.actions[i] = Action::kept;
+  }
+  for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
+    if (chosen[part] == 0) continue;
+    const auto marker = static_cast<std::size_t>(run.match.parts[part]);
+    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+      trace.actions[f * markers + marker] =
+          is_rejected(work, f, part) && clip.is_observed(f, marker) ? Action::despiked
+                                                                    : Action::kept;
+    }
+  }
+  if (!run.match.missing.empty()) trace.warnings.push_back(lacking(run.match));
+  trace.warnings.insert(trace.warnings.end(), work.warnings.begin(), work.warnings.end());
+  return trace;
+}
+
+// Makes what the model filled a measurement, and puts back what it may not change.
+void settle_gaps(const MarkerClip& before, MarkerClip& clip, const BodyMatch& match,
+                 const std::vector<std::uint8_t>& chosen, bool fill, MarkerTrace& trace) {
+  const std::size_t markers = clip.marker_count();
+  for (std::size_t part = 0; part < match.parts.size(); ++part) {
+    if (chosen[part] == 0) continue;
+    const auto marker = static_cast<std::size_t>(match.parts[part]);
+    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+      const std::size_t sample = f * markers + marker;
+      if (before.is_observed(f, marker)) continue;
+      if (fill) {
+        clip.observed[sample] = 1;
+        if (!clip.residuals.empty()) clip.residuals[sample] = 0;
+        trace.actions[sample] = Action::filled;
+      } else {
+        clip.positions[sample] = before.positions[sample];
+      }
+    }
+  }
+}
+
+}  // namespace
+
+CleanTrace clean_with_prior(Clip& clip, const Selection& selection, const BodyLayout& layout,
+                            const NameMap& names, bool fill, const PriorFilter& filter) {
+  const BodyMatch match = match_body(layout, clip, names);
+  if (clip.frame_count() == 0) return {};
+  std::vector<std::uint8_t> chosen = chosen_parts(match, selection.joints);
+  const JointRun run = run_auto(clip, layout, match, selection);
+  PriorWork work = work_of(clip, run);
+  filter(work);
+
+  Clip result = clip;
+  take_fallback(result, run, chosen);
+  chosen.push_back(run.is_chosen_place() ? 1 : 0);
+  decode_body(work.channels, layout, match, result, chosen);
+  if (!fill) keep_bridges(result, run, chosen);
+  CleanTrace trace = trace_of(clip, run, work, chosen);
+  clip = std::move(result);
+  return trace;
+}
+
+MarkerTrace clean_with_prior(MarkerClip& clip, const MarkerSelection& selection,
+                             const BodyLayout& layout, const NameMap& names, bool fill,
+                             const PriorFilter& filter) {
+  const BodyMatch match = match_body(layout, clip, names);
+  if (clip.frame_count() == 0) return {};
+  const std::vector<std::uint8_t> chosen = chosen_parts(match, selection.markers);
+  const MarkerRun run = run_auto(clip, layout, match, selection.body_height);
+  PriorWork work = work_of(clip, run);
+  filter(work);
+
+  MarkerClip result = clip;
+  for (std::size_t i = 0; i < clip.positions.size(); ++i) {
+    if (selection.markers[i % clip.marker_count()] != 0 && clip.observed[i] != 0)
+      result.positions[i] = run.fallback.positions[i];
+  }
+  decode_body(work.channels, layout, match, result, chosen);
+  MarkerTrace trace = trace_of(clip, selection, run, work, chosen);
+  settle_gaps(clip, result, match, chosen, fill, trace);
+  clip = std::move(result);
+  return trace;
+}
+
+NameMap name_map_at(const std::string& path) {
+  if (path.empty()) return {};
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path))
+    throw Error(ErrorKind::unreadable_input, path + ": cannot read");
+  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  return parse_name_map(text, path);
+}
+
+}  // namespace kinemend
