@@ -58,6 +58,7 @@ void clean_markers_by(benchmark::State& state, const std::string& method) {
 
 const bool registered = [] {
   for (const Method& method : methods()) {
+    if (method.learned) continue;
     const std::string name = method.name;
     benchmark::RegisterBenchmark(("joints/" + name).c_str(), clean_joints_by, name)
         ->MeasureProcessCPUTime()

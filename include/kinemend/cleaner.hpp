@@ -138,6 +138,7 @@ struct Method {
   std::string paper;    ///< where it comes from
   std::vector<OptionSpec> options;
   std::unique_ptr<Cleaner> (*make)(const OptionValues& values);
+  bool learned = false;  ///< works with a trained model, on bodies that the model knows
 };
 
 /// All methods, `auto` first.

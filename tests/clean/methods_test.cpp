@@ -23,7 +23,8 @@ std::string message_of(std::string_view method, const OptionValues& values = {})
 }
 
 TEST(Methods, HaveDifferentNamesAndSayWhatTheyAre) {
-  const std::vector<std::string> names = method_names();
+  std::vector<std::string> names;
+  for (const Method& method : methods()) names.push_back(method.name);
   for (std::size_t i = 0; i < names.size(); ++i) {
     EXPECT_EQ(std::count(names.begin(), names.end(), names[i]), 1) << names[i];
     EXPECT_FALSE(methods()[i].summary.empty()) << names[i];
@@ -40,7 +41,9 @@ TEST(Methods, AreMadeFromTheirOwnDefaultsAndDescribeEveryOption) {
       EXPECT_FALSE(spec.help.empty()) << method.name << " " << spec.name;
       EXPECT_NO_THROW(check_option(spec, spec.default_value)) << method.name << " " << spec.name;
     }
-    EXPECT_NE(method.make(defaults), nullptr);
+    if (!method.learned) {
+      EXPECT_NE(method.make(defaults), nullptr);
+    }
   }
 }
 

@@ -100,9 +100,12 @@ inline double max_angle_deg(const Clip& a, const Clip& b) {
   return largest * degrees_per_radian;
 }
 
+/// The methods that work on any body: those with a learned model have tests of their own.
 inline std::vector<std::string> method_names() {
   std::vector<std::string> names;
-  for (const Method& method : methods()) names.push_back(method.name);
+  for (const Method& method : methods()) {
+    if (!method.learned) names.push_back(method.name);
+  }
   return names;
 }
 

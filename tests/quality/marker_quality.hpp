@@ -20,11 +20,11 @@ inline MarkerClip damaged_markers(const MarkerClip& truth, double noise_mm, std:
   return test::damaged(truth, noise_mm, 0.005, 100, seed);
 }
 
-/// Every method but `auto` at its defaults.
+/// Every method but `auto` at its defaults, of those that learn nothing.
 inline std::vector<std::string> other_methods() {
   std::vector<std::string> names;
   for (const Method& method : methods()) {
-    if (method.name != "auto") names.push_back(method.name);
+    if (method.name != "auto" && !method.learned) names.push_back(method.name);
   }
   return names;
 }
