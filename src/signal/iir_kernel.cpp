@@ -1,5 +1,5 @@
 #include "signal/kernels.hpp"
-#include "signal/simd.hpp"
+#include "base/simd.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "signal/iir_kernel.cpp"

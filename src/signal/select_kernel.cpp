@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "signal/kernels.hpp"
-#include "signal/simd.hpp"
+#include "base/simd.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "signal/select_kernel.cpp"

@@ -1,4 +1,4 @@
-#include "signal/simd.hpp"
+#include "base/simd.hpp"
 #include "signal/whittaker.hpp"
 #include "signal/whittaker_kernels.hpp"
 

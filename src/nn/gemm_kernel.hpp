@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+
+#include "nn/gemm.hpp"
+
+/// The inner loops of `multiply`, compiled for each instruction set and chosen at run time.
+namespace kinemend::nn {
+
+/// Rows of b that are packed at once: a panel of them stays in the nearest caches.
+inline constexpr std::size_t gemm_depth = 192;
+
+/// Columns of a full panel on this processor; the last panel of a matrix is as wide as it needs.
+std::size_t gemm_panel_columns();
+
+/// Copies rows [first, first + depth) of b panel by panel: of each panel its rows one after
+/// another, `gemm_panel_columns()` values each, zeros where b has no more columns.
+void pack_panels(const MatrixView& b, std::size_t first, std::size_t depth, double* packed);
+
+/// c[r] += a[r, first .. first + depth) * packed for rows [first_row, last_row) of c.
+void multiply_rows(const MatrixView& a, std::size_t first, std::size_t depth, const double* packed,
+                   const MutableMatrixView& c, std::size_t first_row, std::size_t last_row);
+
+}  // namespace kinemend::nn

@@ -1,0 +1,134 @@
+#include "nn/gemm.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <vector>
+
+#include "kinemend/random.hpp"
+
+namespace kinemend::nn {
+namespace {
+
+std::vector<double> random_values(std::size_t count, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<double> values(count);
+  for (double& value : values) value = random.normal();
+  return values;
+}
+
+double at(const MatrixView& m, std::size_t r, std::size_t c) {
+  return m.values[r * m.row_stride + c * m.column_stride];
+}
+
+// The definition, with the greatest error that rounding may leave.
+void expect_product(const MatrixView& a, const MatrixView& b, const MutableMatrixView& c) {
+  for (std::size_t i = 0; i < c.rows; ++i) {
+    for (std::size_t j = 0; j < c.columns; ++j) {
+      double sum = 0, size = 0;
+      for (std::size_t k = 0; k < b.rows; ++k) {
+        sum += at(a, i, k) * at(b, k, j);
+        size += std::abs(at(a, i, k) * at(b, k, j));
+      }
+      ASSERT_NEAR(c.values[i * c.row_stride + j], sum, 1e-13 * size) << i << ", " << j;
+    }
+  }
+}
+
+TEST(Gemm, MultipliesMatricesOfAnyShape) {
+  const std::size_t sizes[] = {1, 2, 7, 8, 9, 24, 25, 63, 193, 400};
+  for (const std::size_t rows : sizes) {
+    for (const std::size_t depth : sizes) {
+      for (const std::size_t columns : {1UL, 5UL, 8UL, 16UL, 24UL, 29UL, 50UL}) {
+        if (rows * depth > 40000) continue;
+        const auto a = random_values(rows * depth, 1), b = random_values(depth * columns, 2);
+        std::vector<double> c(rows * columns, 99);
+        const MatrixView a_view{a.data(), rows, depth, depth};
+        const MatrixView b_view{b.data(), depth, columns, columns};
+        const MutableMatrixView c_view{c.data(), rows, columns, columns};
+        multiply(a_view, b_view, c_view);
+        expect_product(a_view, b_view, c_view);
+      }
+    }
+  }
+}
+
+TEST(Gemm, ReadsTransposedMatricesInPlace) {
+  const auto a = random_values(70 * 31, 3), b = random_values(45 * 70, 4);
+  std::vector<double> c(31 * 45);
+  const MatrixView a_view = MatrixView{a.data(), 70, 31, 31}.transposed();
+  const MatrixView b_view = MatrixView{b.data(), 45, 70, 70}.transposed();
+  const MutableMatrixView c_view{c.data(), 31, 45, 45};
+  multiply(a_view, b_view, c_view);
+  expect_product(a_view, b_view, c_view);
+}
+
+TEST(Gemm, TakesASequenceForItsTrajectoryMatrix) {
+  const std::size_t channels = 5, frames = 40, window = 12;
+  const auto sequence = random_values(frames * channels, 5);
+  const auto b = random_values(window * channels * 9, 6);
+  const MatrixView trajectory{sequence.data(), frames - window + 1, window * channels, channels};
+  const MatrixView b_view{b.data(), window * channels, 9, 9};
+  std::vector<double> c(trajectory.rows * 9);
+  const MutableMatrixView c_view{c.data(), trajectory.rows, 9, 9};
+  multiply(trajectory, b_view, c_view);
+  expect_product(trajectory, b_view, c_view);
+}
+
+TEST(Gemm, AddsToWhatIsThereAndLeavesTheRestOfTheRowsAlone) {
+  const auto a = random_values(10 * 4, 7), b = random_values(4 * 3, 8);
+  std::vector<double> c(10 * 6, 1.0), product(10 * 3);
+  multiply({a.data(), 10, 4, 4}, {b.data(), 4, 3, 3}, {product.data(), 10, 3, 3});
+  multiply({a.data(), 10, 4, 4}, {b.data(), 4, 3, 3}, {c.data(), 10, 3, 6}, Product::add);
+  for (std::size_t r = 0; r < 10; ++r) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      EXPECT_NEAR(c[r * 6 + j], 1.0 + product[r * 3 + j], 1e-15);
+      EXPECT_EQ(c[r * 6 + 3 + j], 1.0);
+    }
+  }
+}
+
+TEST(Gemm, OverwritesWithZerosWhereNothingIsSummed) {
+  std::vector<double> c(6, 3.0);
+  multiply({nullptr, 2, 0, 0}, {nullptr, 0, 3, 3}, {c.data(), 2, 3, 3});
+  EXPECT_THAT(c, testing::Each(0.0));
+}
+
+TEST(Gemm, GivesTheSameBitsWithAnyNumberOfThreads) {
+  const auto a = random_values(300 * 250, 9), b = random_values(250 * 90, 10);
+  std::vector<double> several(300 * 90), one(300 * 90);
+  const auto product = [&](std::vector<double>& c) {
+    multiply({a.data(), 300, 250, 250}, {b.data(), 250, 90, 90}, {c.data(), 300, 90, 90});
+  };
+  product(several);
+  const tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
+  product(one);
+  EXPECT_EQ(several, one);
+}
+
+// Sums in the order of the depth, block by block: what each instruction set has to give.
+TEST(Gemm, SumsInOneOrderOnEveryProcessor) {
+  const std::size_t depth = 500;
+  const auto a = random_values(3 * depth, 11), b = random_values(depth * 11, 12);
+  std::vector<double> c(3 * 11);
+  multiply({a.data(), 3, depth, depth}, {b.data(), depth, 11, 11}, {c.data(), 3, 11, 11});
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 11; ++j) {
+      double total = 0;
+      for (std::size_t first = 0; first < depth; first += 192) {
+        double block = 0;
+        for (std::size_t k = first; k < std::min(depth, first + 192); ++k) {
+          const double term = a[i * depth + k] * b[k * 11 + j];
+          block += term;
+        }
+        total += block;
+      }
+      EXPECT_EQ(c[i * 11 + j], total);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kinemend::nn
