@@ -21,7 +21,7 @@
 #include "clean_take.hpp"
 #include "commands.hpp"
 #include "config.hpp"
-#include "content_hash.hpp"
+#include "kinemend/content_hash.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/version.hpp"
 #include "method_options.hpp"

@@ -9,8 +9,9 @@
 #include <fstream>
 #include <map>
 
-#include "content_hash.hpp"
+
 #include "kinemend/error.hpp"
+#include "kinemend/content_hash.hpp"
 #include "kinemend/io.hpp"
 
 namespace kinemend::cli {

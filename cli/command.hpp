@@ -117,7 +117,5 @@ std::string dashed(std::string_view name);
 std::string value_name(const Flag& flag);
 /// "0 to 180 deg, default 180"; empty where there is nothing to say.
 std::string range_text(const OptionSpec& spec, bool has_default = true);
-/// The name of `candidates` that looks most like `name`; empty when none is near.
-std::string nearest(std::string_view name, const std::vector<std::string>& candidates);
 
 }  // namespace kinemend::cli

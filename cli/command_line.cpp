@@ -103,7 +103,7 @@ class Parser {
     for (const Flag& flag : command_.flags) known.push_back("--" + dashed(flag.spec.name));
     for (const auto& [option, parser_option] : group_options_)
       known.push_back("--" + dashed(option));
-    const std::string guess = nearest(name, known);
+    const std::string guess = nearest_name(name, known);
     if (guess.empty()) refuse(command_, "unknown option " + name);
     throw Error(ErrorKind::usage, fmt::format("{}: unknown option {} (did you mean {}?)",
                                               command_.name, name, guess));
@@ -170,7 +170,7 @@ OptionValue parse_flag_value(const OptionSpec& spec, const std::string& text) {
   typed.name = "--" + dashed(spec.name);
   const auto& choices = spec.choices;
   if (!choices.empty() && std::find(choices.begin(), choices.end(), text) == choices.end()) {
-    const std::string guess = nearest(text, choices);
+    const std::string guess = nearest_name(text, choices);
     if (!guess.empty()) {
       throw Error(ErrorKind::usage,
                   fmt::format("{}: unknown name {} (did you mean {}?)", typed.name, text, guess));
@@ -206,7 +206,7 @@ Request parse_command_line(const std::vector<std::string>& words) {
   if (!command) {
     std::vector<std::string> names;
     for (const Command& known : commands()) names.push_back(known.name);
-    const std::string guess = nearest(first, names);
+    const std::string guess = nearest_name(first, names);
     throw Error(ErrorKind::usage,
                 guess.empty() ? fmt::format("unknown command {} (see kinemend -h)", first)
                               : fmt::format("unknown command {} (did you mean {}?)", first, guess));

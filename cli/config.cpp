@@ -99,7 +99,7 @@ class Reader {
   [[noreturn]] void refuse_unknown(std::string_view what, std::string_view key,
                                    toml::source_index line,
                                    const std::vector<std::string>& known) const {
-    const std::string guess = nearest(key, known);
+    const std::string guess = nearest_name(key, known);
     refuse(ErrorKind::usage, name_, line,
            fmt::format("unknown {} {}{}", what, key,
                        guess.empty() ? "" : fmt::format(" (did you mean {}?)", guess)));

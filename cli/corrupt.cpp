@@ -29,7 +29,7 @@ const Damage& damage_or_refuse(const std::string& name) {
     if (damage.name == name) return damage;
     names.push_back(damage.name);
   }
-  const std::string guess = nearest(name, names);
+  const std::string guess = nearest_name(name, names);
   throw Error(
       ErrorKind::usage,
       guess.empty()

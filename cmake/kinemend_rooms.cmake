@@ -36,6 +36,17 @@ function(kinemend_room name)
   set(KINEMEND_ROOMS ${KINEMEND_ROOMS} kinemend_${name} CACHE INTERNAL "")
 endfunction()
 
+# The files in models/ become part of a room.
+function(kinemend_embed_models room)
+  file(GLOB models CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/models/*.kmodel)
+  set(script ${PROJECT_SOURCE_DIR}/cmake/embed_models.cmake)
+  set(output ${PROJECT_BINARY_DIR}/embedded_models.cpp)
+  add_custom_command(OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} -DFOLDER=${PROJECT_SOURCE_DIR}/models -DOUTPUT=${output} -P ${script}
+    DEPENDS ${script} ${models} COMMENT "Models that ship" VERBATIM)
+  target_sources(kinemend_${room} PRIVATE ${output})
+endfunction()
+
 # kinemend::kinemend is all rooms together, installed with a package file.
 function(kinemend_library)
   add_library(kinemend INTERFACE)

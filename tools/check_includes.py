@@ -21,7 +21,7 @@ USES = {
     "fill": {"motion", "signal"},
     "nn": {"base"},
     "priors": {"representation", "signal", "nn"},
-    "feet": {"motion"},
+    "feet": {"motion", "metrics"},
     "clean": {"representation", "signal", "priors", "metrics", "fill", "feet"},
     "check": {"clean"},
     "stream": {"clean"},
@@ -30,7 +30,7 @@ USES = {
 # The room of every public header.
 PUBLIC = {
     "error": "base", "diagnostics": "base", "random": "base", "options": "base", "pose_matrix": "base",
-    "version": "base", "rotation": "rotation", "skeleton": "motion", "clip": "motion", "kinematics": "motion",
+    "version": "base", "content_hash": "base", "rotation": "rotation", "skeleton": "motion", "clip": "motion", "kinematics": "motion",
     "marker_clip": "motion", "convert": "motion", "gaps": "motion", "fill": "fill", "check": "check",
     "io": "io", "representation": "representation", "metrics": "metrics", "corrupt": "corrupt",
     "synth": "synth", "signal": "signal", "cleaner": "clean", "methods": "clean", "clean": "clean",

@@ -39,6 +39,11 @@ OptionValue parse_option(const OptionSpec& spec, std::string_view text);
 /// option's own type. Errors: `ErrorKind::usage`: `cutoff_hz: 900 is outside 0.1 to 120 Hz`.
 OptionValue check_option(const OptionSpec& spec, const OptionValue& value);
 
+/// The name of `candidates` that looks most like `name`, for messages; empty when none is near.
+std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
+/// The same as part of a message: `; did you mean walk?`, or nothing.
+std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
+
 /// Binds option names to the members of a plain options struct, whose initialisers are the
 /// defaults.
 template <class Options>

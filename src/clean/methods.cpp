@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
 #include "clean/method_list.hpp"
@@ -12,33 +11,6 @@
 namespace kinemend {
 
 namespace {
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row[b.size()];
-}
-
-// "; did you mean X?" where one of the names is near enough, else "".
-std::string suggestion(std::string_view name, const std::vector<std::string>& names) {
-  const std::string* best = nullptr;
-  std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
-  for (const std::string& candidate : names) {
-    const bool begins = name.size() >= 3 && candidate.starts_with(name);
-    const std::size_t distance = begins ? 1 : edit_distance(name, candidate);
-    if (distance < least) least = distance, best = &candidate;
-  }
-  return best ? fmt::format("; did you mean {}?", *best) : "";
-}
 
 std::vector<std::string> names_of(const auto& entries) {
   std::vector<std::string> names;

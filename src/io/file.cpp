@@ -11,6 +11,8 @@
 #include <system_error>
 #include <utility>
 
+#include "base/descriptor.hpp"
+#include "base/file_bytes.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
 
@@ -24,44 +26,8 @@ std::string reason(int number) {
   return std::error_code(number, std::generic_category()).message();
 }
 
-[[noreturn]] void fail_reading(std::string_view name, std::string_view why) {
-  throw Error(ErrorKind::unreadable_input, fmt::format("{}: {}", name, why));
-}
-
 [[noreturn]] void fail_writing(const fs::path& path, std::string_view why) {
   throw Error(ErrorKind::cannot_write, fmt::format("{}: {}", path.string(), why));
-}
-
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (number_ > STDERR_FILENO) ::close(number_);
-  }
-  int get() const { return number_; }
-  // What is left unwritten on some file systems shows only here.
-  bool close() { return ::close(std::exchange(number_, -1)) == 0; }
-
- private:
-  int number_;
-};
-
-std::string read_all(int descriptor, std::size_t expected, std::string_view name) {
-  // One byte more, so that the end is seen without growing.
-  std::string bytes(expected + 1, '\0');
-  std::size_t used = 0;
-  for (;;) {
-    if (used == bytes.size()) bytes.resize(bytes.size() * 2 + 65536);
-    const ssize_t count = ::read(descriptor, bytes.data() + used, bytes.size() - used);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail_reading(name, reason(errno));
-    if (count == 0) break;
-    used += static_cast<std::size_t>(count);
-  }
-  bytes.resize(used);
-  return bytes;
 }
 
 // False with errno set.
@@ -188,16 +154,7 @@ void write_through(const fs::path& path, std::string_view bytes) {
 
 }  // namespace
 
-std::string read_file(const fs::path& path) {
-  if (path == "-") return read_all(STDIN_FILENO, 65536, "standard input");
-  const std::string name = path.string();
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  struct stat info {};
-  if (file.get() < 0 || ::fstat(file.get(), &info) != 0) fail_reading(name, reason(errno));
-  if (S_ISDIR(info.st_mode)) fail_reading(name, reason(EISDIR));
-  return read_all(file.get(),
-                  S_ISREG(info.st_mode) ? static_cast<std::size_t>(info.st_size) : 65536, name);
-}
+std::string read_file(const fs::path& path) { return file_bytes(path); }
 
 void write_file(const fs::path& path, std::string_view bytes, bool overwrite) {
   if (path == "-") {

@@ -30,14 +30,6 @@ std::string_view line_ending_of(std::string_view text) {
   return text.substr(end, 2) == "\r\n" ? "\r\n" : "\r";
 }
 
-std::string quote(std::string_view found) {
-  constexpr std::size_t longest = 40;
-  if (found.empty()) return "the end of the file";
-  std::string text = "\"";
-  for (const char c : found.substr(0, longest)) text += c >= ' ' && c <= '~' ? c : '.';
-  return text + (found.size() > longest ? "...\"" : "\"");
-}
-
 bool equal_ignoring_case(std::string_view a, std::string_view b) {
   const auto lower = [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/quote.hpp"
 #include "kinemend/diagnostics.hpp"
 #include "kinemend/error.hpp"
 
@@ -15,10 +16,6 @@ std::size_t line_at(std::string_view text, std::size_t offset);
 
 /// How the first line of a text ends: LF, CR LF or CR; LF when it is the only one.
 std::string_view line_ending_of(std::string_view text);
-
-/// What a file holds at some place, for a message: printable ASCII (a dot for the rest), quoted,
-/// cut at 40 characters; `the end of the file` when it is empty.
-std::string quote(std::string_view found);
 
 bool equal_ignoring_case(std::string_view a, std::string_view b);
 

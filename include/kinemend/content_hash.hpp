@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace kinemend {
+
+/// 128 bits of XXH3 as 32 hexadecimal digits: the same on every machine. Tells whether bytes are
+/// those of another time; no protection against people who want it to err.
+std::string content_hash(std::string_view bytes);
+
+}  // namespace kinemend

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace kinemend {
+
+/// All of a file, or of standard input for "-". Errors: `unreadable_input`.
+std::string file_bytes(const std::filesystem::path& path);
+
+}  // namespace kinemend

@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+
+#include "kinemend/error.hpp"
+#include "kinemend/model.hpp"
+#include "priors/shipped_list.hpp"
+
+namespace kinemend {
+
+std::vector<ShippedModel> shipped_models() {
+  std::vector<ShippedModel> models;
+  for (std::size_t i = 0; i < embedded_model_count; ++i) {
+    const EmbeddedModel& model = embedded_models[i];
+    models.push_back({model.method, {model.bytes, model.size}});
+  }
+  return models;
+}
+
+std::shared_ptr<const Model> shipped_model(std::string_view method) {
+  static std::mutex mutex;
+  static std::map<std::string, std::shared_ptr<const Model>, std::less<>> parsed;
+  const std::lock_guard lock(mutex);
+  if (const auto found = parsed.find(method); found != parsed.end()) return found->second;
+  const std::vector<ShippedModel> models = shipped_models();
+  const auto shipped = std::find_if(models.begin(), models.end(), [&](const ShippedModel& model) {
+    return model.method == method;
+  });
+  if (shipped == models.end()) {
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("method {0} needs a model: --model FILE, made by kinemend train {0}", method));
+  }
+  auto model = std::make_shared<const Model>(
+      parse_model(shipped->bytes, fmt::format("the {} model of this program", method)));
+  parsed.emplace(method, model);
+  return model;
+}
+
+std::shared_ptr<const Model> model_for(std::string_view method, const std::string& path) {
+  if (path.empty()) return shipped_model(method);
+  auto model = std::make_shared<const Model>(read_model(path));
+  if (model->method != method) {
+    throw Error(ErrorKind::usage, fmt::format("{}: expected a model of method {}, found one of {}",
+                                              path, method, model->method));
+  }
+  return model;
+}
+
+}  // namespace kinemend
