@@ -86,19 +86,24 @@ using NameMap = std::map<std::string, std::string, std::less<>>;
 /// empty: the take has no such part). Errors: `ErrorKind::usage`, `<name>:<line>: ...`.
 NameMap parse_name_map(std::string_view text, std::string_view name);
 /// A mapping file that starts from what is known, for a person to complete: every part of the
-/// layout with what it matches, and the unmatched names of the take as comments.
-struct BodyMatch;
-std::string name_map_text(const BodyLayout& layout, const BodyMatch& match);
+/// layout with what it matches in the take, if anything, and the other names of the take as
+/// comments. Errors: `ErrorKind::usage` for a take of the other kind and for a name of the map that
+/// there is not.
+std::string name_map_text(const BodyLayout& layout, const Clip& clip, const NameMap& names = {});
+std::string name_map_text(const BodyLayout& layout, const MarkerClip& clip,
+                          const NameMap& names = {});
 
 /// Which parts of a take are those of a layout.
 struct BodyMatch {
   std::vector<std::int32_t> parts;   ///< N: index of the joint or marker in the take; -1: none
   std::vector<std::string> missing;  ///< parts of the layout that the take lacks
   std::vector<std::string> unknown;  ///< joints that can turn, or markers, that the layout lacks
-  /// N, joints: the take's local rotation u as the layout's is q = before * u * after.
+  /// N, joints: the take's local rotation u as the layout's is q = before * u * after (of the first
+  /// joint: its global rotation, where the joints above it are at rest).
   std::vector<Quat> before, after;
-  Axis up = Axis::y;   ///< of the take
-  double stature = 1;  ///< of the person, file units
+  Quat upright;                    ///< turns the take's axes so that y points up
+  double stature = 1;              ///< of the person, file units
+  std::vector<std::int32_t> feet;  ///< joints or markers whose lowest tells the floor; often two
 };
 
 /// By name (case, separators, subject and prefixes such as `mixamorig:` do not count; the usual
@@ -115,8 +120,8 @@ struct BodyChannels {
   std::vector<std::uint8_t> observed;  ///< F x D, 1 where there was a measurement
   double frame_rate_hz = 0;
   // The body's frame, and the scale:
-  std::vector<double> headings;  ///< F, radians about the up axis
-  std::vector<Vec3> places;      ///< F, on the floor, file units
+  std::vector<double> headings;  ///< F, radians about y, from z
+  std::vector<Vec3> places;      ///< F, on the floor, file units, in the take's axes turned upright
   double degrees_per_unit = 1;
 };
 

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kinemend/body.hpp"
+
+// The frame of the body, from one frame of a take to the next.
+namespace kinemend::representation {
+
+/// The joint of the first part in the take's axes turned upright, frame by frame.
+struct RootMotion {
+  std::vector<Quat> ancestors;  ///< F, turns of the joints above it from their rest; identity where
+                                ///< it is the take's first joint
+  std::vector<Quat> rotations;  ///< F, global
+  std::vector<Vec3> positions;  ///< F, file units
+};
+RootMotion root_motion(const Clip& clip, const BodyMatch& match);
+
+/// Writes where and how the joint of the first part stands in a frame, in upright axes. The
+/// position goes into the joint's own channels where it has some, else into those of joint 0.
+void place_root(Clip& clip, const BodyMatch& match, std::size_t frame, Vec3 position);
+
+/// The track of the positions that carry the root: see `Clip::is_position_observed`.
+std::size_t root_track(const Clip& clip, const BodyMatch& match);
+
+/// Headings and places of the channels, from the root's motion.
+void follow_root(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,
+                 const RootMotion& root, BodyChannels& channels);
+
+/// Height of the floor in upright axes: the feet return to it again and again.
+double floor_height(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,
+                    const RootMotion& root);
+
+/// Degrees that a length of one file unit is, on an arc of a quarter of the stature.
+double degrees_per_unit(const BodyMatch& match);
+
+/// Three channels of a frame that were measured.
+void put_channels(BodyChannels& channels, std::size_t frame, std::size_t channel, Vec3 v);
+Vec3 channels_at(const BodyChannels& channels, std::size_t frame, std::size_t channel);
+
+/// Errors: `ErrorKind::usage` for channels that are not of that layout, or not of so many frames.
+void check_fit(const BodyChannels& channels, const BodyLayout& layout, const BodyMatch& match,
+               std::size_t frames, std::span<const std::uint8_t> chosen);
+
+/// Unobserved samples of channels become the last seen value; before the first seen, that one; 0
+/// where none is seen.
+void hold_last_seen(PoseMatrix& poses, std::span<const std::uint8_t> observed);
+
+}  // namespace kinemend::representation

@@ -1,0 +1,89 @@
+#include <cmath>
+#include <vector>
+
+#include "kinemend/body.hpp"
+#include "representation/body_frame.hpp"
+#include "representation/body_rotations.hpp"
+
+namespace kinemend {
+
+namespace {
+
+using representation::RootMotion;
+
+Quat heading_turn(double heading) { return exp({0, heading, 0}); }
+
+void encode_part(const Clip& clip, const BodyLayout& layout, const std::vector<Quat>& rotations,
+                 std::size_t joint, std::size_t part, BodyChannels& channels) {
+  const Quat from_reference = conjugate(layout.references[part]);
+  representation::VectorContinuation continuation;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    if (!clip.is_observed(f, joint)) continue;
+    const Vec3 v = continuation.next(log(normalized(from_reference * rotations[f])));
+    representation::put_channels(channels, f, 3 * part, degrees_per_radian * v);
+  }
+}
+
+void encode_place(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,
+                  const RootMotion& root, BodyChannels& channels) {
+  const std::size_t channel = 3 * layout.part_count();
+  const std::size_t track = representation::root_track(clip, match);
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    if (!clip.is_position_observed(f, track)) continue;
+    const Vec3 ahead = rotate(conjugate(heading_turn(channels.headings[f])),
+                              root.positions[f] - channels.places[f]);
+    representation::put_channels(
+        channels, f, channel, channels.degrees_per_unit * (ahead - match.stature * layout.place));
+  }
+}
+
+}  // namespace
+
+BodyChannels encode_body(const Clip& clip, const BodyLayout& layout, const BodyMatch& match) {
+  const std::size_t frames = clip.frame_count();
+  BodyChannels channels;
+  channels.frame_rate_hz = clip.frame_rate_hz;
+  channels.degrees_per_unit = representation::degrees_per_unit(match);
+  channels.poses = PoseMatrix(frames, layout.channel_count());
+  channels.observed.assign(frames * layout.channel_count(), 0);
+  const RootMotion root = representation::root_motion(clip, match);
+  representation::follow_root(clip, layout, match, root, channels);
+  for (std::size_t part = 0; part < layout.part_count(); ++part) {
+    if (match.parts[part] < 0) continue;
+    encode_part(clip, layout, representation::part_rotations(clip, match, root, channels, part),
+                static_cast<std::size_t>(match.parts[part]), part, channels);
+  }
+  if (layout.with_place) encode_place(clip, layout, match, root, channels);
+  representation::hold_last_seen(channels.poses, channels.observed);
+  return channels;
+}
+
+void decode_body(const BodyChannels& channels, const BodyLayout& layout, const BodyMatch& match,
+                 Clip& clip, std::span<const std::uint8_t> chosen) {
+  const std::size_t frames = clip.frame_count(), parts = layout.part_count();
+  representation::check_fit(channels, layout, match, frames, chosen);
+  const RootMotion root = representation::root_motion(clip, match);
+  const auto is_chosen = [&](std::size_t part) { return chosen.empty() || chosen[part] != 0; };
+  for (std::size_t part = 0; part < parts; ++part) {
+    if (match.parts[part] < 0 || !is_chosen(part)) continue;
+    const auto joint = static_cast<std::size_t>(match.parts[part]);
+    for (std::size_t f = 0; f < frames; ++f) {
+      Quat q = layout.references[part] *
+               exp(radians_per_degree * representation::channels_at(channels, f, 3 * part));
+      if (part == 0) q = conjugate(root.ancestors[f]) * heading_turn(channels.headings[f]) * q;
+      Quat& local = clip.rotation(f, joint);
+      local = align_hemisphere(
+          normalized(conjugate(match.before[part]) * q * conjugate(match.after[part])), local);
+    }
+  }
+  if (!layout.with_place || !is_chosen(parts)) return;
+  for (std::size_t f = 0; f < frames; ++f) {
+    const Vec3 ahead =
+        (1 / channels.degrees_per_unit) * representation::channels_at(channels, f, 3 * parts) +
+        match.stature * layout.place;
+    representation::place_root(
+        clip, match, f, channels.places[f] + rotate(heading_turn(channels.headings[f]), ahead));
+  }
+}
+
+}  // namespace kinemend

@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "kinemend/body.hpp"
+#include "kinemend/error.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr std::array axis_names{"x", "y", "z"};
+
+bool finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite(Quat q) { return std::isfinite(q.w) && finite(Vec3{q.x, q.y, q.z}); }
+
+[[noreturn]] void refuse(const BodyLayout& layout, std::size_t part, std::string_view what) {
+  throw Error(ErrorKind::usage, fmt::format("{} {} \"{}\" of the body's layout: {}",
+                                            layout.kind == BodyKind::joints ? "joint" : "marker",
+                                            part, layout.names[part], what));
+}
+
+void check_length(std::string_view array, std::size_t found, std::size_t expected) {
+  if (found == expected) return;
+  throw Error(ErrorKind::usage,
+              fmt::format("the body's layout: expected {} {}, found {}", expected, array, found));
+}
+
+void check_joints(const BodyLayout& layout) {
+  constexpr double unit = 1e-6;
+  const std::size_t count = layout.part_count();
+  check_length("parents", layout.parents.size(), count);
+  check_length("references", layout.references.size(), count);
+  check_length("bones", layout.bones.size(), count);
+  check_length("means", layout.means.size(), 0);
+  check_length("anchors", layout.anchors.size(), 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int32_t parent = layout.parents[i];
+    if (i == 0 ? parent != -1 : parent < 0 || parent >= static_cast<std::int32_t>(i))
+      refuse(layout, i, fmt::format("parent {} does not precede it", parent));
+    const Quat reference = layout.references[i];
+    if (!finite(reference) || !(std::fabs(norm(reference) - 1) <= unit))
+      refuse(layout, i, "the reference is not a unit quaternion");
+    const double length = norm(layout.bones[i]);
+    if (!finite(layout.bones[i]) || !(length == 0 || std::fabs(length - 1) <= unit))
+      refuse(layout, i, "the bone is neither a unit vector nor zero");
+  }
+  if (!finite(layout.place))
+    throw Error(ErrorKind::usage, "the body's layout: the place is not finite");
+}
+
+void check_markers(const BodyLayout& layout) {
+  constexpr std::size_t least_anchors = 3;
+  const std::size_t count = layout.part_count();
+  check_length("parents", layout.parents.size(), 0);
+  check_length("references", layout.references.size(), 0);
+  check_length("bones", layout.bones.size(), 0);
+  check_length("means", layout.means.size(), count);
+  check_length("anchors", layout.anchors.size(), count);
+  std::size_t anchors = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!finite(layout.means[i])) refuse(layout, i, "the mean is not finite");
+    anchors += layout.anchors[i] != 0 ? 1 : 0;
+  }
+  if (anchors < least_anchors) {
+    throw Error(ErrorKind::usage, fmt::format("the body's layout: expected at least {} anchors, "
+                                              "found {}",
+                                              least_anchors, anchors));
+  }
+}
+
+}  // namespace
+
+std::string_view to_string(BodyKind kind) {
+  return kind == BodyKind::joints ? "joints" : "markers";
+}
+
+std::size_t BodyLayout::channel_count() const noexcept {
+  return 3 * (part_count() + (kind == BodyKind::joints && with_place ? 1 : 0));
+}
+
+std::string BodyLayout::channel_name(std::size_t channel) const {
+  const std::size_t part = channel / 3;
+  return fmt::format("{} {}", part < part_count() ? names[part] : "place", axis_names[channel % 3]);
+}
+
+void BodyLayout::validate() const {
+  if (names.empty()) throw Error(ErrorKind::usage, "the body's layout has no parts");
+  if (!(trend_s > 0) || !std::isfinite(trend_s))
+    throw Error(ErrorKind::usage, fmt::format("the body's layout: trend of {} s", trend_s));
+  if (kind == BodyKind::joints) {
+    check_joints(*this);
+  } else {
+    check_markers(*this);
+  }
+}
+
+}  // namespace kinemend

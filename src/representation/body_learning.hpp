@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemend/body.hpp"
+#include "rotation/leading_eigenvector.hpp"
+
+// What is summed up of a set of takes on the way to a layout.
+namespace kinemend::representation {
+
+/// 1 for the names that patterns mean; all where there are none. Errors: `ErrorKind::usage` for a
+/// pattern that means nothing.
+std::vector<std::uint8_t> names_meant(const std::vector<std::string>& names,
+                                      const std::vector<std::string>& patterns,
+                                      std::string_view noun);
+
+class JointLearning {
+ public:
+  JointLearning(std::vector<std::string> patterns, double trend_s);
+  void add(const Clip& clip);
+  BodyLayout finish() const;
+
+ private:
+  struct Part {
+    rotation::Matrix4 moment{};  // sum of q q^T
+    Quat first;
+    double largest_turn = 0;  // from the first, radians
+    std::size_t samples = 0, takes = 0;
+  };
+
+  void start(const Clip& clip);
+  void add_rotations(const Clip& clip, const BodyMatch& match, std::size_t part,
+                     const std::vector<Quat>& rotations);
+
+  std::vector<std::string> patterns_;
+  BodyLayout layout_;  // of all that may turn; references are identity, the place is the floor
+  std::vector<Part> parts_;
+  Vec3 place_sum_, place_low_, place_high_;
+  std::size_t places_ = 0, takes_ = 0;
+};
+
+class MarkerLearning {
+ public:
+  MarkerLearning(std::vector<std::string> patterns, double trend_s);
+  void add(const MarkerClip& clip);
+  BodyLayout finish() const;
+
+ private:
+  struct Part {
+    Vec3 sum, sum_of_squares;  // positions in the body's frame, statures
+    std::size_t samples = 0, takes = 0;
+  };
+
+  BodyMatch start(const MarkerClip& clip);
+  void sum_up(const MarkerClip& clip, const BodyMatch& match);
+  void choose_anchors();
+
+  std::vector<std::string> patterns_;
+  BodyLayout layout_;  // as far as it is known
+  std::vector<Part> parts_;
+  std::size_t takes_ = 0;
+};
+
+}  // namespace kinemend::representation
