@@ -1,0 +1,158 @@
+#include <benchmark/benchmark.h>
+
+#include <Spectra/MatOp/DenseSymMatProd.h>
+#include <Spectra/SymEigsSolver.h>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "kinemend/random.hpp"
+#include "nn/gemm.hpp"
+#include "priors/leading_eigenvectors.hpp"
+#include "priors/mssa.hpp"
+
+// Example-based denoising: products of matrices, bases of 2,000 frames x 62 channels at 30 Hz
+// (window 20), and takes of 10 s and more cleaned with them.
+namespace {
+
+using kinemend::PoseMatrix;
+
+constexpr std::size_t channel_count = 62;
+constexpr std::size_t window_frames = 20;
+
+// A gait of changing speed: harmonics of a wandering phase, slow drifts and small tremor, about as
+// rich as walks of several people.
+PoseMatrix gait(std::size_t frames, std::uint64_t seed) {
+  constexpr std::size_t harmonics = 6, drifts = 12;
+  kinemend::Random body(1), random(seed);
+  std::vector<double> sizes(channel_count * harmonics), phases(sizes.size());
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    sizes[i] = 20 * body.normal() / std::pow(1.0 + static_cast<double>(i % harmonics), 2.0);
+    phases[i] = 6.28 * body.uniform();
+  }
+  std::vector<double> loads(channel_count * drifts);
+  for (double& load : loads) load = body.normal();
+  std::vector<double> drift(drifts), speed(drifts);
+  PoseMatrix poses(frames, channel_count);
+  double phase = 0, pace = 0;
+  for (std::size_t f = 0; f < frames; ++f) {
+    pace = 0.99 * pace + 0.003 * random.normal();
+    phase += 0.2 * (1 + pace);
+    for (std::size_t d = 0; d < drifts; ++d) {
+      speed[d] = 0.8 * speed[d] + 0.1 * random.normal() - 0.01 * drift[d];
+      drift[d] += speed[d];
+    }
+    for (std::size_t c = 0; c < channel_count; ++c) {
+      double value = 0.05 * random.normal();
+      for (std::size_t h = 0; h < harmonics; ++h) {
+        const std::size_t i = c * harmonics + h;
+        value += sizes[i] * std::sin(static_cast<double>(h + 1) * phase + phases[i]);
+      }
+      for (std::size_t d = 0; d < drifts; ++d) value += loads[c * drifts + d] * drift[d];
+      poses(f, c) = value;
+    }
+  }
+  return poses;
+}
+
+void product_of_square_matrices(benchmark::State& state) {
+  const auto n = static_cast<std::size_t>(state.range(0));
+  const std::vector<double> a(n * n, 1.0), b(n * n, 1.0);
+  std::vector<double> c(n * n);
+  for (auto _ : state) {
+    kinemend::nn::multiply({a.data(), n, n, n}, {b.data(), n, n, n}, {c.data(), n, n, n});
+    benchmark::DoNotOptimize(c.data());
+  }
+  state.counters["flop/s"] = benchmark::Counter(2.0 * static_cast<double>(n * n * n),
+                                                benchmark::Counter::kIsIterationInvariantRate);
+}
+BENCHMARK(product_of_square_matrices)->Arg(64)->Arg(256)->Arg(1024)->Unit(benchmark::kMillisecond);
+
+// E^T z for all windows of 10 s.
+void product_of_trajectories(benchmark::State& state) {
+  const PoseMatrix take = gait(300, 2);
+  const std::size_t side = window_frames * channel_count, count = 50;
+  const std::size_t windows = take.frames - window_frames + 1;
+  const std::vector<double> bases(side * count, 0.5);
+  std::vector<double> coefficients(windows * count);
+  for (auto _ : state) {
+    kinemend::nn::multiply({take.values.data(), windows, side, channel_count},
+                           {bases.data(), side, count, count},
+                           {coefficients.data(), windows, count, count});
+    benchmark::DoNotOptimize(coefficients.data());
+  }
+  state.counters["flop/s"] = benchmark::Counter(2.0 * static_cast<double>(windows * side * count),
+                                                benchmark::Counter::kIsIterationInvariantRate);
+}
+BENCHMARK(product_of_trajectories)->Unit(benchmark::kMillisecond);
+
+void covariance(benchmark::State& state) {
+  const PoseMatrix take = gait(2000, 1);
+  for (auto _ : state) {
+    kinemend::LagCovariance sums(window_frames, channel_count);
+    sums.add(take);
+    benchmark::DoNotOptimize(sums.covariance().data());
+  }
+}
+BENCHMARK(covariance)->Unit(benchmark::kMillisecond);
+
+void bases(benchmark::State& state) {
+  const PoseMatrix take = gait(2000, 1);
+  std::size_t count = 0;
+  for (auto _ : state) {
+    kinemend::LagCovariance sums(window_frames, channel_count);
+    sums.add(take);
+    count = kinemend::filter_bases(sums).count;
+  }
+  state.counters["bases"] = static_cast<double>(count);
+}
+BENCHMARK(bases)->Unit(benchmark::kMillisecond);
+
+std::vector<double> gait_covariance() {
+  kinemend::LagCovariance sums(window_frames, channel_count);
+  sums.add(gait(2000, 1));
+  return sums.covariance();
+}
+
+constexpr std::size_t side = window_frames * channel_count;
+
+void eigenvectors_by_energy(benchmark::State& state) {
+  const std::vector<double> matrix = gait_covariance();
+  const double energy = 1 - std::pow(10.0, -static_cast<double>(state.range(0)));
+  std::size_t count = 0;
+  for (auto _ : state) {
+    count = kinemend::leading_eigenvectors(matrix, side, {.energy = energy}).values.size();
+  }
+  state.counters["bases"] = static_cast<double>(count);
+}
+BENCHMARK(eigenvectors_by_energy)->Arg(2)->Arg(3)->Arg(4)->Unit(benchmark::kMillisecond);
+
+// The same number of eigenvectors by other solvers, for comparison.
+void eigenvectors_of_spectra(benchmark::State& state) {
+  const std::vector<double> matrix = gait_covariance();
+  const double energy = 1 - std::pow(10.0, -static_cast<double>(state.range(0)));
+  const auto count = static_cast<Eigen::Index>(
+      kinemend::leading_eigenvectors(matrix, side, {.energy = energy}).values.size());
+  const Eigen::Map<const Eigen::MatrixXd> m(matrix.data(), side, side);
+  for (auto _ : state) {
+    Spectra::DenseSymMatProd<double> product(m);
+    Spectra::SymEigsSolver<Spectra::DenseSymMatProd<double>> solver(product, count, 2 * count + 10);
+    solver.init();
+    benchmark::DoNotOptimize(solver.compute(Spectra::SortRule::LargestAlge, 1000, 1e-11));
+  }
+  state.counters["bases"] = static_cast<double>(count);
+}
+BENCHMARK(eigenvectors_of_spectra)->Arg(2)->Arg(3)->Arg(4)->Unit(benchmark::kMillisecond);
+
+void eigenvectors_of_eigen(benchmark::State& state) {
+  const std::vector<double> matrix = gait_covariance();
+  const Eigen::Map<const Eigen::MatrixXd> m(matrix.data(), side, side);
+  for (auto _ : state) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(m);
+    benchmark::DoNotOptimize(solver.eigenvalues().data());
+  }
+}
+BENCHMARK(eigenvectors_of_eigen)->Unit(benchmark::kMillisecond)->Iterations(2);
+
+}  // namespace
