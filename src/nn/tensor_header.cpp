@@ -73,7 +73,7 @@ class Cursor {
 class HeaderReader : public nlohmann::json_sax<Json> {
  public:
   HeaderReader(std::string_view file, std::string_view header, std::string_view name)
-      : file_(file), name_(name), seen_(header.data()) {
+      : file_(file), header_(header), name_(name), seen_(header.data()) {
     const char* end = header.data() + header.size();
     Json::sax_parse(Cursor(header.data(), &seen_), Cursor(end, &seen_), this);
   }
@@ -139,10 +139,11 @@ class HeaderReader : public nlohmann::json_sax<Json> {
   bool binary(Json::binary_t&) override { refuse("bytes"); }
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override {
     const std::size_t at = offset(1);
-    const std::size_t header_end = static_cast<std::size_t>(file_.size());
+    const std::string_view rest = header_.substr(std::min(at - length_bytes, header_.size()));
+    const bool at_end = rest.find_first_not_of(" \t\r\n") == rest.npos;
     throw Error::at_byte(name_, at,
                          fmt::format("expected a header in JSON, found {}",
-                                     quote(file_.substr(std::min(at, header_end), 20))));
+                                     at_end ? "the end of the header" : quote(rest)));
   }
 
  private:
@@ -247,7 +248,7 @@ class HeaderReader : public nlohmann::json_sax<Json> {
                          fmt::format("expected each name once, found {} again", quote_text(text)));
   }
 
-  std::string_view file_, name_;
+  std::string_view file_, header_, name_;
   const char* seen_;
   Place place_ = Place::start;
   std::set<std::string, std::less<>> members_;

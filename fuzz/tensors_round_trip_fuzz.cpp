@@ -1,0 +1,46 @@
+// Any bytes: tensors that are written back as the same tensors, and then always as the same bytes,
+// or an error of one line that names the file.
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "kinemend/error.hpp"
+#include "kinemend/tensor.hpp"
+
+namespace {
+
+using namespace kinemend;
+
+void check(bool condition) {
+  if (!condition) std::abort();
+}
+
+void check_same(const TensorFile& a, const TensorFile& b) {
+  check(a.metadata == b.metadata && a.tensors.size() == b.tensors.size());
+  for (auto left = a.tensors.begin(), right = b.tensors.begin(); left != a.tensors.end();
+       ++left, ++right) {
+    check(left->first == right->first && left->second.stored == right->second.stored);
+    check(left->second.shape == right->second.shape);
+    check(left->second.values == right->second.values);
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string bytes(reinterpret_cast<const char*>(data), size);
+  TensorFile file;
+  try {
+    file = parse_tensors(bytes, "fuzz");
+  } catch (const Error& error) {
+    const std::string message = error.what();
+    check(error.kind() == ErrorKind::unreadable_input && message.rfind("fuzz: byte ", 0) == 0);
+    check(message.find_first_of("\r\n") == message.npos);
+    return 0;
+  }
+  const std::string written = write_tensors(file);
+  const TensorFile again = parse_tensors(written, "again");
+  check_same(file, again);
+  check(write_tensors(again) == written);
+  return 0;
+}
