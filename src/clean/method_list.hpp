@@ -10,6 +10,7 @@ Method bilateral_method();
 Method butterworth_method();
 Method gaussian_method();
 Method hampel_method();
+Method kalman_learned_method();
 Method kalman_method();
 Method median_method();
 Method nonlocal_method();

@@ -1,0 +1,59 @@
+#include <cstdint>
+
+#include "kinemend/error.hpp"
+#include "priors/linear_dynamics.hpp"
+#include "priors/train_list.hpp"
+#include "priors/training_sequences.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr double trend_s = 0.5;  // of the body's frame
+
+struct KalmanLearnedTraining {
+  double rate_hz = 30;
+  std::int64_t order = 1;
+  double ridge = 1e-4;
+  std::int64_t directions = 0;
+};
+
+const OptionTable<KalmanLearnedTraining>& table() {
+  static const auto options =
+      OptionTable<KalmanLearnedTraining>()
+          .number(&KalmanLearnedTraining::rate_hz, "rate_hz", "Hz", 5, 500,
+                  "rate of the model; takes at other rates are brought to it")
+          .integer(&KalmanLearnedTraining::order, "order", "", 1, 2,
+                   "poses that the next one follows from")
+          .number(&KalmanLearnedTraining::ridge, "ridge", "", 0, 1,
+                  "added to each variance in the fit, relative to it")
+          .integer(&KalmanLearnedTraining::directions, "directions", "", 0, 1000,
+                   "dimension of the subspace of poses that the model moves in; 0: all channels");
+  return options;
+}
+
+Model train(const TrainingTakes& takes, const OptionValues& values, const TrainSettings& settings) {
+  const KalmanLearnedTraining options = table().parse(values);
+  Model model;
+  model.layout = learn_layout(takes, settings, trend_s);
+  const auto order = static_cast<std::size_t>(options.order);
+  LinearDynamicsFit fit(model.layout.channel_count(), order);
+  model.seconds = for_each_sequence(
+      takes, model.layout, options.rate_hz, order + 1, settings,
+      [&](const TrainingSequence& sequence) { fit.add(sequence.poses, sequence.weight); });
+  if (fit.transitions() <= 0)
+    throw Error(ErrorKind::usage, "no take has two neighbouring frames that are whole");
+  store_dynamics(fit.finish({options.rate_hz, order, options.ridge,
+                             static_cast<std::size_t>(options.directions)}),
+                 model);
+  return model;
+}
+
+}  // namespace
+
+TrainMethod kalman_learned_training() {
+  return {"kalman-learned", "linear dynamical system (Lou & Chai 2010, section 4.2)",
+          table().specs(), train};
+}
+
+}  // namespace kinemend

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "kinemend/pose_matrix.hpp"
+#include "priors/linear_dynamics.hpp"
+
+// What a linear dynamical system makes of noisy and missing measurements.
+namespace kinemend {
+
+/// What is known of the measurements in a pose matrix.
+struct MeasurementFacts {
+  std::span<const std::uint8_t> observed;  ///< F x D, 0 where there is none; empty: all are there
+  /// D, standard deviations in degrees, at least 0 (taken for 1e-3 at least).
+  std::span<const double> noise_deg;
+};
+
+/// Each frame becomes its expectation given the frames up to it (Kalman 1960). The dynamics are at
+/// the rate of the poses (`at_rate`).
+void filter_with_dynamics(PoseMatrix& poses, const MeasurementFacts& facts,
+                          const LinearDynamics& dynamics);
+
+/// Each frame becomes its expectation given all frames, by a second pass over the filter's
+/// (Bryson & Frazier 1963, which inverts no covariance). The cost is linear in frames; gains are
+/// worked out anew only until they settle, after each change of what is observed.
+void smooth_with_dynamics(PoseMatrix& poses, const MeasurementFacts& facts,
+                          const LinearDynamics& dynamics);
+
+}  // namespace kinemend
