@@ -9,6 +9,7 @@
 
 #include "kinemend/random.hpp"
 #include "nn/gemm.hpp"
+#include "priors/example_filter.hpp"
 #include "priors/leading_eigenvectors.hpp"
 #include "priors/mssa.hpp"
 
@@ -154,5 +155,45 @@ void eigenvectors_of_eigen(benchmark::State& state) {
   }
 }
 BENCHMARK(eigenvectors_of_eigen)->Unit(benchmark::kMillisecond)->Iterations(2);
+
+// Noise of 3 degrees and 5 % outliers, to convergence from the measured motion.
+void clean_take(benchmark::State& state) {
+  const double rate_hz = static_cast<double>(state.range(0));
+  const auto frames = static_cast<std::size_t>(rate_hz * static_cast<double>(state.range(1)));
+  kinemend::LagCovariance sums(window_frames, channel_count);
+  sums.add(gait(2000, 1));
+  const kinemend::FilterBases bases = kinemend::filter_bases(sums);
+  PoseMatrix take = gait(frames, 3);
+  kinemend::Random random(4);
+  for (double& value : take.values) {
+    value += 3 * random.normal() + (random.uniform() < 0.05 ? 60 * random.normal() : 0.0);
+  }
+  kinemend::ExampleWeights weights;
+  weights.data.assign(channel_count, 1.0);
+  weights.welsch.assign(channel_count, 9.0);
+  weights.prior.assign(channel_count, 1.0);
+  std::size_t iterations = 0;
+  for (auto _ : state) {
+    PoseMatrix cleaned = take;
+    const auto trace = kinemend::example_filter(cleaned, take, {},
+                                                kinemend::bases_at_rate(bases, 30, rate_hz, frames),
+                                                bases.mean, weights, {.first_welsch = 8});
+    iterations = trace.objective.size() - 1;
+    benchmark::DoNotOptimize(cleaned.values.data());
+  }
+  state.counters["bases"] = static_cast<double>(bases.count);
+  state.counters["iterations"] = static_cast<double>(iterations);
+  state.counters["ms per second"] = benchmark::Counter(
+      static_cast<double>(state.range(1)) * 1e-3,
+      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(clean_take)
+    ->ArgNames({"Hz", "s"})
+    ->Args({30, 10})
+    ->Args({30, 40})
+    ->Args({30, 160})
+    ->Args({120, 10})
+    ->Args({120, 40})
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace

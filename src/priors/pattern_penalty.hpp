@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "kinemend/pose_matrix.hpp"
+#include "priors/window_bases.hpp"
+
+namespace kinemend {
+
+/// How far a sequence is from the patterns of all sliding windows (second term of eq. 11), after
+/// the coefficients c_s have been chosen best (eq. 13), which leaves a quadratic form of the
+/// sequence alone:
+///
+///   sum_s min_c sum (d_l (z_s - E c)_l)^2 + sum_k v_k c_k^2 = z^T (D - A) z
+///
+/// with D diagonal and A = sum_s P_s^T G G^T P_s, where P_s takes window s out of the sequence.
+/// Both products with G are products of matrices that read overlapping windows where they lie.
+class PatternPenalty {
+ public:
+  /// `weights`: d_l^2 of each channel, >= 0. `ridge`: v_k of each base, >= 0; empty: none.
+  /// `frames`: of the sequence, at least `bases.frames`.
+  PatternPenalty(const WindowBases& bases, std::span<const double> weights,
+                 std::span<const double> ridge, std::size_t frames);
+
+  /// Frames of the sequences that it works on: `frames` and as many more as make whole hops. The
+  /// windows cover all frames of the clip; what is behind belongs to nothing.
+  std::size_t padded_frames() const noexcept { return groups_ * hop_; }
+  std::size_t windows() const noexcept { return windows_; }
+  /// D: padded_frames x L.
+  const PoseMatrix& diagonal() const noexcept { return diagonal_; }
+  /// image = A z; both padded_frames x L.
+  void multiply(const PoseMatrix& z, PoseMatrix& image);
+
+ private:
+  std::size_t hop_, channels_, count_;
+  std::size_t row_values_;  // M' L
+  std::size_t overlap_;     // hops that a window reaches over
+  std::size_t windows_, groups_;
+  std::vector<double> analysis_;      // G: M' L x K
+  std::vector<double> synthesis_;     // overlap K x hop L
+  std::vector<double> coefficients_;  // of all windows, with overlap - 1 rows of zeros at each end
+  PoseMatrix diagonal_;
+};
+
+}  // namespace kinemend
