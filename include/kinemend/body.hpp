@@ -45,7 +45,9 @@ struct BodyLayout {
   Vec3 place;                         ///< joints: mean of the first joint's position, statures
   std::vector<Vec3> means;            ///< N, markers: mean position, statures
   std::vector<std::uint8_t> anchors;  ///< N, markers: 1 for those that carry the body's frame
-  double trend_s = 0.5;               ///< standard deviation of the smoothing of place and heading
+  /// N, markers: mean position in a frame that also leans with the anchors, statures.
+  std::vector<Vec3> shape;
+  double trend_s = 0.5;  ///< standard deviation of the smoothing of place and heading
 
   std::size_t part_count() const noexcept { return names.size(); }
   /// 3 a part, and 3 of the place.

@@ -146,6 +146,7 @@ class ModelReader {
       layout.place = vectors("place", 1).front();
     } else {
       layout.means = vectors("means", layout.names.size());
+      layout.shape = vectors("shape", layout.names.size());
       const std::vector<double> anchors = layout_tensor("anchors", {layout.names.size()});
       for (const double anchor : anchors) layout.anchors.push_back(anchor != 0 ? 1 : 0);
     }
@@ -229,6 +230,7 @@ void put_layout(const BodyLayout& layout, TensorFile& file) {
     put("place", tensor_of(std::vector<Vec3>{layout.place}));
   } else {
     put("means", tensor_of(layout.means));
+    put("shape", tensor_of(layout.shape));
     put("anchors", tensor_of(layout.anchors));
   }
   file.metadata["layout"] = json.dump();

@@ -1,10 +1,15 @@
 #include "representation/body_anchors.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "base/quantiles.hpp"
+#include "representation/body_frame.hpp"
 #include "representation/body_trend.hpp"
+#include "rotation/leading_eigenvector.hpp"
 
 namespace kinemend::representation {
 
@@ -12,45 +17,56 @@ namespace {
 
 constexpr std::size_t least_anchors = 3;
 
-std::optional<Standing> least_squares(const std::vector<Anchor>& anchors) {
-  if (anchors.size() < least_anchors) return std::nullopt;
-  Vec3 seen, expected;
+// The rotation that turns the expected vectors, about their centre, onto the seen ones.
+Quat fitted_rotation(const std::vector<Anchor>& anchors, const RigidFit& fit) {
+  rotation::Matrix4 sum{};
+  double size = 0;
   for (const Anchor& anchor : anchors) {
-    seen += anchor.seen;
-    expected += anchor.expected;
+    const Vec3 a = anchor.expected - fit.expected_centre, b = anchor.seen - fit.seen_centre;
+    const Vec3 c = cross(a, b);
+    const std::array<double, 3> av{a.x, a.y, a.z}, bv{b.x, b.y, b.z}, cv{c.x, c.y, c.z};
+    const double d = dot(a, b);
+    size += norm(a) * norm(b);
+    sum[0][0] += d;
+    for (std::size_t i = 0; i < 3; ++i) {
+      sum[0][i + 1] += cv[i];
+      sum[i + 1][0] += cv[i];
+      for (std::size_t j = 0; j < 3; ++j)
+        sum[i + 1][j + 1] += av[i] * bv[j] + av[j] * bv[i] - (i == j ? d : 0);
+    }
+  }
+  // Semidefinite, as the eigensolver wants it.
+  for (std::size_t i = 0; i < 4; ++i) sum[i][i] += size;
+  return rotation::leading_eigenvector(sum);
+}
+
+std::optional<RigidFit> least_squares(const std::vector<Anchor>& anchors) {
+  if (anchors.size() < least_anchors) return std::nullopt;
+  RigidFit fit;
+  for (const Anchor& anchor : anchors) {
+    fit.seen_centre += anchor.seen;
+    fit.expected_centre += anchor.expected;
   }
   const double share = 1.0 / static_cast<double>(anchors.size());
-  seen = share * seen;
-  expected = share * expected;
-  double along = 0, across = 0;
-  Standing standing;
+  fit.seen_centre = share * fit.seen_centre;
+  fit.expected_centre = share * fit.expected_centre;
   for (const Anchor& anchor : anchors) {
-    const Vec3 a = anchor.expected - expected, b = anchor.seen - seen;
-    along += a.x * b.x + a.z * b.z;
-    across += a.z * b.x - a.x * b.z;
-    standing.spread += a.x * a.x + a.z * a.z;
+    const Vec3 a = anchor.expected - fit.expected_centre;
+    fit.spread += dot(a, a);
   }
-  if (!(standing.spread > 0) || (along == 0 && across == 0)) return std::nullopt;
-  standing.heading = std::atan2(across, along);
-  standing.place = seen - TurnAboutY(standing.heading)(expected);
-  standing.place.y = 0;
-  return standing;
+  if (!(fit.spread > 0)) return std::nullopt;
+  fit.rotation = fitted_rotation(anchors, fit);
+  return fit;
 }
 
 // Anchors that lie far from where the fit expects them.
-bool drop_strangers(const Standing& standing, double stature, std::vector<Anchor>& anchors) {
+bool drop_strangers(const RigidFit& fit, double stature, std::vector<Anchor>& anchors) {
   constexpr double least_share = 0.05, times_median = 4;
-  const TurnAboutY turn(standing.heading);
   std::vector<double> distances;
-  for (const Anchor& anchor : anchors) {
-    Vec3 away = anchor.seen - standing.place - turn(anchor.expected);
-    away.y = 0;
-    distances.push_back(norm(away));
-  }
+  for (const Anchor& anchor : anchors)
+    distances.push_back(norm(anchor.seen - fit.seen_at(anchor.expected)));
   std::vector<double> sorted(distances);
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double limit = std::max(least_share * stature, times_median * *middle);
+  const double limit = std::max(least_share * stature, times_median * median_of(sorted));
   std::vector<Anchor> kept;
   for (std::size_t i = 0; i < anchors.size(); ++i) {
     if (distances[i] <= limit) kept.push_back(anchors[i]);
@@ -60,47 +76,61 @@ bool drop_strangers(const Standing& standing, double stature, std::vector<Anchor
   return any;
 }
 
-double quantile(std::vector<double> values, double share) {
-  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
+// The point of the shape that stands for the body: on its vertical axis, as high as its anchors.
+Vec3 body_centre(const BodyLayout& layout) {
+  double height = 0;
+  int anchors = 0;
+  for (std::size_t i = 0; i < layout.part_count(); ++i) {
+    if (layout.anchors[i] == 0) continue;
+    height += layout.shape[i].y;
+    ++anchors;
+  }
+  return {0, anchors > 0 ? height / anchors : 0, 0};
 }
 
 }  // namespace
 
 TurnAboutY::TurnAboutY(double angle) : cosine_(std::cos(angle)), sine_(std::sin(angle)) {}
 
-std::optional<Standing> fit_standing(std::vector<Anchor> anchors, double stature) {
-  auto standing = least_squares(anchors);
-  if (standing && drop_strangers(*standing, stature, anchors)) standing = least_squares(anchors);
-  return standing;
+std::optional<RigidFit> fit_rigidly(std::vector<Anchor> anchors, double stature) {
+  auto fit = least_squares(anchors);
+  if (fit && drop_strangers(*fit, stature, anchors)) fit = least_squares(anchors);
+  return fit;
+}
+
+std::optional<RigidFit> fit_frame(const MarkerClip& clip, const BodyLayout& layout,
+                                  const BodyMatch& match, std::size_t frame) {
+  std::vector<Anchor> anchors;
+  for (std::size_t i = 0; i < layout.part_count(); ++i) {
+    const auto marker = static_cast<std::size_t>(match.parts[i]);
+    if (layout.anchors[i] == 0 || match.parts[i] < 0 || !clip.is_observed(frame, marker)) continue;
+    anchors.push_back(
+        {upright_position(clip, match.upright, frame, marker), match.stature * layout.shape[i]});
+  }
+  return fit_rigidly(std::move(anchors), match.stature);
 }
 
 void follow_anchors(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match,
                     double floor, BodyChannels& channels) {
   const std::size_t frames = clip.frame_count();
-  std::vector<double> headings(frames), x(frames), z(frames), known(frames);
-  std::vector<Anchor> anchors;
+  const Vec3 centre = match.stature * body_centre(layout);
+  std::vector<double> headings(frames), x(frames), z(frames), turned(frames), placed(frames);
   for (std::size_t f = 0; f < frames; ++f) {
-    anchors.clear();
-    for (std::size_t i = 0; i < layout.part_count(); ++i) {
-      const auto marker = static_cast<std::size_t>(match.parts[i]);
-      if (layout.anchors[i] == 0 || match.parts[i] < 0 || !clip.is_observed(f, marker)) continue;
-      anchors.push_back(
-          {upright_position(clip, match.upright, f, marker), match.stature * layout.means[i]});
-    }
-    const auto standing = fit_standing(anchors, match.stature);
-    if (!standing) continue;
-    headings[f] = standing->heading;
-    x[f] = standing->place.x;
-    z[f] = standing->place.z;
-    known[f] = standing->spread / (match.stature * match.stature);
+    const auto fit = fit_frame(clip, layout, match, f);
+    if (!fit) continue;
+    const Heading heading = heading_of(fit->rotation);
+    const Vec3 place = fit->seen_at(centre);
+    headings[f] = heading.angle;
+    x[f] = place.x;
+    z[f] = place.z;
+    placed[f] = fit->spread / (match.stature * match.stature);
+    turned[f] = placed[f] * heading.weight;
   }
-  continue_angles(headings, known);
+  continue_angles(headings, turned);
   const double rate = clip.frame_rate_hz;
-  channels.headings = smooth_trend(std::move(headings), known, rate, layout.trend_s);
-  x = smooth_trend(std::move(x), known, rate, layout.trend_s);
-  z = smooth_trend(std::move(z), known, rate, layout.trend_s);
+  channels.headings = smooth_trend(std::move(headings), turned, rate, layout.trend_s);
+  x = smooth_trend(std::move(x), placed, rate, layout.trend_s);
+  z = smooth_trend(std::move(z), placed, rate, layout.trend_s);
   channels.places.resize(frames);
   for (std::size_t f = 0; f < frames; ++f) channels.places[f] = {x[f], floor, z[f]};
 }
@@ -125,7 +155,7 @@ double low_level(const MarkerClip& clip, Quat upright, std::span<const std::int3
     }
   }
   std::erase(lowest, infinity);
-  return lowest.empty() ? 0 : quantile(std::move(lowest), low);
+  return quantile_of(lowest, low);
 }
 
 double floor_height(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match) {
@@ -149,7 +179,7 @@ double floor_height(const MarkerClip& clip, const BodyLayout& layout, const Body
                        match.stature * layout.means[i].y);
     }
   }
-  return floors.empty() ? 0 : quantile(std::move(floors), 0.5);
+  return median_of(floors);
 }
 
 }  // namespace kinemend::representation

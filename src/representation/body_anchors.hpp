@@ -11,21 +11,31 @@
 // The frame of a body of markers: where its steady markers stand.
 namespace kinemend::representation {
 
-/// A marker where it is seen, and where it is in the body.
+/// A marker where it is seen, and where it is in the body's shape; any axes and one unit.
 struct Anchor {
-  Vec3 seen;      ///< upright axes, file units
-  Vec3 expected;  ///< body's frame, file units
+  Vec3 seen, expected;
 };
 
-/// A turn about y and a shift along the floor.
-struct Standing {
-  double heading = 0;  ///< radians
-  Vec3 place;          ///< y is 0
-  double spread = 0;   ///< summed squared distances of the expected anchors from their centre
+/// seen = rotation (expected - expected_centre) + seen_centre
+struct RigidFit {
+  Quat rotation;
+  Vec3 expected_centre, seen_centre;
+  double spread = 0;  ///< summed squared distances of the expected anchors from their centre
+
+  Vec3 seen_at(Vec3 expected) const {
+    return rotate(rotation, expected - expected_centre) + seen_centre;
+  }
+  Vec3 expected_at(Vec3 seen) const {
+    return rotate(conjugate(rotation), seen - seen_centre) + expected_centre;
+  }
 };
-/// The least squares fit, heights aside; anchors that lie far off the others are left out. None for
-/// fewer than three, or where all are expected at one spot.
-std::optional<Standing> fit_standing(std::vector<Anchor> anchors, double stature);
+/// Least squares (Horn 1987); anchors that lie far off where the others say are left out. None for
+/// fewer than three, or where all are at one spot.
+std::optional<RigidFit> fit_rigidly(std::vector<Anchor> anchors, double stature);
+
+/// The fit of the layout's shape to the anchors seen in a frame, file units, upright axes.
+std::optional<RigidFit> fit_frame(const MarkerClip& clip, const BodyLayout& layout,
+                                  const BodyMatch& match, std::size_t frame);
 
 /// Headings and places of the channels, from the anchors. `floor`: height of the floor.
 void follow_anchors(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/quantiles.hpp"
 #include "kinemend/error.hpp"
 #include "representation/body_trend.hpp"
 
@@ -73,18 +74,6 @@ class Chain {
 
 std::size_t root_joint(const BodyMatch& match) { return static_cast<std::size_t>(match.parts[0]); }
 
-// Of the turn about y: the angle, and how well it is known (1 upright, 0 upside down).
-struct Heading {
-  double angle, weight;
-};
-Heading heading_of(Quat q) { return {2 * std::atan2(q.y, q.w), q.w * q.w + q.y * q.y}; }
-
-double quantile(std::vector<double> values, double share) {
-  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
-}
-
 }  // namespace
 
 RootMotion root_motion(const Clip& clip, const BodyMatch& match) {
@@ -103,6 +92,12 @@ RootMotion root_motion(const Clip& clip, const BodyMatch& match) {
     root.positions.push_back(rotate(match.upright, point.position));
   }
   return root;
+}
+
+Heading heading_of(Quat q) {
+  constexpr double least_weight = 0.1;  // within 37 degrees of upside down
+  const double weight = q.w * q.w + q.y * q.y;
+  return {2 * std::atan2(q.y, q.w), weight > least_weight ? weight : 0};
 }
 
 std::size_t root_track(const Clip& clip, const BodyMatch& match) {
@@ -129,14 +124,13 @@ void place_root(Clip& clip, const BodyMatch& match, std::size_t frame, Vec3 posi
 
 void follow_root(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,
                  const RootMotion& root, BodyChannels& channels) {
-  constexpr double least_weight = 0.1;  // a body within 37 degrees of upside down has no heading
   const std::size_t frames = clip.frame_count();
   const std::size_t joint = root_joint(match), track = root_track(clip, match);
   std::vector<double> headings(frames), x(frames), z(frames), known(frames), placed(frames);
   for (std::size_t f = 0; f < frames; ++f) {
     const Heading heading = heading_of(root.rotations[f]);
     headings[f] = heading.angle;
-    known[f] = clip.is_observed(f, joint) && heading.weight > least_weight ? heading.weight : 0;
+    known[f] = clip.is_observed(f, joint) ? heading.weight : 0;
     x[f] = root.positions[f].x;
     z[f] = root.positions[f].z;
     placed[f] = clip.is_position_observed(f, track) ? 1 : 0;
@@ -162,7 +156,7 @@ double floor_height(const Clip& clip, const BodyLayout& layout, const BodyMatch&
     // Without feet, heights are measured from the one that the body mostly keeps.
     std::vector<double> heights;
     for (const Vec3 p : root.positions) heights.push_back(p.y);
-    return quantile(std::move(heights), 0.5) - layout.place.y * match.stature;
+    return median_of(heights) - layout.place.y * match.stature;
   }
   const std::vector<double> all(frames, 1.0);
   std::vector<double> lowest;
@@ -178,11 +172,21 @@ double floor_height(const Clip& clip, const BodyLayout& layout, const BodyMatch&
     }
     for (std::size_t f = 0; f < frames; ++f) lowest[f] = std::min(lowest[f], heights[f]);
   }
-  return quantile(std::move(lowest), low) - ankle_share * match.stature;
+  return quantile_of(lowest, low) - ankle_share * match.stature;
 }
 
 double degrees_per_unit(const BodyMatch& match) {
   return degrees_per_radian / (0.25 * match.stature);
+}
+
+void take_frame(const BodyChannels& guide, const BodyLayout& layout, std::size_t frames,
+                BodyChannels& channels) {
+  if (guide.poses.frames != frames || guide.poses.channels != layout.channel_count() ||
+      guide.headings.size() != frames || guide.places.size() != frames)
+    throw Error(ErrorKind::usage, "the guide's channels are not of a copy of the take");
+  channels.headings = guide.headings;
+  channels.places = guide.places;
+  channels.degrees_per_unit = guide.degrees_per_unit;
 }
 
 void put_channels(BodyChannels& channels, std::size_t frame, std::size_t channel, Vec3 v) {

@@ -26,6 +26,14 @@ void place_root(Clip& clip, const BodyMatch& match, std::size_t frame, Vec3 posi
 /// The track of the positions that carry the root: see `Clip::is_position_observed`.
 std::size_t root_track(const Clip& clip, const BodyMatch& match);
 
+/// The turn about y that a rotation holds, and how well it is known: 1 upright, 0 upside down,
+/// where there is none; next to that, 0.
+struct Heading {
+  double angle = 0;  ///< radians
+  double weight = 0;
+};
+Heading heading_of(Quat rotation);
+
 /// Headings and places of the channels, from the root's motion.
 void follow_root(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,
                  const RootMotion& root, BodyChannels& channels);
@@ -36,6 +44,11 @@ double floor_height(const Clip& clip, const BodyLayout& layout, const BodyMatch&
 
 /// Degrees that a length of one file unit is, on an arc of a quarter of the stature.
 double degrees_per_unit(const BodyMatch& match);
+
+/// Takes headings, places and scale over from the channels of a copy of the take. Errors:
+/// `ErrorKind::usage` for a guide of another layout or length.
+void take_frame(const BodyChannels& guide, const BodyLayout& layout, std::size_t frames,
+                BodyChannels& channels);
 
 /// Three channels of a frame that were measured.
 void put_channels(BodyChannels& channels, std::size_t frame, std::size_t channel, Vec3 v);

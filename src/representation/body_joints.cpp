@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "kinemend/body.hpp"
+#include "kinemend/representation.hpp"
 #include "representation/body_frame.hpp"
 #include "representation/body_rotations.hpp"
 
@@ -14,12 +15,19 @@ using representation::RootMotion;
 Quat heading_turn(double heading) { return exp({0, heading, 0}); }
 
 void encode_part(const Clip& clip, const BodyLayout& layout, const std::vector<Quat>& rotations,
-                 std::size_t joint, std::size_t part, BodyChannels& channels) {
+                 std::size_t part, const BodyChannels* guide, const BodyMatch& match,
+                 BodyChannels& channels) {
   const Quat from_reference = conjugate(layout.references[part]);
+  const auto joint = static_cast<std::size_t>(match.parts[part]);
   representation::VectorContinuation continuation;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     if (!clip.is_observed(f, joint)) continue;
-    const Vec3 v = continuation.next(log(normalized(from_reference * rotations[f])));
+    Vec3 v = log(normalized(from_reference * rotations[f]));
+    if (guide != nullptr)
+      v = continue_rotation_vector(
+          v, radians_per_degree * representation::channels_at(*guide, f, 3 * part));
+    else
+      v = continuation.next(v);
     representation::put_channels(channels, f, 3 * part, degrees_per_radian * v);
   }
 }
@@ -37,9 +45,8 @@ void encode_place(const Clip& clip, const BodyLayout& layout, const BodyMatch& m
   }
 }
 
-}  // namespace
-
-BodyChannels encode_body(const Clip& clip, const BodyLayout& layout, const BodyMatch& match) {
+BodyChannels encode(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,
+                    const BodyChannels* guide) {
   const std::size_t frames = clip.frame_count();
   BodyChannels channels;
   channels.frame_rate_hz = clip.frame_rate_hz;
@@ -47,15 +54,29 @@ BodyChannels encode_body(const Clip& clip, const BodyLayout& layout, const BodyM
   channels.poses = PoseMatrix(frames, layout.channel_count());
   channels.observed.assign(frames * layout.channel_count(), 0);
   const RootMotion root = representation::root_motion(clip, match);
-  representation::follow_root(clip, layout, match, root, channels);
+  if (guide != nullptr)
+    representation::take_frame(*guide, layout, frames, channels);
+  else
+    representation::follow_root(clip, layout, match, root, channels);
   for (std::size_t part = 0; part < layout.part_count(); ++part) {
     if (match.parts[part] < 0) continue;
     encode_part(clip, layout, representation::part_rotations(clip, match, root, channels, part),
-                static_cast<std::size_t>(match.parts[part]), part, channels);
+                part, guide, match, channels);
   }
   if (layout.with_place) encode_place(clip, layout, match, root, channels);
   representation::hold_last_seen(channels.poses, channels.observed);
   return channels;
+}
+
+}  // namespace
+
+BodyChannels encode_body(const Clip& clip, const BodyLayout& layout, const BodyMatch& match) {
+  return encode(clip, layout, match, nullptr);
+}
+
+BodyChannels encode_body(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,
+                         const BodyChannels& guide) {
+  return encode(clip, layout, match, &guide);
 }
 
 void decode_body(const BodyChannels& channels, const BodyLayout& layout, const BodyMatch& match,

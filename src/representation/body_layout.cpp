@@ -35,6 +35,7 @@ void check_joints(const BodyLayout& layout) {
   check_length("bones", layout.bones.size(), count);
   check_length("means", layout.means.size(), 0);
   check_length("anchors", layout.anchors.size(), 0);
+  check_length("points of its shape", layout.shape.size(), 0);
   for (std::size_t i = 0; i < count; ++i) {
     const std::int32_t parent = layout.parents[i];
     if (i == 0 ? parent != -1 : parent < 0 || parent >= static_cast<std::int32_t>(i))
@@ -58,9 +59,11 @@ void check_markers(const BodyLayout& layout) {
   check_length("bones", layout.bones.size(), 0);
   check_length("means", layout.means.size(), count);
   check_length("anchors", layout.anchors.size(), count);
+  check_length("points of its shape", layout.shape.size(), count);
   std::size_t anchors = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    if (!finite(layout.means[i])) refuse(layout, i, "the mean is not finite");
+    if (!finite(layout.means[i]) || !finite(layout.shape[i]))
+      refuse(layout, i, "the mean position is not finite");
     anchors += layout.anchors[i] != 0 ? 1 : 0;
   }
   if (anchors < least_anchors) {

@@ -50,13 +50,16 @@ class MarkerLearning {
 
  private:
   struct Part {
-    Vec3 sum, sum_of_squares;  // positions in the body's frame, statures
-    std::size_t samples = 0, takes = 0;
+    Vec3 mean_sum;               // of positions in the body's frame, statures
+    Vec3 shape_sum, square_sum;  // in a frame that leans with the anchors
+    std::size_t samples = 0, shaped = 0, takes = 0;
   };
 
   BodyMatch start(const MarkerClip& clip);
-  void sum_up(const MarkerClip& clip, const BodyMatch& match);
+  void sum_shape(const MarkerClip& clip, const BodyMatch& match);
+  void sum_means(const MarkerClip& clip, const BodyMatch& match);
   void choose_anchors();
+  void stand_upright(const MarkerClip& clip, const BodyMatch& match);
 
   std::vector<std::string> patterns_;
   BodyLayout layout_;  // as far as it is known

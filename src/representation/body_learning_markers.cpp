@@ -78,7 +78,7 @@ std::string mirrored(std::string name) {
   return name;
 }
 
-// Turns the means so that left is left.
+// Turns the shape so that left is left.
 void face_ahead(BodyLayout& layout) {
   std::vector<std::string> names;
   for (const std::string& name : layout.names) names.push_back(plain_name(name));
@@ -86,11 +86,11 @@ void face_ahead(BodyLayout& layout) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto other = std::find(names.begin(), names.end(), mirrored(names[i]));
     if (!names[i].starts_with('l') || other == names.end()) continue;
-    left += layout.means[i] - layout.means[static_cast<std::size_t>(other - names.begin())];
+    left += layout.shape[i] - layout.shape[static_cast<std::size_t>(other - names.begin())];
   }
   if (left.x == 0 && left.z == 0) return;
   const TurnAboutY turn(std::atan2(-left.z, left.x));
-  for (Vec3& mean : layout.means) mean = turn.back(mean);
+  for (Vec3& point : layout.shape) point = turn.back(point);
 }
 
 }  // namespace
@@ -109,10 +109,11 @@ void MarkerLearning::choose_anchors() {
   std::vector<double> variances(count);
   for (std::size_t i = 0; i < count; ++i) {
     const Part& part = parts_[i];
-    const double share = 1 / static_cast<double>(std::max<std::size_t>(part.samples, 1));
-    const Vec3 mean = share * part.sum, square = share * part.sum_of_squares;
-    variances[i] = square.x - mean.x * mean.x + square.z - mean.z * mean.z;
-    if (part.samples > 0) layout_.means[i] = mean;
+    if (part.shaped == 0) continue;
+    const double share = 1 / static_cast<double>(part.shaped);
+    const Vec3 mean = share * part.shape_sum, square = share * part.square_sum;
+    variances[i] = square.x + square.y + square.z - dot(mean, mean);
+    layout_.shape[i] = mean;
   }
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -123,7 +124,23 @@ void MarkerLearning::choose_anchors() {
     layout_.anchors[order[k]] = 1;
 }
 
-void MarkerLearning::sum_up(const MarkerClip& clip, const BodyMatch& match) {
+void MarkerLearning::sum_shape(const MarkerClip& clip, const BodyMatch& match) {
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    const auto fit = fit_frame(clip, layout_, match, f);
+    if (!fit) continue;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const auto marker = static_cast<std::size_t>(match.parts[i]);
+      if (match.parts[i] < 0 || !clip.is_observed(f, marker)) continue;
+      const Vec3 p =
+          (1 / match.stature) * fit->expected_at(upright_position(clip, match.upright, f, marker));
+      parts_[i].shape_sum += p;
+      parts_[i].square_sum += Vec3{p.x * p.x, p.y * p.y, p.z * p.z};
+      ++parts_[i].shaped;
+    }
+  }
+}
+
+void MarkerLearning::sum_means(const MarkerClip& clip, const BodyMatch& match) {
   BodyChannels frame;
   follow_anchors(clip, layout_, match, floor_height(clip, layout_, match), frame);
   for (std::size_t i = 0; i < parts_.size(); ++i) {
@@ -132,18 +149,43 @@ void MarkerLearning::sum_up(const MarkerClip& clip, const BodyMatch& match) {
     ++parts_[i].takes;
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
       if (!clip.is_observed(f, marker)) continue;
-      const Vec3 p = (1 / match.stature) *
-                     TurnAboutY(frame.headings[f])
-                         .back(upright_position(clip, match.upright, f, marker) - frame.places[f]);
-      parts_[i].sum += p;
-      parts_[i].sum_of_squares += Vec3{p.x * p.x, p.y * p.y, p.z * p.z};
+      parts_[i].mean_sum +=
+          (1 / match.stature) *
+          TurnAboutY(frame.headings[f])
+              .back(upright_position(clip, match.upright, f, marker) - frame.places[f]);
       ++parts_[i].samples;
     }
+    if (parts_[i].samples > 0)
+      layout_.means[i] = (1 / static_cast<double>(parts_[i].samples)) * parts_[i].mean_sum;
   }
 }
 
-// The shape of the first take: all markers are anchors first, then the steadiest ones of the round
-// before.
+// Turns the shape so that it stands as the body does on average, faces ahead and is centred on its
+// anchors.
+void MarkerLearning::stand_upright(const MarkerClip& clip, const BodyMatch& match) {
+  Vec3 up;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    if (const auto fit = fit_frame(clip, layout_, match, f))
+      up += rotate(conjugate(fit->rotation), {0, 1, 0});
+  }
+  const double length = norm(up);
+  if (length > 0) {
+    const Quat turn = shortest_rotation((1 / length) * up, {0, 1, 0});
+    for (Vec3& point : layout_.shape) point = rotate(turn, point);
+  }
+  face_ahead(layout_);
+  Vec3 centre;
+  int anchors = 0;
+  for (std::size_t i = 0; i < layout_.part_count(); ++i) {
+    if (layout_.anchors[i] == 0) continue;
+    centre += layout_.shape[i];
+    ++anchors;
+  }
+  for (Vec3& point : layout_.shape) point = point - (1.0 / anchors) * centre;
+}
+
+// The shape of the first take: the frame in which most is seen is the first guess, and all markers
+// in it are the first anchors.
 BodyMatch MarkerLearning::start(const MarkerClip& clip) {
   constexpr int rounds = 4;
   BodyMatch match;
@@ -153,13 +195,12 @@ BodyMatch MarkerLearning::start(const MarkerClip& clip) {
   match.upright = upright_by_names(clip);
   match.stature = body_height(clip);
   match.feet = match.parts;
-  const double floor = low_level(clip, match.upright, match.parts);
-  // The frame in which most is seen is the first guess.
-  std::size_t best = 0, most = 0;
+  std::size_t best = 0;
+  std::ptrdiff_t most = 0;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-    const auto seen = static_cast<std::size_t>(std::count_if(
+    const auto seen = std::count_if(
         match.parts.begin(), match.parts.end(),
-        [&](std::int32_t m) { return clip.is_observed(f, static_cast<std::size_t>(m)); }));
+        [&](std::int32_t marker) { return clip.is_observed(f, static_cast<std::size_t>(marker)); });
     if (seen > most) {
       most = seen;
       best = f;
@@ -168,24 +209,25 @@ BodyMatch MarkerLearning::start(const MarkerClip& clip) {
   for (const std::int32_t index : match.parts) {
     const auto marker = static_cast<std::size_t>(index);
     layout_.names.emplace_back(without_subject(clip.names[marker]));
-    Vec3 p = upright_position(clip, match.upright, best, marker);
-    p.y -= floor;
-    layout_.means.push_back((1 / match.stature) * p);
+    layout_.shape.push_back((1 / match.stature) *
+                            upright_position(clip, match.upright, best, marker));
     layout_.anchors.push_back(clip.is_observed(best, marker) ? 1 : 0);
   }
+  layout_.means.resize(match.parts.size());
   for (int round = 0; round < rounds; ++round) {
     parts_.assign(match.parts.size(), {});
-    sum_up(clip, match);
+    sum_shape(clip, match);
     choose_anchors();
   }
-  face_ahead(layout_);
+  stand_upright(clip, match);
   parts_.assign(match.parts.size(), {});
   return match;
 }
 
 void MarkerLearning::add(const MarkerClip& clip) {
   const BodyMatch match = takes_ == 0 ? start(clip) : match_body(layout_, clip);
-  sum_up(clip, match);
+  sum_means(clip, match);
+  sum_shape(clip, match);
   choose_anchors();
   ++takes_;
 }
@@ -200,6 +242,7 @@ BodyLayout MarkerLearning::finish() const {
     layout.names.push_back(layout_.names[i]);
     layout.means.push_back(layout_.means[i]);
     layout.anchors.push_back(layout_.anchors[i]);
+    layout.shape.push_back(layout_.shape[i]);
   }
   return layout;
 }

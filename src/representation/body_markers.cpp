@@ -8,15 +8,21 @@ namespace kinemend {
 
 using representation::TurnAboutY;
 
-BodyChannels encode_body(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match) {
+namespace {
+
+BodyChannels encode(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match,
+                    const BodyChannels* guide) {
   const std::size_t frames = clip.frame_count();
   BodyChannels channels;
   channels.frame_rate_hz = clip.frame_rate_hz;
   channels.degrees_per_unit = representation::degrees_per_unit(match);
   channels.poses = PoseMatrix(frames, layout.channel_count());
   channels.observed.assign(frames * layout.channel_count(), 0);
-  representation::follow_anchors(clip, layout, match,
-                                 representation::floor_height(clip, layout, match), channels);
+  if (guide != nullptr)
+    representation::take_frame(*guide, layout, frames, channels);
+  else
+    representation::follow_anchors(clip, layout, match,
+                                   representation::floor_height(clip, layout, match), channels);
   for (std::size_t f = 0; f < frames; ++f) {
     const TurnAboutY turn(channels.headings[f]);
     for (std::size_t i = 0; i < layout.part_count(); ++i) {
@@ -31,6 +37,17 @@ BodyChannels encode_body(const MarkerClip& clip, const BodyLayout& layout, const
   }
   representation::hold_last_seen(channels.poses, channels.observed);
   return channels;
+}
+
+}  // namespace
+
+BodyChannels encode_body(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match) {
+  return encode(clip, layout, match, nullptr);
+}
+
+BodyChannels encode_body(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match,
+                         const BodyChannels& guide) {
+  return encode(clip, layout, match, &guide);
 }
 
 void decode_body(const BodyChannels& channels, const BodyLayout& layout, const BodyMatch& match,

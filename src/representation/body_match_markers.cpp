@@ -1,17 +1,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <utility>
 #include <vector>
 
+#include "base/quantiles.hpp"
 #include "kinemend/error.hpp"
 #include "representation/body_anchors.hpp"
 #include "representation/body_correspondence.hpp"
 #include "representation/body_names.hpp"
 #include "representation/body_rest.hpp"
-#include "rotation/leading_eigenvector.hpp"
 
 namespace kinemend {
 
@@ -45,49 +43,13 @@ std::vector<std::pair<std::size_t, std::size_t>> anchors_of(const BodyLayout& la
   return anchors;
 }
 
-// The rotation that turns the first vectors onto the second ones (Horn 1987).
-Quat fitted_rotation(const std::vector<Anchor>& pairs) {
-  Vec3 from, to;
-  for (const Anchor& pair : pairs) {
-    from += pair.expected;
-    to += pair.seen;
-  }
-  const double share = 1.0 / static_cast<double>(pairs.size());
-  rotation::Matrix4 sum{};
-  double size = 0;
-  for (const Anchor& pair : pairs) {
-    const Vec3 a = pair.expected - share * from, b = pair.seen - share * to;
-    const Vec3 c = cross(a, b);
-    const std::array<double, 3> av{a.x, a.y, a.z}, bv{b.x, b.y, b.z}, cv{c.x, c.y, c.z};
-    const double d = dot(a, b);
-    size += norm(a) * norm(b);
-    sum[0][0] += d;
-    for (std::size_t i = 0; i < 3; ++i) {
-      sum[0][i + 1] += cv[i];
-      sum[i + 1][0] += cv[i];
-      for (std::size_t j = 0; j < 3; ++j)
-        sum[i + 1][j + 1] += av[i] * bv[j] + av[j] * bv[i] - (i == j ? d : 0);
-    }
-  }
-  // Semidefinite, as the eigensolver wants it.
-  for (std::size_t i = 0; i < 4; ++i) sum[i][i] += size;
-  return rotation::leading_eigenvector(sum);
-}
-
 // How the person stands most of the time tells what is up.
 Quat upright_by_anchors(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match) {
-  const auto anchors = anchors_of(layout, match);
   const std::size_t frames = clip.frame_count(), sampled = std::min(frames, most_frames);
   Vec3 up;
-  std::vector<Anchor> pairs;
   for (std::size_t i = 0; i < sampled; ++i) {
-    const std::size_t f = i * frames / sampled;
-    pairs.clear();
-    for (const auto& [part, marker] : anchors) {
-      if (clip.is_observed(f, marker))
-        pairs.push_back({clip.position(f, marker), layout.means[part]});
-    }
-    if (pairs.size() >= 3) up += rotate(fitted_rotation(pairs), {0, 1, 0});
+    if (const auto fit = fit_frame(clip, layout, match, i * frames / sampled))
+      up += rotate(fit->rotation, {0, 1, 0});
   }
   return shortest_rotation(nearest_axis(up), {0, 1, 0});
 }
@@ -104,7 +66,7 @@ double stature_by_anchors(const MarkerClip& clip, const BodyLayout& layout,
     for (std::size_t a = 0; a < anchors.size(); ++a) {
       for (std::size_t b = a + 1; b < anchors.size(); ++b) {
         const double expected =
-            norm(layout.means[anchors[a].first] - layout.means[anchors[b].first]);
+            norm(layout.shape[anchors[a].first] - layout.shape[anchors[b].first]);
         if (expected < least_distance || !clip.is_observed(f, anchors[a].second) ||
             !clip.is_observed(f, anchors[b].second))
           continue;
@@ -114,10 +76,8 @@ double stature_by_anchors(const MarkerClip& clip, const BodyLayout& layout,
       }
     }
   }
-  if (ratios.empty()) return body_height(clip);
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  return *middle > 0 ? *middle : 1.0;
+  const double ratio = median_of(ratios);
+  return ratio > 0 ? ratio : body_height(clip);
 }
 
 std::vector<std::int32_t> feet_of(const BodyLayout& layout, const MarkerClip& clip,
@@ -179,8 +139,8 @@ BodyMatch match_body(const BodyLayout& layout, const MarkerClip& clip, const Nam
                             "in the take; it lacks {}",
                             fmt::join(match.missing, ", ")));
   }
-  match.upright = upright_by_anchors(clip, layout, match);
   match.stature = stature_by_anchors(clip, layout, match);
+  match.upright = upright_by_anchors(clip, layout, match);
   match.feet = feet_of(layout, clip, match.parts);
   return match;
 }
