@@ -12,19 +12,24 @@
 // Feet on the floor: when they stand, how they slide, and how to stop them sliding.
 namespace kinemend {
 
-/// The point of a foot that a contact holds.
+/// The point of a foot that a contact holds. The toe is the joint at the ball of the foot, or the
+/// end of a foot that has none. The heel is the joint or end site of that name, or else a point
+/// fixed to the foot: level with the toe where the foot stands flat, behind the ankle by a quarter
+/// of the way from ankle to toe.
 enum class FootPart : std::uint8_t { heel, toe };
 std::string_view to_string(FootPart part);
 
 /// A foot of a skeleton and the joints that move it.
 struct Leg {
-  std::string side;  ///< "left", "right", or the ankle's name where there are no two
+  std::string side;  ///< "left", "right", or the ankle's name where that does not tell legs apart
   std::int32_t hip = 0;
   std::int32_t knee = 0;
   std::int32_t ankle = 0;
   std::int32_t toe = -1;  ///< joint; -1 where the foot ends at an end site, or at the ankle
 };
-/// By names and topology. Errors: none; skeletons without legs have none.
+/// The joints that are named after a foot (`foot_joints`), the knee and hip above each: the joints
+/// at the upper ends of the next two bones, where joints named after a twist and those a short way
+/// apart count as one bone. Errors: none; skeletons without legs have none.
 std::vector<Leg> find_legs(const Skeleton& skeleton);
 
 /// A time in which a part of a foot stands.
@@ -33,6 +38,7 @@ struct FootContact {
   FootPart part = FootPart::heel;
   std::size_t first_frame = 0;
   std::size_t last_frame = 0;  ///< inclusive
+  friend bool operator==(const FootContact&, const FootContact&) = default;
 };
 
 struct ContactSettings {
@@ -40,15 +46,20 @@ struct ContactSettings {
   /// down while below the others (statures above its level; statures a second).
   double begin_height = 0.015, keep_height = 0.03;
   double begin_speed = 0.15, keep_speed = 0.25;
-  double least_s = 0.05;  ///< shorter contacts are none, shorter lifts are bridged
+  double least_s = 0.05;   ///< shorter contacts are none, shorter lifts are bridged
+  std::optional<Axis> up;  ///< none: where the body stands above its feet
 };
-/// By leg, part, then frame. The floor may be at any height, and steps and ramps are levels too.
+/// By leg, part, then frame, from the first frame after the calibration frames on. The floor may be
+/// at any height. Beside the level on which a foot stands as a rule, any place is floor on which it
+/// rests for 0.15 s and is the lowest foot for 0.1 s: steps and ramps. Positions are smoothed for
+/// this by as much as their noise asks for. None where no direction is clearly up.
 std::vector<FootContact> find_contacts(const Clip& clip, const ContactSettings& settings = {});
 
 /// Contacts as text, one a line: `left heel 12 40`, frames from 1; `#` starts a comment. Edited by
 /// hand and read back.
 std::string contacts_text(const Clip& clip, const std::vector<FootContact>& contacts);
-/// Errors: `ErrorKind::unreadable_input`, `<name>:<line>: ...`.
+/// Sorted by leg, part, then frame. Errors: `ErrorKind::unreadable_input`, `<name>:<line>: ...`,
+/// for legs, parts or frames that there are not, and contacts of one part that overlap.
 std::vector<FootContact> parse_contacts(std::string_view text, std::string_view name,
                                         const Clip& clip);
 
@@ -61,17 +72,20 @@ enum class FeetMode : std::uint8_t {
 struct FeetSettings {
   FeetMode mode = FeetMode::automatic;
   ContactSettings contact;
-  /// Instead of those found; frames of the whole take.
+  /// Instead of those found, and all held; frames of the whole take.
   std::optional<std::vector<FootContact>> contacts;
-  double blend_s = 0.15;       ///< in which a correction fades out beside a contact
-  double most_stretch = 0.02;  ///< share by which a leg's bones may lengthen before the root moves
+  double blend_s = 0.15;  ///< in which a correction fades out beside a contact (0.02 to 1)
+  /// Share of a leg's length short of full stretch from which on the root gives way rather than the
+  /// knee, which would pop (0.001 to 0.2). A leg that is straighter in the take may stay so up to a
+  /// quarter of this.
+  double soft_reach = 0.02;
 };
 
 /// Feet of a clip, for the report. Lengths in file units.
 struct FeetFigures {
   double slide = 0;         ///< mean horizontal travel a frame of parts in contact
-  double most_slide = 0;    ///< longest travel within one contact
-  double sink = 0;          ///< deepest below the floor
+  double most_slide = 0;    ///< farthest that a part is from where its contact began
+  double sink = 0;          ///< deepest below the level on which the part stands as a rule
   double knee_pop_deg = 0;  ///< largest second difference of a knee's angle
 };
 
@@ -86,14 +100,17 @@ struct FeetReport {
 };
 
 /// Stops feet in contact from sliding, after Kovar, Schreiner & Gleicher 2002, "Footskate cleanup
-/// for motion capture editing": place each contact, move the root so that all feet reach, solve
-/// each leg, lengthen its bones a little rather than let the knee pop (of files that cannot hold
-/// lengths: bring the root nearer), and blend at the ends. Nothing outside contacts and their
-/// blends changes. Errors: `ErrorKind::usage` for settings out of range, and contacts of legs or
-/// frames that there are not.
+/// for motion capture editing": place each contact, lower the root so that all feet reach with
+/// knees that do not pop, solve each leg in closed form, and blend at the ends. No bone changes its
+/// length. Nothing outside contacts and their blends changes, nor do calibration frames. Errors:
+/// `ErrorKind::usage` for settings out of range, and contacts of legs or frames that there are not.
 FeetReport clean_feet(Clip& clip, const FeetSettings& settings = {});
 
-/// The figures of a clip under given contacts.
+/// The figures of a clip under given contacts. Errors: `ErrorKind::usage` as above.
 FeetFigures feet_figures(const Clip& clip, const std::vector<FootContact>& contacts);
+
+/// Contacts as text, with those that were not held as comments that say why, so that the file holds
+/// what `clean_feet` did and can be edited.
+std::string contacts_text(const Clip& clip, const FeetReport& report);
 
 }  // namespace kinemend

@@ -5,6 +5,7 @@
 
 #include "check/checks.hpp"
 #include "check/feet.hpp"
+#include "feet/floor.hpp"
 
 namespace kinemend::check {
 
@@ -12,8 +13,12 @@ namespace {
 
 void report_feet(const BodyPoints& body, Up up, const CheckSettings& settings,
                  CheckReport& report) {
+  constexpr double close_m = 0.02;
   const std::vector<Contact> contacts = find_contacts(body, up);
-  const std::vector<double> depths = depths_below_floor(contacts, up);
+  std::vector<Vec3> places;
+  places.reserve(contacts.size());
+  for (const Contact& contact : contacts) places.push_back(contact.place);
+  const std::vector<double> depths = feet::depths_below_floor(places, up, close_m, 1);
   double slide_cm = 0, sink_cm = 0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = contacts[i];

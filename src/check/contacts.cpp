@@ -2,94 +2,21 @@
 #include <cmath>
 
 #include "check/feet.hpp"
+#include "feet/sole_point.hpp"
 
 namespace kinemend::check {
 
 namespace {
 
-// As shares of the body's height, the speeds a second.
-constexpr double begin_height = 0.015, go_on_height = 0.03;
-constexpr double begin_speed = 0.15, go_on_speed = 0.25;
+using feet::ContactThresholds, feet::sole_point, feet::SolePoint, feet::touches;
 
-// One point of a foot, without the jitter that would pass for travel.
-struct SolePoint {
-  std::vector<Vec3> path;
-  std::vector<double> heights;
-  std::vector<Vec3> velocities;  // horizontal, m/s; of the step that ends in the frame
-  std::vector<double> speeds;    // in all directions, m/s
-  std::vector<std::uint8_t> seen;
-  double level = 0;  // where it stands as a rule
-};
-
-// Mean over the frames within 20 ms in which the point is seen.
-std::vector<Vec3> smoothed(const BodyPoints& body, std::size_t point) {
-  const auto reach = static_cast<std::size_t>(std::lround(0.02 * body.frame_rate_hz));
-  std::vector<Vec3> result(body.frames);
-  for (std::size_t f = 0; f < body.frames; ++f) {
-    // Symmetric, so that a straight path stays one.
-    const std::size_t around = std::min({reach, f, body.frames - 1 - f});
-    double count = 0;
-    for (std::size_t k = f - around; k <= f + around; ++k) {
-      if (!body.is_observed(k, point)) continue;
-      result[f] += body.at(k, point);
-      ++count;
-    }
-    if (count > 0) result[f] = (1 / count) * result[f];
-  }
-  return result;
-}
-
-double standing_level(const SolePoint& point, double body_height) {
-  constexpr double low = 0.02, near_low = 0.06;
-  std::vector<double> heights;
-  for (std::size_t f = 0; f < point.heights.size(); ++f) {
-    if (point.seen[f] != 0) heights.push_back(point.heights[f]);
-  }
-  const double lowest = quantile_of(heights, low);
-  heights.clear();
-  for (std::size_t f = 0; f < point.heights.size(); ++f) {
-    const bool stands = point.seen[f] != 0 && point.speeds[f] < begin_speed * body_height &&
-                        point.heights[f] < lowest + near_low * body_height;
-    if (stands) heights.push_back(point.heights[f]);
-  }
-  return heights.empty() ? lowest : median_of(heights);
-}
-
-SolePoint sole_point(const BodyPoints& body, std::size_t index, Up up) {
-  SolePoint point;
-  point.path = smoothed(body, index);
-  const std::vector<Vec3>& path = point.path;
-  for (std::size_t f = 0; f < body.frames; ++f) {
-    const std::size_t before = f == 0 ? 0 : f - 1;
-    const Vec3 velocity = body.frame_rate_hz * (path[f] - path[before]);
-    const double rise = along(velocity, up);
-    Vec3 level = velocity;
-    (up.axis == Axis::x ? level.x : up.axis == Axis::y ? level.y : level.z) = 0;
-    point.heights.push_back(along(path[f], up));
-    point.velocities.push_back(level);
-    point.speeds.push_back(std::hypot(norm(level), rise));
-    point.seen.push_back(body.is_observed(f, index) && body.is_observed(before, index) ? 1 : 0);
-  }
-  point.level = standing_level(point, body.height);
-  return point;
-}
-
-std::vector<std::uint8_t> touches(const SolePoint& point, double body_height) {
-  std::vector<std::uint8_t> result(point.heights.size());
-  bool down = false;
-  for (std::size_t f = 0; f < result.size(); ++f) {
-    const double height = point.heights[f] - point.level;
-    down = point.seen[f] != 0 && height < (down ? go_on_height : begin_height) * body_height &&
-           point.speeds[f] < (down ? go_on_speed : begin_speed) * body_height;
-    result[f] = down;
-  }
-  return result;
-}
+constexpr double reach_s = 0.02;
 
 std::vector<SolePoint> sole_points(const BodyPoints& body, const Foot& foot, Up up) {
   std::vector<SolePoint> points;
   points.reserve(foot.points.size());
-  for (const std::size_t index : foot.points) points.push_back(sole_point(body, index, up));
+  for (const std::size_t index : foot.points)
+    points.push_back(sole_point(body, index, up, ContactThresholds{}, reach_s));
   return points;
 }
 
@@ -128,7 +55,8 @@ std::vector<Contact> find_contacts(const BodyPoints& body, Up up) {
     const std::vector<SolePoint> points = sole_points(body, body.feet[i], up);
     std::vector<std::vector<std::uint8_t>> touching;
     touching.reserve(points.size());
-    for (const SolePoint& point : points) touching.push_back(touches(point, body.height));
+    for (const SolePoint& point : points)
+      touching.push_back(touches(point, {point.level}, body.height, ContactThresholds{}));
     const auto down = [&](std::size_t f) {
       return std::any_of(touching.begin(), touching.end(),
                          [f](const std::vector<std::uint8_t>& t) { return t[f] != 0; });

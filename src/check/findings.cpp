@@ -58,15 +58,6 @@ void sort_worst_first(std::vector<Finding>& findings) {
                    [&](const Finding& a, const Finding& b) { return key(a) < key(b); });
 }
 
-double quantile_of(std::vector<double>& values, double share) {
-  if (values.empty()) return 0;
-  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
-}
-
-double median_of(std::vector<double>& values) { return quantile_of(values, 0.5); }
-
 }  // namespace check
 
 }  // namespace kinemend

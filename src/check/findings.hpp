@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/quantiles.hpp"
 #include "kinemend/check.hpp"
 
 namespace kinemend::check {
@@ -17,10 +18,5 @@ struct Span {
 
 /// Serious ones first, then by kind, figure, frame and track.
 void sort_worst_first(std::vector<Finding>& findings);
-
-/// The middle of values, by reordering them; 0 for none.
-double median_of(std::vector<double>& values);
-/// The value that `share` (0..1) of them do not exceed, by reordering them; 0 for none.
-double quantile_of(std::vector<double>& values, double share);
 
 }  // namespace kinemend::check

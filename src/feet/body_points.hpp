@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinemend/rotation.hpp"
+
+namespace kinemend::feet {
+
+/// The points of a foot that touch the floor.
+struct Foot {
+  std::string name;                 ///< of the joint or marker that stands for it
+  std::vector<std::size_t> points;  ///< toe, ball, heel: indices into `BodyPoints`
+};
+
+/// What stands and falls: F frames of P points, in one unit of length.
+struct BodyPoints {
+  std::size_t frames = 0;
+  std::size_t points = 0;
+  double frame_rate_hz = 0;
+  std::vector<Vec3> positions;         ///< F x P
+  std::vector<std::uint8_t> observed;  ///< F x P; empty means all
+  std::vector<Vec3> centres;           ///< F: root, or mean of the markers seen
+  std::vector<Foot> feet;
+  double height = 0;  ///< of the body
+
+  Vec3 at(std::size_t frame, std::size_t point) const { return positions[frame * points + point]; }
+  bool is_observed(std::size_t frame, std::size_t point) const {
+    return observed.empty() || observed[frame * points + point] != 0;
+  }
+};
+
+/// A direction along an axis.
+struct Up {
+  Axis axis = Axis::y;
+  double sign = 1;
+
+  Vec3 direction() const {
+    return {axis == Axis::x ? sign : 0, axis == Axis::y ? sign : 0, axis == Axis::z ? sign : 0};
+  }
+};
+/// Where the body stands above its feet; none where no axis is clearly so.
+std::optional<Up> find_up(const BodyPoints& body);
+
+double along(Vec3 v, Up up);
+/// What is left of `v` without its height.
+Vec3 level_part(Vec3 v, Up up);
+
+}  // namespace kinemend::feet

@@ -1,0 +1,266 @@
+#include "feet/clean_legs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "feet/figures.hpp"
+#include "feet/judge.hpp"
+#include "feet/leg_solver.hpp"
+#include "feet/placement.hpp"
+#include "feet/root.hpp"
+#include "kinemend/error.hpp"
+
+namespace kinemend {
+
+namespace feet {
+
+namespace {
+
+// In statures: changes below are rounding, and what is left of a slide above is worth a word.
+constexpr double least_shift = 1e-9, noticeable_rest = 0.002;
+constexpr double least_turn_rad = 1e-11;
+
+void check_settings(const FeetSettings& settings) {
+  feet::check_settings(settings.contact);
+  const auto check = [](const char* name, double value, double least, double most) {
+    if (value >= least && value <= most) return;
+    throw Error(ErrorKind::usage,
+                fmt::format("feet: {} is {:g}, expected {:g} to {:g}", name, value, least, most));
+  };
+  check("blend_s", settings.blend_s, 0.02, 1);
+  check("soft_reach", settings.soft_reach, 0.001, 0.2);
+}
+
+double centimetres_per_unit(const Clip& clip) {
+  if (clip.metres_per_unit > 0) return 100 * clip.metres_per_unit;
+  const std::optional<LengthUnit> unit = guess_length_unit(clip.skeleton);
+  return unit ? 100 * unit->metres : 0;
+}
+
+bool may_turn(const LegModel& model, const FeetLimits& limits) {
+  return limits.joints.empty() ||
+         (limits.joints[model.hip.index] != 0 && limits.joints[model.knee.index] != 0 &&
+          limits.joints[model.ankle.index] != 0);
+}
+
+// Cleans one motion; the steps in the order of the paper.
+class FeetCleaning {
+ public:
+  FeetCleaning(Clip& motion, const FeetSettings& settings, const FeetLimits& limits)
+      : clip_(motion), settings_(settings), limits_(limits) {}
+
+  FeetReport run() {
+    report_.changed.resize(clip_.local_rotations.size());
+    report_.root_changed.resize(clip_.frame_count());
+    if (settings_.mode == FeetMode::off || !find_feet()) return std::move(report_);
+    const Soles soles = find_soles(legs_, up_, settings_.contact);
+    find_and_judge(soles);
+    const std::vector<double> offsets = level_offsets(soles);
+    report_.before = figures_of(legs_, report_.contacts, up_, offsets);
+    if (std::count(report_.held.begin(), report_.held.end(), 1) == 0) {
+      report_.after = report_.before;
+      return std::move(report_);
+    }
+    const std::vector<FootTarget> targets = find_targets(soles);
+    move(targets);
+    update_poses(clip_, found_, legs_);
+    warn_of_rest(targets);
+    report_.after = figures_of(legs_, report_.contacts, up_, offsets);
+    return std::move(report_);
+  }
+
+ private:
+  bool find_feet() {
+    found_ = find_legs(clip_.skeleton);
+    legs_ = leg_motion(clip_, found_);
+    if (settings_.contacts) check_contacts(*settings_.contacts, legs_, 0);
+    if (found_.empty()) {
+      report_.warnings.emplace_back("feet: no legs are known by name; nothing was held");
+      return false;
+    }
+    const std::optional<Up> up = up_of(legs_, settings_.contact.up);
+    if (!up) {
+      report_.warnings.emplace_back(
+          "feet: the body does not tell which way is up; nothing was held");
+      return false;
+    }
+    up_ = *up;
+    set_heels(clip_, up_, legs_);
+    return true;
+  }
+
+  void find_and_judge(const Soles& soles) {
+    report_.contacts =
+        settings_.contacts ? *settings_.contacts : find_contacts(soles, settings_.contact);
+    sort_contacts(report_.contacts);
+    const std::size_t count = report_.contacts.size();
+    if (settings_.contacts || settings_.mode == FeetMode::force) {
+      report_.held.assign(count, 1);
+      report_.reasons.resize(count);
+    } else {
+      Verdicts verdicts = judge(soles, legs_, report_.contacts, centimetres_per_unit(clip_));
+      report_.held = std::move(verdicts.held);
+      report_.reasons = std::move(verdicts.reasons);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (may_turn(legs_.models[report_.contacts[i].leg], limits_)) continue;
+      report_.held[i] = 0;
+      report_.reasons[i] = "hip, knee and ankle may not all turn";
+    }
+  }
+
+  std::vector<FootTarget> find_targets(const Soles& soles) const {
+    const std::vector<PartCorrection> parts =
+        place_contacts(soles, legs_, report_.contacts, report_.held, settings_.blend_s);
+    std::vector<FootTarget> targets(legs_.poses.size());
+    for (std::size_t f = 0; f < legs_.frames; ++f) {
+      for (std::size_t l = 0; l < legs_.legs(); ++l) {
+        targets[f * legs_.legs() + l] =
+            foot_target(legs_.pose(f, l), legs_.models[l], parts[2 * l], parts[2 * l + 1], f,
+                        least_shift * legs_.height);
+      }
+    }
+    return targets;
+  }
+
+  // Lowering the body moves the feet of all legs, which only legs that may turn can undo.
+  bool may_lower() const {
+    const Carrier& carrier = legs_.carrier;
+    if (!carrier.found) return false;
+    const bool is_root = carrier.track == 0;
+    if (!(is_root ? limits_.root_position : limits_.translations)) return false;
+    if (!limits_.joints.empty() && limits_.joints[carrier.joint] == 0) return false;
+    const auto& channels = clip_.skeleton.channels[carrier.joint];
+    const auto has = [&](Axis axis) {
+      return std::any_of(channels.begin(), channels.end(), [&](Channel channel) {
+        return !is_rotation(channel) && axis_of(channel) == axis;
+      });
+    };
+    if (!(is_root ? has(up_.axis) : has(Axis::x) && has(Axis::y) && has(Axis::z))) return false;
+    return std::all_of(legs_.models.begin(), legs_.models.end(),
+                       [&](const LegModel& model) { return may_turn(model, limits_); });
+  }
+
+  void move(const std::vector<FootTarget>& targets) {
+    std::vector<double> drops(legs_.frames);
+    if (may_lower())
+      drops = root_drops(legs_, targets, up_, settings_.soft_reach, settings_.blend_s);
+    for (std::size_t f = 0; f < legs_.frames; ++f) {
+      const bool lowers = drops[f] > least_shift * legs_.height;
+      const Vec3 shift = lowers ? -drops[f] * up_.direction() : Vec3{};
+      if (lowers) lower(f, shift);
+      for (std::size_t l = 0; l < legs_.legs(); ++l) {
+        const FootTarget& target = targets[f * legs_.legs() + l];
+        if (target.moves || lowers) turn(f, legs_.models[l], legs_.pose(f, l), target, shift);
+      }
+    }
+  }
+
+  void lower(std::size_t frame, Vec3 shift) {
+    const Carrier& carrier = legs_.carrier;
+    Vec3& position =
+        carrier.track == 0
+            ? clip_.root_positions[frame]
+            : clip_.joint_translations[frame * clip_.translated_joints.size() + carrier.track - 1];
+    position += rotate(conjugate(carrier.frames_of[frame]), shift);
+    report_.root_changed[frame] = 1;
+  }
+
+  void turn(std::size_t frame, const LegModel& model, const LegPose& pose, const FootTarget& target,
+            Vec3 hip_shift) {
+    const LegRotations turned = solve_leg(pose, model, target, hip_shift, settings_.soft_reach);
+    const auto set = [&](const LegJoint& joint, Quat rotation) {
+      Quat& own = clip_.rotation(frame, joint.index);
+      if (joint.order.count == 0 || angle_between(own, rotation) < least_turn_rad) return;
+      own = align_hemisphere(rotation, own);
+      report_.changed[frame * clip_.joint_count() + joint.index] = 1;
+    };
+    set(model.hip, turned.hip);
+    set(model.knee, turned.knee);
+    set(model.ankle, turned.ankle);
+  }
+
+  // Feet that do not get where they shall be.
+  void warn_of_rest(const std::vector<FootTarget>& targets) {
+    double farthest = 0;
+    std::size_t frames = 0;
+    for (std::size_t f = 0; f < legs_.frames; ++f) {
+      double rest = 0;
+      for (std::size_t l = 0; l < legs_.legs(); ++l) {
+        const FootTarget& target = targets[f * legs_.legs() + l];
+        if (!target.is_held || !target.moves) continue;
+        const LegPose& pose = legs_.pose(f, l);
+        rest =
+            std::max(rest, norm(pose.ankle_at + rotate(pose.ankle, target.pivot) - target.place));
+      }
+      farthest = std::max(farthest, rest);
+      frames += rest > noticeable_rest * legs_.height ? 1 : 0;
+    }
+    if (frames == 0) return;
+    const double unit_cm = centimetres_per_unit(clip_);
+    const std::string length = unit_cm > 0 ? fmt::format("{:.1f} cm", farthest * unit_cm)
+                                           : fmt::format("{:.3g} units", farthest);
+    report_.warnings.push_back(
+        fmt::format("feet: in {} frame{} a leg does not reach its place by up to {}", frames,
+                    frames == 1 ? "" : "s", length));
+  }
+
+  Clip& clip_;
+  const FeetSettings& settings_;
+  const FeetLimits& limits_;
+  std::vector<Leg> found_;
+  LegMotion legs_;
+  Up up_;
+  FeetReport report_;
+};
+
+}  // namespace
+
+FeetReport clean_legs(Clip& motion, const FeetSettings& settings, const FeetLimits& limits) {
+  check_settings(settings);
+  return FeetCleaning(motion, settings, limits).run();
+}
+
+}  // namespace feet
+
+namespace {
+
+void shift_frames(std::vector<FootContact>& contacts, std::size_t from, std::size_t to) {
+  for (FootContact& contact : contacts) {
+    if (contact.first_frame < from || contact.last_frame < contact.first_frame) {
+      throw Error(ErrorKind::usage,
+                  fmt::format("contact in frames {} to {}: the motion begins with frame {}",
+                              contact.first_frame + 1, contact.last_frame + 1, from + 1));
+    }
+    contact.first_frame = contact.first_frame - from + to;
+    contact.last_frame = contact.last_frame - from + to;
+  }
+}
+
+}  // namespace
+
+FeetReport clean_feet(Clip& clip, const FeetSettings& settings) {
+  const std::size_t first = leading_calibration_frames(clip);
+  if (first == 0) return feet::clean_legs(clip, settings);
+  FeetSettings own = settings;
+  if (own.contacts) shift_frames(*own.contacts, first, 0);
+  Clip motion = slice(clip, first, clip.frame_count());
+  FeetReport report = feet::clean_legs(motion, own);
+  shift_frames(report.contacts, 0, first);
+  const auto put_back = [first](auto& whole, const auto& part, std::size_t width) {
+    std::copy(part.begin(), part.end(), whole.begin() + static_cast<std::ptrdiff_t>(first * width));
+  };
+  put_back(clip.local_rotations, motion.local_rotations, clip.joint_count());
+  put_back(clip.root_positions, motion.root_positions, 1);
+  put_back(clip.joint_translations, motion.joint_translations, clip.translated_joints.size());
+  report.changed.insert(report.changed.begin(), first * clip.joint_count(), 0);
+  report.root_changed.insert(report.root_changed.begin(), first, 0);
+  return report;
+}
+
+}  // namespace kinemend

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kinemend/feet.hpp"
+
+namespace kinemend::feet {
+
+// Lengths by which floors are judged, in statures.
+inline constexpr double stature_m = 1.7;         ///< where a metre is asked for
+inline constexpr double close_to_floor = 0.012;  ///< 2 cm
+
+/// What may change.
+struct FeetLimits {
+  std::vector<std::uint8_t> joints;  ///< J; empty: all
+  bool root_position = true;
+  bool translations = true;
+};
+
+/// `clean_feet` of a clip of which every frame is motion. Frames of settings and report are those
+/// of the motion too.
+FeetReport clean_legs(Clip& motion, const FeetSettings& settings, const FeetLimits& limits = {});
+
+}  // namespace kinemend::feet

@@ -1,0 +1,232 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "base/quantiles.hpp"
+#include "feet/soles.hpp"
+#include "kinemend/error.hpp"
+
+namespace kinemend {
+
+namespace feet {
+
+namespace {
+
+using Spans = std::vector<std::pair<std::size_t, std::size_t>>;  // first, last frame
+
+Spans spans_of(const std::vector<std::uint8_t>& flags) {
+  Spans spans;
+  for (std::size_t f = 0; f < flags.size(); ++f) {
+    if (flags[f] == 0) continue;
+    const std::size_t first = f;
+    while (f + 1 < flags.size() && flags[f + 1] != 0) ++f;
+    spans.emplace_back(first, f);
+  }
+  return spans;
+}
+
+// The height of a foot's lower part.
+std::vector<double> lowest_of(const Soles& soles, std::size_t leg) {
+  std::vector<double> lowest = soles.points[2 * leg].heights;
+  if (soles.has[2 * leg + 1] == 0) return lowest;
+  for (std::size_t f = 0; f < lowest.size(); ++f)
+    lowest[f] = std::min(lowest[f], soles.points[2 * leg + 1].heights[f]);
+  return lowest;
+}
+
+class ContactFinder {
+ public:
+  ContactFinder(const Soles& soles, const ContactSettings& settings)
+      : soles_(soles), settings_(settings) {
+    for (std::size_t l = 0; l < soles.legs(); ++l) {
+      lowest_.push_back(lowest_of(soles, l));
+      const double heel = soles.points[2 * l].level;
+      const double toe = soles.has[2 * l + 1] != 0 ? soles.points[2 * l + 1].level : heel;
+      floors_.push_back(std::min(heel, toe));
+    }
+  }
+
+  Spans find(std::size_t point) const {
+    const SolePoint& sole = soles_.points[point];
+    const std::size_t leg = point / 2;
+    const double height = soles_.height;
+    std::vector<std::uint8_t> slow(sole.speeds.size());
+    bool is_slow = false;
+    for (std::size_t f = 0; f < slow.size(); ++f) {
+      const double limit = is_slow ? settings_.keep_speed : settings_.begin_speed;
+      is_slow = sole.seen[f] != 0 && sole.speeds[f] < limit * height;
+      slow[f] = is_slow;
+    }
+    // A heel and a toe of one foot need not stand equally high.
+    const double above = sole.level - floors_[leg];
+    const double offset = above < settings_.begin_height * height ? above : 0;
+    std::vector<double> levels(slow.size(), sole.level);
+    for (const auto& [first, last] : spans_of(slow)) {
+      const double level = level_of(leg, first, last) + offset;
+      std::fill(levels.begin() + static_cast<std::ptrdiff_t>(first),
+                levels.begin() + static_cast<std::ptrdiff_t>(last + 1), level);
+    }
+    const ContactThresholds thresholds{settings_.begin_height, settings_.keep_height,
+                                       settings_.begin_speed, settings_.keep_speed};
+    Spans spans = without_short(spans_of(touches(sole, levels, height, thresholds)));
+    for (auto& span : spans) span = trimmed(sole, span);
+    return without_short(spans);
+  }
+
+ private:
+  std::size_t frames_in(double seconds) const {
+    return static_cast<std::size_t>(std::lround(seconds * soles_.body.frame_rate_hz));
+  }
+
+  // The height of the floor under a foot that is slow in these frames.
+  double level_of(std::size_t leg, std::size_t first, std::size_t last) const {
+    const auto begin = lowest_[leg].begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end = lowest_[leg].begin() + static_cast<std::ptrdiff_t>(last + 1);
+    std::vector<double> heights(begin, end);
+    const double low = median_of(heights);
+    if (low < floors_[leg] + settings_.begin_height * soles_.height)
+      return std::min(low, floors_[leg]);
+    return is_step(leg, first, last) ? low : floors_[leg];
+  }
+
+  // A foot rests and bears the body: on a step.
+  bool is_step(std::size_t leg, std::size_t first, std::size_t last) const {
+    constexpr double least_s = 0.15, least_lowest_s = 0.1, most_travel = 0.02;
+    if (last - first + 1 < std::max<std::size_t>(frames_in(least_s), 2)) return false;
+    std::vector<double> heights;
+    std::size_t lowest = 0;
+    for (std::size_t f = first; f <= last; ++f) {
+      heights.push_back(lowest_[leg][f]);
+      const bool is_lowest = std::all_of(lowest_.begin(), lowest_.end(), [&](const auto& other) {
+        return lowest_[leg][f] < other[f] + settings_.begin_height * soles_.height;
+      });
+      lowest += is_lowest ? 1 : 0;
+    }
+    if (lowest < std::max<std::size_t>(frames_in(least_lowest_s), 2)) return false;
+    const double low = quantile_of(heights, 0.1);
+    if (quantile_of(heights, 0.9) - low > settings_.begin_height * soles_.height) return false;
+    return std::any_of(soles_.points.begin() + static_cast<std::ptrdiff_t>(2 * leg),
+                       soles_.points.begin() + static_cast<std::ptrdiff_t>(2 * leg + 2),
+                       [&](const SolePoint& point) {
+                         const std::size_t margin = (last - first) / 5;
+                         const Vec3 travel = point.path[last - margin] - point.path[first + margin];
+                         return norm(travel) < most_travel * soles_.height;
+                       });
+  }
+
+  // Without the ends in which the part still lands or already leaves: faster than it is on the
+  // whole, or at another height.
+  std::pair<std::size_t, std::size_t> trimmed(const SolePoint& sole,
+                                              std::pair<std::size_t, std::size_t> span) const {
+    constexpr double times_median = 2.5, sure_speed = 0.05, sure_height = 0.006;
+    auto [first, last] = span;
+    const auto part = [&](const std::vector<double>& values) {
+      return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(first),
+                                 values.begin() + static_cast<std::ptrdiff_t>(last + 1));
+    };
+    std::vector<double> speeds = part(sole.speeds), heights = part(sole.heights);
+    const double limit = std::max(sure_speed * soles_.height, times_median * median_of(speeds));
+    const double level = median_of(heights);
+    const auto moves = [&](std::size_t f) {
+      return sole.speeds[f] > limit ||
+             std::fabs(sole.heights[f] - level) > sure_height * soles_.height;
+    };
+    while (first < last && moves(first)) ++first;
+    while (last > first && moves(last)) --last;
+    return {first, last};
+  }
+
+  Spans without_short(const Spans& spans) const {
+    const std::size_t least = std::max<std::size_t>(frames_in(settings_.least_s), 2);
+    Spans bridged;
+    for (const auto& span : spans) {
+      if (!bridged.empty() && span.first - bridged.back().second - 1 < least)
+        bridged.back().second = span.second;
+      else
+        bridged.push_back(span);
+    }
+    Spans kept;
+    for (const auto& span : bridged) {
+      if (span.second - span.first + 1 >= least) kept.push_back(span);
+    }
+    return kept;
+  }
+
+  const Soles& soles_;
+  const ContactSettings& settings_;
+  std::vector<std::vector<double>> lowest_;  // by leg
+  std::vector<double> floors_;               // by leg: where it stands as a rule
+};
+
+[[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::usage, message); }
+
+}  // namespace
+
+std::vector<FootContact> find_contacts(const Soles& soles, const ContactSettings& settings) {
+  const ContactFinder finder(soles, settings);
+  std::vector<FootContact> contacts;
+  for (std::size_t p = 0; p < soles.points.size(); ++p) {
+    if (soles.has[p] == 0) continue;
+    for (const auto& [first, last] : finder.find(p))
+      contacts.push_back({p / 2, static_cast<FootPart>(p % 2), first, last});
+  }
+  return contacts;
+}
+
+void check_settings(const ContactSettings& settings) {
+  const auto in_order = [](double begin, double keep) {
+    return std::isfinite(keep) && begin > 0 && keep >= begin;
+  };
+  if (!in_order(settings.begin_height, settings.keep_height))
+    refuse("contact: begin_height must be above 0 and not above keep_height");
+  if (!in_order(settings.begin_speed, settings.keep_speed))
+    refuse("contact: begin_speed must be above 0 and not above keep_speed");
+  if (!(settings.least_s >= 0 && settings.least_s <= 10))
+    refuse(fmt::format("contact: least_s is {:g}, expected 0 to 10", settings.least_s));
+}
+
+void check_contacts(const std::vector<FootContact>& contacts, const LegMotion& motion,
+                    std::size_t first_frame) {
+  for (const FootContact& contact : contacts) {
+    if (contact.leg >= motion.legs())
+      refuse(fmt::format("contact of leg {}: the skeleton has {}", contact.leg, motion.legs()));
+    if (!motion.models[contact.leg].has[static_cast<std::size_t>(contact.part)])
+      refuse(fmt::format("contact of a {}: that foot has none", to_string(contact.part)));
+    if (contact.first_frame < first_frame || contact.last_frame < contact.first_frame ||
+        contact.last_frame >= first_frame + motion.frames) {
+      refuse(fmt::format("contact in frames {} to {}: the motion is frames {} to {}",
+                         contact.first_frame + 1, contact.last_frame + 1, first_frame + 1,
+                         first_frame + motion.frames));
+    }
+  }
+}
+
+void sort_contacts(std::vector<FootContact>& contacts) {
+  std::sort(contacts.begin(), contacts.end(), [](const FootContact& a, const FootContact& b) {
+    return std::tie(a.leg, a.part, a.first_frame) < std::tie(b.leg, b.part, b.first_frame);
+  });
+}
+
+}  // namespace feet
+
+std::vector<FootContact> find_contacts(const Clip& clip, const ContactSettings& settings) {
+  feet::check_settings(settings);
+  const std::size_t first = leading_calibration_frames(clip);
+  const Clip motion = slice(clip, first, clip.frame_count());
+  feet::LegMotion legs = feet::leg_motion(motion, find_legs(clip.skeleton));
+  const std::optional<feet::Up> up = feet::up_of(legs, settings.up);
+  if (!up) return {};
+  feet::set_heels(motion, *up, legs);
+  std::vector<FootContact> contacts =
+      feet::find_contacts(feet::find_soles(legs, *up, settings), settings);
+  for (FootContact& contact : contacts) {
+    contact.first_frame += first;
+    contact.last_frame += first;
+  }
+  return contacts;
+}
+
+}  // namespace kinemend

@@ -1,0 +1,75 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "feet/floor.hpp"
+
+namespace kinemend::feet {
+
+namespace {
+
+// The two coordinates that are not height.
+std::pair<double, double> across(Vec3 v, Up up) {
+  if (up.axis == Axis::x) return {v.y, v.z};
+  if (up.axis == Axis::y) return {v.x, v.z};
+  return {v.x, v.y};
+}
+
+// Height of the plane a + b u + c v by least squares through the places with weight.
+struct Plane {
+  Eigen::Vector3d coefficients = Eigen::Vector3d::Zero();
+
+  double height_at(Vec3 place, Up up) const {
+    const auto [u, v] = across(place, up);
+    return coefficients.dot(Eigen::Vector3d(1, u, v));
+  }
+};
+
+Plane fit(const std::vector<Vec3>& places, const std::vector<double>& weights, Up up,
+          double metre) {
+  // A pull towards level ground, too weak to matter once the places cover a metre.
+  Eigen::Matrix3d normal =
+      Eigen::Vector3d(0, 0.1 * metre * metre, 0.1 * metre * metre).asDiagonal();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  double sum = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto [u, v] = across(places[i], up);
+    middle += weights[i] * Eigen::Vector2d(u, v);
+    sum += weights[i];
+  }
+  middle /= sum;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto [u, v] = across(places[i], up);
+    const Eigen::Vector3d row(1, u - middle.x(), v - middle.y());
+    normal += weights[i] * row * row.transpose();
+    right += weights[i] * along(places[i], up) * row;
+  }
+  Eigen::Vector3d solution = normal.ldlt().solve(right);
+  solution[0] -= solution[1] * middle.x() + solution[2] * middle.y();
+  return {solution};
+}
+
+}  // namespace
+
+std::vector<double> depths_below_floor(const std::vector<Vec3>& places, Up up, double close_to,
+                                       double metre) {
+  constexpr double most_share = 2.0 / 3;
+  constexpr int rounds = 20;
+  std::vector<double> depths(places.size()), weights(places.size(), 1);
+  for (int round = 0; round < rounds && !places.empty(); ++round) {
+    const Plane floor = fit(places, weights, up, metre);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      depths[i] = floor.height_at(places[i], up) - along(places[i], up);
+      // Cauchy's weights: what stands off hardly counts.
+      weights[i] = 1 / (1 + depths[i] * depths[i] / (close_to * close_to));
+    }
+  }
+  const auto close = std::count_if(depths.begin(), depths.end(),
+                                   [&](double depth) { return std::fabs(depth) < close_to; });
+  if (static_cast<double>(close) < most_share * static_cast<double>(places.size())) return {};
+  return depths;
+}
+
+}  // namespace kinemend::feet

@@ -1,0 +1,174 @@
+#include "feet/judge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+namespace kinemend::feet {
+
+namespace {
+
+// In statures, and statures a second.
+constexpr double least_travel = 0.018;  // 3 cm: what a foot rolls and its skin gives as it stands
+constexpr double least_jitter = 0.13;   // length of the path to and fro a second: 22 cm/s
+constexpr double small_travel = 0.03;   // 5 cm: nobody slides so little on purpose
+constexpr double most_travel = 0.25;
+constexpr double glide_speed = 0.06;
+
+struct Judge {
+  const Soles& soles;
+  const LegMotion& motion;
+  const std::vector<FootContact>& contacts;
+  double unit_cm;
+  bool jitters = false;  // of the whole take
+
+  std::string length_text(double length) const {
+    if (unit_cm > 0) return fmt::format("{:.1f} cm", length * unit_cm);
+    return fmt::format("{:.3g} units", length);
+  }
+
+  Vec3 moved(std::size_t point, std::size_t first, std::size_t last) const {
+    const std::vector<Vec3>& path = soles.points[point].path;
+    return level_part(path[last] - path[first], soles.up);
+  }
+
+  // Farthest from where it began.
+  double travel(const FootContact& c) const {
+    double farthest = 0;
+    for (std::size_t f = c.first_frame; f <= c.last_frame; ++f)
+      farthest = std::max(farthest, norm(moved(Soles::point_of(c), c.first_frame, f)));
+    return farthest;
+  }
+
+  // Length of the path as measured.
+  double path(const FootContact& c) const {
+    const std::size_t p = Soles::point_of(c);
+    double sum = 0;
+    for (std::size_t f = c.first_frame + 1; f <= c.last_frame; ++f)
+      sum += norm(level_part(soles.body.at(f, p) - soles.body.at(f - 1, p), soles.up));
+    return sum;
+  }
+
+  bool is_fast(const FootContact& c) const {
+    const double seconds =
+        static_cast<double>(c.last_frame - c.first_frame) / soles.body.frame_rate_hz;
+    return path(c) > least_jitter * soles.height * seconds;
+  }
+
+  // For most of the time that feet stand, their paths are far longer than their ways: to and fro.
+  bool take_jitters() const {
+    constexpr double least_ratio = 1.5;
+    std::size_t frames = 0, jittery = 0;
+    for (const FootContact& c : contacts) {
+      const std::size_t length = c.last_frame - c.first_frame + 1;
+      frames += length;
+      if (is_fast(c) && path(c) > least_ratio * travel(c)) jittery += length;
+    }
+    return 2 * jittery > frames;
+  }
+
+  bool is_still(const FootContact& c) const {
+    return travel(c) < least_travel * soles.height && !(jitters && is_fast(c));
+  }
+
+  // While another foot stands and hardly moves, this one does most of its way.
+  bool slides_beside_standing_foot(const FootContact& c, double way) const {
+    constexpr double least_share = 0.5, most_other = 0.25;
+    for (const FootContact& other : contacts) {
+      if (other.leg == c.leg) continue;
+      const std::size_t first = std::max(c.first_frame, other.first_frame);
+      const std::size_t last = std::min(c.last_frame, other.last_frame);
+      if (last <= first) continue;
+      const double own = norm(moved(Soles::point_of(c), first, last));
+      const double others = norm(moved(Soles::point_of(other), first, last));
+      if (own >= least_share * way && others < most_other * own) return true;
+    }
+    return false;
+  }
+
+  // The body goes along with the foot, and not slowly.
+  bool glides(const FootContact& c) const {
+    constexpr double least_share = 0.5, least_cosine = 0.8;
+    const Vec3 own = moved(Soles::point_of(c), c.first_frame, c.last_frame);
+    const auto hips = [&](std::size_t frame) {
+      Vec3 sum;
+      for (std::size_t l = 0; l < motion.legs(); ++l) sum += motion.pose(frame, l).hip_at;
+      return (1.0 / static_cast<double>(motion.legs())) * sum;
+    };
+    const Vec3 body = level_part(hips(c.last_frame) - hips(c.first_frame), soles.up);
+    const double seconds =
+        static_cast<double>(c.last_frame - c.first_frame) / soles.body.frame_rate_hz;
+    return norm(own) > glide_speed * soles.height * seconds &&
+           dot(own, body) > least_cosine * norm(own) * norm(body) &&
+           norm(own) > least_share * norm(body);
+  }
+
+  // Why the slide of a contact is no error; empty where it is one.
+  std::string excuse(const FootContact& c) const {
+    const double way = travel(c);
+    if (way < small_travel * soles.height) return {};
+    if (slides_beside_standing_foot(c, way)) {
+      return fmt::format("slides {} while the other foot stands: intended", length_text(way));
+    }
+    if (glides(c)) return fmt::format("slides {} along with the body: intended", length_text(way));
+    if (way > most_travel * soles.height)
+      return fmt::format("slides {}, farther than an error does", length_text(way));
+    return {};
+  }
+
+  // Why a stand is not held; empty where it is.
+  std::string reason(const std::vector<std::size_t>& stand) const {
+    for (const std::size_t i : stand) {
+      if (std::string found = excuse(contacts[i]); !found.empty()) return found;
+    }
+    const bool all_still = std::all_of(stand.begin(), stand.end(),
+                                       [&](std::size_t i) { return is_still(contacts[i]); });
+    if (!all_still) return {};
+    double way = 0;
+    for (const std::size_t i : stand) way = std::max(way, travel(contacts[i]));
+    return fmt::format("stands still: moves {}", length_text(way));
+  }
+};
+
+}  // namespace
+
+std::vector<std::vector<std::size_t>> stands_of(const std::vector<FootContact>& contacts) {
+  std::vector<std::size_t> order(contacts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::tie(contacts[a].leg, contacts[a].first_frame, a) <
+           std::tie(contacts[b].leg, contacts[b].first_frame, b);
+  });
+  std::vector<std::vector<std::size_t>> stands;
+  std::size_t last = 0;
+  for (const std::size_t i : order) {
+    const FootContact& contact = contacts[i];
+    const bool goes_on = !stands.empty() && contacts[stands.back().front()].leg == contact.leg &&
+                         contact.first_frame <= last + 1;
+    if (!goes_on) stands.emplace_back();
+    last = goes_on ? std::max(last, contact.last_frame) : contact.last_frame;
+    stands.back().push_back(i);
+  }
+  return stands;
+}
+
+Verdicts judge(const Soles& soles, const LegMotion& motion,
+               const std::vector<FootContact>& contacts, double unit_cm) {
+  Judge bench{soles, motion, contacts, unit_cm};
+  bench.jitters = bench.take_jitters();
+  Verdicts verdicts{std::vector<std::uint8_t>(contacts.size()),
+                    std::vector<std::string>(contacts.size())};
+  for (const std::vector<std::size_t>& stand : stands_of(contacts)) {
+    const std::string reason = bench.reason(stand);
+    for (const std::size_t i : stand) {
+      verdicts.held[i] = reason.empty() ? 1 : 0;
+      verdicts.reasons[i] = reason;
+    }
+  }
+  return verdicts;
+}
+
+}  // namespace kinemend::feet

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "feet/soles.hpp"
+
+namespace kinemend::feet {
+
+/// Whether the slide of each contact is an error to be taken out.
+struct Verdicts {
+  std::vector<std::uint8_t> held;    ///< one a contact
+  std::vector<std::string> reasons;  ///< one a contact; empty where held
+};
+
+/// `motion` is in `unit_cm` centimetres a unit of length; 0 where that is not known. Contacts of
+/// one foot that touch in time are one stand and get one verdict.
+Verdicts judge(const Soles& soles, const LegMotion& motion,
+               const std::vector<FootContact>& contacts, double unit_cm);
+
+/// Indices of contacts, by stand.
+std::vector<std::vector<std::size_t>> stands_of(const std::vector<FootContact>& contacts);
+
+}  // namespace kinemend::feet

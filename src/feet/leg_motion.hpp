@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "feet/body_points.hpp"
+#include "kinemend/feet.hpp"
+
+namespace kinemend::feet {
+
+/// A joint of a leg as the file's channels turn it.
+struct LegJoint {
+  std::size_t index = 0;
+  Quat rest;
+  RotationOrder order;
+};
+
+/// What of a leg is the same in all frames.
+struct LegModel {
+  LegJoint hip, knee, ankle;
+  std::array<Vec3, 2> sole;             ///< by `FootPart`, in the ankle's frame
+  std::array<bool, 2> has{true, true};  ///< by `FootPart`
+  Vec3 hinge;                           ///< usual axis of the knee in its parent's frame, unit
+};
+
+/// A leg in one frame, in the world.
+struct LegPose {
+  Quat hip_parent, hip, knee_parent, knee, ankle_parent, ankle;
+  Vec3 hip_at, knee_at, ankle_at;
+
+  Vec3 sole_at(const LegModel& model, FootPart part) const {
+    return ankle_at + rotate(ankle, model.sole[static_cast<std::size_t>(part)]);
+  }
+};
+
+/// The joint whose position moves the whole body.
+struct Carrier {
+  bool found = false;
+  std::size_t joint = 0;
+  std::size_t track = 0;        ///< 0: the root position, k + 1: translated joint k
+  std::vector<Quat> frames_of;  ///< F: the frame that its position is in
+};
+
+/// The legs of a clip: F frames of L legs.
+struct LegMotion {
+  std::size_t frames = 0;
+  double frame_rate_hz = 0;
+  double height = 0;  ///< of the body, file units
+  std::vector<LegModel> models;
+  std::vector<LegPose> poses;  ///< F x L
+  Carrier carrier;
+
+  std::size_t legs() const { return models.size(); }
+  LegPose& pose(std::size_t frame, std::size_t leg) { return poses[frame * legs() + leg]; }
+  const LegPose& pose(std::size_t frame, std::size_t leg) const {
+    return poses[frame * legs() + leg];
+  }
+};
+
+/// All but the heels of feet that have none in the skeleton, which need `set_heels`.
+LegMotion leg_motion(const Clip& clip, const std::vector<Leg>& legs);
+/// Poses anew, with the models as they are.
+void update_poses(const Clip& clip, const std::vector<Leg>& legs, LegMotion& motion);
+
+/// Where the body stands above its feet; `wanted` where it is given.
+std::optional<Up> up_of(const LegMotion& motion, std::optional<Axis> wanted);
+/// Puts a heel where the skeleton has none, from the frames in which the foot stands flat.
+void set_heels(const Clip& clip, Up up, LegMotion& motion);
+
+/// Heel and toe of each leg, points 2 l and 2 l + 1; the heel stands for a toe that is not there.
+BodyPoints sole_points(const LegMotion& motion);
+
+}  // namespace kinemend::feet

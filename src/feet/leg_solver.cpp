@@ -1,0 +1,187 @@
+#include "feet/leg_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinemend::feet {
+
+namespace {
+
+// |thigh + R(hinge, angle) shank|^2 = constant + 2 swing cos(angle - straight).
+struct KneeCircle {
+  Vec3 hinge;  // world, unit; bending is positive
+  double constant = 0, swing = 0;
+  double straight = 0;  // the turn of the shank that takes the ankle farthest away, radians
+
+  double most() const { return std::sqrt(std::max(constant + 2 * swing, 0.0)); }
+};
+
+// How the knee's channels can turn it.
+enum class KneeTurn : std::uint8_t { none, first_axis, last_axis, free };
+
+Vec3 axis_vector(Axis axis) {
+  return {axis == Axis::x ? 1.0 : 0.0, axis == Axis::y ? 1.0 : 0.0, axis == Axis::z ? 1.0 : 0.0};
+}
+
+Vec3 first_axis(const LegPose& pose, const LegModel& model) {
+  return rotate(pose.knee_parent * model.knee.rest, axis_vector(model.knee.order.axes[0]));
+}
+Vec3 last_axis(const LegPose& pose, const LegModel& model) {
+  return rotate(pose.knee, axis_vector(model.knee.order.axes[model.knee.order.count - 1]));
+}
+
+KneeTurn knee_turn(const LegPose& pose, const LegModel& model) {
+  if (model.knee.order.count == 0) return KneeTurn::none;
+  if (model.knee.order.count == 1) return KneeTurn::first_axis;
+  if (model.knee.order.count == 3) return KneeTurn::free;
+  const Vec3 usual = rotate(pose.knee_parent, model.hinge);
+  return std::fabs(dot(first_axis(pose, model), usual)) >=
+                 std::fabs(dot(last_axis(pose, model), usual))
+             ? KneeTurn::first_axis
+             : KneeTurn::last_axis;
+}
+
+// A knee with one channel for it turns about that; a free one in the plane of the leg, which is
+// that of the usual hinge where the leg is straight.
+Vec3 hinge_of(const LegPose& pose, const LegModel& model, KneeTurn turn) {
+  constexpr double clear_bend = 0.1;
+  const Vec3 usual = rotate(pose.knee_parent, model.hinge);
+  Vec3 hinge = usual;
+  if (turn == KneeTurn::first_axis) hinge = first_axis(pose, model);
+  if (turn == KneeTurn::last_axis) hinge = last_axis(pose, model);
+  if (turn == KneeTurn::free) {
+    const Vec3 thigh = pose.knee_at - pose.hip_at, shank = pose.ankle_at - pose.knee_at;
+    const double lengths = norm(thigh) * norm(shank);
+    const Vec3 bend = lengths > 0 ? (1 / lengths) * cross(thigh, shank) : Vec3{};
+    // A knee that bends the wrong way turns about the same line.
+    const double side = dot(bend, usual) < 0 ? -1 : 1;
+    hinge = side * bend + clear_bend * usual;
+    if (norm(hinge) > 0) hinge = (1 / norm(hinge)) * hinge;
+  }
+  return dot(hinge, usual) < 0 ? -hinge : hinge;
+}
+
+KneeCircle knee_circle(const LegPose& pose, Vec3 hinge) {
+  const Vec3 thigh = pose.knee_at - pose.hip_at, shank = pose.ankle_at - pose.knee_at;
+  const double along = dot(thigh, hinge) * dot(shank, hinge);
+  const double cosine = dot(thigh, shank) - along, sine = dot(thigh, cross(hinge, shank));
+  KneeCircle circle;
+  circle.hinge = hinge;
+  circle.constant = dot(thigh, thigh) + dot(shank, shank) + 2 * along;
+  circle.swing = std::hypot(cosine, sine);
+  circle.straight = std::atan2(sine, cosine);
+  return circle;
+}
+
+// The turn of the shank that puts the ankle at this distance from the hip, on the side to which the
+// knee is bent.
+double turn_for(const KneeCircle& circle, double distance) {
+  if (!(circle.swing > 0)) return 0;
+  const double cosine = (distance * distance - circle.constant) / (2 * circle.swing);
+  const double bend = std::acos(std::clamp(cosine, -1.0, 1.0));
+  const double side = circle.straight > 0 ? -1 : 1;
+  return circle.straight + side * bend;
+}
+
+// What the channels of a joint can hold of a rotation.
+Quat within_channels(Quat rotation, const LegJoint& joint) {
+  if (joint.order.count >= 3) return rotation;
+  if (joint.order.count == 0) return Quat{};
+  return from_euler(to_euler(rotation, joint.order), joint.order);
+}
+
+// The leg after its hip and knee have turned.
+class Leg {
+ public:
+  Leg(const LegPose& pose, const LegModel& model, const FootTarget& target, Vec3 hip_shift,
+      double soft_reach)
+      : pose_(pose),
+        model_(model),
+        target_(target),
+        hip_at_(pose.hip_at + hip_shift),
+        turn_(knee_turn(pose, model)),
+        circle_(knee_circle(pose, hinge_of(pose, model, turn_))),
+        reach_(feet::reach_of(pose, model, soft_reach)) {}
+
+  LegRotations solve() {
+    constexpr int rounds = 8;
+    foot_ = target_.rotation;
+    const bool is_limited = model_.hip.order.count < 3 || model_.ankle.order.count < 3;
+    for (int round = 0; round < (is_limited ? rounds : 1); ++round) solve_once();
+    return rotations_;
+  }
+
+ private:
+  void solve_once() {
+    const Vec3 ankle_at = target_.place - rotate(foot_, target_.pivot);
+    const Vec3 way = ankle_at - hip_at_;
+    const double angle =
+        turn_ == KneeTurn::none ? 0 : turn_for(circle_, soft_distance(norm(way), reach_));
+    const Quat bend = exp(angle * circle_.hinge);
+    const Quat knee_frame = pose_.knee_parent * model_.knee.rest;
+    rotations_.knee = normalized(conjugate(knee_frame) * bend * pose_.knee);
+
+    const Vec3 bent = pose_.knee_at - pose_.hip_at + rotate(bend, pose_.ankle_at - pose_.knee_at);
+    Quat swing = exp(turn_between(bent, way));
+    if (norm(way) > 0) swing = exp((twist_ / norm(way)) * way) * swing;
+    const Quat hip_frame = pose_.hip_parent * model_.hip.rest;
+    rotations_.hip =
+        within_channels(normalized(conjugate(hip_frame) * swing * pose_.hip), model_.hip);
+    swing = hip_frame * rotations_.hip * conjugate(pose_.hip);
+
+    const Quat ankle_frame = swing * bend * pose_.ankle_parent * model_.ankle.rest;
+    rotations_.ankle =
+        within_channels(normalized(conjugate(ankle_frame) * target_.rotation), model_.ankle);
+    foot_ = ankle_frame * rotations_.ankle;
+    // What the ankle cannot turn about the line of the leg, the hip can.
+    if (model_.ankle.order.count < 3 && norm(way) > 0)
+      twist_ += dot(log(target_.rotation * conjugate(foot_)), way) / norm(way);
+  }
+
+  const LegPose& pose_;
+  const LegModel& model_;
+  const FootTarget& target_;
+  Vec3 hip_at_;
+  KneeTurn turn_;
+  KneeCircle circle_;
+  Reach reach_;
+  Quat foot_;
+  double twist_ = 0;
+  LegRotations rotations_;
+};
+
+}  // namespace
+
+Vec3 turn_between(Vec3 from, Vec3 to) {
+  const Vec3 axis = cross(from, to);
+  const double sine = norm(axis), cosine = dot(from, to);
+  if (!(sine > 0)) return {};
+  return (std::atan2(sine, cosine) / sine) * axis;
+}
+
+Reach reach_of(const LegPose& pose, const LegModel& model, double soft_reach) {
+  const KneeTurn turn = knee_turn(pose, model);
+  Reach reach;
+  reach.now = norm(pose.ankle_at - pose.hip_at);
+  reach.most = reach.now;
+  if (turn != KneeTurn::none) {
+    const KneeCircle circle = knee_circle(pose, hinge_of(pose, model, turn));
+    reach.most = std::max(reach.now, circle.most());
+  }
+  reach.easy = std::max((1 - soft_reach) * reach.most, reach.now);
+  return reach;
+}
+
+double soft_distance(double distance, const Reach& reach) {
+  const double room = reach.most - reach.easy;
+  if (distance <= reach.easy) return distance;
+  if (!(room > 0)) return reach.easy;
+  return reach.easy + room * (1 - std::exp(-(distance - reach.easy) / room));
+}
+
+LegRotations solve_leg(const LegPose& pose, const LegModel& model, const FootTarget& target,
+                       Vec3 hip_shift, double soft_reach) {
+  return Leg(pose, model, target, hip_shift, soft_reach).solve();
+}
+
+}  // namespace kinemend::feet

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "feet/leg_motion.hpp"
+#include "feet/placement.hpp"
+
+namespace kinemend::feet {
+
+/// The rotation vector of the least turn that brings the direction of `from` to that of `to`.
+Vec3 turn_between(Vec3 from, Vec3 to);
+
+/// How far a leg reaches from hip to ankle.
+struct Reach {
+  double now = 0;   ///< as it is
+  double easy = 0;  ///< as far as it goes without straightening the knee more than is good
+  double most = 0;  ///< with the knee straight
+};
+Reach reach_of(const LegPose& pose, const LegModel& model, double soft_reach);
+
+/// `distance`, or where that is beyond `reach.easy` a distance that nears `reach.most` smoothly:
+/// e + (m - e) (1 - exp(-(d - e) / (m - e))).
+double soft_distance(double distance, const Reach& reach);
+
+/// Local rotations of a leg.
+struct LegRotations {
+  Quat hip, knee, ankle;
+};
+
+/// Closed form: the knee bends about its hinge until the ankle is as far from the hip as its
+/// target is, the hip takes the leg there by the least turn, the ankle gives the foot its rotation.
+/// Where a joint has fewer than three rotation channels it does what they can, and the others make
+/// up for the rest in a few rounds. `hip_shift` is how far the hip itself moves.
+LegRotations solve_leg(const LegPose& pose, const LegModel& model, const FootTarget& target,
+                       Vec3 hip_shift, double soft_reach);
+
+}  // namespace kinemend::feet

@@ -1,0 +1,234 @@
+#include "feet/placement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "feet/clean_legs.hpp"
+#include "feet/floor.hpp"
+#include "feet/judge.hpp"
+#include "feet/leg_solver.hpp"
+
+namespace kinemend::feet {
+
+namespace {
+
+// In statures.
+constexpr double most_sink = 0.006;  // 1 cm: deeper is lifted
+
+class Placement {
+ public:
+  Placement(const Soles& soles, const LegMotion& motion, const std::vector<FootContact>& contacts,
+            const std::vector<std::uint8_t>& held)
+      : soles_(soles), motion_(motion), contacts_(contacts), held_(held) {
+    places_.resize(contacts.size());
+    lift_ = lifts();
+    for (const std::vector<std::size_t>& stand : stands_of(contacts)) place_stand(stand);
+  }
+
+  Vec3 place(std::size_t contact) const { return places_[contact]; }
+
+ private:
+  std::size_t point(std::size_t contact) const { return Soles::point_of(contacts_[contact]); }
+
+  Vec3 mean_place(std::size_t contact) const {
+    const FootContact& c = contacts_[contact];
+    Vec3 sum;
+    for (std::size_t f = c.first_frame; f <= c.last_frame; ++f)
+      sum += soles_.body.at(f, point(contact));
+    return (1.0 / static_cast<double>(c.last_frame - c.first_frame + 1)) * sum;
+  }
+
+  // How far each contact is lifted so that it does not sink.
+  std::vector<double> lifts() const {
+    std::vector<Vec3> places;
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+      places.push_back(above_level(i, mean_place(i)));
+    std::vector<double> depths = depths_below_floor(
+        places, soles_.up, close_to_floor * soles_.height, soles_.height / stature_m);
+    if (depths.empty()) depths.resize(contacts_.size());
+    for (double& depth : depths) {
+      if (depth < most_sink * soles_.height) depth = 0;
+    }
+    return depths;
+  }
+
+  // A joint stands above the floor by what its kind does.
+  Vec3 above_level(std::size_t contact, Vec3 place) const {
+    const std::size_t leg = contacts_[contact].leg;
+    const double own = soles_.points[point(contact)].level;
+    double lower = own;
+    for (std::size_t p = 2 * leg; p < 2 * leg + 2; ++p) {
+      if (soles_.has[p] != 0) lower = std::min(lower, soles_.points[p].level);
+    }
+    return place + (lower - own) * soles_.up.direction();
+  }
+
+  // The longest contact stands where it was on the whole; those that overlap it give way.
+  void place_stand(std::vector<std::size_t> stand) {
+    std::stable_sort(stand.begin(), stand.end(),
+                     [&](std::size_t a, std::size_t b) { return length(a) > length(b); });
+    for (std::size_t n = 0; n < stand.size(); ++n) {
+      const std::size_t i = stand[n];
+      if (held_[i] == 0) continue;
+      places_[i] = mean_place(i) + lift_[i] * soles_.up.direction();
+      const auto longest = std::max_element(
+          stand.begin(), stand.begin() + static_cast<std::ptrdiff_t>(n),
+          [&](std::size_t a, std::size_t b) { return overlap(a, i) < overlap(b, i); });
+      if (n > 0 && overlap(*longest, i) > 0) reconcile(*longest, i);
+    }
+  }
+
+  std::size_t length(std::size_t i) const {
+    return contacts_[i].last_frame - contacts_[i].first_frame + 1;
+  }
+
+  std::size_t overlap(std::size_t a, std::size_t b) const {
+    if (held_[a] == 0 || held_[b] == 0 || contacts_[a].part == contacts_[b].part) return 0;
+    const std::size_t first = std::max(contacts_[a].first_frame, contacts_[b].first_frame);
+    const std::size_t last = std::min(contacts_[a].last_frame, contacts_[b].last_frame);
+    return last < first ? 0 : last - first + 1;
+  }
+
+  // Puts `moved` as far from `fixed` as the foot is long, on its own height where it can.
+  void reconcile(std::size_t fixed, std::size_t moved) {
+    const LegModel& model = motion_.models[contacts_[moved].leg];
+    const double foot = norm(model.sole[1] - model.sole[0]);
+    const std::size_t first = std::max(contacts_[fixed].first_frame, contacts_[moved].first_frame);
+    const std::size_t last = std::min(contacts_[fixed].last_frame, contacts_[moved].last_frame);
+    Vec3 way;
+    for (std::size_t f = first; f <= last; ++f)
+      way += soles_.body.at(f, point(moved)) - soles_.body.at(f, point(fixed));
+    const Vec3 level = level_part(way, soles_.up);
+    const double rise = std::clamp(along(places_[moved] - places_[fixed], soles_.up), -foot, foot);
+    const double reach = std::sqrt(std::max(foot * foot - rise * rise, 0.0));
+    if (!(norm(level) > 0)) return;
+    places_[moved] = places_[fixed] + (reach / norm(level)) * level + rise * soles_.up.direction();
+  }
+
+  const Soles& soles_;
+  const LegMotion& motion_;
+  const std::vector<FootContact>& contacts_;
+  const std::vector<std::uint8_t>& held_;
+  std::vector<Vec3> places_;
+  std::vector<double> lift_;
+};
+
+double smooth_step(double x) { return x * x * (3 - 2 * x); }
+
+// The end of a contact and what goes on from there.
+struct Edge {
+  std::size_t frame = 0;
+  Vec3 shift;
+  Vec3 slope;  // a frame, forwards in time
+};
+
+// The shift's slope at the end of a contact, from the frames inside that the smoothing saw whole.
+Edge edge_at(const SolePoint& point, const PartCorrection& part, std::size_t frame,
+             std::size_t first, std::size_t last, double frame_rate_hz) {
+  constexpr double span_s = 0.03;
+  const auto wanted = static_cast<std::size_t>(std::max(1L, std::lround(span_s * frame_rate_hz)));
+  const std::size_t steps = std::min(wanted, last - first);
+  Edge edge{frame, part.shift[frame], {}};
+  if (steps == 0) return edge;
+  const std::size_t a = frame == first ? first : last - steps;
+  const Vec3 travel = point.path[a + steps] - point.path[a];
+  edge.slope = (-1.0 / static_cast<double>(steps)) * travel;
+  return edge;
+}
+
+void fade(const Edge& edge, bool forwards, std::size_t blend, PartCorrection& part) {
+  const double direction = forwards ? 1 : -1;
+  const auto length = static_cast<double>(blend);
+  for (std::size_t k = 1; k < blend; ++k) {
+    if (!forwards && edge.frame < k) return;
+    const std::size_t f = forwards ? edge.frame + k : edge.frame - k;
+    if (f >= part.shift.size()) return;
+    const double u = static_cast<double>(k) / length;
+    const double keep = 1 - smooth_step(u), lean = u * (1 - u) * (1 - u) * length;
+    part.shift[f] = keep * edge.shift + direction * lean * edge.slope;
+    part.weight[f] = keep;
+  }
+}
+
+void bridge(const Edge& from, const Edge& to, std::size_t blend, PartCorrection& part) {
+  const auto length = static_cast<double>(to.frame - from.frame);
+  const double dip = smooth_step(std::min(1.0, length / 2 / static_cast<double>(blend)));
+  for (std::size_t f = from.frame + 1; f < to.frame; ++f) {
+    const double u = static_cast<double>(f - from.frame) / length, v = 1 - u;
+    const double share = smooth_step(u);
+    part.shift[f] = (1 - share) * from.shift + share * to.shift +
+                    (u * v * v * length) * from.slope - (u * u * v * length) * to.slope;
+    part.weight[f] = 1 - dip * smooth_step(std::min(2 * u, 2 * v));
+  }
+}
+
+}  // namespace
+
+std::vector<PartCorrection> place_contacts(const Soles& soles, const LegMotion& motion,
+                                           const std::vector<FootContact>& contacts,
+                                           const std::vector<std::uint8_t>& held, double blend_s) {
+  const Placement placement(soles, motion, contacts, held);
+  const double rate = soles.body.frame_rate_hz;
+  const auto blend = static_cast<std::size_t>(std::max(2L, std::lround(blend_s * rate)));
+  std::vector<PartCorrection> parts(soles.points.size());
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    PartCorrection& part = parts[p];
+    part.shift.resize(motion.frames);
+    part.weight.resize(motion.frames);
+    std::vector<std::size_t> own;
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      if (held[i] != 0 && Soles::point_of(contacts[i]) == p) own.push_back(i);
+    }
+    std::sort(own.begin(), own.end(), [&](std::size_t a, std::size_t b) {
+      return contacts[a].first_frame < contacts[b].first_frame;
+    });
+    for (const std::size_t i : own) {
+      for (std::size_t f = contacts[i].first_frame; f <= contacts[i].last_frame; ++f) {
+        part.shift[f] = placement.place(i) - soles.body.at(f, p);
+        part.weight[f] = 1;
+      }
+    }
+    const auto edge = [&](std::size_t i, bool at_end) {
+      const FootContact& c = contacts[i];
+      return edge_at(soles.points[p], part, at_end ? c.last_frame : c.first_frame, c.first_frame,
+                     c.last_frame, rate);
+    };
+    for (std::size_t n = 0; n < own.size(); ++n) {
+      const bool is_bridged =
+          n > 0 && contacts[own[n]].first_frame - contacts[own[n - 1]].last_frame < 2 * blend;
+      if (is_bridged)
+        bridge(edge(own[n - 1], true), edge(own[n], false), blend, part);
+      else
+        fade(edge(own[n], false), false, blend, part);
+      const bool goes_on =
+          n + 1 < own.size() &&
+          contacts[own[n + 1]].first_frame - contacts[own[n]].last_frame < 2 * blend;
+      if (!goes_on) fade(edge(own[n], true), true, blend, part);
+    }
+  }
+  return parts;
+}
+
+FootTarget foot_target(const LegPose& pose, const LegModel& model, const PartCorrection& heel,
+                       const PartCorrection& toe, std::size_t frame, double least_shift) {
+  FootTarget target;
+  const double h = heel.weight[frame], t = toe.weight[frame];
+  target.is_held = h == 1 || t == 1;
+  target.rotation = pose.ankle;
+  const Vec3 heel_shift = heel.shift[frame], toe_shift = toe.shift[frame];
+  target.moves = norm(heel_shift) > least_shift || norm(toe_shift) > least_shift;
+  // A part that is in contact is the pivot; between contacts it wanders from one to the other.
+  constexpr double tiny = 1e-12;
+  const double share = (1 - h + tiny) / ((1 - h) + (1 - t) + 2 * tiny);
+  target.pivot = (1 - share) * model.sole[0] + share * model.sole[1];
+  target.place = pose.ankle_at + rotate(pose.ankle, target.pivot) + (1 - share) * heel_shift +
+                 share * toe_shift;
+  if (!target.moves || h * t == 0) return target;
+  const Vec3 foot = rotate(pose.ankle, model.sole[1] - model.sole[0]);
+  const Vec3 wanted = foot + toe_shift - heel_shift;
+  target.rotation = normalized(exp((h * t) * turn_between(foot, wanted)) * pose.ankle);
+  return target;
+}
+
+}  // namespace kinemend::feet

@@ -1,0 +1,77 @@
+#include "feet/soles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/quantiles.hpp"
+
+namespace kinemend::feet {
+
+namespace {
+
+ContactThresholds thresholds_of(const ContactSettings& s) {
+  return {s.begin_height, s.keep_height, s.begin_speed, s.keep_speed};
+}
+
+// Of a coordinate of one frame, from third differences, which motion hardly has.
+double noise_of(const BodyPoints& body, std::size_t point) {
+  constexpr double deviation_of_median = 1.4826, of_third_differences = 4.4721359549995796;
+  std::vector<double> differences;
+  for (std::size_t f = 3; f < body.frames; ++f) {
+    const Vec3 third = body.at(f, point) - 3.0 * body.at(f - 1, point) +
+                       3.0 * body.at(f - 2, point) - body.at(f - 3, point);
+    differences.push_back(std::fabs(third.x));
+    differences.push_back(std::fabs(third.y));
+    differences.push_back(std::fabs(third.z));
+  }
+  return deviation_of_median * median_of(differences) / of_third_differences;
+}
+
+// So far that the noise of a speed stays well below what counts as slow.
+double least_reach_s(const BodyPoints& body, std::size_t point, double slow) {
+  constexpr double least_s = 0.02, most_s = 0.1, share = 0.3;
+  const double allowed = share * slow * body.height;
+  if (!(allowed > 0)) return least_s;
+  const double needed_s = std::sqrt(2.0) * noise_of(body, point) / allowed / 2;
+  return std::clamp(needed_s, least_s, most_s);
+}
+
+// Speed of the slower frames in which the point is as low as where it stands.
+double standing_speed(const SolePoint& point, double low) {
+  constexpr double slower_share = 0.2;
+  std::vector<double> speeds;
+  for (std::size_t f = 0; f < point.heights.size(); ++f) {
+    if (point.seen[f] != 0 && point.heights[f] < point.level + low)
+      speeds.push_back(point.speeds[f]);
+  }
+  return quantile_of(speeds, slower_share);
+}
+
+// Jitter that a filter left is no white noise: it shows in feet that never seem to stand.
+SolePoint quiet_sole_point(const BodyPoints& body, std::size_t point, Up up,
+                           const ContactSettings& settings) {
+  constexpr double share = 0.35, times = 1.6, most_s = 0.1;
+  double reach_s = least_reach_s(body, point, settings.begin_speed);
+  while (true) {
+    SolePoint found = sole_point(body, point, up, thresholds_of(settings), reach_s);
+    const double speed = standing_speed(found, settings.begin_height * body.height);
+    if (speed < share * settings.begin_speed * body.height || reach_s >= most_s) return found;
+    reach_s = std::min(times * reach_s, most_s);
+  }
+}
+
+}  // namespace
+
+Soles find_soles(const LegMotion& motion, Up up, const ContactSettings& settings) {
+  Soles soles;
+  soles.body = sole_points(motion);
+  soles.up = up;
+  soles.height = motion.height;
+  for (std::size_t p = 0; p < soles.body.points; ++p) {
+    soles.has.push_back(motion.models[p / 2].has[p % 2] ? 1 : 0);
+    soles.points.push_back(quiet_sole_point(soles.body, p, up, settings));
+  }
+  return soles;
+}
+
+}  // namespace kinemend::feet
