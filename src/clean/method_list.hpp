@@ -8,6 +8,7 @@ namespace kinemend {
 Method auto_method();
 Method bilateral_method();
 Method butterworth_method();
+Method example_method();
 Method gaussian_method();
 Method hampel_method();
 Method kalman_learned_method();

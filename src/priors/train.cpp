@@ -41,6 +41,7 @@ OptionValues checked_options(const TrainMethod& method, const OptionValues& valu
 std::span<const TrainMethod> train_methods() {
   static const std::vector<TrainMethod> table = [] {
     std::vector<TrainMethod> list;
+    list.push_back(example_training());
     list.push_back(kalman_learned_training());
     return list;
   }();

@@ -1,0 +1,170 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "clean/method_list.hpp"
+#include "clean/prior_cleaning.hpp"
+#include "kinemend/methods.hpp"
+#include "kinemend/model.hpp"
+#include "priors/example_filter.hpp"
+#include "priors/example_prior.hpp"
+#include "priors/window_bases.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr double least_noise_deg = 0.05;
+constexpr double welsch_deviations = 3;
+// p is wide at first, so that outliers cannot hold each other.
+constexpr double first_welsch = 8;
+constexpr double rejected_weight = 0.01;
+
+const OptionTable<ExampleOptions>& table() {
+  static const auto options =
+      OptionTable<ExampleOptions>()
+          .text(&ExampleOptions::model, "model",
+                "model file, made by kinemend train example; none: the one that ships")
+          .text(&ExampleOptions::map, "map", "file of names in the take for the model's")
+          .flag(&ExampleOptions::self, "self", "bases from the take itself; no model")
+          .flag(&ExampleOptions::robust, "robust", "off: the linear filter, every sample counts")
+          .number(&ExampleOptions::welsch_deg, "welsch_deg", "deg", 0, 180,
+                  "p: how far off a sample counts less; 0: from the noise")
+          .number(&ExampleOptions::lambda, "lambda", "", 0, 1e6,
+                  "weight of the patterns against the measurements; 0: from noise and model")
+          .integer(&ExampleOptions::bases, "bases", "", 0, 1e5,
+                   "filter bases; 0: all that the model has")
+          .integer(&ExampleOptions::iterations, "iterations", "", 1, 10000, "at most")
+          .number(&ExampleOptions::tolerance, "tolerance", "", 0, 1,
+                  "stops where the objective falls by less than this share")
+          .number(&ExampleOptions::limits, "limits", "", 0, 1000,
+                  "weight of the joint limits; 0: none")
+          .flag(&ExampleOptions::fill, "fill", "fills gaps of what the model knows");
+  return options;
+}
+
+// Noise of each channel; of channels about which nothing is known the typical one.
+std::vector<double> noise_levels(const std::vector<double>& noise) {
+  std::vector<double> known;
+  for (const double n : noise) {
+    if (n > 0) known.push_back(n);
+  }
+  double typical = least_noise_deg;
+  if (!known.empty()) {
+    const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
+    std::nth_element(known.begin(), middle, known.end());
+    typical = std::max(typical, *middle);
+  }
+  std::vector<double> levels(noise.size(), typical);
+  for (std::size_t c = 0; c < noise.size(); ++c) {
+    if (noise[c] > 0) levels[c] = std::max(noise[c], least_noise_deg);
+  }
+  return levels;
+}
+
+// The first guess: what was measured, `auto`'s opinion of spikes and gaps, and the mean pose where
+// there is no measurement at all.
+PoseMatrix first_guess(const PriorWork& work, const std::vector<double>& mean) {
+  PoseMatrix guess = work.channels.poses;
+  for (std::size_t c = 0; c < guess.channels; ++c) {
+    bool seen = false;
+    for (std::size_t f = 0; f < guess.frames; ++f) {
+      const std::size_t i = f * guess.channels + c;
+      seen |= work.channels.observed[i] != 0;
+      if (work.channels.observed[i] == 0 || work.suspect[i] != 0) {
+        guess.values[i] = work.fallback.values[i];
+      }
+    }
+    for (std::size_t f = 0; f < guess.frames && !seen; ++f) guess(f, c) = mean[c];
+  }
+  return guess;
+}
+
+class Example final : public Cleaner {
+ public:
+  Example(const ExampleOptions& options, std::shared_ptr<const Model> model)
+      : options_(options),
+        names_(name_map_at(options.map)),
+        model_(std::move(model)),
+        prior_(example_of(*model_)) {}
+
+  CleanTrace clean(Clip& clip, const Selection& selection) const override {
+    return clean_with_prior(clip, selection, model_->layout, names_, options_.fill,
+                            [this](PriorWork& work) { filter(work); });
+  }
+
+  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
+    return clean_with_prior(clip, selection, model_->layout, names_, options_.fill,
+                            [this](PriorWork& work) { filter(work); });
+  }
+
+ private:
+  void filter(PriorWork& work) const {
+    BodyChannels& channels = work.channels;
+    if (channels.poses.frames == 0) return;
+    const std::vector<double>& mean = prior_.bases.mean;
+    const WindowBases bases =
+        bases_at_rate(prior_.bases, prior_.rate_hz, channels.frame_rate_hz, channels.poses.frames,
+                      static_cast<std::size_t>(options_.bases));
+    PoseMatrix cleaned = first_guess(work, mean);
+    if (!options_.robust) {
+      linear_example_filter(cleaned, bases, mean);
+      channels.poses = std::move(cleaned);
+      return;
+    }
+    ExampleSettings settings;
+    settings.iterations = static_cast<std::size_t>(options_.iterations);
+    settings.tolerance = options_.tolerance;
+    settings.first_welsch = first_welsch;
+    const ExampleTrace trace = example_filter(cleaned, channels.poses, channels.observed, bases,
+                                              mean, weights_for(work, bases), settings);
+    work.rejected.assign(channels.observed.size(), 0);
+    for (std::size_t i = 0; i < work.rejected.size(); ++i) {
+      work.rejected[i] =
+          channels.observed[i] != 0 && trace.weights.values[i] < rejected_weight ? 1 : 0;
+    }
+    channels.poses = std::move(cleaned);
+  }
+
+  ExampleWeights weights_for(const PriorWork& work, const WindowBases& bases) const {
+    const std::vector<double> noise = noise_levels(work.noise);
+    ExampleWeights weights = probable_weights(prior_, bases, noise, welsch_deviations);
+    if (options_.lambda > 0) {
+      std::fill(weights.data.begin(), weights.data.end(), 1.0);
+      std::fill(weights.prior.begin(), weights.prior.end(), options_.lambda);
+      weights.coefficients.clear();
+    }
+    if (options_.welsch_deg > 0) {
+      std::fill(weights.welsch.begin(), weights.welsch.end(), options_.welsch_deg);
+    }
+    return weights;
+  }
+
+  ExampleOptions options_;
+  NameMap names_;
+  std::shared_ptr<const Model> model_;
+  ExamplePrior prior_;
+};
+
+}  // namespace
+
+std::unique_ptr<Cleaner> make_example(const ExampleOptions& options,
+                                      std::shared_ptr<const Model> model) {
+  table().validate(options);
+  if (!model) model = model_for("example", options.model);
+  return std::make_unique<Example>(options, std::move(model));
+}
+
+Method example_method() {
+  return {"example",
+          "keeps what patterns learned from clean clips can express",
+          "Lou & Chai 2010, Example-based Human Motion Denoising",
+          table().specs(),
+          [](const OptionValues& values) { return make_example(table().parse(values)); },
+          true};
+}
+
+}  // namespace kinemend

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "kinemend/pose_matrix.hpp"
+
+namespace kinemend {
+
+/// How the values of each channel are spread, in degrees, counted in bins: memory does not depend
+/// on how many there are.
+class ChannelRanges {
+ public:
+  explicit ChannelRanges(std::size_t channels);
+
+  void add(const PoseMatrix& poses, double weight = 1);
+  /// The value that `share` (0..1) of the channel's values do not exceed, to a quarter degree and
+  /// within +-720 degrees; 0 where there were none.
+  double quantile(std::size_t channel, double share) const;
+
+ private:
+  std::size_t channels_;
+  std::vector<double> counts_;  // channels x bins
+};
+
+}  // namespace kinemend

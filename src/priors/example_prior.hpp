@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kinemend/model.hpp"
+#include "priors/example_filter.hpp"
+#include "priors/mssa.hpp"
+#include "priors/window_bases.hpp"
+
+namespace kinemend {
+
+/// What a model of the method `example` knows.
+struct ExamplePrior {
+  FilterBases bases;
+  double rate_hz = 30;
+  std::vector<double> lowest, highest;  ///< L: 0.1 % and 99.9 % quantiles of the channels
+};
+
+/// Tensors `bases` (M x L x K), `eigenvalues` (K), `mean`, `residual` (L) and `limits` (L x 2);
+/// the number `energy`.
+void store_example(const ExamplePrior& prior, Model& model);
+/// Errors: `ErrorKind::unreadable_input` as of `Model::tensor`, and for eigenvalues or residuals
+/// that are no variances.
+ExamplePrior example_of(const Model& model);
+
+/// Weights under which the minimum is the most probable motion, for noise of standard deviation
+/// `noise` in each channel (L, degrees; > 0), coefficients as spread as in the training and
+/// Gaussian motion outside the bases with the variances that they leave. Each of these counts once,
+/// though windows overlap. p is `welsch_deviations` times the noise.
+ExampleWeights probable_weights(const ExamplePrior& prior, const WindowBases& bases,
+                                std::span<const double> noise, double welsch_deviations);
+
+}  // namespace kinemend
