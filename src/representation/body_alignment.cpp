@@ -24,6 +24,14 @@ std::optional<Vec3> only_end(const Skeleton& skeleton, const RestPose& rest, std
   return count == 1 ? end : std::nullopt;
 }
 
+// Global, all local rotations identity.
+Quat unturned_rotation(const Skeleton& skeleton, std::int32_t joint) {
+  Quat rotation;
+  for (; joint >= 0; joint = skeleton.parents[static_cast<std::size_t>(joint)])
+    rotation = skeleton.rest_rotations[static_cast<std::size_t>(joint)] * rotation;
+  return rotation;
+}
+
 // The only child of each part; -1: it has none, -2: several.
 std::vector<std::int32_t> only_children(const BodyLayout& layout) {
   std::vector<std::int32_t> children(layout.part_count(), -1);
@@ -77,19 +85,20 @@ void align_joints(const BodyLayout& layout, const Clip& clip, const RestPose& re
   match.after.assign(count, {});
   for (std::size_t i = 0; i < count; ++i) {
     if (match.parts[i] < 0) continue;
-    const Quat own = rest.rotations[static_cast<std::size_t>(match.parts[i])];
+    const auto joint = static_cast<std::size_t>(match.parts[i]);
+    const Quat frame = rest.upright * rest.rotations[joint];
     const std::int32_t above = matched_parent(layout, match.parts, i);
     if (above < 0) {
-      match.before[i] = match.upright * own;
-      match.after[i] = conjugate(rest.upright * own);
+      match.before[i] = match.upright * unturned_rotation(clip.skeleton, match.parts[i]);
+      match.after[i] = conjugate(frame);
       continue;
     }
     const Quat parent = turns[static_cast<std::size_t>(above)];
     turns[i] = parent;
     if (norm(bones[i]) > 0 && norm(layout.bones[i]) > 0)
       turns[i] = shortest_rotation(rotate(parent, layout.bones[i]), bones[i]) * parent;
-    match.before[i] = conjugate(parent) * rest.upright * own;
-    match.after[i] = conjugate(rest.upright * own) * turns[i];
+    match.before[i] = conjugate(parent) * rest.upright * rest.unturned[joint];
+    match.after[i] = conjugate(frame) * turns[i];
   }
 }
 

@@ -20,7 +20,7 @@ MappedParts mapped_parts(const BodyLayout& layout, const std::vector<std::string
                          const NameMap& map);
 
 /// Parts of joints by name, then by topology; -1: none.
-std::vector<std::int32_t> match_joints(const BodyLayout& layout, const Skeleton& skeleton,
+std::vector<std::int32_t> match_joints(const BodyLayout& layout, const Clip& clip,
                                        const NameMap& map);
 /// Parts of markers by name.
 std::vector<std::int32_t> match_markers(const BodyLayout& layout, const MarkerClip& clip,

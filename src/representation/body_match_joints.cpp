@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
 #include "representation/body_alignment.hpp"
+#include "representation/body_chains.hpp"
 #include "representation/body_correspondence.hpp"
 #include "representation/body_names.hpp"
 
@@ -15,19 +15,23 @@ namespace {
 
 class JointMatcher {
  public:
-  JointMatcher(const BodyLayout& layout, const Skeleton& skeleton, const NameMap& map)
-      : layout_(layout), skeleton_(skeleton), mapped_(mapped_parts(layout, skeleton.names, map)) {}
+  JointMatcher(const BodyLayout& layout, const Clip& clip, const NameMap& map)
+      : layout_(layout),
+        skeleton_(clip.skeleton),
+        turning_(possible_parts(clip)),
+        mapped_(mapped_parts(layout, clip.skeleton.names, map)) {}
 
   std::vector<std::int32_t> match() {
     if (!match_same_names()) {
       known_ = bone_names(layout_.names);
       found_ = bone_names(skeleton_.names);
+      match_chains();
       match_bones();
-      match_chain(Bone::spine);
-      match_chain(Bone::neck);
+      match_root();
+      drop_misplaced();
+      match_between();
     }
-    while (drop_misplaced()) {
-    }
+    drop_misplaced();
     return std::move(mapped_.parts);
   }
 
@@ -37,10 +41,7 @@ class JointMatcher {
     mapped_.settled[part] = 1;
     mapped_.used[joint] = 1;
   }
-  void unset(std::size_t part) {
-    mapped_.used[static_cast<std::size_t>(mapped_.parts[part])] = 0;
-    mapped_.parts[part] = -1;
-  }
+  bool is_free(std::size_t joint) const { return mapped_.used[joint] == 0 && turning_[joint] != 0; }
 
   // A take with all the names of the layout is of its skeleton.
   bool match_same_names() {
@@ -54,40 +55,27 @@ class JointMatcher {
     return true;
   }
 
-  static bool is_chain(Bone bone) { return bone == Bone::spine || bone == Bone::neck; }
-
-  // Of several joints of one bone the one of the same word, else the last, which hangs lowest.
-  void match_bones() {
-    for (std::size_t i = 0; i < known_.size(); ++i) {
-      if (mapped_.settled[i] != 0 || is_chain(known_[i].bone)) continue;
-      std::size_t best = found_.size();
-      for (std::size_t j = 0; j < found_.size(); ++j) {
-        if (mapped_.used[j] != 0 || found_[j].side != known_[i].side) continue;
-        const bool same_word = found_[j].word == known_[i].word;
-        const bool same_bone = found_[j].bone != Bone::other && found_[j].bone == known_[i].bone;
-        if (!same_word && !same_bone) continue;
-        if (found_[j].bone != known_[i].bone) continue;
-        best = j;
-        if (same_word) break;
-      }
-      if (best < found_.size()) set(i, best);
+  void match_chains() {
+    BodyChains known = chains_by_topology({known_, layout_.parents});
+    BodyChains found = chains_by_topology({found_, skeleton_.parents});
+    if (known.trunk.empty() || found.trunk.empty()) {
+      known = chains_by_name(known_);
+      found = chains_by_name(found_);
     }
+    match_chain(known.trunk, found.trunk, true);
+    match_chain(known.neck, found.neck, false);
   }
 
-  // Joints of the trunk and of the neck are told apart by their order: names differ too much.
-  void match_chain(Bone bone) {
-    std::vector<std::size_t> parts, joints;
-    for (std::size_t i = 0; i < known_.size(); ++i) {
-      if (known_[i].bone == bone && mapped_.settled[i] == 0) parts.push_back(i);
-    }
-    for (std::size_t j = 0; j < found_.size(); ++j) {
-      if (found_[j].bone == bone && mapped_.used[j] == 0) joints.push_back(j);
-    }
+  // Joints of the trunk and of the neck are told apart by their order: names differ too much. The
+  // ends of the chain are matched first: what hangs on the upper end turns with it.
+  void match_chain(std::vector<std::size_t> parts, std::vector<std::size_t> joints,
+                   bool last_first) {
+    std::erase_if(parts, [&](std::size_t part) { return mapped_.settled[part] != 0; });
+    std::erase_if(joints, [&](std::size_t joint) { return !is_free(joint); });
     if (parts.empty() || joints.empty() || match_words(parts, joints)) return;
     const std::size_t pairs = std::min(parts.size(), joints.size());
-    // The ends of the chain are matched first: what hangs on the upper end turns with it.
     const auto place = [&](std::size_t i, std::size_t count) {
-      if (pairs == 1) return bone == Bone::spine ? count - 1 : 0;
+      if (pairs == 1) return last_first ? count - 1 : 0;
       return (i * (count - 1) + (pairs - 1) / 2) / (pairs - 1);
     };
     for (std::size_t i = 0; i < pairs; ++i)
@@ -107,12 +95,73 @@ class JointMatcher {
     return true;
   }
 
+  // Of several joints of one bone the one of the same word, else the last, which hangs lowest.
+  void match_bones() {
+    for (std::size_t i = 0; i < known_.size(); ++i) {
+      const BoneName& known = known_[i];
+      if (mapped_.settled[i] != 0 || known.bone == Bone::spine || known.bone == Bone::neck)
+        continue;
+      std::size_t best = found_.size();
+      for (std::size_t j = 0; j < found_.size(); ++j) {
+        const bool same_word = found_[j].word == known.word;
+        if (!is_free(j) || found_[j].side != known.side || found_[j].bone != known.bone ||
+            (known.bone == Bone::other && !same_word))
+          continue;
+        best = j;
+        if (same_word) break;
+      }
+      if (best < found_.size()) set(i, best);
+    }
+  }
+
+  // A root of another name is the joint that carries all others.
+  void match_root() {
+    if (mapped_.settled[0] != 0) return;
+    const NamedTree tree{found_, skeleton_.parents};
+    std::int32_t common = -1;
+    for (const std::int32_t joint : mapped_.parts) {
+      if (joint >= 0) common = common < 0 ? joint : tree.common_ancestor(common, joint);
+    }
+    while (common >= 0 && !is_free(static_cast<std::size_t>(common)))
+      common = skeleton_.parents[static_cast<std::size_t>(common)];
+    if (common >= 0) set(0, static_cast<std::size_t>(common));
+  }
+
+  // A part between matched ones is the joint between theirs, where there is one on either side.
+  void match_between() {
+    for (std::size_t i = 1; i < layout_.part_count(); ++i) {
+      const auto parent = static_cast<std::size_t>(layout_.parents[i]);
+      if (mapped_.settled[i] != 0 || mapped_.parts[parent] < 0) continue;
+      std::vector<std::int32_t> between;
+      bool all = true;
+      for (std::size_t child = i + 1; all && child < layout_.part_count(); ++child) {
+        if (layout_.parents[child] != static_cast<std::int32_t>(i)) continue;
+        const auto path = free_joints(mapped_.parts[parent], mapped_.parts[child]);
+        all = path.size() == 1 && (between.empty() || between == path);
+        between = path;
+      }
+      if (all && between.size() == 1) set(i, static_cast<std::size_t>(between.front()));
+    }
+  }
+
+  // Joints above `bottom` and below `top` that are no parts yet.
+  std::vector<std::int32_t> free_joints(std::int32_t top, std::int32_t bottom) const {
+    std::vector<std::int32_t> joints;
+    if (bottom < 0) return joints;
+    for (std::int32_t j = skeleton_.parents[static_cast<std::size_t>(bottom)]; j >= 0 && j != top;
+         j = skeleton_.parents[static_cast<std::size_t>(j)]) {
+      if (is_free(static_cast<std::size_t>(j))) joints.push_back(j);
+    }
+    return joints;
+  }
+
   std::int32_t part_of(std::int32_t joint) const {
     const auto found = std::find(mapped_.parts.begin(), mapped_.parts.end(), joint);
     return found == mapped_.parts.end() ? -1
                                         : static_cast<std::int32_t>(found - mapped_.parts.begin());
   }
 
+  // The part that a part's joint hangs on in the take.
   std::int32_t part_above(std::size_t part) const {
     std::int32_t joint = mapped_.parts[part];
     do {
@@ -121,22 +170,38 @@ class JointMatcher {
     return joint < 0 ? -1 : part_of(joint);
   }
 
-  // Whether a joint was let go that does not hang on the same part as in the layout.
-  bool drop_misplaced() {
+  // Lets go of joints that do not hang on the same part as in the layout, from the root outward.
+  void drop_misplaced() {
     for (std::size_t i = 0; i < layout_.part_count(); ++i) {
       if (mapped_.parts[i] < 0 || part_above(i) == matched_parent(layout_, mapped_.parts, i))
         continue;
-      unset(i);
-      return true;
+      mapped_.used[static_cast<std::size_t>(mapped_.parts[i])] = 0;
+      mapped_.parts[i] = -1;
+      i = 0;
     }
-    return false;
   }
 
   const BodyLayout& layout_;
   const Skeleton& skeleton_;
+  std::vector<std::uint8_t> turning_;
   MappedParts mapped_;
   std::vector<BoneName> known_, found_;
 };
+
+// A matched joint is the bone that its part is, whatever its name.
+std::vector<BoneName> bones_of(const BodyLayout& layout, const Clip& clip,
+                               const std::vector<std::int32_t>& parts) {
+  std::vector<BoneName> bones = bone_names(clip.skeleton.names);
+  const std::vector<BoneName> known = bone_names(layout.names);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i] < 0 || known[i].bone == Bone::other) continue;
+    for (BoneName& bone : bones) {
+      if (bone.bone == known[i].bone && bone.side == known[i].side) bone.bone = Bone::other;
+    }
+    bones[static_cast<std::size_t>(parts[i])] = known[i];
+  }
+  return bones;
+}
 
 std::vector<std::int32_t> feet_of(const std::vector<BoneName>& bones) {
   std::vector<std::int32_t> feet;
@@ -149,9 +214,9 @@ std::vector<std::int32_t> feet_of(const std::vector<BoneName>& bones) {
 
 }  // namespace
 
-std::vector<std::int32_t> match_joints(const BodyLayout& layout, const Skeleton& skeleton,
+std::vector<std::int32_t> match_joints(const BodyLayout& layout, const Clip& clip,
                                        const NameMap& map) {
-  return JointMatcher(layout, skeleton, map).match();
+  return JointMatcher(layout, clip, map).match();
 }
 
 }  // namespace representation
@@ -160,12 +225,12 @@ BodyMatch match_body(const BodyLayout& layout, const Clip& clip, const NameMap& 
   using namespace representation;
   check_kind(layout, BodyKind::joints);
   BodyMatch match;
-  match.parts = match_joints(layout, clip.skeleton, names);
+  match.parts = match_joints(layout, clip, names);
   list_unmatched(layout, clip.skeleton.names, possible_parts(clip), match);
-  const std::vector<BoneName> bones = bone_names(clip.skeleton.names);
+  const std::vector<BoneName> bones = bones_of(layout, clip, match.parts);
   const RestPose rest = rest_pose(clip, bones);
   match.upright = upright_world(clip, bones, rest);
-  match.stature = stature_of(clip.skeleton, bones, rest);
+  match.stature = stature_of(clip.skeleton, bones);
   match.feet = feet_of(bones);
   align_joints(layout, clip, rest, match);
   return match;

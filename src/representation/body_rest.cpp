@@ -86,7 +86,79 @@ std::optional<Vec3> facing_direction(const std::vector<Vec3>& positions,
   return ahead.direction(agreement);
 }
 
-Quat turn_about_y(double angle) { return exp({0, angle, 0}); }
+// How straight a body stands: the length of the mean of the unit vectors up along its legs and,
+// counted as much, along its trunk; 1 where bones are not found.
+double straightness(const std::vector<Vec3>& positions, const std::vector<BoneName>& bones) {
+  Vec3 legs;
+  int bones_found = 0;
+  const auto up_along = [&](std::int32_t low, std::int32_t high) {
+    if (low < 0 || high < 0) return Vec3{};
+    const Vec3 v =
+        positions[static_cast<std::size_t>(high)] - positions[static_cast<std::size_t>(low)];
+    if (!(norm(v) > 0)) return Vec3{};
+    ++bones_found;
+    return (1 / norm(v)) * v;
+  };
+  for (const Side side : both_sides) {
+    const std::int32_t shin = find_bone(bones, Bone::shin, side);
+    legs += up_along(find_bone(bones, Bone::foot, side), shin);
+    legs += up_along(shin, find_bone(bones, Bone::thigh, side));
+  }
+  const Vec3 trunk = up_along(find_bone(bones, Bone::pelvis, Side::none),
+                              find_bone(bones, Bone::head, Side::none));
+  return bones_found == 5 ? norm(0.25 * legs + trunk) / 2 : 1;
+}
+
+std::size_t straightest_frame(const Clip& clip, const std::vector<BoneName>& bones) {
+  constexpr std::size_t most_frames = 200;
+  const std::size_t frames = clip.frame_count(), sampled = std::min(frames, most_frames);
+  std::size_t best = 0;
+  double most = -1;
+  for (std::size_t i = 0; i < sampled; ++i) {
+    const std::size_t f = i * frames / sampled;
+    const double straight = straightness(forward_kinematics(clip, f).positions, bones);
+    if (straight <= most) continue;
+    most = straight;
+    best = f;
+  }
+  return best;
+}
+
+// The skeleton with all local rotations identity, in one frame.
+Clip unturned_clip(const Clip& clip) {
+  Clip still;
+  still.skeleton = clip.skeleton;
+  still.frame_rate_hz = clip.frame_rate_hz;
+  still.root_positions.resize(1);
+  still.local_rotations.resize(clip.joint_count());
+  return still;
+}
+
+RestPose pose_of(const Clip& still) {
+  const Skeleton& skeleton = still.skeleton;
+  RestPose rest;
+  rest.rotations = forward_kinematics(still, 0).rotations;
+  rest.positions = joint_positions(still, true);
+  for (std::size_t j = 0; j < still.joint_count(); ++j) {
+    const std::int32_t parent = skeleton.parents[j];
+    const Quat own = skeleton.rest_rotations[j];
+    rest.unturned.push_back(parent < 0 ? own
+                                       : rest.rotations[static_cast<std::size_t>(parent)] * own);
+  }
+  return rest;
+}
+
+// Left, up and ahead of the pose. `snap`: the file's axes are meant.
+void stand_upright(const std::vector<BoneName>& bones, bool snap, RestPose& rest) {
+  const auto direction = standing_direction(rest.positions, bones).value_or(Vec3{0, 1, 0});
+  const Vec3 up = snap ? snapped(direction) : nearest_axis(direction);
+  rest.upright = shortest_rotation(up, {0, 1, 0});
+  const auto facing = facing_direction(rest.positions, bones, up);
+  if (!facing) return;
+  const Vec3 ahead = rotate(rest.upright, snap ? snapped(*facing) : *facing);
+  const double angle = std::atan2(ahead.x, ahead.z);
+  if (angle != 0) rest.upright = exp({0, -angle, 0}) * rest.upright;
+}
 
 // Of a joint's positions at rest, the distances to its ends summed up from the leaves.
 double longest_way(const Skeleton& skeleton) {
@@ -134,20 +206,14 @@ std::int32_t find_bone(const std::vector<BoneName>& bones, Bone bone, Side side)
 }
 
 RestPose rest_pose(const Clip& clip, const std::vector<BoneName>& bones) {
-  Clip still;
-  still.skeleton = clip.skeleton;
-  still.root_positions.resize(1);
-  still.local_rotations.resize(clip.joint_count());
-  RestPose rest;
-  rest.rotations = forward_kinematics(still, 0).rotations;
-  rest.positions = joint_positions(still, true);
-  const Vec3 up = snapped(standing_direction(rest.positions, bones).value_or(unit_vector(Axis::y)));
-  rest.upright = shortest_rotation(up, {0, 1, 0});
-  if (const auto facing = facing_direction(rest.positions, bones, up)) {
-    const Vec3 ahead = rotate(rest.upright, snapped(*facing));
-    const double angle = std::atan2(ahead.x, ahead.z);
-    if (angle != 0) rest.upright = turn_about_y(-angle) * rest.upright;
+  constexpr double straight = 0.9;
+  RestPose rest = pose_of(unturned_clip(clip));
+  const bool stands = straightness(rest.positions, bones) > straight;
+  if (!stands && clip.frame_count() > 0) {
+    const std::size_t frame = straightest_frame(clip, bones);
+    rest = pose_of(slice(clip, frame, frame + 1));
   }
+  stand_upright(bones, stands, rest);
   return rest;
 }
 
@@ -169,27 +235,27 @@ Quat upright_world(const Clip& clip, const std::vector<BoneName>& bones, const R
   return shortest_rotation(nearest_axis(up), {0, 1, 0});
 }
 
-double stature_of(const Skeleton& skeleton, const std::vector<BoneName>& bones,
-                  const RestPose& rest) {
+double stature_of(const Skeleton& skeleton, const std::vector<BoneName>& bones) {
   // Thigh and shank are 0.245 and 0.246 of the stature (Drillis and Contini 1966).
   constexpr double leg_share = 0.491;
   // From a hand along the arm and the trunk to a toe.
   constexpr double way_share = 1.45;
-  const auto at = [&](std::int32_t joint) {
-    return rest.positions[static_cast<std::size_t>(joint)];
-  };
   double length = 0;
   int legs = 0;
   for (const Side side : both_sides) {
     const std::int32_t thigh = find_bone(bones, Bone::thigh, side);
-    const std::int32_t shin = find_bone(bones, Bone::shin, side);
-    const std::int32_t foot = find_bone(bones, Bone::foot, side);
-    if (thigh < 0 || shin < 0 || foot < 0) continue;
-    length += norm(at(shin) - at(thigh)) + norm(at(foot) - at(shin));
+    std::int32_t joint = find_bone(bones, Bone::foot, side);
+    double leg = 0;
+    while (joint >= 0 && joint != thigh) {
+      leg += norm(skeleton.offsets[static_cast<std::size_t>(joint)]);
+      joint = skeleton.parents[static_cast<std::size_t>(joint)];
+    }
+    if (thigh < 0 || joint != thigh) continue;
+    length += leg;
     ++legs;
   }
   const double stature =
-      legs > 0 && length > 0 ? length / (legs * leg_share) : longest_way(skeleton) / way_share;
+      length > 0 ? length / (legs * leg_share) : longest_way(skeleton) / way_share;
   return stature > 0 ? stature : 1.0;
 }
 

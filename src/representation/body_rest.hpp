@@ -8,9 +8,11 @@
 
 namespace kinemend::representation {
 
-/// A skeleton when all its local rotations are identity.
+/// A pose that joints' turns are measured from: that of a skeleton whose local rotations are all
+/// identity, or, where that is no standing person, the frame of the take that stands straightest.
 struct RestPose {
   std::vector<Quat> rotations;  ///< J, global
+  std::vector<Quat> unturned;   ///< J, what they would be were the joint's own rotation identity
   std::vector<Vec3> positions;  ///< J, then the end sites
   Quat upright;  ///< turns the file's axes so that the person at rest stands along y and faces z
 };
@@ -22,8 +24,7 @@ Quat upright_world(const Clip& clip, const std::vector<BoneName>& bones, const R
 
 /// Stature by the lengths of the legs, whatever the rest pose, else by the longest way along bones
 /// from one end to another; 1 for a skeleton without any length.
-double stature_of(const Skeleton& skeleton, const std::vector<BoneName>& bones,
-                  const RestPose& rest);
+double stature_of(const Skeleton& skeleton, const std::vector<BoneName>& bones);
 
 /// The shortest rotation that brings a direction to another; exactly identity where they are the
 /// same but for rounding.

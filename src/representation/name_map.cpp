@@ -74,7 +74,7 @@ NameMap parse_name_map(std::string_view text, std::string_view name) {
 std::string name_map_text(const BodyLayout& layout, const Clip& clip, const NameMap& names) {
   representation::check_kind(layout, BodyKind::joints);
   return mapping_text(layout, clip.skeleton.names,
-                      representation::match_joints(layout, clip.skeleton, names),
+                      representation::match_joints(layout, clip, names),
                       representation::possible_parts(clip));
 }
 
