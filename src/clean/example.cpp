@@ -42,7 +42,7 @@ const OptionTable<ExampleOptions>& table() {
                   "stops where the objective falls by less than this share")
           .number(&ExampleOptions::limits, "limits", "", 0, 1000,
                   "weight of the joint limits; 0: none")
-          .flag(&ExampleOptions::fill, "fill", "fills gaps of what the model knows");
+          .flag(&ExampleOptions::fill, "fill_gaps", "fills gaps of what the model knows");
   return options;
 }
 

@@ -22,7 +22,7 @@ const OptionTable<KalmanLearnedOptions>& table() {
                 "uses the whole take; off: the past only")
           .number(&KalmanLearnedOptions::noise_deg, "noise_deg", "deg", 0, 45,
                   "noise of a sample per channel; 0: estimated")
-          .flag(&KalmanLearnedOptions::fill, "fill", "fills gaps of what the model knows");
+          .flag(&KalmanLearnedOptions::fill, "fill_gaps", "fills gaps of what the model knows");
   return options;
 }
 
