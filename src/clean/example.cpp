@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -5,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/quantiles.hpp"
+#include "clean/joint_limits.hpp"
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
 #include "kinemend/methods.hpp"
@@ -92,17 +97,23 @@ class Example final : public Cleaner {
         prior_(example_of(*model_)) {}
 
   CleanTrace clean(Clip& clip, const Selection& selection) const override {
+    JointLimits limits = learned_joint_limits(*model_);
+    if (!clip.skeleton.limits.empty()) {
+      limits.joints = skeleton_joint_limits(clip.skeleton, model_->layout,
+                                            match_body(model_->layout, clip, names_))
+                          .joints;
+    }
     return clean_with_prior(clip, selection, model_->layout, names_, options_.fill,
-                            [this](PriorWork& work) { filter(work); });
+                            [&](PriorWork& work) { filter(work, limits); });
   }
 
   MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
     return clean_with_prior(clip, selection, model_->layout, names_, options_.fill,
-                            [this](PriorWork& work) { filter(work); });
+                            [&](PriorWork& work) { filter(work, learned_joint_limits(*model_)); });
   }
 
  private:
-  void filter(PriorWork& work) const {
+  void filter(PriorWork& work, JointLimits limits) const {
     BodyChannels& channels = work.channels;
     if (channels.poses.frames == 0) return;
     const std::vector<double>& mean = prior_.bases.mean;
@@ -119,14 +130,34 @@ class Example final : public Cleaner {
     settings.iterations = static_cast<std::size_t>(options_.iterations);
     settings.tolerance = options_.tolerance;
     settings.first_welsch = first_welsch;
-    const ExampleTrace trace = example_filter(cleaned, channels.poses, channels.observed, bases,
-                                              mean, weights_for(work, bases), settings);
+    const ExampleWeights weights = weights_for(work, bases);
+    hold_to_limits(work, limits, weights, settings);
+    const ExampleTrace trace =
+        example_filter(cleaned, channels.poses, channels.observed, bases, mean, weights, settings);
     work.rejected.assign(channels.observed.size(), 0);
     for (std::size_t i = 0; i < work.rejected.size(); ++i) {
       work.rejected[i] =
           channels.observed[i] != 0 && trace.weights.values[i] < rejected_weight ? 1 : 0;
     }
     channels.poses = std::move(cleaned);
+  }
+
+  // A pose beyond the limits is drawn back about as much as a typical measurement draws it out.
+  void hold_to_limits(PriorWork& work, JointLimits& limits, const ExampleWeights& weights,
+                      ExampleSettings& settings) const {
+    if (options_.limits == 0) return;
+    const std::vector<std::string> broken = widen_joint_limits(limits, work.fallback);
+    if (!broken.empty()) {
+      work.warnings.push_back(
+          fmt::format("the take goes beyond the joint limits of its skeleton file, which were "
+                      "moved or left: {}",
+                      fmt::join(broken, ", ")));
+    }
+    std::vector<double> data = weights.data;
+    settings.limit_weight = options_.limits * median_of(data);
+    settings.project = [&limits](const PoseMatrix& poses, PoseMatrix& nearest) {
+      project_to_limits(limits, poses, nearest);
+    };
   }
 
   ExampleWeights weights_for(const PriorWork& work, const WindowBases& bases) const {
