@@ -152,6 +152,7 @@ Command clean_command() {
   command.positionals = {{"IN", "take to clean; - is standard input", 0, 1000000, {}}};
   command.flags = clean_output_flags();
   append(command.flags, cleaning_flags());
+  command.flags.push_back(contacts_flag());
   command.flags.push_back(jobs_flag());
   command.group_heading = "With --method %";
   command.groups = method_groups();
@@ -163,6 +164,7 @@ Command clean_command() {
       {"kinemend clean *.bvh --output-dir clean --preset sport", "many takes in parallel"},
       {"kinemend clean take.bvh --joints 'Left*' --exclude LeftHand --range 2s:5s",
        "part of the body, part of the time"},
+      {"kinemend clean walk.bvh --feet auto", "and no foot slides where it stands"},
       {"kinemend clean trial.c3d --fix-swaps --fill auto", "markers: labels, gaps, then noise"},
       {"kinemend clean - < in.bvh > out.bvh", "in a pipeline"},
       {"kinemend clean --preset biomech --print-config > lab.toml",

@@ -76,6 +76,17 @@ Flag fill_flag() {
   return configurable(flag);
 }
 
+Flag feet_flag() {
+  Flag flag = text_flag(
+      "feet", "", "Cleaning", "stop feet that stand from sliding, after everything else",
+      "auto holds what slides by error and leaves an intended slide alone; force holds whatever "
+      "stands. Joints only; it moves legs and lowers the root, so that nothing does it unasked.");
+  flag.spec.default_value = std::string("off");
+  flag.spec.choices = {"off", "auto", "force"};
+  flag.has_default = true;
+  return configurable(flag);
+}
+
 Flag root_position_flag() {
   Flag flag = switch_flag("root_position", "Where", "also clean the root's path");
   flag.spec.default_value = true;
@@ -123,6 +134,7 @@ std::vector<Flag> cleaning_flags() {
        fill_flag(),
        configurable(switch_flag("fill_all", "Cleaning",
                                 "fill every gap, also where the rules of --fill refuse")),
+       feet_flag(),
        configurable(switch_flag("fix_swaps", "Cleaning", "undo swapped labels of markers first",
                                 "As kinemend check finds them; nothing happens to joints.")),
        configurable(number_flag("peak_loss_limit", "", 0.1, 0, 1, "Cleaning",
@@ -150,6 +162,12 @@ std::vector<Flag> cleaning_flags() {
     if (flag.spec.name == "strict") flag.configurable = true;
   }
   return list;
+}
+
+Flag contacts_flag() {
+  return file_flag("contacts", "FILE", "Input",
+                   "times in which feet stand, as kinemend contacts writes them; all are held",
+                   "Of one take; sets --feet auto where that is off.");
 }
 
 Flag jobs_flag() {

@@ -11,6 +11,8 @@ namespace kinemend::cli {
 std::vector<Flag> clean_output_flags();
 /// How and where to clean; what a configuration file may hold is among them.
 std::vector<Flag> cleaning_flags();
+/// --contacts, which is of one take
+Flag contacts_flag();
 /// --jobs
 Flag jobs_flag();
 

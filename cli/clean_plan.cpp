@@ -95,6 +95,15 @@ std::optional<FillSettings> fill_settings(const Settings& settings) {
   return fill;
 }
 
+/// What `--feet` asks for.
+std::optional<FeetSettings> feet_settings(const Settings& settings) {
+  const std::string mode = std::get<std::string>(settings.values.find("feet")->second);
+  if (mode == "off") return std::nullopt;
+  FeetSettings feet;
+  feet.mode = mode == "force" ? FeetMode::force : FeetMode::automatic;
+  return feet;
+}
+
 CleanSettings clean_settings(const Settings& settings) {
   const auto list = [&](std::string_view name) {
     const auto found = settings.lists.find(name);
@@ -109,6 +118,7 @@ CleanSettings clean_settings(const Settings& settings) {
   if (const double most = number("max_change"); most > 0) result.max_change = most;
   result.peak_loss_limit = number("peak_loss_limit");
   result.fill = fill_settings(settings);
+  result.feet = feet_settings(settings);
   result.root_position = std::get<bool>(settings.values.find("root_position")->second);
   result.joints = list("joints");
   result.exclude = list("exclude");
@@ -161,6 +171,12 @@ CleanPlan make_cleaning(const Arguments& arguments) {
 CleanPlan make_clean_plan(const Arguments& arguments) {
   CleanPlan plan = make_cleaning(arguments);
   plan.jobs = make_jobs(arguments);
+  if (const std::string path = arguments.text("contacts"); !path.empty()) {
+    if (plan.jobs.size() > 1)
+      throw Error(ErrorKind::usage, "clean: --contacts are of one take, not of several");
+    plan.contacts.emplace(read_file(path), input_name(path));
+    if (!plan.settings.feet) plan.settings.feet.emplace();
+  }
   plan.folder = arguments.text("output_dir");
   plan.report_path = arguments.text("report");
   plan.dry_run = arguments.flag("dry_run");
@@ -168,7 +184,8 @@ CleanPlan make_clean_plan(const Arguments& arguments) {
   plan.verbose = arguments.flag("verbose");
   plan.quiet = arguments.flag("quiet");
   std::vector<std::string> outputs = {plan.report_path};
-  std::vector<std::string> inputs = {arguments.text("config"), arguments.text("gaps")};
+  std::vector<std::string> inputs = {arguments.text("config"), arguments.text("gaps"),
+                                     arguments.text("contacts")};
   for (const CleanJob& job : plan.jobs) {
     inputs.push_back(job.input);
     if (!plan.dry_run) outputs.push_back(job.output);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command.hpp"
@@ -30,6 +32,8 @@ struct CleanPlan {
   std::optional<FrameRange> range;
   ReadOptions reading;
   std::vector<NamedGap> gaps;  ///< of --gaps
+  /// Of --contacts: bytes and name. Legs and frames are those of a take.
+  std::optional<std::pair<std::string, std::string>> contacts;
   bool fix_swaps = false;
   std::string folder;       ///< --output-dir; made where it does not exist
   std::string report_path;  ///< empty: none

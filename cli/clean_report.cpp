@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "feet_report.hpp"
 #include "json.hpp"
 #include "table.hpp"
 #include "takes.hpp"
@@ -255,6 +256,7 @@ std::string report_text(const ReportView& report, bool all_rows) {
                         figure(report.root_rms_change), figure(report.root_max_change));
   }
   text += swap_text(report) + fill_text(report, all_rows);
+  if (report.feet) text += feet_text(*report.feet, all_rows);
   text += fmt::format("  {} of {} changed, {} repaired", count_changed(report),
                       counted(report.rows.size(), report.noun()),
                       counted(frames_repaired(report), "frame"));
@@ -286,6 +288,7 @@ Json report_json(const CleanJob& job, const ReportView& report, const Diagnostic
     json["root_max_change"] = report.root_max_change;
   }
   if (!report.fill.gaps.empty()) json["fill"] = fill_json(report);
+  if (report.feet) json["feet"] = feet_json(*report.feet);
   if (plan.fix_swaps && report.is_markers) json["swaps_undone"] = swaps_json(report);
   json["seconds"] = report.seconds;
   json["frames_per_second"] = frames_per_second(report);

@@ -54,6 +54,13 @@ MarkerResult run_cleaner(const MarkerClip& clip, const CleanPlan& plan,
   return clean_markers(clip, *plan.cleaner, settings, plan.method);
 }
 
+void read_contacts(const Clip& clip, const CleanPlan& plan, CleanSettings& settings) {
+  if (plan.contacts)
+    settings.feet->contacts = parse_contacts(plan.contacts->first, plan.contacts->second, clip);
+}
+void read_contacts(const MarkerClip& /*clip*/, const CleanPlan& /*plan*/,
+                   CleanSettings& /*settings*/) {}
+
 // Cleans the take in place.
 ReportView clean_in_place(Take& take, const CleanPlan& plan) {
   const std::vector<MarkerSwap> swaps = prepare(take, plan);
@@ -62,6 +69,7 @@ ReportView clean_in_place(Take& take, const CleanPlan& plan) {
         CleanSettings settings = plan.settings;
         if (plan.range)
           settings.range = frames_of(*plan.range, clip.frame_count(), clip.frame_rate_hz);
+        read_contacts(clip, plan, settings);
         auto result =
             tbb::this_task_arena::isolate([&] { return run_cleaner(clip, plan, settings); });
         clip = std::move(result.clip);

@@ -11,9 +11,10 @@ namespace kinemend::cli {
 
 const std::vector<Command>& commands() {
   static const std::vector<Command> table = {
-      clean_command(),   batch_command(),   fill_command(),       info_command(),
-      check_command(),   compare_command(), methods_command(),    convert_command(),
-      corrupt_command(), synth_command(),   completion_command(), man_command()};
+      clean_command(), batch_command(),      fill_command(),    info_command(),
+      check_command(), contacts_command(),   compare_command(), methods_command(),
+      train_command(), models_command(),     convert_command(), corrupt_command(),
+      synth_command(), completion_command(), man_command()};
   return table;
 }
 
@@ -79,6 +80,10 @@ Flag text_flag(std::string name, std::string value_name, std::string group, std:
 bool is_on_by_default(const Flag& flag) {
   const bool* is_on = std::get_if<bool>(&flag.spec.default_value);
   return is_on && *is_on;
+}
+
+bool names_file(const OptionSpec& spec) {
+  return spec.choices.empty() && std::holds_alternative<std::string>(spec.default_value);
 }
 
 std::string dashed(std::string_view name) {

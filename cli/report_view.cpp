@@ -27,6 +27,7 @@ ReportView view_of(CleanReport report) {
   view.calibration_frames = report.calibration_frames;
   view.root_rms_change = report.root_rms_change;
   view.root_max_change = report.root_max_change;
+  view.feet = std::move(report.feet);
   for (JointSummary& joint : report.joints) {
     view.rows.push_back({std::move(joint.name), joint.noise_deg, joint.rms_change_deg,
                          joint.max_change_deg, joint.frames_changed, joint.frames_repaired,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,7 @@ struct ReportView {
   double root_max_change = 0;
   std::vector<ReportSpan> spans;
   FillReport fill;
+  std::optional<FeetReport> feet;
   std::vector<MarkerSwap> swaps;  ///< undone
   std::vector<std::string> warnings;
   double seconds = 0;

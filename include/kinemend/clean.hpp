@@ -9,6 +9,7 @@
 
 #include "kinemend/cleaner.hpp"
 #include "kinemend/clip.hpp"
+#include "kinemend/feet.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/marker_clip.hpp"
 
@@ -34,6 +35,10 @@ struct CleanSettings {
   /// Fills gaps before anything is denoised, from a copy of the take without its spikes; not set:
   /// no. Gaps outside the selection and the range stay. Its own list of names must be empty.
   std::optional<FillSettings> fill;
+  /// Stops feet in contact from sliding, after everything else; not set: no. A leg of which not all
+  /// joints are selected keeps its slide. Contacts are of frames of the whole take. Means nothing
+  /// for markers, which are measured points: a warning says so.
+  std::optional<FeetSettings> feet;
 };
 
 /// A run of frames in which one thing was done to one joint or marker.
@@ -72,6 +77,9 @@ struct CleanReport {
   double root_max_change = 0;
   std::vector<ReportSpan> spans;  ///< by joint, then frame; spans of `kept` are left out
   FillReport fill;                ///< of `CleanSettings::fill`
+  /// Of `CleanSettings::feet`; not set without. `before` is what the method made of the take,
+  /// `after` the result; `changed` and `root_changed` say what the step did before blending.
+  std::optional<FeetReport> feet;
   std::vector<std::string> warnings;
   double seconds = 0;  ///< time the cleaning took
 };
@@ -115,12 +123,12 @@ struct MarkerResult {
   MarkerReport report;
 };
 
-/// The main path: takes calibration frames off, fills gaps if asked, runs the cleaner, blends by
-/// strength, range and largest change, and reports. Samples outside the selection, joints without
-/// rotation channels and samples whose change is below 1e-9 degrees keep their exact value; the
-/// rotations of joints with one or two rotation channels are those that the channels can hold.
-/// Errors: `ErrorKind::usage` for settings out of range and for a joint pattern that matches
-/// nothing.
+/// The main path: takes calibration frames off, fills gaps if asked, runs the cleaner, holds feet
+/// if asked, blends by strength, range and largest change, and reports. Samples outside the
+/// selection, joints without rotation channels and samples whose change is below 1e-9 degrees keep
+/// their exact value; the rotations of joints with one or two rotation channels are those that the
+/// channels can hold. Errors: `ErrorKind::usage` for settings out of range and for a joint pattern
+/// that matches nothing.
 CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner, const CleanSettings& settings = {},
                        std::string method_name = {});
 

@@ -90,6 +90,8 @@ struct FeetFigures {
 };
 
 struct FeetReport {
+  std::vector<std::string> sides;     ///< of the legs
+  double metres_per_unit = 0;         ///< of the figures: stated or guessed; 0 where not known
   std::vector<FootContact> contacts;  ///< all
   std::vector<std::uint8_t> held;     ///< one a contact, 1 where the slide was taken out
   std::vector<std::string> reasons;   ///< one a contact: why it was not held; empty where held

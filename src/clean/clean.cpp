@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "clean/changes.hpp"
+#include "clean/feet_step.hpp"
 #include "clean/gap_step.hpp"
 #include "clean/selection.hpp"
 #include "clean/tracks.hpp"
@@ -128,6 +129,11 @@ void state_filled(const std::vector<std::uint8_t>& observed, const Clip& motion,
   }
 }
 
+// Whether blending leaves something of the input.
+bool takes_part_only(const CleanSettings& settings) {
+  return settings.strength < 1 || settings.max_change_deg < 180 || settings.range;
+}
+
 }  // namespace
 
 CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner, const CleanSettings& settings,
@@ -161,6 +167,11 @@ CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner, const CleanSett
   CleanTrace trace = cleaner.clean(motion, selection);
   report.warnings.insert(report.warnings.end(), trace.warnings.begin(), trace.warnings.end());
   state_filled(observed, motion, trace);
+  if (settings.feet) {
+    report.feet = feet_step(motion, selection, *settings.feet, first, trace);
+    report.warnings.insert(report.warnings.end(), report.feet->warnings.begin(),
+                           report.feet->warnings.end());
+  }
   const Work work{clip,
                   settings,
                   selection,
@@ -185,6 +196,8 @@ CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner, const CleanSett
     put_back(result.clip.joint_translations, motion.joint_translations, first,
              clip.translated_joints.size());
   }
+  if (report.feet && takes_part_only(settings) && !report.feet->contacts.empty())
+    report.feet->after = feet_figures(result.clip, report.feet->contacts);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

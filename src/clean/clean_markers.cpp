@@ -73,6 +73,11 @@ MarkerResult clean_markers(const MarkerClip& clip, const Cleaner& cleaner,
     report.fill = fill_step(result.clip, selection.markers, weights, *settings.fill);
     add_fill_warnings(report);
   }
+  if (settings.feet && settings.feet->mode != FeetMode::off) {
+    report.warnings.emplace_back(
+        "feet: markers are measured points and stay where they are; feet are held in takes of "
+        "joints");
+  }
   const MarkerTrace trace = cleaner.clean_markers(result.clip, selection);
   report.warnings.insert(report.warnings.end(), trace.warnings.begin(), trace.warnings.end());
 

@@ -36,10 +36,10 @@ void check_settings(const FeetSettings& settings) {
   check("soft_reach", settings.soft_reach, 0.001, 0.2);
 }
 
-double centimetres_per_unit(const Clip& clip) {
-  if (clip.metres_per_unit > 0) return 100 * clip.metres_per_unit;
+double metres_per_unit(const Clip& clip) {
+  if (clip.metres_per_unit > 0) return clip.metres_per_unit;
   const std::optional<LengthUnit> unit = guess_length_unit(clip.skeleton);
-  return unit ? 100 * unit->metres : 0;
+  return unit ? unit->metres : 0;
 }
 
 bool may_turn(const LegModel& model, const FeetLimits& limits) {
@@ -77,6 +77,8 @@ class FeetCleaning {
  private:
   bool find_feet() {
     found_ = find_legs(clip_.skeleton);
+    for (const Leg& leg : found_) report_.sides.push_back(leg.side);
+    report_.metres_per_unit = metres_per_unit(clip_);
     legs_ = leg_motion(clip_, found_);
     if (settings_.contacts) check_contacts(*settings_.contacts, legs_, 0);
     if (found_.empty()) {
@@ -103,7 +105,7 @@ class FeetCleaning {
       report_.held.assign(count, 1);
       report_.reasons.resize(count);
     } else {
-      Verdicts verdicts = judge(soles, legs_, report_.contacts, centimetres_per_unit(clip_));
+      Verdicts verdicts = judge(soles, legs_, report_.contacts, 100 * report_.metres_per_unit);
       report_.held = std::move(verdicts.held);
       report_.reasons = std::move(verdicts.reasons);
     }
@@ -202,7 +204,7 @@ class FeetCleaning {
       frames += rest > noticeable_rest * legs_.height ? 1 : 0;
     }
     if (frames == 0) return;
-    const double unit_cm = centimetres_per_unit(clip_);
+    const double unit_cm = 100 * report_.metres_per_unit;
     const std::string length = unit_cm > 0 ? fmt::format("{:.1f} cm", farthest * unit_cm)
                                            : fmt::format("{:.3g} units", farthest);
     report_.warnings.push_back(
@@ -226,11 +228,7 @@ FeetReport clean_legs(Clip& motion, const FeetSettings& settings, const FeetLimi
   return FeetCleaning(motion, settings, limits).run();
 }
 
-}  // namespace feet
-
-namespace {
-
-void shift_frames(std::vector<FootContact>& contacts, std::size_t from, std::size_t to) {
+void shift_contacts(std::vector<FootContact>& contacts, std::size_t from, std::size_t to) {
   for (FootContact& contact : contacts) {
     if (contact.first_frame < from || contact.last_frame < contact.first_frame) {
       throw Error(ErrorKind::usage,
@@ -242,16 +240,16 @@ void shift_frames(std::vector<FootContact>& contacts, std::size_t from, std::siz
   }
 }
 
-}  // namespace
+}  // namespace feet
 
 FeetReport clean_feet(Clip& clip, const FeetSettings& settings) {
   const std::size_t first = leading_calibration_frames(clip);
   if (first == 0) return feet::clean_legs(clip, settings);
   FeetSettings own = settings;
-  if (own.contacts) shift_frames(*own.contacts, first, 0);
+  if (own.contacts) feet::shift_contacts(*own.contacts, first, 0);
   Clip motion = slice(clip, first, clip.frame_count());
   FeetReport report = feet::clean_legs(motion, own);
-  shift_frames(report.contacts, 0, first);
+  feet::shift_contacts(report.contacts, 0, first);
   const auto put_back = [first](auto& whole, const auto& part, std::size_t width) {
     std::copy(part.begin(), part.end(), whole.begin() + static_cast<std::ptrdiff_t>(first * width));
   };

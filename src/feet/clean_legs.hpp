@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -21,5 +22,9 @@ struct FeetLimits {
 /// `clean_feet` of a clip of which every frame is motion. Frames of settings and report are those
 /// of the motion too.
 FeetReport clean_legs(Clip& motion, const FeetSettings& settings, const FeetLimits& limits = {});
+
+/// Contacts counted from frame `from` are counted from frame `to`. Errors: `ErrorKind::usage` for
+/// one that begins before `from`.
+void shift_contacts(std::vector<FootContact>& contacts, std::size_t from, std::size_t to);
 
 }  // namespace kinemend::feet

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/quantiles.hpp"
+#include "feet/clean_legs.hpp"
 #include "feet/soles.hpp"
 #include "kinemend/error.hpp"
 
@@ -193,8 +194,8 @@ void check_contacts(const std::vector<FootContact>& contacts, const LegMotion& m
   for (const FootContact& contact : contacts) {
     if (contact.leg >= motion.legs())
       refuse(fmt::format("contact of leg {}: the skeleton has {}", contact.leg, motion.legs()));
-    if (!motion.models[contact.leg].has[static_cast<std::size_t>(contact.part)])
-      refuse(fmt::format("contact of a {}: that foot has none", to_string(contact.part)));
+    if (contact.part == FootPart::toe && !motion.models[contact.leg].has[1])
+      refuse(fmt::format("contact of the toe of leg {}: that foot has none", contact.leg));
     if (contact.first_frame < first_frame || contact.last_frame < contact.first_frame ||
         contact.last_frame >= first_frame + motion.frames) {
       refuse(fmt::format("contact in frames {} to {}: the motion is frames {} to {}",
@@ -222,10 +223,7 @@ std::vector<FootContact> find_contacts(const Clip& clip, const ContactSettings& 
   feet::set_heels(motion, *up, legs);
   std::vector<FootContact> contacts =
       feet::find_contacts(feet::find_soles(legs, *up, settings), settings);
-  for (FootContact& contact : contacts) {
-    contact.first_frame += first;
-    contact.last_frame += first;
-  }
+  feet::shift_contacts(contacts, 0, first);
   return contacts;
 }
 

@@ -86,10 +86,7 @@ FeetFigures feet_figures(const Clip& clip, const std::vector<FootContact>& conta
   feet::set_heels(motion, *up, legs);
   const std::vector<double> offsets = feet::level_offsets(feet::find_soles(legs, *up, {}));
   std::vector<FootContact> own = contacts;
-  for (FootContact& contact : own) {
-    contact.first_frame -= first;
-    contact.last_frame -= first;
-  }
+  feet::shift_contacts(own, first, 0);
   return feet::figures_of(legs, own, *up, offsets);
 }
 

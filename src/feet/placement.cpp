@@ -123,17 +123,22 @@ struct Edge {
   Vec3 slope;  // a frame, forwards in time
 };
 
-// The shift's slope at the end of a contact, from the frames inside that the smoothing saw whole.
-Edge edge_at(const SolePoint& point, const PartCorrection& part, std::size_t frame,
-             std::size_t first, std::size_t last, double frame_rate_hz) {
-  constexpr double span_s = 0.03;
-  const auto wanted = static_cast<std::size_t>(std::max(1L, std::lround(span_s * frame_rate_hz)));
-  const std::size_t steps = std::min(wanted, last - first);
+// The shift and, by a parabola through three frames inside the contact, its slope.
+Edge edge_at(const BodyPoints& body, const PartCorrection& part, std::size_t frame,
+             const FootContact& contact) {
+  constexpr double step_s = 0.008;
+  const auto wanted =
+      static_cast<std::size_t>(std::max(1L, std::lround(step_s * body.frame_rate_hz)));
+  const std::size_t step = std::min(wanted, (contact.last_frame - contact.first_frame) / 2);
   Edge edge{frame, part.shift[frame], {}};
-  if (steps == 0) return edge;
-  const std::size_t a = frame == first ? first : last - steps;
-  const Vec3 travel = point.path[a + steps] - point.path[a];
-  edge.slope = (-1.0 / static_cast<double>(steps)) * travel;
+  if (step == 0) return edge;
+  const bool is_first = frame == contact.first_frame;
+  const auto path = [&](std::size_t steps) {
+    return body.at(is_first ? frame + steps * step : frame - steps * step,
+                   Soles::point_of(contact));
+  };
+  const Vec3 inwards = 4.0 * path(1) - 3.0 * path(0) - path(2);
+  edge.slope = ((is_first ? -0.5 : 0.5) / static_cast<double>(step)) * inwards;
   return edge;
 }
 
@@ -191,8 +196,7 @@ std::vector<PartCorrection> place_contacts(const Soles& soles, const LegMotion& 
     }
     const auto edge = [&](std::size_t i, bool at_end) {
       const FootContact& c = contacts[i];
-      return edge_at(soles.points[p], part, at_end ? c.last_frame : c.first_frame, c.first_frame,
-                     c.last_frame, rate);
+      return edge_at(soles.body, part, at_end ? c.last_frame : c.first_frame, c);
     };
     for (std::size_t n = 0; n < own.size(); ++n) {
       const bool is_bridged =

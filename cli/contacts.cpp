@@ -1,0 +1,73 @@
+// kinemend contacts: when feet stand, as a file to edit.
+
+#include <fmt/format.h>
+
+#include <variant>
+
+#include "commands.hpp"
+#include "feet_report.hpp"
+#include "json.hpp"
+#include "kinemend/feet.hpp"
+#include "kinemend/io.hpp"
+#include "kinemend/version.hpp"
+#include "takes.hpp"
+#include "terminal.hpp"
+
+namespace kinemend::cli {
+
+namespace {
+
+Clip read_joints(const std::string& input, const ReadOptions& options) {
+  TakeResult read = read_take(std::filesystem::path(input), options);
+  warn_of_repairs(input_name(input), read.diagnostics);
+  if (Clip* clip = std::get_if<Clip>(&read.take)) return std::move(*clip);
+  throw Error(
+      ErrorKind::usage,
+      fmt::format("{}: contacts are of takes of joints, and these are markers", input_name(input)));
+}
+
+int run(const Arguments& arguments) {
+  const std::string input = arguments.positionals.front();
+  std::string output = arguments.text("output");
+  const bool json = arguments.flag("json"), force = arguments.flag("force");
+  check_single_use({input}, {output}, json);
+  if (!output.empty()) check_free(output, force);
+  const Clip clip = read_joints(input, read_options(arguments));
+  Clip copy = clip;
+  const FeetReport report = clean_feet(copy);
+  for (const std::string& warning : report.warnings)
+    say_warning(fmt::format("{}: {}", input_name(input), warning));
+  const std::string text = contacts_text(clip, report);
+  if (json) {
+    Json take = feet_json(report);
+    take["input"] = input;
+    write_out(json_text({{"kinemend", version()}, {"takes", Json::array({std::move(take)})}}));
+  } else if (output.empty()) {
+    write_out(text);
+  }
+  if (!output.empty()) write_output(output, text, force);
+  return 0;
+}
+
+}  // namespace
+
+Command contacts_command() {
+  Command command;
+  command.name = "contacts";
+  command.summary = "say when feet stand, as a file to edit";
+  command.description =
+      "Finds the times in which heels and toes stand and writes them one a line: side, part, first "
+      "and last frame from 1. What clean --feet auto would leave alone stands in a comment that "
+      "says why. Edit the file and give it to clean with --contacts: it holds what is listed.";
+  command.positionals = {{"IN", "take of joints; - is standard input", 1, 1, {}}};
+  command.flags = {output_flag("where to write; standard output where it is left out"),
+                   force_flag(), json_flag("print the contacts as JSON instead of text")};
+  append(command.flags, reading_flags("what needs a repair becomes an error"));
+  command.examples = {
+      {"kinemend contacts dance.bvh -o dance.contacts", "to look at and edit"},
+      {"kinemend clean dance.bvh --contacts dance.contacts", "holds what it lists"}};
+  command.run = run;
+  return command;
+}
+
+}  // namespace kinemend::cli

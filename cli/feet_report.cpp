@@ -1,0 +1,85 @@
+#include "feet_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "table.hpp"
+#include "takes.hpp"
+#include "terminal.hpp"
+
+namespace kinemend::cli {
+
+namespace {
+
+std::string contact_text(const FeetReport& report, const FootContact& contact) {
+  return fmt::format("{} {}, frames {} to {}", printable(report.sides[contact.leg]),
+                     to_string(contact.part), contact.first_frame + 1, contact.last_frame + 1);
+}
+
+// Contacts that stand still already are no news.
+std::string left_alone_text(const FeetReport& report, bool all_rows) {
+  constexpr std::size_t short_list = 8;
+  std::string text;
+  std::size_t listed = 0;
+  for (std::size_t i = 0; i < report.contacts.size(); ++i) {
+    const bool is_news = report.held[i] == 0 && report.reasons[i].rfind("stands still", 0) != 0;
+    if (!is_news && !(all_rows && report.held[i] == 0)) continue;
+    if (++listed > short_list && !all_rows) continue;
+    text +=
+        fmt::format("    {}: {}\n", contact_text(report, report.contacts[i]), report.reasons[i]);
+  }
+  if (listed == 0) return text;
+  text = fmt::format("  {} left alone:\n", counted(listed, "contact")) + text;
+  if (listed > short_list && !all_rows)
+    text += fmt::format("    and {} more (--verbose lists them)\n", listed - short_list);
+  return text;
+}
+
+Json figures_json(const FeetFigures& figures) {
+  return {{"slide", figures.slide},
+          {"most_slide", figures.most_slide},
+          {"sink", figures.sink},
+          {"knee_pop_deg", figures.knee_pop_deg}};
+}
+
+}  // namespace
+
+std::string feet_text(const FeetReport& report, bool all_rows) {
+  const auto held = std::count(report.held.begin(), report.held.end(), 1);
+  std::string text =
+      fmt::format("  feet: {} of {} held", held, counted(report.contacts.size(), "contact"));
+  const bool in_cm = report.metres_per_unit > 0;
+  const double scale = in_cm ? 100 * report.metres_per_unit : 1;
+  const std::string unit = in_cm ? "cm" : "units";
+  const FeetFigures &a = report.before, &b = report.after;
+  if (!report.contacts.empty()) {
+    text += fmt::format(
+        "; slide {} to {} {} a frame, {} to {} {} at most, sink {} to {} {}, knee pop {} to {} deg",
+        figure(scale * a.slide), figure(scale * b.slide), unit, figure(scale * a.most_slide),
+        figure(scale * b.most_slide), unit, figure(scale * a.sink), figure(scale * b.sink), unit,
+        figure(a.knee_pop_deg), figure(b.knee_pop_deg));
+  }
+  return text + "\n" + left_alone_text(report, all_rows);
+}
+
+Json feet_json(const FeetReport& report) {
+  Json contacts = Json::array();
+  for (std::size_t i = 0; i < report.contacts.size(); ++i) {
+    const FootContact& contact = report.contacts[i];
+    Json entry = {{"side", report.sides[contact.leg]},
+                  {"part", to_string(contact.part)},
+                  {"first_frame", contact.first_frame + 1},
+                  {"last_frame", contact.last_frame + 1},
+                  {"held", report.held[i] != 0}};
+    if (report.held[i] == 0) entry["reason"] = report.reasons[i];
+    contacts.push_back(std::move(entry));
+  }
+  return {{"metres_per_unit", report.metres_per_unit > 0 ? Json(report.metres_per_unit) : Json()},
+          {"held", std::count(report.held.begin(), report.held.end(), 1)},
+          {"before", figures_json(report.before)},
+          {"after", figures_json(report.after)},
+          {"contacts", std::move(contacts)}};
+}
+
+}  // namespace kinemend::cli

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstddef>
+
+#include "kinemend/cleaner.hpp"
+#include "kinemend/feet.hpp"
+
+// The step of the pipeline that stops feet from sliding.
+namespace kinemend {
+
+/// Holds feet in place as far as the selection lets legs and root move. `motion` begins with frame
+/// `first` of the take, by whose frames settings and report go. What changed is stated in `trace`,
+/// over what the cleaner did; filled and despiked samples stay such.
+FeetReport feet_step(Clip& motion, const Selection& selection, const FeetSettings& settings,
+                     std::size_t first, CleanTrace& trace);
+
+}  // namespace kinemend

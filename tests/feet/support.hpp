@@ -1,0 +1,73 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "kinemend/feet.hpp"
+#include "kinemend/kinematics.hpp"
+#include "kinemend/random.hpp"
+#include "kinemend/synth.hpp"
+
+namespace kinemend::test {
+
+inline Clip synthetic_clip(const std::string& motion, double duration_s = 6,
+                           double frame_rate_hz = 120, std::uint64_t seed = 1,
+                           bool t_pose_first = false) {
+  return synthesize({motion, duration_s, frame_rate_hz, seed, t_pose_first});
+}
+
+inline std::size_t joint_of(const Clip& clip, std::string_view name) {
+  return static_cast<std::size_t>(clip.skeleton.find(name));
+}
+
+/// Positions of one joint, by frame.
+inline std::vector<Vec3> track_of(const Clip& clip, std::string_view name) {
+  const std::vector<Vec3> all = joint_positions(clip);
+  std::vector<Vec3> track;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f)
+    track.push_back(all[f * clip.joint_count() + joint_of(clip, name)]);
+  return track;
+}
+
+/// Turns and moves the whole scene: R p + shift.
+inline Clip moved(Clip clip, Quat turn, Vec3 shift, double scale = 1) {
+  for (Vec3& p : clip.root_positions) p = scale * rotate(turn, p) + shift;
+  for (Vec3& offset : clip.skeleton.offsets) offset = scale * offset;
+  for (EndSite& site : clip.skeleton.end_sites) site.offset = scale * site.offset;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f)
+    clip.rotation(f, 0) = turn * clip.rotation(f, 0);
+  return clip;
+}
+
+/// The root goes astray horizontally by this much, to and fro in `period_s`.
+inline Clip with_drift(Clip clip, double reach, double period_s = 2.5) {
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    const double phase = 2 * pi * static_cast<double>(f) / clip.frame_rate_hz / period_s;
+    clip.root_positions[f] += Vec3{reach * std::sin(phase), 0, reach * std::cos(0.7 * phase)};
+  }
+  return clip;
+}
+
+/// White noise on all rotations.
+inline Clip with_noise(Clip clip, double deg, std::uint64_t seed = 7) {
+  Random random(seed);
+  for (Quat& q : clip.local_rotations) {
+    const Vec3 turn{random.normal(), random.normal(), random.normal()};
+    q = normalized(q * exp(deg * radians_per_degree * turn));
+  }
+  return clip;
+}
+
+/// Farthest that a part is from where each held contact began, horizontally (y is up).
+inline bool same_bits(const Clip& a, const Clip& b, std::size_t frame) {
+  for (std::size_t j = 0; j < a.joint_count(); ++j) {
+    if (!(a.rotation(frame, j) == b.rotation(frame, j))) return false;
+  }
+  return a.root_positions[frame] == b.root_positions[frame];
+}
+
+}  // namespace kinemend::test
