@@ -114,25 +114,19 @@ void follow_anchors(const MarkerClip& clip, const BodyLayout& layout, const Body
                     double floor, BodyChannels& channels) {
   const std::size_t frames = clip.frame_count();
   const Vec3 centre = match.stature * body_centre(layout);
-  std::vector<double> headings(frames), x(frames), z(frames), turned(frames), placed(frames);
+  std::vector<double> headings(frames), turned(frames), placed(frames);
+  std::vector<Vec3> places(frames);
   for (std::size_t f = 0; f < frames; ++f) {
     const auto fit = fit_frame(clip, layout, match, f);
     if (!fit) continue;
     const Heading heading = heading_of(fit->rotation);
-    const Vec3 place = fit->seen_at(centre);
     headings[f] = heading.angle;
-    x[f] = place.x;
-    z[f] = place.z;
+    places[f] = fit->seen_at(centre);
     placed[f] = fit->spread / (match.stature * match.stature);
     turned[f] = placed[f] * heading.weight;
   }
-  continue_angles(headings, turned);
-  const double rate = clip.frame_rate_hz;
-  channels.headings = smooth_trend(std::move(headings), turned, rate, layout.trend_s);
-  x = smooth_trend(std::move(x), placed, rate, layout.trend_s);
-  z = smooth_trend(std::move(z), placed, rate, layout.trend_s);
-  channels.places.resize(frames);
-  for (std::size_t f = 0; f < frames; ++f) channels.places[f] = {x[f], floor, z[f]};
+  follow(layout, std::move(headings), turned, std::move(places), placed, clip.frame_rate_hz, floor,
+         channels);
 }
 
 double low_level(const MarkerClip& clip, Quat upright, std::span<const std::int32_t> markers) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "base/quantiles.hpp"
 #include "kinemend/error.hpp"
@@ -126,23 +127,15 @@ void follow_root(const Clip& clip, const BodyLayout& layout, const BodyMatch& ma
                  const RootMotion& root, BodyChannels& channels) {
   const std::size_t frames = clip.frame_count();
   const std::size_t joint = root_joint(match), track = root_track(clip, match);
-  std::vector<double> headings(frames), x(frames), z(frames), known(frames), placed(frames);
+  std::vector<double> headings(frames), turned(frames), placed(frames);
   for (std::size_t f = 0; f < frames; ++f) {
     const Heading heading = heading_of(root.rotations[f]);
     headings[f] = heading.angle;
-    known[f] = clip.is_observed(f, joint) ? heading.weight : 0;
-    x[f] = root.positions[f].x;
-    z[f] = root.positions[f].z;
+    turned[f] = clip.is_observed(f, joint) ? heading.weight : 0;
     placed[f] = clip.is_position_observed(f, track) ? 1 : 0;
   }
-  continue_angles(headings, known);
-  const double rate = clip.frame_rate_hz;
-  channels.headings = smooth_trend(std::move(headings), known, rate, layout.trend_s);
-  x = smooth_trend(std::move(x), placed, rate, layout.trend_s);
-  z = smooth_trend(std::move(z), placed, rate, layout.trend_s);
-  const double floor = floor_height(clip, layout, match, root);
-  channels.places.resize(frames);
-  for (std::size_t f = 0; f < frames; ++f) channels.places[f] = {x[f], floor, z[f]};
+  follow(layout, std::move(headings), turned, root.positions, placed, clip.frame_rate_hz,
+         floor_height(clip, layout, match, root), channels);
 }
 
 double floor_height(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,
@@ -173,6 +166,15 @@ double floor_height(const Clip& clip, const BodyLayout& layout, const BodyMatch&
     for (std::size_t f = 0; f < frames; ++f) lowest[f] = std::min(lowest[f], heights[f]);
   }
   return quantile_of(lowest, low) - ankle_share * match.stature;
+}
+
+void follow(const BodyLayout& layout, std::vector<double> headings, std::span<const double> turned,
+            std::vector<Vec3> places, std::span<const double> placed, double frame_rate_hz,
+            double floor, BodyChannels& channels) {
+  continue_angles(headings, turned);
+  channels.headings = smooth_trend(std::move(headings), turned, frame_rate_hz, layout.trend_s);
+  channels.places = smooth_path(std::move(places), placed, frame_rate_hz, layout.trend_s);
+  for (Vec3& place : channels.places) place.y = floor;
 }
 
 double degrees_per_unit(const BodyMatch& match) {
@@ -214,16 +216,15 @@ void check_fit(const BodyChannels& channels, const BodyLayout& layout, const Bod
 }
 
 void hold_last_seen(PoseMatrix& poses, std::span<const std::uint8_t> observed) {
-  for (std::size_t c = 0; c < poses.channels; ++c) {
+  if (std::find(observed.begin(), observed.end(), 0) == observed.end()) return;
+  const std::size_t width = poses.channels;
+  for (std::size_t c = 0; c < width; ++c) {
     std::size_t first = 0;
-    while (first < poses.frames && observed[first * poses.channels + c] == 0) ++first;
-    double held = first < poses.frames ? poses(first, c) : 0;
-    for (std::size_t f = 0; f < poses.frames; ++f) {
-      if (observed[f * poses.channels + c] != 0)
-        held = poses(f, c);
-      else
-        poses(f, c) = held;
-    }
+    while (first < poses.frames && observed[first * width + c] == 0) ++first;
+    if (poses.frames > 0) poses(0, c) = first < poses.frames ? poses(first, c) : 0;
+  }
+  for (std::size_t i = width; i < poses.values.size(); ++i) {
+    if (observed[i] == 0) poses.values[i] = poses.values[i - width];
   }
 }
 

@@ -38,6 +38,12 @@ Heading heading_of(Quat rotation);
 void follow_root(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,
                  const RootMotion& root, BodyChannels& channels);
 
+/// Headings and places of the channels, smoothed: angles and points frame by frame, and how well
+/// each is known.
+void follow(const BodyLayout& layout, std::vector<double> headings, std::span<const double> turned,
+            std::vector<Vec3> places, std::span<const double> placed, double frame_rate_hz,
+            double floor, BodyChannels& channels);
+
 /// Height of the floor in upright axes: the feet return to it again and again.
 double floor_height(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,
                     const RootMotion& root);

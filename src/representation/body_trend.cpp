@@ -3,103 +3,181 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-
-#include "kinemend/rotation.hpp"
+#include <limits>
+#include <utility>
 
 namespace kinemend::representation {
 
 namespace {
 
 // Samples of weight 0 on the straight line between their neighbours, held at the ends.
-void bridge(std::vector<double>& track, std::span<const double> weights) {
+template <class Value>
+void bridge(std::vector<Value>& track, std::span<const double> weights) {
   const std::size_t frames = track.size();
   std::size_t before = frames;  // the last known frame; `frames`: none yet
   for (std::size_t f = 0; f < frames; ++f) {
     if (!(weights[f] > 0)) continue;
-    const std::size_t first = before == frames ? 0 : before + 1;
-    for (std::size_t g = first; g < f; ++g) {
-      const double u = before == frames
-                           ? 1.0
-                           : static_cast<double>(g - before) / static_cast<double>(f - before);
-      track[g] = before == frames ? track[f] : track[before] + u * (track[f] - track[before]);
+    for (std::size_t g = before == frames ? 0 : before + 1; g < f; ++g) {
+      if (before == frames) {
+        track[g] = track[f];
+        continue;
+      }
+      const double u = static_cast<double>(g - before) / static_cast<double>(f - before);
+      track[g] = track[before] + u * (track[f] - track[before]);
     }
     before = f;
   }
-  if (before == frames) {
-    std::fill(track.begin(), track.end(), 0.0);
-  } else {
-    for (std::size_t g = before + 1; g < frames; ++g) track[g] = track[before];
-  }
+  const Value last = before == frames ? Value{} : track[before];
+  for (std::size_t g = before == frames ? 0 : before + 1; g < frames; ++g) track[g] = last;
 }
 
-double median_of(double a, double b, double c) {
-  return std::max(std::min(a, b), std::min(std::max(a, b), c));
+double middle_of(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Vec3 middle_of(std::vector<Vec3>& values) {
+  Vec3 best = values.front();
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec3 candidate : values) {
+    double sum = 0;
+    for (const Vec3 other : values) sum += norm(candidate - other);
+    if (sum < least) {
+      least = sum;
+      best = candidate;
+    }
+  }
+  return best;
 }
 
 // Windows stay centred near the ends, so that a straight line stays one; the end samples follow
 // Tukey's rule, so that a spike there goes too.
-std::vector<double> running_median(const std::vector<double>& track, std::size_t half_window) {
+template <class Value>
+std::vector<Value> running_median(const std::vector<Value>& track, std::size_t half_window) {
   const std::size_t frames = track.size();
-  std::vector<double> result(track), window;
+  std::vector<Value> result(track), window;
   for (std::size_t f = 1; f + 1 < frames; ++f) {
     const std::size_t half = std::min({half_window, f, frames - 1 - f});
     const auto first = track.begin() + static_cast<std::ptrdiff_t>(f - half);
     window.assign(first, first + static_cast<std::ptrdiff_t>(2 * half + 1));
-    const auto middle = window.begin() + static_cast<std::ptrdiff_t>(half);
-    std::nth_element(window.begin(), middle, window.end());
-    result[f] = *middle;
+    result[f] = middle_of(window);
   }
+  const auto end_value = [&](Value end, Value next, Value second) {
+    window = {end, next, next + 2 * (next - second)};
+    return middle_of(window);
+  };
   if (frames >= 3) {
-    result.front() = median_of(track.front(), result[1], 3 * result[1] - 2 * result[2]);
-    result.back() = median_of(track.back(), result[frames - 2],
-                              3 * result[frames - 2] - 2 * result[frames - 3]);
+    result.front() = end_value(track.front(), result[1], result[2]);
+    result.back() = end_value(track.back(), result[frames - 2], result[frames - 3]);
   }
   return result;
 }
 
-// The value at `frame` of the line fitted to the samples around it.
-double line_at(const std::vector<double>& track, std::span<const double> weights,
-               const std::vector<double>& kernel, std::size_t frame) {
-  const std::size_t reach = kernel.size() - 1;
-  const std::size_t first = frame > reach ? frame - reach : 0;
-  const std::size_t last = std::min(track.size() - 1, frame + reach);
-  double s0 = 0, s1 = 0, s2 = 0, t0 = 0, t1 = 0;
-  for (std::size_t g = first; g <= last; ++g) {
-    const double k = static_cast<double>(g) - static_cast<double>(frame);
-    const double w = weights[g] * kernel[g > frame ? g - frame : frame - g];
-    s0 += w;
-    s1 += w * k;
-    s2 += w * k * k;
-    t0 += w * track[g];
-    t1 += w * k * track[g];
+template <class Value>
+std::vector<Value> despiked(std::vector<Value> track, std::span<const double> weights,
+                            double frame_rate_hz) {
+  constexpr double median_s = 0.1;
+  bridge(track, weights);
+  const double half_window = std::max(2.0, std::round(0.5 * median_s * frame_rate_hz));
+  return running_median(track, static_cast<std::size_t>(half_window));
+}
+
+// Lines fitted with Gaussian weights.
+class LocalLines {
+ public:
+  LocalLines(const std::vector<double>& track, const std::vector<double>& weights,
+             double deviation_frames)
+      : track_(track),
+        weights_(weights),
+        kernel_(static_cast<std::size_t>(std::ceil(3 * deviation_frames)) + 1) {
+    for (std::size_t k = 0; k < kernel_.size(); ++k) {
+      const double z = static_cast<double>(k) / deviation_frames;
+      kernel_[k] = std::exp(-0.5 * z * z);
+    }
   }
-  const double determinant = s0 * s2 - s1 * s1;
-  return determinant > 1e-9 * s0 * s2 ? (s2 * t0 - s1 * t1) / determinant : t0 / s0;
+
+  // The value at `frame` of the line around it.
+  double at(std::size_t frame) const {
+    const std::size_t reach = kernel_.size() - 1;
+    const std::size_t last = std::min(track_.size() - 1, frame + reach);
+    double s0 = 0, s1 = 0, s2 = 0, t0 = 0, t1 = 0;
+    for (std::size_t g = frame > reach ? frame - reach : 0; g <= last; ++g) {
+      const double k = static_cast<double>(g) - static_cast<double>(frame);
+      const double w = weights_[g] * kernel_[g > frame ? g - frame : frame - g];
+      s0 += w;
+      s1 += w * k;
+      s2 += w * k * k;
+      t0 += w * track_[g];
+      t1 += w * k * track_[g];
+    }
+    const double determinant = s0 * s2 - s1 * s1;
+    return determinant > 1e-9 * s0 * s2 ? (s2 * t0 - s1 * t1) / determinant : t0 / s0;
+  }
+
+ private:
+  const std::vector<double>& track_;
+  const std::vector<double>& weights_;
+  std::vector<double> kernel_;
+};
+
+// Between four equally spaced values: u = 0 at the second, 1 at the third.
+double cubic(const double* y, double u) {
+  const double a = u + 1, b = u, c = u - 1, d = u - 2;
+  return -y[0] * b * c * d / 6 + y[1] * a * c * d / 2 - y[2] * a * b * d / 2 + y[3] * a * b * c / 6;
+}
+
+// The trend bends so little that a value every eighth of the deviation tells it, save at the ends,
+// where it has no neighbours.
+std::vector<double> local_lines(const std::vector<double>& track, std::span<const double> weights,
+                                double deviation_frames) {
+  // What is bridged counts for next to nothing, but leaves no frame without any sample.
+  constexpr double least_weight = 1e-4;
+  const std::size_t frames = track.size();
+  std::vector<double> known(weights.begin(), weights.end()), trend(frames);
+  for (double& weight : known) weight = std::max(weight, least_weight);
+  const LocalLines lines(track, known, deviation_frames);
+  const auto step = static_cast<std::size_t>(std::max(1.0, std::floor(deviation_frames / 8)));
+  std::vector<double> knots;
+  for (std::size_t f = 0; f < frames; f += step) knots.push_back(lines.at(f));
+  for (std::size_t f = 0; f < frames; ++f) {
+    const std::size_t knot = f / step;
+    if (f % step == 0)
+      trend[f] = knots[knot];
+    else if (knot == 0 || knot + 2 >= knots.size())
+      trend[f] = lines.at(f);
+    else
+      trend[f] = cubic(&knots[knot - 1], static_cast<double>(f % step) / static_cast<double>(step));
+  }
+  return trend;
+}
+
+double deviation_frames(double frame_rate_hz, double deviation_s) {
+  return std::max(deviation_s * frame_rate_hz, 1e-3);
 }
 
 }  // namespace
 
 std::vector<double> smooth_trend(std::vector<double> track, std::span<const double> weights,
                                  double frame_rate_hz, double deviation_s) {
-  if (track.empty()) return track;
-  constexpr double median_s = 0.1;
-  // What is bridged counts for next to nothing, but leaves no frame without any sample.
-  constexpr double least_weight = 1e-4;
-  bridge(track, weights);
-  const auto half_window =
-      static_cast<std::size_t>(std::max(2.0, std::round(0.5 * median_s * frame_rate_hz)));
-  track = running_median(track, half_window);
-  const double deviation = std::max(deviation_s * frame_rate_hz, 1e-3);
-  std::vector<double> kernel(static_cast<std::size_t>(std::ceil(3 * deviation)) + 1);
-  for (std::size_t k = 0; k < kernel.size(); ++k) {
-    const double z = static_cast<double>(k) / deviation;
-    kernel[k] = std::exp(-0.5 * z * z);
+  return local_lines(despiked(std::move(track), weights, frame_rate_hz), weights,
+                     deviation_frames(frame_rate_hz, deviation_s));
+}
+
+std::vector<Vec3> smooth_path(std::vector<Vec3> path, std::span<const double> weights,
+                              double frame_rate_hz, double deviation_s) {
+  for (Vec3& point : path) point.y = 0;
+  path = despiked(std::move(path), weights, frame_rate_hz);
+  std::vector<double> x, z;
+  for (const Vec3 point : path) {
+    x.push_back(point.x);
+    z.push_back(point.z);
   }
-  std::vector<double> known(weights.begin(), weights.end());
-  for (double& weight : known) weight = std::max(weight, least_weight);
-  std::vector<double> trend(track.size());
-  for (std::size_t f = 0; f < track.size(); ++f) trend[f] = line_at(track, known, kernel, f);
-  return trend;
+  const double deviation = deviation_frames(frame_rate_hz, deviation_s);
+  x = local_lines(x, weights, deviation);
+  z = local_lines(z, weights, deviation);
+  for (std::size_t f = 0; f < path.size(); ++f) path[f] = {x[f], 0, z[f]};
+  return path;
 }
 
 void continue_angles(std::span<double> angles, std::span<const double> weights) {
