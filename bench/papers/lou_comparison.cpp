@@ -1,0 +1,155 @@
+// The comparisons of Lou & Chai 2010, Example-based Human Motion Denoising: error against noise and
+// against the share of outliers (figure 7), and the same method with bases of other motions
+// (section 4.3).
+#include <algorithm>
+
+#include "lou.hpp"
+
+namespace kinemend::papers {
+namespace {
+
+struct Damaged {
+  std::string label;
+  double std_deg = 0, share_of_outliers = 0;
+};
+
+std::size_t seeds(const Arguments& arguments) { return arguments.quick ? 1 : 3; }
+
+// Errors of every method for one damage, over groups, their tests and seeds; the input's come last.
+LouErrors errors_of(const Arguments& arguments, const std::vector<LouGroup>& groups,
+                    const std::vector<std::vector<LouMethod>>& methods, const Damaged& damage) {
+  LouErrors errors;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (const Clip& truth : groups[g].tests) {
+      for (std::size_t seed = 1; seed <= seeds(arguments); ++seed) {
+        const Clip noisy = lou_noise(truth, damage.std_deg, damage.share_of_outliers, seed);
+        for (std::size_t m = 0; m < methods[g].size(); ++m) {
+          for (std::size_t c = 0; c < methods[g][m].cleaners.size(); ++c)
+            errors.add(m, c, rms_deg(truth, cleaned(*methods[g][m].cleaners[c], noisy)));
+        }
+        errors.add(methods[g].size(), 0, rms_deg(truth, noisy));
+      }
+    }
+  }
+  return errors;
+}
+
+void figure_7(const Arguments& arguments, const std::vector<LouGroup>& groups,
+              const std::vector<std::vector<LouMethod>>& methods,
+              const std::vector<Damaged>& damages, const std::string& file,
+              const std::string& title) {
+  Table table(arguments, file, "method,of_the_paper,level,rms_deg");
+  std::vector<std::string> columns;
+  std::vector<LouErrors> errors;
+  for (const Damaged& damage : damages) {
+    columns.push_back(damage.label);
+    errors.push_back(errors_of(arguments, groups, methods, damage));
+  }
+  TextTable text(columns);
+  for (std::size_t m = 0; m <= methods[0].size(); ++m) {
+    const bool is_input = m == methods[0].size();
+    std::vector<double> row;
+    for (std::size_t d = 0; d < damages.size(); ++d) {
+      row.push_back(errors[d].of(m));
+      const double level = damages[d].share_of_outliers > 0 || damages[d].std_deg == 0
+                               ? 100 * damages[d].share_of_outliers
+                               : damages[d].std_deg;
+      table.add({is_input ? "\"(noisy)\"" : "\"" + methods[0][m].name + "\"",
+                 !is_input && methods[0][m].is_of_the_paper ? "1" : "0", fmt::format("{:g}", level),
+                 fmt::format("{:.5g}", row.back())});
+    }
+    text.add(is_input ? "(noisy)" : methods[0][m].name, row);
+  }
+  fmt::print("{}\n\n", title);
+  text.print();
+  table.close();
+}
+
+void comparisons(const Arguments& arguments) {
+  const std::vector<LouGroup> groups = walking_groups(arguments);
+  std::vector<std::vector<LouMethod>> methods;
+  for (const LouGroup& group : groups) methods.push_back(lou_methods(lou_models(group.training)));
+  std::vector<Damaged> noise, outliers;
+  for (const int std_deg : {1, 2, 3, 4, 5, 6}) {
+    if (arguments.quick && std_deg % 3 != 0) continue;
+    noise.push_back({fmt::format("{} deg", std_deg), static_cast<double>(std_deg), 0});
+  }
+  for (const int percent : {0, 1, 5, 10, 15, 20}) {
+    if (arguments.quick && percent % 10 != 0) continue;
+    outliers.push_back({fmt::format("{} %", percent), 0, percent / 100.0});
+  }
+  figure_7(arguments, groups, methods, noise, "lou_noise.csv",
+           "Figure 7, left: walks at 30 Hz with Gaussian noise on every joint angle. Degrees per "
+           "joint angle and frame.");
+  figure_7(arguments, groups, methods, outliers, "lou_outliers.csv",
+           "Figure 7, right: the same walks with jumps (25 degrees about each axis) in a share of "
+           "the joints' samples.");
+}
+
+// Section 4.3.
+struct Prior {
+  std::string name;
+  std::vector<Clip> training;
+};
+
+std::vector<Clip> joined(std::vector<Clip> a, const std::vector<Clip>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+void priors(const Arguments& arguments) {
+  const LouGroup walks = walking_groups(arguments)[0];
+  std::vector<std::string> others = {"02_01", "05_01", "06_01", "07_01", "07_03", "07_04",
+                                     "07_08", "16_15", "16_21", "16_31", "16_47", "35_01",
+                                     "35_03", "35_05", "35_12", "35_15", "35_28", "49_01"};
+  std::vector<std::string> runs = {"02_03", "09_01", "09_02", "09_04", "09_06", "09_08", "16_35",
+                                   "16_45", "16_55", "35_17", "35_19", "35_21", "35_24"};
+  if (arguments.quick) others.resize(3), runs.resize(3);
+  const std::vector<Clip> of_others = lou_takes(arguments, others, "walk", 201);
+  const std::vector<Clip> running = lou_takes(arguments, runs, "run", 301);
+  const LouGroup run_tests = lou_group(arguments, "runs", {}, {"09_07", "16_56", "35_23"}, "run");
+  const std::vector<Prior> list = {
+      {"small: walks of the subject", walks.training},
+      {"large: walks of 8 subjects", joined(walks.training, of_others)},
+      {"large, subject left out", of_others},
+      {"mixed: walks and runs", joined(of_others, running)},
+      {"running only", running}};
+  Table table(arguments, "lou_priors.csv", "prior,frames,bases,test,rms_deg");
+  fmt::print("Section 4.3: sigma = 3 degrees, bases of different motions. Degrees.\n\n");
+  TextTable text({"frames", "bases", "walk", "run"});
+  const auto tried = [&](const Cleaner& cleaner, const std::vector<Clip>& tests) {
+    LouErrors errors;
+    for (const Clip& truth : tests) {
+      for (std::size_t seed = 1; seed <= seeds(arguments); ++seed)
+        errors.add(0, 0, rms_deg(truth, cleaned(cleaner, lou_noise(truth, 3, 0, seed))));
+    }
+    return errors.of(0);
+  };
+  for (const Prior& prior : list) {
+    const auto model = learned("example", prior.training);
+    const auto cleaner = make_example({}, model);
+    const auto bases = model->tensor("bases", 3).shape[2];
+    const double frames = model->seconds * lou_rate_hz;
+    const double walk = tried(*cleaner, walks.tests), run = tried(*cleaner, run_tests.tests);
+    text.add(prior.name, {frames, static_cast<double>(bases), walk, run});
+    for (const auto& [test, error] : {std::pair{"walk", walk}, std::pair{"run", run}}) {
+      table.add({"\"" + prior.name + "\"", fmt::format("{:.0f}", frames), fmt::format("{}", bases),
+                 test, fmt::format("{:.5g}", error)});
+    }
+  }
+  const auto automatic = make_auto();
+  text.add("(auto, no prior)",
+           {0, 0, tried(*automatic, walks.tests), tried(*automatic, run_tests.tests)});
+  text.print();
+  table.close();
+}
+
+}  // namespace
+}  // namespace kinemend::papers
+
+int main(int count, char** values) {
+  return kinemend::papers::run(count, values, [](const kinemend::papers::Arguments& arguments) {
+    kinemend::papers::comparisons(arguments);
+    kinemend::papers::priors(arguments);
+  });
+}

@@ -1,0 +1,59 @@
+#!/usr/bin/env python3
+"""Draws lou_*.csv. Usage: plot_lou.py FOLDER (where the CSV files are and the pictures go)."""
+import csv
+import pathlib
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+folder = pathlib.Path(sys.argv[1])
+
+
+def table(name):
+    with open(folder / name, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def save(figure, name):
+    figure.tight_layout()
+    figure.savefig(folder / name, dpi=120)
+    print("wrote", folder / name)
+
+
+def curves(axes, rows, key, x, y):
+    groups = {}
+    for row in rows:
+        groups.setdefault(row[key], []).append(row)
+    for name, points in groups.items():
+        solid = points[0].get("of_the_paper", "1") == "1"
+        axes.plot([float(p[x]) for p in points], [float(p[y]) for p in points], marker=".", label=name,
+                  linestyle="-" if solid else "--", linewidth=1.6 if solid else 1)
+    axes.grid(alpha=0.3)
+    axes.legend(fontsize=7)
+
+
+figure, axes = plt.subplots(figsize=(6, 4))
+curves(axes, table("lou_bases.csv"), "walks", "bases", "rms_deg")
+axes.set(xlabel="filter bases", ylabel="degrees per joint angle", title="Lou & Chai 2010, figure 3")
+save(figure, "lou_bases.png")
+
+figure, panels = plt.subplots(1, 2, figsize=(11, 5))
+for panel, name, label in zip(panels, ["lou_noise.csv", "lou_outliers.csv"],
+                              ["noise, degrees", "outliers, % of samples"]):
+    curves(panel, table(name), "method", "level", "rms_deg")
+    panel.set(xlabel=label, ylabel="degrees per joint angle")
+figure.suptitle("Lou & Chai 2010, figure 7 (solid: the paper's four)")
+save(figure, "lou_comparison.png")
+
+rows = table("lou_windows.csv")
+figure, panels = plt.subplots(1, 2, figsize=(9, 4))
+for panel, column, title in zip(panels, ["denoising_rms_deg", "filling_rms_deg"],
+                                ["a walk, sigma = 3", "a limb missing in a jump"]):
+    panel.plot([int(r["window_frames"]) for r in rows], [float(r[column]) for r in rows], marker=".")
+    panel.set(xlabel="window, frames at 30 Hz", ylabel="degrees per joint angle", title=title, ylim=(0, None))
+    panel.grid(alpha=0.3)
+figure.suptitle("Lou & Chai 2010, figure 9")
+save(figure, "lou_windows.png")
