@@ -18,5 +18,6 @@ Method nonlocal_method();
 Method one_euro_method();
 Method wavelet_method();
 Method weighted_mean_method();
+Method wiener_method();
 
 }  // namespace kinemend

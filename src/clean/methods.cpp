@@ -45,6 +45,7 @@ std::span<const Method> methods() {
     list.push_back(weighted_mean_method());
     list.push_back(kalman_method());
     list.push_back(example_method());
+    list.push_back(wiener_method());
     list.push_back(kalman_learned_method());
     list.push_back(one_euro_method());
     return list;

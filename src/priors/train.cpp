@@ -42,6 +42,7 @@ std::span<const TrainMethod> train_methods() {
   static const std::vector<TrainMethod> table = [] {
     std::vector<TrainMethod> list;
     list.push_back(example_training());
+    list.push_back(wiener_training());
     list.push_back(kalman_learned_training());
     return list;
   }();

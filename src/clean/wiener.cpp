@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "clean/method_list.hpp"
+#include "clean/prior_cleaning.hpp"
+#include "kinemend/methods.hpp"
+#include "kinemend/model.hpp"
+#include "priors/wiener_filter.hpp"
+#include "priors/wiener_prior.hpp"
+
+namespace kinemend {
+
+namespace {
+
+const OptionTable<WienerOptions>& table() {
+  static const auto options =
+      OptionTable<WienerOptions>()
+          .text(&WienerOptions::model, "model",
+                "model file, made by kinemend train wiener; empty: the one that ships")
+          .text(&WienerOptions::map, "map", "file of names in the take for the model's")
+          .number(&WienerOptions::noise_deg, "noise_deg", "deg", 0, 45,
+                  "noise of a sample per channel; 0: estimated")
+          .number(&WienerOptions::sensitivity, "sensitivity", "", 0, 4,
+                  "scales the noise: above 1 smooths more, below 1 less, 0 not at all")
+          .flag(&WienerOptions::despike, "despike", "finds and repairs spikes")
+          .flag(&WienerOptions::fill, "fill_gaps", "fills gaps of what the model knows");
+  return options;
+}
+
+// Fourth differences of white noise of variance 1 have variance 70; motion has next to none.
+constexpr std::size_t difference_order = 4;
+constexpr double difference_deviation = 8.366600265340756;
+constexpr double deviations_per_median = 1.4826;
+constexpr double least_noise_deg = 1e-3;
+// More suspects than this are noise.
+constexpr double most_suspects = 0.05;
+
+// Of a channel, from runs of five samples that were measured and no spikes.
+double channel_noise(const PriorWork& work, std::size_t channel) {
+  const PoseMatrix& y = work.channels.poses;
+  std::vector<double> sizes;
+  std::size_t run = 0;
+  for (std::size_t f = 0; f < y.frames; ++f) {
+    const std::size_t sample = f * y.channels + channel;
+    run = work.channels.observed[sample] != 0 ? run + 1 : 0;
+    if (run <= difference_order) continue;
+    sizes.push_back(std::abs(y(f, channel) - 4 * y(f - 1, channel) + 6 * y(f - 2, channel) -
+                             4 * y(f - 3, channel) + y(f - 4, channel)));
+  }
+  if (sizes.empty()) return 0;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return deviations_per_median * *middle / difference_deviation;
+}
+
+// Channels of which `auto` suspects too much are not despiked beforehand.
+void clear_noisy_suspects(PriorWork& work) {
+  const std::size_t frames = work.channels.poses.frames, channels = work.channels.poses.channels;
+  for (std::size_t c = 0; c < channels; ++c) {
+    std::size_t count = 0;
+    for (std::size_t f = 0; f < frames; ++f) count += work.suspect[f * channels + c];
+    if (static_cast<double>(count) <= most_suspects * static_cast<double>(frames)) continue;
+    for (std::size_t f = 0; f < frames; ++f) work.suspect[f * channels + c] = 0;
+  }
+}
+
+class Wiener final : public Cleaner {
+ public:
+  Wiener(const WienerOptions& options, std::shared_ptr<const Model> model)
+      : options_(options),
+        names_(name_map_at(options.map)),
+        model_(std::move(model)),
+        prior_(wiener_prior_of(*model_)) {}
+
+  CleanTrace clean(Clip& clip, const Selection& selection) const override {
+    return clean_with_prior(clip, selection, model_->layout, names_, options_.fill,
+                            [this](PriorWork& work) { filter(work); });
+  }
+
+  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
+    return clean_with_prior(clip, selection, model_->layout, names_, options_.fill,
+                            [this](PriorWork& work) { filter(work); });
+  }
+
+ private:
+  std::vector<double> noise_of(const PriorWork& work) const {
+    std::vector<double> noise(work.channels.poses.channels, options_.noise_deg);
+    for (std::size_t c = 0; c < noise.size(); ++c) {
+      if (options_.noise_deg <= 0) noise[c] = channel_noise(work, c);
+      noise[c] = std::max(options_.sensitivity * noise[c], least_noise_deg);
+    }
+    return noise;
+  }
+
+  void filter(PriorWork& work) const {
+    clear_noisy_suspects(work);
+    PoseMatrix& poses = work.channels.poses;
+    const std::vector<double> noise = noise_of(work);
+    for (std::size_t i = 0; i < poses.values.size(); ++i) {
+      if (work.channels.observed[i] == 0) poses.values[i] = work.fallback.values[i];
+    }
+    WienerSettings settings;
+    if (!options_.despike) settings.outlier_deviations = 0;
+    WienerResult result = wiener_filter(
+        prior_, {poses, work.channels.observed, work.suspect, noise, work.channels.frame_rate_hz},
+        settings);
+    poses = std::move(result.poses);
+    work.rejected = std::move(result.rejected);
+  }
+
+  WienerOptions options_;
+  NameMap names_;
+  std::shared_ptr<const Model> model_;
+  WienerPrior prior_;
+};
+
+}  // namespace
+
+std::unique_ptr<Cleaner> make_wiener(const WienerOptions& options,
+                                     std::shared_ptr<const Model> model) {
+  table().validate(options);
+  if (!model) model = model_for("wiener", options.model);
+  return std::make_unique<Wiener>(options, std::move(model));
+}
+
+Method wiener_method() {
+  return {"wiener",
+          "posterior mean of short windows under learned covariances, by their evidence",
+          "a stronger linear prior than Lou & Chai 2010",
+          table().specs(),
+          [](const OptionValues& values) { return make_wiener(table().parse(values)); },
+          true};
+}
+
+}  // namespace kinemend

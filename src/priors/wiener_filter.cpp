@@ -1,0 +1,258 @@
+#include "priors/wiener_filter.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "priors/wiener_posterior.hpp"
+#include "priors/wiener_rest.hpp"
+#include "priors/wiener_windows.hpp"
+#include "priors/window_cosines.hpp"
+
+namespace kinemend {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Windows overlap by three quarters, and neighbours say much the same.
+constexpr double window_weight = 0.25;
+constexpr double adaptation_weight = 0.5;
+constexpr std::size_t chunk_windows = 16;
+constexpr double deviations_per_mad = 1.4826;
+
+// sin^2, which sums to a constant where windows follow each other by a quarter.
+VectorXd taper(Index frames) {
+  VectorXd weights(frames);
+  for (Index i = 0; i < frames; ++i) {
+    const double s = std::sin(3.14159265358979323846 * (static_cast<double>(i) + 0.5) /
+                              static_cast<double>(frames));
+    weights(i) = s * s;
+  }
+  return weights;
+}
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+class Filtering {
+ public:
+  Filtering(const WienerPrior& prior, const WienerTake& take, const WienerSettings& settings,
+            Index window)
+      : prior_(prior),
+        take_(take),
+        settings_(settings),
+        windows_(prior, window, static_cast<Index>(take.poses.frames), take.observed, take.noise),
+        components_(prior.components),
+        rest_(prior.rest, windows_.noise(), window),
+        taper_(taper(window)),
+        guess_(take.poses),
+        rejected_(take.poses.values.size(), 0) {
+    if (settings_.outlier_deviations > 0 && !take.suspect.empty())
+      rejected_.assign(take.suspect.begin(), take.suspect.end());
+  }
+
+  WienerResult run() {
+    for (std::size_t round = 0;; ++round) {
+      const bool is_last = round == settings_.adaptations;
+      find_posteriors(!is_last);
+      PoseMatrix estimate = synthesize();
+      if (is_last) return {std::move(estimate), std::move(rejected_)};
+      judge_samples(estimate);
+      take_guesses(estimate);
+    }
+  }
+
+ private:
+  bool is_observed(std::size_t sample) const {
+    return take_.observed.empty() || take_.observed[sample] != 0;
+  }
+
+  template <class Work>
+  void for_each_chunk(const Work& work) const {
+    const std::size_t count = windows_.starts().size();
+    tbb::parallel_for(
+        std::size_t{0}, (count + chunk_windows - 1) / chunk_windows, [&](std::size_t chunk) {
+          work(chunk, chunk * chunk_windows, std::min(count, (chunk + 1) * chunk_windows));
+        });
+  }
+
+  // z_ of all windows; with `adapt` the components are adapted to them.
+  void find_posteriors(bool adapt) {
+    const auto count = static_cast<Index>(windows_.starts().size());
+    MatrixXd information(prior_.rank(), count);
+    for_each_chunk([&](std::size_t, std::size_t first, std::size_t last) {
+      for (std::size_t w = first; w < last; ++w) {
+        information.col(static_cast<Index>(w)).noalias() =
+            prior_.basis.transpose() *
+            windows_.information(guess_, w, windows_.coefficients(guess_, w));
+      }
+    });
+    z_.resize(prior_.rank(), count);
+    MixtureMoments moments(components_.size(), prior_.rank());
+    for (const WindowGroup& group : windows_.groups()) {
+      MatrixXd part(prior_.rank(), static_cast<Index>(group.windows.size()));
+      for (std::size_t i = 0; i < group.windows.size(); ++i) {
+        part.col(static_cast<Index>(i)) = information.col(static_cast<Index>(group.windows[i]));
+      }
+      const MixturePosterior posterior =
+          mixture_posterior(components_, windows_.precision(group), part);
+      const MatrixXd means = posterior.mean();
+      for (std::size_t i = 0; i < group.windows.size(); ++i)
+        z_.col(static_cast<Index>(group.windows[i])) = means.col(static_cast<Index>(i));
+      if (adapt) moments.add(posterior, adaptation_weight);
+    }
+    if (adapt) {
+      components_ =
+          moments.adapted(prior_.components, settings_.mean_windows, settings_.covariance_windows);
+    }
+  }
+
+  // K x D: what the patterns make of a window.
+  MatrixXd pattern_of(std::size_t window) const {
+    VectorXd x = prior_.mean;
+    x.noalias() += prior_.basis * z_.col(static_cast<Index>(window));
+    return Eigen::Map<const MatrixXd>(x.data(), prior_.coefficients(), prior_.channels());
+  }
+
+  // N x D: what is left of the coefficients.
+  static MatrixXd left_of(MatrixXd coefficients, const MatrixXd& pattern) {
+    coefficients.topRows(pattern.rows()) -= pattern;
+    return coefficients;
+  }
+
+  void learn_rest() {
+    const std::size_t chunks = (windows_.starts().size() + chunk_windows - 1) / chunk_windows;
+    const RestModel empty(prior_.rest, windows_.noise(), windows_.frames());
+    std::vector<RestModel> parts(chunks, empty);
+    for_each_chunk([&](std::size_t chunk, std::size_t first, std::size_t last) {
+      for (std::size_t w = first; w < last; ++w) {
+        VectorXd counts = VectorXd::Ones(prior_.channels());
+        for (const WindowGroup::Lost& lost : windows_.group_of(w).lost) counts(lost.channel) = 0;
+        parts[chunk].add(left_of(windows_.coefficients(guess_, w), pattern_of(w)), counts);
+      }
+    });
+    rest_ = empty;
+    for (const RestModel& part : parts) rest_.add(part);
+    rest_.learn(window_weight);
+  }
+
+  // N x D: the posterior mean of a window's coefficients.
+  MatrixXd window_mean(std::size_t window) const {
+    const MatrixXd coefficients = windows_.coefficients(guess_, window);
+    const MatrixXd pattern = pattern_of(window);
+    MatrixXd mean = left_of(coefficients, pattern);
+    rest_.shrink(mean);
+    const WindowGroup& group = windows_.group_of(window);
+    if (!group.lost.empty()) {
+      const Index k = prior_.coefficients();
+      const VectorXd u = windows_.information(guess_, window, coefficients);
+      for (const WindowGroup::Lost& lost : group.lost) {
+        const Index d = lost.channel;
+        const VectorXd shift = pattern.col(d) - prior_.mean.segment(d * k, k);
+        mean.col(d).setZero();
+        mean.col(d).head(k) = prior_.rest.row(d).head(k).transpose().cwiseProduct(
+            u.segment(d * k, k) - lost.damping * (lost.precision * shift));
+      }
+    }
+    mean.topRows(pattern.rows()) += pattern;
+    return mean;
+  }
+
+  PoseMatrix synthesize() {
+    learn_rest();
+    const auto frames = static_cast<Index>(take_.poses.frames);
+    const Index channels = prior_.channels();
+    PoseMatrix sum(take_.poses.frames, take_.poses.channels);
+    std::vector<double> weight(take_.poses.frames, 0.0);
+    const std::vector<Index>& starts = windows_.starts();
+    // A batch of windows at a time, so that memory does not grow with the take.
+    const std::size_t batch = 16 * chunk_windows;
+    std::vector<MatrixXd> parts(std::min(batch, starts.size()));
+    for (std::size_t first = 0; first < starts.size(); first += batch) {
+      const std::size_t last = std::min(first + batch, starts.size());
+      tbb::parallel_for(first, last, [&](std::size_t w) {
+        parts[w - first] = (windows_.cosines() * window_mean(w)).transpose();
+      });
+      for (std::size_t w = first; w < last; ++w) {
+        for (Index i = 0; i < windows_.frames() && starts[w] + i < frames; ++i) {
+          const auto frame = static_cast<std::size_t>(starts[w] + i);
+          Eigen::Map<VectorXd>(sum.row(frame).data(), channels) +=
+              taper_(i) * parts[w - first].col(i);
+          weight[frame] += taper_(i);
+        }
+      }
+    }
+    for (std::size_t f = 0; f < sum.frames; ++f) {
+      for (double& value : sum.row(f)) value /= weight[f];
+    }
+    return sum;
+  }
+
+  void judge_samples(const PoseMatrix& estimate) {
+    if (settings_.outlier_deviations <= 0) return;
+    std::fill(rejected_.begin(), rejected_.end(), std::uint8_t{0});
+    const std::size_t channels = estimate.channels;
+    tbb::parallel_for(std::size_t{0}, (channels + 2) / 3, [&](std::size_t part) {
+      const std::size_t first = 3 * part, last = std::min(first + 3, channels);
+      for (std::size_t d = first; d < last; ++d) {
+        const double limit = limit_of(estimate, d);
+        for (std::size_t f = 0; f < estimate.frames; ++f) {
+          if (!is_observed(f * channels + d) ||
+              std::abs(take_.poses(f, d) - estimate(f, d)) <= limit)
+            continue;
+          for (std::size_t other = first; other < last; ++other)
+            rejected_[f * channels + other] = is_observed(f * channels + other) ? 1 : 0;
+        }
+      }
+    });
+  }
+
+  double limit_of(const PoseMatrix& estimate, std::size_t channel) const {
+    std::vector<double> distances;
+    for (std::size_t f = 0; f < estimate.frames; ++f) {
+      if (is_observed(f * estimate.channels + channel))
+        distances.push_back(std::abs(take_.poses(f, channel) - estimate(f, channel)));
+    }
+    if (distances.empty()) return settings_.least_outlier_deg;
+    const double spread = std::max(take_.noise[channel], deviations_per_mad * median(distances));
+    return std::max(settings_.outlier_deviations * spread, settings_.least_outlier_deg);
+  }
+
+  void take_guesses(const PoseMatrix& estimate) {
+    for (std::size_t i = 0; i < guess_.values.size(); ++i) {
+      guess_.values[i] =
+          is_observed(i) && rejected_[i] == 0 ? take_.poses.values[i] : estimate.values[i];
+    }
+  }
+
+  const WienerPrior& prior_;
+  const WienerTake& take_;
+  const WienerSettings& settings_;
+  WienerWindows windows_;
+  std::vector<WienerPrior::Component> components_;
+  RestModel rest_;
+  VectorXd taper_;
+  PoseMatrix guess_;  // what was measured, and estimates where nothing was
+  std::vector<std::uint8_t> rejected_;
+  MatrixXd z_;  // R x W
+};
+
+}  // namespace
+
+WienerResult wiener_filter(const WienerPrior& prior, const WienerTake& take,
+                           const WienerSettings& settings) {
+  if (take.poses.frames == 0) return {take.poses, {}};
+  const Index window = window_frames(prior.window_s, take.rate_hz);
+  const WienerPrior fitting = with_coefficients(prior, window);
+  return Filtering(fitting, take, settings, window).run();
+}
+
+}  // namespace kinemend

@@ -1,0 +1,138 @@
+#include "priors/wiener_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "kinemend/error.hpp"
+#include "kinemend/random.hpp"
+#include "priors/leading_eigenvectors.hpp"
+#include "priors/mixture_fit.hpp"
+#include "priors/window_cosines.hpp"
+
+namespace kinemend {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Rotation vectors jump by a whole turn where a joint turns beyond half of one.
+constexpr double jump_deg = 90;
+constexpr double least_variance = 1e-6;  // square degrees
+
+bool jumps(const PoseMatrix& poses, std::size_t first, std::size_t last) {
+  for (std::size_t f = first + 1; f < last; ++f) {
+    for (std::size_t c = 0; c < poses.channels; ++c) {
+      if (std::abs(poses(f, c) - poses(f - 1, c)) > jump_deg) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+WienerFit::WienerFit(std::size_t channels, const WienerFitSettings& settings)
+    : settings_(settings),
+      channels_(static_cast<Index>(channels)),
+      frames_(kinemend::window_frames(settings.window_s, settings.rate_hz)),
+      coefficients_(std::min(static_cast<Index>(settings.coefficients), frames_)),
+      cosines_(window_cosines(frames_, frames_)),
+      sum_(VectorXd::Zero(channels_ * coefficients_)),
+      moments_(MatrixXd::Zero(channels_ * coefficients_, channels_ * coefficients_)),
+      tail_(MatrixXd::Zero(channels_, frames_)) {}
+
+std::size_t WienerFit::window_frames() const noexcept { return static_cast<std::size_t>(frames_); }
+
+MatrixXd WienerFit::coefficients_of(const PoseMatrix& sequence) const {
+  const auto frames = static_cast<Index>(sequence.frames);
+  if (frames < frames_) return {};
+  std::vector<Index> starts = window_starts(frames, frames_);
+  std::erase_if(starts, [&](Index start) {
+    return jumps(sequence, static_cast<std::size_t>(start),
+                 static_cast<std::size_t>(start + frames_));
+  });
+  MatrixXd result(channels_ * frames_, static_cast<Index>(starts.size()));
+  for (std::size_t w = 0; w < starts.size(); ++w) {
+    const Eigen::Map<const MatrixXd> window(sequence.values.data() + starts[w] * channels_,
+                                            channels_, frames_);
+    Eigen::Map<MatrixXd>(result.col(static_cast<Index>(w)).data(), frames_, channels_).noalias() =
+        cosines_.transpose() * window.transpose() / static_cast<double>(frames_);
+  }
+  return result;
+}
+
+MatrixXd WienerFit::low(const MatrixXd& all) const {
+  MatrixXd result(channels_ * coefficients_, all.cols());
+  for (Index d = 0; d < channels_; ++d)
+    result.middleRows(d * coefficients_, coefficients_) =
+        all.middleRows(d * frames_, coefficients_);
+  return result;
+}
+
+void WienerFit::add_moments(const PoseMatrix& sequence, double weight) {
+  const MatrixXd all = coefficients_of(sequence);
+  if (all.cols() == 0) return;
+  const MatrixXd kept = low(all);
+  weight_ += weight * static_cast<double>(all.cols());
+  sum_ += weight * kept.rowwise().sum();
+  moments_.selfadjointView<Eigen::Lower>().rankUpdate(kept, weight);
+  const VectorXd squares = weight * all.rowwise().squaredNorm();
+  tail_ += Eigen::Map<const MatrixXd>(squares.data(), frames_, channels_).transpose();
+}
+
+void WienerFit::find_basis() {
+  if (weight_ <= 0)
+    throw Error(ErrorKind::usage, "all takes are shorter than a window, or turn too far in one");
+  const Index size = channels_ * coefficients_;
+  prior_.window_s = settings_.window_s;
+  prior_.mean = sum_ / weight_;
+  MatrixXd covariance = moments_.selfadjointView<Eigen::Lower>();
+  covariance /= weight_;
+  covariance -= prior_.mean * prior_.mean.transpose();
+  const std::size_t rank = std::min(settings_.rank, static_cast<std::size_t>(size));
+  const LeadingEigenvectors leading =
+      leading_eigenvectors({covariance.data(), static_cast<std::size_t>(size * size)},
+                           static_cast<std::size_t>(size), {1, rank, 1e-7});
+  const auto found = static_cast<Index>(leading.values.size());
+  prior_.basis =
+      Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+          leading.vectors.data(), size, found);
+  const Eigen::Map<const VectorXd> values(leading.values.data(), found);
+  const VectorXd outside = covariance.diagonal() - prior_.basis.array().square().matrix() * values;
+  prior_.rest = (tail_ / weight_).cwiseMax(least_variance / static_cast<double>(frames_));
+  for (Index d = 0; d < channels_; ++d) {
+    for (Index k = 0; k < coefficients_; ++k)
+      prior_.rest(d, k) =
+          std::max(outside(d * coefficients_ + k), least_variance / static_cast<double>(frames_));
+  }
+  moments_.resize(0, 0);
+}
+
+void WienerFit::add_windows(const PoseMatrix& sequence) {
+  const MatrixXd kept = low(coefficients_of(sequence));
+  const MatrixXd z = prior_.basis.transpose() * (kept.colwise() - prior_.mean);
+  // Vitter's reservoir, with a generator a window so that the sample grows out of the seed alone.
+  const Random random(settings_.seed);
+  for (Index w = 0; w < z.cols(); ++w, ++seen_) {
+    if (sample_.size() < settings_.windows) {
+      sample_.emplace_back(z.col(w));
+      continue;
+    }
+    Random own = random.fork(seen_);
+    const std::uint64_t place = own.below(seen_ + 1);
+    if (place < sample_.size()) sample_[place] = z.col(w);
+  }
+}
+
+WienerPrior WienerFit::finish() const {
+  MatrixXd points(prior_.rank(), static_cast<Index>(sample_.size()));
+  for (std::size_t w = 0; w < sample_.size(); ++w) points.col(static_cast<Index>(w)) = sample_[w];
+  WienerPrior prior = prior_;
+  prior.components = fit_mixture(
+      points, {settings_.components, settings_.rounds, settings_.pooling, settings_.seed});
+  return prior;
+}
+
+}  // namespace kinemend

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "kinemend/pose_matrix.hpp"
+#include "priors/wiener_prior.hpp"
+
+namespace kinemend {
+
+struct WienerFitSettings {
+  double rate_hz = 120;  ///< of the sequences
+  double window_s = 0.5;
+  std::size_t coefficients = 20;  ///< K, at most the frames of a window
+  std::size_t rank = 120;         ///< R, at most K times the channels
+  std::size_t components = 8;
+  std::size_t rounds = 10;       ///< of expectation and maximisation
+  double pooling = 300;          ///< windows that the covariance of all is worth in each component
+  std::size_t windows = 12'000;  ///< kept to fit the mixture to, drawn at random
+  std::uint64_t seed = 1;
+};
+
+/// Fits a prior in two passes over the same sequences: moments of all windows, which give mean,
+/// basis and rest; then the windows in that basis, of which a random sample is kept and the mixture
+/// fitted to. Memory does not depend on how many sequences there are.
+class WienerFit {
+ public:
+  /// `channels`: D, 1 or more.
+  WienerFit(std::size_t channels, const WienerFitSettings& settings);
+
+  std::size_t window_frames() const noexcept;
+  void add_moments(const PoseMatrix& sequence, double weight = 1);
+  /// Between the passes. Errors: `ErrorKind::usage` when there was no window.
+  void find_basis();
+  void add_windows(const PoseMatrix& sequence);
+  WienerPrior finish() const;
+
+ private:
+  // One column a window, all N coefficients, channel-major; none of windows in which a channel
+  // jumps by half a turn.
+  Eigen::MatrixXd coefficients_of(const PoseMatrix& sequence) const;
+  Eigen::MatrixXd low(const Eigen::MatrixXd& all) const;
+
+  WienerFitSettings settings_;
+  Eigen::Index channels_, frames_, coefficients_;
+  Eigen::MatrixXd cosines_;
+  double weight_ = 0;
+  Eigen::VectorXd sum_;      // D K
+  Eigen::MatrixXd moments_;  // D K x D K, lower half
+  Eigen::MatrixXd tail_;     // D x N: second moments of single coefficients
+  WienerPrior prior_;
+  std::vector<Eigen::VectorXd> sample_;
+  std::uint64_t seen_ = 0;
+};
+
+}  // namespace kinemend

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "kinemend/model.hpp"
+
+// What the method `wiener` knows of motion: the distribution of short windows.
+namespace kinemend {
+
+/// Windows of `window_s` of D channels as DCT coefficients (`window_cosines`), channel-major: entry
+/// d K + k is coefficient k of channel d. A window is
+///
+///     x = mean + basis z + e,    z ~ sum_c weight_c N(mean_c, covariance_c)
+///
+/// and e are independent normal numbers of variance `rest`, which also has coefficients that the
+/// basis knows nothing of (k >= K), and with them all of motion that is quick.
+/// Units: degrees, and their squares.
+struct WienerPrior {
+  struct Component {
+    double weight = 1;
+    Eigen::VectorXd mean;        ///< R
+    Eigen::MatrixXd covariance;  ///< R x R
+  };
+  double window_s = 0.5;
+  Eigen::VectorXd mean;   ///< D K
+  Eigen::MatrixXd basis;  ///< D K x R, orthonormal columns
+  Eigen::MatrixXd rest;   ///< D x M, M >= K: variance that is not in the basis
+  std::vector<Component> components;
+
+  Eigen::Index channels() const { return rest.rows(); }
+  Eigen::Index coefficients() const { return rest.rows() == 0 ? 0 : mean.size() / rest.rows(); }
+  Eigen::Index rank() const { return basis.cols(); }
+};
+
+/// The prior of windows at another rate, where a window has fewer frames than there are
+/// coefficients: the high ones are left out.
+WienerPrior with_coefficients(const WienerPrior& prior, Eigen::Index coefficients);
+
+/// The model file's form, and back. Covariances are kept as their Cholesky factors, in 16 bits,
+/// like all that is large. Errors: `ErrorKind::unreadable_input` naming what does not fit.
+void store_wiener_prior(const WienerPrior& prior, Model& model);
+WienerPrior wiener_prior_of(const Model& model);
+
+}  // namespace kinemend

@@ -1,0 +1,75 @@
+#include <cstdint>
+
+#include "priors/train_list.hpp"
+#include "priors/training_sequences.hpp"
+#include "priors/wiener_fit.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr double trend_s = 0.5;  // of the body's frame
+
+struct WienerTraining {
+  double rate_hz = 120;
+  double window_s = 0.5;
+  std::int64_t coefficients = 20;
+  std::int64_t rank = 120;
+  std::int64_t components = 8;
+  std::int64_t rounds = 10;
+  std::int64_t windows = 12'000;
+  std::int64_t seed = 1;
+};
+
+const OptionTable<WienerTraining>& table() {
+  static const auto options =
+      OptionTable<WienerTraining>()
+          .number(&WienerTraining::rate_hz, "rate_hz", "Hz", 10, 500,
+                  "rate of the model; takes at other rates are brought to it")
+          .number(&WienerTraining::window_s, "window_s", "s", 0.1, 4, "length of a window")
+          .integer(&WienerTraining::coefficients, "coefficients", "", 2, 200,
+                   "DCT coefficients of a channel that are learned together")
+          .integer(&WienerTraining::rank, "rank", "", 1, 1000,
+                   "directions in which windows move together")
+          .integer(&WienerTraining::components, "components", "", 1, 200,
+                   "Gaussians of the mixture")
+          .integer(&WienerTraining::rounds, "rounds", "", 0, 1000,
+                   "rounds of expectation maximisation")
+          .integer(&WienerTraining::windows, "windows", "", 10, 1e6,
+                   "windows that the mixture is fitted to, drawn from all")
+          .integer(&WienerTraining::seed, "seed", "", 0, 1e9, "seed of the drawing");
+  return options;
+}
+
+Model train(const TrainingTakes& takes, const OptionValues& values, const TrainSettings& settings) {
+  const WienerTraining options = table().parse(values);
+  Model model;
+  model.layout = learn_layout(takes, settings, trend_s);
+  model.rate_hz = options.rate_hz;
+  WienerFitSettings fitting;
+  fitting.rate_hz = options.rate_hz;
+  fitting.window_s = options.window_s;
+  fitting.coefficients = static_cast<std::size_t>(options.coefficients);
+  fitting.rank = static_cast<std::size_t>(options.rank);
+  fitting.components = static_cast<std::size_t>(options.components);
+  fitting.rounds = static_cast<std::size_t>(options.rounds);
+  fitting.windows = static_cast<std::size_t>(options.windows);
+  fitting.seed = static_cast<std::uint64_t>(options.seed);
+  WienerFit fit(model.layout.channel_count(), fitting);
+  model.seconds = for_each_sequence(
+      takes, model.layout, options.rate_hz, fit.window_frames(), settings,
+      [&](const TrainingSequence& sequence) { fit.add_moments(sequence.poses, sequence.weight); });
+  fit.find_basis();
+  for_each_sequence(takes, model.layout, options.rate_hz, fit.window_frames(), settings,
+                    [&](const TrainingSequence& sequence) { fit.add_windows(sequence.poses); });
+  store_wiener_prior(fit.finish(), model);
+  return model;
+}
+
+}  // namespace
+
+TrainMethod wiener_training() {
+  return {"wiener", "mixture of Gaussians over windows, in a temporal DCT", table().specs(), train};
+}
+
+}  // namespace kinemend
