@@ -195,7 +195,7 @@ class FeetCleaning {
       double rest = 0;
       for (std::size_t l = 0; l < legs_.legs(); ++l) {
         const FootTarget& target = targets[f * legs_.legs() + l];
-        if (!target.is_held || !target.moves) continue;
+        if (target.hold < 1 || !target.moves) continue;
         const LegPose& pose = legs_.pose(f, l);
         rest =
             std::max(rest, norm(pose.ankle_at + rotate(pose.ankle, target.pivot) - target.place));

@@ -101,7 +101,7 @@ class Leg {
         hip_at_(pose.hip_at + hip_shift),
         turn_(knee_turn(pose, model)),
         circle_(knee_circle(pose, hinge_of(pose, model, turn_))),
-        reach_(feet::reach_of(pose, model, soft_reach)) {}
+        reach_(feet::reach_of(pose, model, soft_reach, target.hold)) {}
 
   LegRotations solve() {
     constexpr int rounds = 8;
@@ -159,7 +159,7 @@ Vec3 turn_between(Vec3 from, Vec3 to) {
   return (std::atan2(sine, cosine) / sine) * axis;
 }
 
-Reach reach_of(const LegPose& pose, const LegModel& model, double soft_reach) {
+Reach reach_of(const LegPose& pose, const LegModel& model, double soft_reach, double hold) {
   const KneeTurn turn = knee_turn(pose, model);
   Reach reach;
   reach.now = norm(pose.ankle_at - pose.hip_at);
@@ -168,7 +168,9 @@ Reach reach_of(const LegPose& pose, const LegModel& model, double soft_reach) {
     const KneeCircle circle = knee_circle(pose, hinge_of(pose, model, turn));
     reach.most = std::max(reach.now, circle.most());
   }
-  reach.easy = std::max((1 - soft_reach) * reach.most, reach.now);
+  const double free = std::max((1 - soft_reach) * reach.most, reach.now);
+  const double held = std::min(free, (1 - soft_reach / 4) * reach.most);
+  reach.easy = hold * held + (1 - hold) * free;
   return reach;
 }
 

@@ -14,7 +14,11 @@ struct Reach {
   double easy = 0;  ///< as far as it goes without straightening the knee more than is good
   double most = 0;  ///< with the knee straight
 };
-Reach reach_of(const LegPose& pose, const LegModel& model, double soft_reach);
+/// Easy is short of `most` by the share `soft_reach`, or what the leg reaches as it is where that
+/// is farther. A knee that is all but straight turns by degrees for a millimetre, so that a held
+/// leg
+/// (`hold` 1; 0 for a free one) stays short by a quarter of the share even then.
+Reach reach_of(const LegPose& pose, const LegModel& model, double soft_reach, double hold);
 
 /// `distance`, or where that is beyond `reach.easy` a distance that nears `reach.most` smoothly:
 /// e + (m - e) (1 - exp(-(d - e) / (m - e))).

@@ -218,7 +218,7 @@ FootTarget foot_target(const LegPose& pose, const LegModel& model, const PartCor
                        const PartCorrection& toe, std::size_t frame, double least_shift) {
   FootTarget target;
   const double h = heel.weight[frame], t = toe.weight[frame];
-  target.is_held = h == 1 || t == 1;
+  target.hold = std::max(h, t);
   target.rotation = pose.ankle;
   const Vec3 heel_shift = heel.shift[frame], toe_shift = toe.shift[frame];
   target.moves = norm(heel_shift) > least_shift || norm(toe_shift) > least_shift;

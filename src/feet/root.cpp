@@ -16,11 +16,8 @@ double drop_for(const LegPose& pose, const LegModel& model, const FootTarget& ta
   constexpr double most_share = 0.1, least_cosine = 0.5;
   const Vec3 ankle_at = target.place - rotate(target.rotation, target.pivot);
   const Vec3 way = ankle_at - pose.hip_at;
-  const Reach reach = reach_of(pose, model, soft_reach);
-  // A knee that is all but straight turns by degrees for a millimetre: a held leg stays short of
-  // that even where the take's was not.
-  const double easy = std::min(reach.easy, (1 - soft_reach / 4) * reach.most);
-  const double beyond = dot(way, way) - easy * easy;
+  const Reach reach = reach_of(pose, model, soft_reach, target.hold);
+  const double beyond = dot(way, way) - reach.easy * reach.easy;
   const double below = -along(way, up);
   if (beyond <= 0 || below < least_cosine * norm(way)) return 0;
   const double root = std::sqrt(std::max(below * below - beyond, 0.0));
@@ -74,7 +71,7 @@ std::vector<double> root_drops(const LegMotion& motion, const std::vector<FootTa
   for (std::size_t f = 0; f < motion.frames; ++f) {
     for (std::size_t l = 0; l < motion.legs(); ++l) {
       const FootTarget& target = targets[f * motion.legs() + l];
-      if (!target.is_held || !target.moves) continue;
+      if (target.hold < 1 || !target.moves) continue;
       const double drop = drop_for(motion.pose(f, l), motion.models[l], target, up, soft_reach);
       needed[f] = std::max(needed[f], drop);
       any = any || drop > 0;

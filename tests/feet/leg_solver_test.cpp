@@ -61,7 +61,7 @@ struct RandomLeg {
 
 FootTarget target_at(const LegPose& pose, Vec3 pivot) {
   FootTarget target;
-  target.moves = target.is_held = true;
+  target.moves = true;
   target.rotation = pose.ankle;
   target.pivot = pivot;
   target.place = pose.ankle_at + rotate(pose.ankle, pivot);
@@ -142,7 +142,7 @@ TEST(LegSolver, StretchesTowardsWhatIsOutOfReachAndNeverStraightensTheKnee) {
       RandomLeg leg(random, orders.hip, orders.knee, orders.ankle);
       const LegMotion before = leg.motion();
       const LegPose& pose = before.pose(0, 0);
-      const Reach reach = reach_of(pose, before.models[0], 0.02);
+      const Reach reach = reach_of(pose, before.models[0], 0.02, 0);
       FootTarget target = target_at(pose, {});
       target.place = pose.hip_at + 1.2 * reach.most / reach.now * (pose.ankle_at - pose.hip_at);
       put(leg.clip, solve_leg(pose, before.models[0], target, {}, 0.02));

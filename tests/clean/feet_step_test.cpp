@@ -1,0 +1,146 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinemend/clean.hpp"
+#include "kinemend/corrupt.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/methods.hpp"
+#include "kinemend/synth.hpp"
+
+// Feet as the last step of the pipeline.
+namespace kinemend::test {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+/// Changes nothing itself.
+class Idle final : public Cleaner {
+ public:
+  CleanTrace clean(Clip&, const Selection&) const override { return {}; }
+};
+
+Clip sliding_walk(bool t_pose_first = false) {
+  Clip clip = synthesize({"walk", 5, 120, 1, t_pose_first});
+  for (std::size_t f = 0; f < clip.frame_count(); ++f)
+    clip.root_positions[f].x += 5 * std::sin(0.02 * static_cast<double>(f));
+  return clip;
+}
+
+CleanSettings with_feet(FeetMode mode = FeetMode::force) {
+  CleanSettings settings;
+  settings.feet.emplace();
+  settings.feet->mode = mode;
+  return settings;
+}
+
+TEST(FeetStep, HoldsFeetAndSaysWhere) {
+  const Clip clip = sliding_walk();
+  const CleanResult result = clean_clip(clip, Idle(), with_feet());
+  ASSERT_TRUE(result.report.feet);
+  const FeetReport& feet = *result.report.feet;
+  EXPECT_GT(feet.before.most_slide, 2);
+  EXPECT_LT(feet.after.most_slide, 0.05);
+  EXPECT_NEAR(feet_figures(result.clip, feet.contacts).most_slide, feet.after.most_slide, 0.3);
+  std::size_t adjusted = 0;
+  for (const ReportSpan& span : result.report.spans) {
+    EXPECT_EQ(span.action, Action::foot_adjusted);
+    adjusted += span.last_frame - span.first_frame + 1;
+  }
+  EXPECT_GT(adjusted, clip.frame_count());
+  for (std::size_t f = 0; f < clip.frame_count(); ++f)
+    EXPECT_EQ(result.clip.rotation(f, 7), clip.rotation(f, 7));
+}
+
+TEST(FeetStep, IsNotTakenUnasked) {
+  const Clip clip = sliding_walk();
+  const CleanResult plain = clean_clip(clip, Idle());
+  EXPECT_FALSE(plain.report.feet);
+  EXPECT_EQ(plain.clip.local_rotations, clip.local_rotations);
+  const CleanResult off = clean_clip(clip, Idle(), with_feet(FeetMode::off));
+  EXPECT_EQ(off.clip.local_rotations, clip.local_rotations);
+}
+
+TEST(FeetStep, ComesAfterEveryMethod) {
+  const Clip clip = sliding_walk();
+  for (const char* method : {"auto", "gaussian", "butterworth", "kalman", "nonlocal"}) {
+    const CleanResult result = clean_clip(clip, *make_cleaner(method), with_feet(), method);
+    EXPECT_LT(result.report.feet->after.most_slide, 0.05) << method;
+    EXPECT_GT(result.report.feet->before.most_slide, 1) << method;
+  }
+}
+
+TEST(FeetStep, LeavesLegsThatAreNotSelectedAndTheOthersToo) {
+  const Clip clip = sliding_walk();
+  CleanSettings settings = with_feet();
+  settings.exclude = {"LeftLeg"};
+  const CleanResult result = clean_clip(clip, Idle(), settings);
+  const FeetReport& feet = *result.report.feet;
+  for (std::size_t i = 0; i < feet.contacts.size(); ++i) {
+    EXPECT_EQ(feet.held[i], feet.contacts[i].leg == 1);
+    if (feet.held[i] == 0) EXPECT_THAT(feet.reasons[i], HasSubstr("may not all turn"));
+  }
+  for (const char* name : {"LeftUpLeg", "LeftLeg", "LeftFoot"}) {
+    const auto j = static_cast<std::size_t>(clip.skeleton.find(name));
+    for (std::size_t f = 0; f < clip.frame_count(); ++f)
+      EXPECT_EQ(result.clip.rotation(f, j), clip.rotation(f, j));
+  }
+  EXPECT_EQ(result.clip.root_positions, clip.root_positions);
+}
+
+TEST(FeetStep, LeavesTheRootWhereItMayNotMove) {
+  const Clip clip = sliding_walk();
+  CleanSettings settings = with_feet();
+  settings.root_position = false;
+  const CleanResult result = clean_clip(clip, Idle(), settings);
+  EXPECT_EQ(result.clip.root_positions, clip.root_positions);
+  EXPECT_LT(result.report.feet->after.slide, 0.5 * result.report.feet->before.slide);
+}
+
+TEST(FeetStep, StaysWithinTheRangeAndGoesAsFarAsTheStrength) {
+  const Clip clip = sliding_walk(true);
+  CleanSettings settings = with_feet();
+  settings.range = {200, 399};
+  const CleanResult part = clean_clip(clip, Idle(), settings);
+  std::size_t changed = 0;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    for (std::size_t j = 0; j < clip.joint_count(); ++j) {
+      const bool same = part.clip.rotation(f, j) == clip.rotation(f, j);
+      EXPECT_TRUE(same || (f >= 200 && f <= 399)) << "frame " << f;
+      changed += same ? 0 : 1;
+    }
+  }
+  EXPECT_GT(changed, 200u);
+  settings = with_feet();
+  settings.strength = 0.5;
+  const CleanResult half = clean_clip(clip, Idle(), settings);
+  const FeetReport& feet = *half.report.feet;
+  EXPECT_GT(feet.after.slide, 0.3 * feet.before.slide);
+  EXPECT_LT(feet.after.slide, 0.7 * feet.before.slide);
+  EXPECT_EQ(half.clip.rotation(0, 2), clip.rotation(0, 2));
+}
+
+TEST(FeetStep, CountsContactsByTheTakesFrames) {
+  const Clip clip = sliding_walk(true);
+  CleanSettings settings = with_feet();
+  const std::vector<FootContact> found = find_contacts(clip);
+  settings.feet->contacts = found;
+  const CleanResult result = clean_clip(clip, Idle(), settings);
+  EXPECT_EQ(result.report.feet->contacts, found);
+  EXPECT_LT(result.report.feet->after.most_slide, 0.05);
+  settings.feet->contacts = {{{0, FootPart::heel, 0, 5}}};  // the T-pose
+  EXPECT_THROW(clean_clip(clip, Idle(), settings), Error);
+}
+
+TEST(FeetStep, KeepsMarkersWhereTheyWereMeasured) {
+  MarkerClip markers = make_marker_clip({"LTOE", "LHEE"}, 60, 100);
+  markers.observed.assign(markers.positions.size(), 1);
+  const MarkerResult result = clean_markers(markers, *make_cleaner("gaussian"), with_feet());
+  EXPECT_THAT(result.report.warnings, Contains(HasSubstr("markers are measured points")));
+}
+
+}  // namespace
+}  // namespace kinemend::test
