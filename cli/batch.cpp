@@ -23,6 +23,7 @@
 #include "config.hpp"
 #include "kinemend/content_hash.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/model.hpp"
 #include "kinemend/version.hpp"
 #include "method_options.hpp"
 #include "takes.hpp"
@@ -67,6 +68,17 @@ std::string options_text(const Arguments& arguments) {
   return text;
 }
 
+/// What a method reads beside the take, as one text: its files, and a model that ships.
+std::string learned_text(const CleanPlan& plan) {
+  std::string text;
+  for (const std::string& path : option_files(find_method(plan.method), plan.options))
+    text += content_hash(read_file(path)) + "\n";
+  for (const ShippedModel& model : shipped_models()) {
+    if (model.method == plan.method) text += model_checksum(model.bytes) + "\n";
+  }
+  return text;
+}
+
 /// The bytes a take's result depends on: its own, and those of an ASF that it is read with.
 std::string input_hash(const BatchItem& item) {
   std::string hash = content_hash(read_file(item.input));
@@ -96,6 +108,7 @@ Json row_of(const BatchItem& item, const Json& entry, const char* status) {
     const bool is_table = value.is_array() && !value.empty() && value.front().is_object();
     if (!is_table && key != "options") row[key] = value;
   }
+  if (row.contains("feet")) row["feet"].erase("contacts");
   return row;
 }
 
@@ -211,7 +224,7 @@ int run(const Arguments& arguments) {
   batch.plan = make_cleaning(arguments);
   batch.plan.json = true;
   batch.quiet = arguments.flag("quiet");
-  batch.options_hash = content_hash(options_text(arguments));
+  batch.options_hash = content_hash(options_text(arguments) + learned_text(batch.plan));
   if (const std::string shard = arguments.text("shard"); !shard.empty())
     batch.shard = parse_shard(shard);
 

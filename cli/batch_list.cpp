@@ -9,9 +9,8 @@
 #include <fstream>
 #include <map>
 
-
-#include "kinemend/error.hpp"
 #include "kinemend/content_hash.hpp"
+#include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
 
 namespace kinemend::cli {
@@ -125,6 +124,25 @@ std::vector<BatchItem> find_items(const std::vector<std::string>& inputs, const 
   std::sort(items.begin(), items.end(),
             [](const BatchItem& a, const BatchItem& b) { return a.name < b.name; });
   return items;
+}
+
+std::vector<std::string> takes_below(const std::vector<std::string>& inputs) {
+  std::vector<std::string> takes;
+  for (const std::string& input : inputs) {
+    std::error_code error;
+    if (!fs::is_directory(input, error)) {
+      takes.push_back(input);
+      continue;
+    }
+    std::vector<BatchItem> items;
+    add_folder(input, {}, "", items);
+    std::sort(items.begin(), items.end(),
+              [](const BatchItem& a, const BatchItem& b) { return a.name < b.name; });
+    for (const BatchItem& item : items) {
+      if (!item.is_copied) takes.push_back(item.input);
+    }
+  }
+  return takes;
 }
 
 std::vector<std::string> listed_inputs(std::string_view text) {

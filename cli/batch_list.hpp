@@ -36,6 +36,10 @@ bool in_shard(std::string_view name, const Shard& shard);
 std::vector<BatchItem> find_items(const std::vector<std::string>& inputs, const std::string& output,
                                   const std::string& pattern);
 
+/// The files named and, of folders, the takes below them, by name. Errors: `unreadable_input` for a
+/// folder that cannot be read.
+std::vector<std::string> takes_below(const std::vector<std::string>& inputs);
+
 /// The lines of a list of files; blank lines and `#` comments are left out.
 std::vector<std::string> listed_inputs(std::string_view text);
 

@@ -111,6 +111,8 @@ Flag text_flag(std::string name, std::string value_name, std::string group, std:
 
 /// A switch that is on unless `--no-...` turns it off.
 bool is_on_by_default(const Flag& flag);
+/// Whether an option of a group names a file: a text that is free.
+bool names_file(const OptionSpec& spec);
 /// `max_change_deg` to `max-change-deg`.
 std::string dashed(std::string_view name);
 /// What a value is called in the help: "FILE", "X", "N", "a|b".

@@ -29,6 +29,7 @@ void add_flag(std::vector<ShellFlag>& flags, ShellFlag flag) {
     return;
   }
   // The option of several methods: it may take what any of them takes.
+  known->completion = std::max(known->completion, flag.completion);
   for (std::string& choice : flag.choices) {
     if (std::find(known->choices.begin(), known->choices.end(), choice) == known->choices.end())
       known->choices.push_back(std::move(choice));
@@ -51,7 +52,8 @@ std::vector<ShellFlag> flags_of(const Command& command) {
     for (const OptionGroup& group : command.groups) {
       for (const OptionSpec& spec : group.options) {
         const bool is_switch = std::holds_alternative<bool>(spec.default_value);
-        add_option(flags, spec, 0, !is_switch, Completion::none);
+        add_option(flags, spec, 0, !is_switch,
+                   names_file(spec) ? Completion::file : Completion::none);
         if (is_switch)
           add_flag(flags, {"--no-" + dashed(spec.name), 0, "not: " + spec.help, false, {}, {}});
       }
@@ -69,7 +71,8 @@ std::vector<std::string> words_of(const Command& command) {
 }
 
 bool takes_files(const Command& command) {
-  return !command.positionals.empty() && words_of(command).empty();
+  return std::any_of(command.positionals.begin(), command.positionals.end(),
+                     [](const Positional& positional) { return positional.choices.empty(); });
 }
 
 std::string all_command_names(std::string_view separator) {
@@ -95,13 +98,15 @@ std::string single_quoted(std::string_view text) {
   return result + "'";
 }
 
-std::string bash_values(const ShellFlag& flag) {
-  if (!flag.choices.empty())
-    return fmt::format("COMPREPLY=($(compgen -W {} -- \"$word\"))",
-                       single_quoted(joined(flag.choices)));
-  if (flag.completion == Completion::folder) return "COMPREPLY=($(compgen -d -- \"$word\"))";
-  if (flag.completion == Completion::file) return "COMPREPLY=($(compgen -f -- \"$word\"))";
-  return "COMPREPLY=()";
+std::string bash_reply(const std::vector<std::string>& words, Completion completion) {
+  std::string text;
+  if (!words.empty())
+    text = fmt::format("compgen -W {} -- \"$word\"", single_quoted(joined(words)));
+  if (completion != Completion::none) {
+    text += fmt::format("{}compgen -{} -- \"$word\"", text.empty() ? "" : "; ",
+                        completion == Completion::folder ? 'd' : 'f');
+  }
+  return text.empty() ? "COMPREPLY=()" : fmt::format("COMPREPLY=($({}))", text);
 }
 
 std::string bash_command(const Command& command) {
@@ -112,16 +117,11 @@ std::string bash_command(const Command& command) {
     if (flag.letter) names.push_back(fmt::format("-{}", flag.letter));
     if (!flag.takes_value) continue;
     const std::string letter = flag.letter ? fmt::format("|-{}", flag.letter) : "";
-    values += fmt::format("        {}{}) {}; return ;;\n", flag.name, letter, bash_values(flag));
+    values += fmt::format("        {}{}) {}; return ;;\n", flag.name, letter,
+                          bash_reply(flag.choices, flag.completion));
   }
-  const std::vector<std::string> words = words_of(command);
-  std::string positionals;
-  if (!words.empty()) {
-    positionals =
-        fmt::format("COMPREPLY=($(compgen -W {} -- \"$word\"))", single_quoted(joined(words)));
-  } else {
-    positionals = takes_files(command) ? "COMPREPLY=($(compgen -f -- \"$word\"))" : "COMPREPLY=()";
-  }
+  const std::string positionals =
+      bash_reply(words_of(command), takes_files(command) ? Completion::file : Completion::none);
   return fmt::format(
       "    {})\n{}      if [[ $word == -* ]]; then\n"
       "        COMPREPLY=($(compgen -W {} -- \"$word\"))\n      else\n        {}\n      fi ;;\n",
@@ -152,7 +152,13 @@ std::string zsh_help(std::string_view help) {
   return result;
 }
 
+std::string zsh_words_and_files(const std::vector<std::string>& words) {
+  return fmt::format("{{_alternative \"names:name:({})\" \"files:file:_files\"}}", joined(words));
+}
+
 std::string zsh_action(const ShellFlag& flag) {
+  if (!flag.choices.empty() && flag.completion == Completion::file)
+    return zsh_words_and_files(flag.choices);
   if (!flag.choices.empty()) return fmt::format("({})", joined(flag.choices));
   if (flag.completion == Completion::folder) return "_files -/";
   return flag.completion == Completion::file ? "_files" : " ";
@@ -171,8 +177,9 @@ std::string zsh_command(const Command& command) {
   }
   const std::vector<std::string> words = words_of(command);
   if (!words.empty()) {
-    text +=
-        fmt::format("        {} ;;\n", single_quoted(fmt::format("*:name:({})", joined(words))));
+    const std::string action =
+        takes_files(command) ? zsh_words_and_files(words) : fmt::format("({})", joined(words));
+    text += fmt::format("        {} ;;\n", single_quoted("*:name:" + action));
   } else if (takes_files(command)) {
     text += "        '*:file:_files' ;;\n";
   } else {

@@ -117,6 +117,7 @@ std::string group_option_name(const Command& command, const OptionSpec& spec) {
   Flag flag;
   flag.spec = spec;
   if (!spec.choices.empty()) flag.value_name = "NAME";
+  if (command.groups_are_flags && names_file(spec)) flag.value_name = "FILE";
   const std::string value = value_name(flag);
   if (!command.groups_are_flags)
     return fmt::format("  {}={}", spec.name, is_flag ? "true|false" : value);

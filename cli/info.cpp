@@ -11,6 +11,7 @@
 #include "kinemend/io.hpp"
 #include "kinemend/metrics.hpp"
 #include "kinemend/version.hpp"
+#include "model_view.hpp"
 #include "table.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
@@ -299,6 +300,15 @@ int run(const Arguments& arguments) {
   check_single_use(arguments.positionals, {}, json);
   Json takes = Json::array();
   const int code = for_each_input(arguments.positionals, takes, [&](const std::string& input) {
+    if (is_model_path(input)) {
+      const ModelFile file = model_file_of(read_file(input), input);
+      if (json) {
+        takes.push_back(model_json(file));
+      } else {
+        write_out(model_text(file, arguments.flag("tree")));
+      }
+      return 0;
+    }
     Subject subject{input_name(input),
                     read_take(std::filesystem::path(input), read_options(arguments))};
     if (arguments.flag("noise")) measure_noise(subject);
@@ -318,12 +328,14 @@ int run(const Arguments& arguments) {
 Command info_command() {
   Command command;
   command.name = "info";
-  command.summary = "say what is in a take";
+  command.summary = "say what is in a take or a model";
   command.description =
       "Joints or markers, frames, rate, duration, unit of length, what is missing, what else the "
       "file holds, and what the reader had to repair. Where the file states no unit it is that in "
-      "which the skeleton is a person of 1.2 to 2.5 m.";
-  command.positionals = {{"FILE", "take to look at; - is standard input", 1, 1000000, {}}};
+      "which the skeleton is a person of 1.2 to 2.5 m.\n\nOf a learned model (*.kmodel): its card, "
+      "and "
+      "with --tree the body that it knows and its numbers.";
+  command.positionals = {{"FILE", "take or model to look at; - is standard input", 1, 1000000, {}}};
   command.flags = {
       json_flag("print JSON instead of text"),
       switch_flag("tree", "Output", "also show the skeleton with its channels, or the markers"),

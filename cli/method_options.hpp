@@ -16,9 +16,17 @@ std::vector<std::string> method_names();
 /// nullptr when there is none.
 const Method* method_called(std::string_view name);
 
-/// Texts of method options from the command line, as values of this method. Errors:
-/// `ErrorKind::usage` for an option of another method or a value out of range.
+/// Texts of group options from the command line, as values of the group called `chosen`. Errors:
+/// `ErrorKind::usage` for an option of other groups (`hint` ends the message) or a value out of
+/// range.
+OptionValues parse_group_options(const std::vector<OptionGroup>& groups, std::string_view chosen,
+                                 const std::map<std::string, std::string, std::less<>>& texts,
+                                 std::string_view hint = "");
+/// The same for the methods of cleaning.
 OptionValues parse_method_options(const Method& method,
                                   const std::map<std::string, std::string, std::less<>>& texts);
+
+/// The files that these values name: models, maps.
+std::vector<std::string> option_files(const Method& method, const OptionValues& values);
 
 }  // namespace kinemend::cli

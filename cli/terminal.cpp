@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -45,6 +46,14 @@ std::string_view code_of(Paint paint) {
       return "33";
   }
   return "0";
+}
+
+constexpr std::string_view erase_line = "\r\033[K";
+
+std::string bar_text(double share) {
+  constexpr std::size_t width = 30;
+  const auto full = static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * width);
+  return fmt::format("{}[{:=<{}}{:<{}}]", erase_line, "", full, "", width - full);
 }
 
 void say_as(Paint paint, std::string_view kind, std::string_view text) {
@@ -105,15 +114,30 @@ void ProgressBar::step() {
 }
 
 void ProgressBar::clear() {
-  if (on_) write_err("\r\033[K");
+  if (on_) write_err(erase_line);
 }
 
 void ProgressBar::draw() {
   if (!on_) return;
-  constexpr std::size_t width = 30;
-  const std::size_t full = done_ * width / total_;
-  write_err(fmt::format("\r\033[K[{:=<{}}{:<{}}] {}/{} takes", "", full, "", width - full, done_,
-                        total_));
+  const double share = static_cast<double>(done_) / static_cast<double>(total_);
+  write_err(fmt::format("{} {}/{} takes", bar_text(share), done_, total_));
+}
+
+ProgressLine::ProgressLine() : on_(isatty(STDERR_FILENO)) {}
+
+ProgressLine::~ProgressLine() { clear(); }
+
+void ProgressLine::show(std::string_view stage, double done) {
+  if (!on_) return;
+  std::string text = fmt::format("{} {:3.0f} % {}", bar_text(done), 100 * done, stage);
+  if (text == shown_) return;
+  write_err(text);
+  shown_ = std::move(text);
+}
+
+void ProgressLine::clear() {
+  if (!shown_.empty()) write_err(erase_line);
+  shown_.clear();
 }
 
 }  // namespace kinemend::cli

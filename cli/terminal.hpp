@@ -60,4 +60,22 @@ class ProgressBar {
   bool on_;
 };
 
+/// A bar for work of one thread whose length is known as a share, on a terminal only.
+class ProgressLine {
+ public:
+  ProgressLine();
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  /// `done`: 0 to 1.
+  void show(std::string_view stage, double done);
+  /// Takes the line away so that other text can be printed; `show` draws it again.
+  void clear();
+
+ private:
+  std::string shown_;
+  bool on_;
+};
+
 }  // namespace kinemend::cli

@@ -10,8 +10,8 @@ namespace {
 using Help = Program;
 using testing::HasSubstr;
 
-const std::vector<std::string> commands = {"clean",   "fill",       "info",    "check",
-                                           "compare", "methods",    "convert", "corrupt",
+const std::vector<std::string> commands = {"clean",   "fill",       "info",   "check",   "compare",
+                                           "methods", "train",      "models", "convert", "corrupt",
                                            "synth",   "completion", "man"};
 
 /// Every `--name` in a command's long help; `--[no-]name` stands for two.

@@ -1,0 +1,299 @@
+// kinemend train: learns a model from clean takes.
+
+#include "kinemend/train.hpp"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <variant>
+
+#include "batch_list.hpp"
+#include "clean_flags.hpp"
+#include "commands.hpp"
+#include "json.hpp"
+#include "kinemend/fill.hpp"
+#include "kinemend/io.hpp"
+#include "kinemend/version.hpp"
+#include "method_options.hpp"
+#include "model_view.hpp"
+#include "table.hpp"
+#include "takes.hpp"
+#include "terminal.hpp"
+
+namespace kinemend::cli {
+
+namespace {
+
+/// All that `train` was asked for.
+struct Training {
+  std::string method;
+  OptionValues options;
+  TrainSettings settings;
+  std::vector<std::string> takes;
+  ReadOptions reading;
+  std::string fill;  ///< a method of `fill_methods()`; empty: none
+  std::string output, card;
+  bool force = false, json = false, quiet = false, skip_unreadable = false;
+};
+
+Take read_training_take(const Training& training, const std::string& path, bool warns) {
+  TakeResult read = read_take(std::filesystem::path(path), training.reading);
+  if (warns && !training.quiet) warn_of_repairs(path, read.diagnostics);
+  if (!training.fill.empty()) {
+    FillSettings settings;
+    settings.method = training.fill;
+    std::visit([&](auto& clip) { fill_gaps(clip, settings); }, read.take);
+  }
+  return std::move(read.take);
+}
+
+/// The takes that can be read; what cannot is said.
+std::vector<std::string> readable_takes(const Training& training) {
+  std::vector<std::string> readable;
+  for (const std::string& path : training.takes) {
+    try {
+      read_take(std::filesystem::path(path), training.reading);
+      readable.push_back(path);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::unreadable_input) throw;
+      say_warning(fmt::format("{} (left out)", error.what()));
+    }
+  }
+  return readable;
+}
+
+/// Reads each take whenever it is asked for, so that they are never in memory together; what had
+/// to be repaired is said once.
+TrainingTakes takes_of(const Training& training, ProgressLine& progress) {
+  auto seen = std::make_shared<std::vector<bool>>(training.takes.size(), false);
+  return {training.takes.size(), [&training, &progress, seen](std::size_t index) {
+            const bool is_first = !(*seen)[index];
+            (*seen)[index] = true;
+            if (is_first) progress.clear();
+            return read_training_take(training, training.takes[index], is_first);
+          }};
+}
+
+std::string summary_text(const ModelFile& file, double training_s) {
+  const Model& model = file.model;
+  std::string text = Colours::of_out().paint(Paint::bold, printable(file.name)) +
+                     fmt::format(": {} of {} at {:.6g} Hz\n", model.method, body_text(model.layout),
+                                 model.rate_hz);
+  text += fmt::format("  from {} ({:.1f} min) in {:.1f} s, {} kB\n", counted(model.takes, "take"),
+                      model.seconds / 60, training_s, grouped((file.bytes + 999) / 1000));
+  Table table({Align::left, Align::right}, 4);
+  for (const auto& [name, value] : model.numbers)
+    table.add({printable(name), fmt::format("{:.6g}", value)});
+  return text + table.text();
+}
+
+/// Words that a shell reads as they were meant.
+std::string shell_word(const std::string& word) {
+  const bool is_plain =
+      !word.empty() && word.find_first_not_of(
+                           "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                           "_-./:,=+@%") == word.npos;
+  if (is_plain) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+/// The command as it stands on the card, without what has no influence on the model.
+std::string command_text(const Arguments& arguments) {
+  static constexpr std::array<std::string_view, 9> aside = {
+      "force", "json", "quiet", "card", "title", "data", "licence", "figures", "jobs"};
+  std::string text = "kinemend train";
+  for (const Flag& flag : arguments.command->flags) {
+    const std::string& name = flag.spec.name;
+    if (std::find(aside.begin(), aside.end(), name) != aside.end()) continue;
+    if (const auto list = arguments.lists.find(name); list != arguments.lists.end())
+      text += fmt::format(" --{} {}", dashed(name),
+                          shell_word(fmt::format("{}", fmt::join(list->second, ","))));
+    const auto value = arguments.values.find(name);
+    if (value == arguments.values.end()) continue;
+    text += " --" + dashed(name);
+    if (flag.takes != Takes::nothing) text += " " + shell_word(to_string(value->second));
+  }
+  for (const auto& [name, given] : arguments.group_texts) {
+    const bool is_switch = given == "true" || given == "false";
+    text += is_switch ? fmt::format(" --{}{}", given == "true" ? "" : "no-", dashed(name))
+                      : fmt::format(" --{} {}", dashed(name), shell_word(given));
+  }
+  constexpr std::size_t most = 8;
+  const std::vector<std::string>& words = arguments.positionals;
+  for (std::size_t i = 0; i < std::min(words.size(), most); ++i) text += " " + shell_word(words[i]);
+  if (words.size() > most) text += fmt::format(" ... ({} more)", words.size() - most);
+  return text;
+}
+
+std::vector<std::string> inputs_of(const Arguments& arguments) {
+  std::vector<std::string> inputs(arguments.positionals.begin() + 1, arguments.positionals.end());
+  if (const std::string list = arguments.text("list"); !list.empty()) {
+    const std::vector<std::string> listed = listed_inputs(read_file(list));
+    inputs.insert(inputs.end(), listed.begin(), listed.end());
+  }
+  if (inputs.empty())
+    throw Error(ErrorKind::usage, "train: TAKE or --list is missing (see kinemend train -h)");
+  if (std::find(inputs.begin(), inputs.end(), "-") != inputs.end())
+    throw Error(ErrorKind::usage, "train: takes are read more than once, so - cannot be one");
+  return takes_below(inputs);
+}
+
+Training training_of(const Arguments& arguments) {
+  Training training;
+  training.method = find_train_method(arguments.positionals.front()).name;
+  training.options =
+      parse_group_options(arguments.command->groups, training.method, arguments.group_texts);
+  training.output = arguments.text("output");
+  if (training.output.empty())
+    throw Error(ErrorKind::usage, "train: --output is missing (see kinemend train -h)");
+  training.card = arguments.text("card");
+  training.force = arguments.flag("force");
+  training.json = arguments.flag("json");
+  training.quiet = arguments.flag("quiet");
+  training.skip_unreadable = arguments.flag("skip_unreadable");
+  check_single_use({}, {training.output, training.card}, training.json);
+  check_free(training.output, training.force);
+  if (!training.card.empty()) check_free(training.card, training.force);
+  if (const std::string fill = arguments.text("fill"); fill != "off") training.fill = fill;
+  training.reading = read_options(arguments);
+  training.settings.names = arguments.list("joints");
+  const std::vector<std::string> markers = arguments.list("markers");
+  training.settings.names.insert(training.settings.names.end(), markers.begin(), markers.end());
+  const std::string command = arguments.text("command");
+  training.settings.card = {
+      arguments.text("title"), arguments.text("data"), arguments.text("licence"),
+      command.empty() ? command_text(arguments) : command, arguments.text("figures")};
+  training.takes = inputs_of(arguments);
+  return training;
+}
+
+Json summary_json(const ModelFile& file, double training_s) {
+  Json json = model_json(file);
+  json.erase("input");
+  Json summary = {{"kinemend", version()}, {"output", file.name}, {"training_s", training_s}};
+  summary.update(json);
+  return summary;
+}
+
+int run(const Arguments& arguments) {
+  Training training = training_of(arguments);
+  std::optional<tbb::global_control> limit;
+  if (const auto jobs = static_cast<std::size_t>(arguments.whole("jobs")); jobs > 0)
+    limit.emplace(tbb::global_control::max_allowed_parallelism, jobs);
+  const auto begin = std::chrono::steady_clock::now();
+  if (training.skip_unreadable) training.takes = readable_takes(training);
+  ProgressLine progress;
+  training.settings.progress = [&](std::string_view stage, double done) {
+    if (!training.quiet) progress.show(stage, done);
+  };
+  const Model model = train_model(training.method, takes_of(training, progress), training.options,
+                                  training.settings);
+  progress.clear();
+  const std::string bytes = write_model(model);
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+
+  write_output(training.output, bytes, training.force);
+  const ModelFile file = model_file_of(bytes, training.output);
+  if (!training.card.empty()) write_output(training.card, card_markdown(file), training.force);
+  if (training.json) {
+    write_out(json_text(summary_json(file, spent.count())));
+  } else if (!training.quiet) {
+    const std::string text = summary_text(file, spent.count());
+    const bool out_is_taken = training.output == "-" || training.card == "-";
+    out_is_taken ? write_err(text) : write_out(text);
+  }
+  return 0;
+}
+
+Flag names_flag(std::string name, std::string help) {
+  Flag flag = text_flag(std::move(name), "A,B,...", "Work", std::move(help),
+                        "Names or patterns in which * is any text and ? any character; quote "
+                        "them.");
+  flag.takes = Takes::list;
+  return flag;
+}
+
+Flag fill_flag() {
+  Flag flag = text_flag("fill", "METHOD", "Work", "fill gaps of the takes first",
+                        "What the method refuses stays missing, and is not learned from.");
+  flag.spec.default_value = std::string("auto");
+  flag.spec.choices = {"off"};
+  for (const FillMethod& method : fill_methods()) flag.spec.choices.emplace_back(method.name);
+  flag.has_default = true;
+  return flag;
+}
+
+std::vector<Flag> flags() {
+  Flag list = text_flag("list", "FILE", "Input", "further takes and folders, one a line",
+                        "Blank lines and lines that start with # are left out; - is standard "
+                        "input.");
+  list.completion = Completion::file;
+  Flag card = text_flag("card", "FILE", "Output", "also write the model's card, as Markdown");
+  card.completion = Completion::file;
+  Flag quiet = switch_flag("quiet", "Output", "print warnings of takes left out and errors only");
+  quiet.letter = 'q';
+  std::vector<Flag> all = {
+      output_flag("where to write the model; - is standard output"),
+      force_flag(),
+      card,
+      json_flag("print the summary as JSON instead of text"),
+      quiet,
+      names_flag("joints", "joints to learn (default all that move)"),
+      names_flag("markers", "the same for markers"),
+      fill_flag(),
+      jobs_flag(),
+      text_flag("title", "TEXT", "Card", "what the model is, in a line"),
+      text_flag("data", "TEXT", "Card", "what it is learned from"),
+      text_flag("licence", "TEXT", "Card", "under which licence data and model are"),
+      text_flag("command", "TEXT", "Card", "the command that made it (default this one)"),
+      text_flag("figures", "TEXT", "Card", "measured quality"),
+      list,
+      switch_flag("skip_unreadable", "Input", "leave takes out that cannot be read",
+                  "Without it the first of them ends the training, with exit code 3.")};
+  append(all, reading_flags("what needs a repair becomes an error"));
+  return all;
+}
+
+std::vector<std::string> train_method_names() {
+  std::vector<std::string> names;
+  for (const TrainMethod& method : train_methods()) names.push_back(method.name);
+  return names;
+}
+
+}  // namespace
+
+Command train_command() {
+  Command command;
+  command.name = "train";
+  command.summary = "learn a model from clean takes";
+  command.description =
+      "Learns how people move from takes that are clean, for the methods that need a model: "
+      "kinemend clean --method METHOD --model FILE. All takes are of joints, or all of markers. "
+      "Bodies may differ in size and in the names of their parts; calibration frames are left "
+      "out.\n\n"
+      "Takes are read one at a time and more than once, so that memory does not grow with their "
+      "number. The same takes and options give the same bytes.";
+  command.positionals = {{"METHOD", "which model, see below", 1, 1, train_method_names()},
+                         {"TAKE", "take, or folder in which all takes are meant", 0, 1000000, {}}};
+  command.flags = flags();
+  for (const TrainMethod& method : train_methods())
+    command.groups.push_back({method.name, method.summary, "", method.options});
+  command.group_heading = "Options of %";
+  command.groups_are_flags = true;
+  command.examples = {
+      {"kinemend train example walks/*.bvh -o walk.kmodel", "filter bases of some walks"},
+      {"kinemend train wiener takes -o mine.kmodel --card mine.md --licence CC0",
+       "all takes in a folder"},
+      {"kinemend clean noisy.bvh --method example --model walk.kmodel", "what it is for"}};
+  command.run = run;
+  return command;
+}
+
+}  // namespace kinemend::cli
