@@ -50,20 +50,27 @@ class MarkerLearning {
 
  private:
   struct Part {
-    Vec3 mean_sum;               // of positions in the body's frame, statures
-    Vec3 shape_sum, square_sum;  // in a frame that leans with the anchors
+    Vec3 mean_sum;   // of positions in the body's frame, statures
+    Vec3 shape_sum;  // in a frame that leans with the anchors
     std::size_t samples = 0, shaped = 0, takes = 0;
+  };
+  struct Distance {  // between two parts, statures
+    double sum = 0, square_sum = 0;
+    std::size_t samples = 0;
   };
 
   BodyMatch start(const MarkerClip& clip);
+  void sum_distances(const MarkerClip& clip, const BodyMatch& match);
   void sum_shape(const MarkerClip& clip, const BodyMatch& match);
   void sum_means(const MarkerClip& clip, const BodyMatch& match);
+  double unsteadiness(std::size_t part) const;
   void choose_anchors();
   void stand_upright(const MarkerClip& clip, const BodyMatch& match);
 
   std::vector<std::string> patterns_;
   BodyLayout layout_;  // as far as it is known
   std::vector<Part> parts_;
+  std::vector<Distance> distances_;  // N x N, of a part to those behind it
   std::size_t takes_ = 0;
 };
 

@@ -2,7 +2,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <numeric>
+#include <limits>
 #include <utility>
 
 #include "kinemend/convert.hpp"
@@ -93,6 +93,22 @@ void face_ahead(BodyLayout& layout) {
   for (Vec3& point : layout.shape) point = turn.back(point);
 }
 
+std::size_t fullest_frame(const MarkerClip& clip, const BodyLayout& layout,
+                          const std::vector<std::int32_t>& markers) {
+  std::size_t best = 0, most = 0;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    std::size_t seen = 0;
+    for (std::size_t i = 0; i < markers.size(); ++i) {
+      const auto marker = static_cast<std::size_t>(markers[i]);
+      seen += layout.anchors[i] != 0 && clip.is_observed(f, marker) ? 1 : 0;
+    }
+    if (seen <= most) continue;
+    most = seen;
+    best = f;
+  }
+  return best;
+}
+
 }  // namespace
 
 MarkerLearning::MarkerLearning(std::vector<std::string> patterns, double trend_s)
@@ -102,26 +118,65 @@ MarkerLearning::MarkerLearning(std::vector<std::string> patterns, double trend_s
   layout_.trend_s = trend_s;
 }
 
+void MarkerLearning::sum_distances(const MarkerClip& clip, const BodyMatch& match) {
+  constexpr std::size_t most_frames = 256;
+  const std::size_t count = parts_.size(), frames = clip.frame_count();
+  const std::size_t sampled = std::min(frames, most_frames);
+  for (std::size_t s = 0; s < sampled; ++s) {
+    const std::size_t f = s * frames / sampled;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto a = static_cast<std::size_t>(match.parts[i]);
+      if (match.parts[i] < 0 || !clip.is_observed(f, a)) continue;
+      for (std::size_t k = i + 1; k < count; ++k) {
+        const auto b = static_cast<std::size_t>(match.parts[k]);
+        if (match.parts[k] < 0 || !clip.is_observed(f, b)) continue;
+        const double d = norm(clip.position(f, a) - clip.position(f, b)) / match.stature;
+        Distance& distance = distances_[i * count + k];
+        distance.sum += d;
+        distance.square_sum += d * d;
+        ++distance.samples;
+      }
+    }
+  }
+}
+
+// How much the distances between a part and others vary: the variance that three in ten of them
+// stay below. Near ones count little: the markers of a hand are steady among themselves.
+double MarkerLearning::unsteadiness(std::size_t part) const {
+  constexpr double far = 0.15;  // statures
+  constexpr double share_of_others = 0.3;
+  const std::size_t count = parts_.size();
+  std::vector<std::pair<double, double>> others;  // variance, weight
+  double total = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (k == part) continue;
+    const Distance& distance = distances_[std::min(part, k) * count + std::max(part, k)];
+    if (distance.samples == 0) continue;
+    const double share = 1 / static_cast<double>(distance.samples);
+    const double mean = share * distance.sum;
+    const double weight = std::min(mean / far, 1.0);
+    others.emplace_back(share * distance.square_sum - mean * mean, weight);
+    total += weight;
+  }
+  std::sort(others.begin(), others.end());
+  double passed = 0;
+  for (const auto& [variance, weight] : others) {
+    passed += weight;
+    if (passed >= share_of_others * total) return variance;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
 // The steadiest third, at least four.
 void MarkerLearning::choose_anchors() {
   constexpr std::size_t least = 4;
   const std::size_t count = parts_.size();
-  std::vector<double> variances(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Part& part = parts_[i];
-    if (part.shaped == 0) continue;
-    const double share = 1 / static_cast<double>(part.shaped);
-    const Vec3 mean = share * part.shape_sum, square = share * part.square_sum;
-    variances[i] = square.x + square.y + square.z - dot(mean, mean);
-    layout_.shape[i] = mean;
-  }
-  std::vector<std::size_t> order(count);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return variances[a] < variances[b]; });
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < count; ++i) order.emplace_back(unsteadiness(i), i);
+  std::sort(order.begin(), order.end());
   layout_.anchors.assign(count, 0);
   for (std::size_t k = 0; k < std::min(count, std::max(least, count / 3)); ++k)
-    layout_.anchors[order[k]] = 1;
+    layout_.anchors[order[k].second] = 1;
 }
 
 void MarkerLearning::sum_shape(const MarkerClip& clip, const BodyMatch& match) {
@@ -134,9 +189,12 @@ void MarkerLearning::sum_shape(const MarkerClip& clip, const BodyMatch& match) {
       const Vec3 p =
           (1 / match.stature) * fit->expected_at(upright_position(clip, match.upright, f, marker));
       parts_[i].shape_sum += p;
-      parts_[i].square_sum += Vec3{p.x * p.x, p.y * p.y, p.z * p.z};
       ++parts_[i].shaped;
     }
+  }
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    if (parts_[i].shaped > 0)
+      layout_.shape[i] = (1 / static_cast<double>(parts_[i].shaped)) * parts_[i].shape_sum;
   }
 }
 
@@ -184,51 +242,53 @@ void MarkerLearning::stand_upright(const MarkerClip& clip, const BodyMatch& matc
   for (Vec3& point : layout_.shape) point = point - (1.0 / anchors) * centre;
 }
 
-// The shape of the first take: the frame in which most is seen is the first guess, and all markers
-// in it are the first anchors.
+// The shape of the first take, which starts from the frame in which most anchors are seen.
 BodyMatch MarkerLearning::start(const MarkerClip& clip) {
   constexpr int rounds = 4;
   BodyMatch match;
   match.parts = usable_markers(clip, names_meant(clip.names, patterns_, "marker"));
-  if (match.parts.size() < 3)
+  const std::size_t count = match.parts.size();
+  if (count < 3)
     throw Error(ErrorKind::usage, "fewer than three markers are seen in half of the frames");
   match.upright = upright_by_names(clip);
   match.stature = body_height(clip);
   match.feet = match.parts;
-  std::size_t best = 0;
-  std::ptrdiff_t most = 0;
-  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-    const auto seen = std::count_if(
-        match.parts.begin(), match.parts.end(),
-        [&](std::int32_t marker) { return clip.is_observed(f, static_cast<std::size_t>(marker)); });
-    if (seen > most) {
-      most = seen;
-      best = f;
-    }
-  }
-  for (const std::int32_t index : match.parts) {
-    const auto marker = static_cast<std::size_t>(index);
-    layout_.names.emplace_back(without_subject(clip.names[marker]));
+  parts_.resize(count);
+  distances_.resize(count * count);
+  layout_.means.resize(count);
+  for (const std::int32_t marker : match.parts)
+    layout_.names.emplace_back(without_subject(clip.names[static_cast<std::size_t>(marker)]));
+  sum_distances(clip, match);
+  choose_anchors();
+  const std::size_t best = fullest_frame(clip, layout_, match.parts);
+  std::vector<std::uint8_t> anchors(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto marker = static_cast<std::size_t>(match.parts[i]);
     layout_.shape.push_back((1 / match.stature) *
                             upright_position(clip, match.upright, best, marker));
-    layout_.anchors.push_back(clip.is_observed(best, marker) ? 1 : 0);
+    anchors[i] = clip.is_observed(best, marker) ? layout_.anchors[i] : 0;
   }
-  layout_.means.resize(match.parts.size());
+  // Anchors that are not seen in that frame are placed by the others first.
+  std::swap(anchors, layout_.anchors);
   for (int round = 0; round < rounds; ++round) {
-    parts_.assign(match.parts.size(), {});
+    parts_.assign(count, {});
     sum_shape(clip, match);
-    choose_anchors();
+    layout_.anchors = anchors;
   }
   stand_upright(clip, match);
-  parts_.assign(match.parts.size(), {});
+  parts_.assign(count, {});
   return match;
 }
 
 void MarkerLearning::add(const MarkerClip& clip) {
-  const BodyMatch match = takes_ == 0 ? start(clip) : match_body(layout_, clip);
+  const bool first = takes_ == 0;
+  const BodyMatch match = first ? start(clip) : match_body(layout_, clip);
   sum_means(clip, match);
   sum_shape(clip, match);
-  choose_anchors();
+  if (!first) {
+    sum_distances(clip, match);
+    choose_anchors();
+  }
   ++takes_;
 }
 

@@ -83,42 +83,72 @@ std::vector<Value> despiked(std::vector<Value> track, std::span<const double> we
   return running_median(track, static_cast<std::size_t>(half_window));
 }
 
-// Lines fitted with Gaussian weights.
-class LocalLines {
+// Parabolas fitted with Gaussian weights; towards the ends of the track they become straight lines,
+// which noise bends less there.
+class LocalFit {
  public:
-  LocalLines(const std::vector<double>& track, const std::vector<double>& weights,
-             double deviation_frames)
+  LocalFit(const std::vector<double>& track, const std::vector<double>& weights,
+           double deviation_frames)
       : track_(track),
         weights_(weights),
-        kernel_(static_cast<std::size_t>(std::ceil(3 * deviation_frames)) + 1) {
+        kernel_(static_cast<std::size_t>(std::ceil(3 * deviation_frames)) + 1),
+        end_frames_(1.5 * deviation_frames) {
     for (std::size_t k = 0; k < kernel_.size(); ++k) {
       const double z = static_cast<double>(k) / deviation_frames;
       kernel_[k] = std::exp(-0.5 * z * z);
     }
   }
 
-  // The value at `frame` of the line around it.
   double at(std::size_t frame) const {
-    const std::size_t reach = kernel_.size() - 1;
-    const std::size_t last = std::min(track_.size() - 1, frame + reach);
-    double s0 = 0, s1 = 0, s2 = 0, t0 = 0, t1 = 0;
-    for (std::size_t g = frame > reach ? frame - reach : 0; g <= last; ++g) {
-      const double k = static_cast<double>(g) - static_cast<double>(frame);
-      const double w = weights_[g] * kernel_[g > frame ? g - frame : frame - g];
-      s0 += w;
-      s1 += w * k;
-      s2 += w * k * k;
-      t0 += w * track_[g];
-      t1 += w * k * track_[g];
-    }
-    const double determinant = s0 * s2 - s1 * s1;
-    return determinant > 1e-9 * s0 * s2 ? (s2 * t0 - s1 * t1) / determinant : t0 / s0;
+    const Sums sums = sums_around(frame);
+    const double line = sums.line();
+    const auto to_end = static_cast<double>(std::min(frame, track_.size() - 1 - frame));
+    const double u = std::min(1.0, to_end / end_frames_);
+    return line + u * u * (3 - 2 * u) * (sums.parabola(line) - line);
   }
 
  private:
+  // Of w k^i and w k^i y, k the frames from the middle.
+  struct Sums {
+    double s0 = 0, s1 = 0, s2 = 0, s3 = 0, s4 = 0, t0 = 0, t1 = 0, t2 = 0;
+
+    double line() const {
+      const double determinant = s0 * s2 - s1 * s1;
+      return determinant > 1e-9 * s0 * s2 ? (s2 * t0 - s1 * t1) / determinant : t0 / s0;
+    }
+    // `instead`: where the samples tell no parabola.
+    double parabola(double instead) const {
+      const double a = s2 * s4 - s3 * s3, b = s2 * s3 - s1 * s4, c = s1 * s3 - s2 * s2;
+      const double determinant = s0 * a + s1 * b + s2 * c;
+      if (!(determinant > 1e-6 * s0 * s2 * s4)) return instead;
+      return (a * t0 + b * t1 + c * t2) / determinant;
+    }
+  };
+
+  Sums sums_around(std::size_t frame) const {
+    const std::size_t reach = kernel_.size() - 1;
+    const std::size_t last = std::min(track_.size() - 1, frame + reach);
+    Sums sums;
+    for (std::size_t g = frame > reach ? frame - reach : 0; g <= last; ++g) {
+      const double k = static_cast<double>(g) - static_cast<double>(frame);
+      const double w = weights_[g] * kernel_[g > frame ? g - frame : frame - g];
+      const double wk = w * k, wkk = wk * k, y = track_[g];
+      sums.s0 += w;
+      sums.s1 += wk;
+      sums.s2 += wkk;
+      sums.s3 += wkk * k;
+      sums.s4 += wkk * k * k;
+      sums.t0 += w * y;
+      sums.t1 += wk * y;
+      sums.t2 += wkk * y;
+    }
+    return sums;
+  }
+
   const std::vector<double>& track_;
   const std::vector<double>& weights_;
   std::vector<double> kernel_;
+  double end_frames_;
 };
 
 // Between four equally spaced values: u = 0 at the second, 1 at the third.
@@ -129,23 +159,23 @@ double cubic(const double* y, double u) {
 
 // The trend bends so little that a value every eighth of the deviation tells it, save at the ends,
 // where it has no neighbours.
-std::vector<double> local_lines(const std::vector<double>& track, std::span<const double> weights,
-                                double deviation_frames) {
+std::vector<double> local_fit(const std::vector<double>& track, std::span<const double> weights,
+                              double deviation_frames) {
   // What is bridged counts for next to nothing, but leaves no frame without any sample.
   constexpr double least_weight = 1e-4;
   const std::size_t frames = track.size();
   std::vector<double> known(weights.begin(), weights.end()), trend(frames);
   for (double& weight : known) weight = std::max(weight, least_weight);
-  const LocalLines lines(track, known, deviation_frames);
+  const LocalFit fit(track, known, deviation_frames);
   const auto step = static_cast<std::size_t>(std::max(1.0, std::floor(deviation_frames / 8)));
   std::vector<double> knots;
-  for (std::size_t f = 0; f < frames; f += step) knots.push_back(lines.at(f));
+  for (std::size_t f = 0; f < frames; f += step) knots.push_back(fit.at(f));
   for (std::size_t f = 0; f < frames; ++f) {
     const std::size_t knot = f / step;
     if (f % step == 0)
       trend[f] = knots[knot];
     else if (knot == 0 || knot + 2 >= knots.size())
-      trend[f] = lines.at(f);
+      trend[f] = fit.at(f);
     else
       trend[f] = cubic(&knots[knot - 1], static_cast<double>(f % step) / static_cast<double>(step));
   }
@@ -160,8 +190,8 @@ double deviation_frames(double frame_rate_hz, double deviation_s) {
 
 std::vector<double> smooth_trend(std::vector<double> track, std::span<const double> weights,
                                  double frame_rate_hz, double deviation_s) {
-  return local_lines(despiked(std::move(track), weights, frame_rate_hz), weights,
-                     deviation_frames(frame_rate_hz, deviation_s));
+  return local_fit(despiked(std::move(track), weights, frame_rate_hz), weights,
+                   deviation_frames(frame_rate_hz, deviation_s));
 }
 
 std::vector<Vec3> smooth_path(std::vector<Vec3> path, std::span<const double> weights,
@@ -174,8 +204,8 @@ std::vector<Vec3> smooth_path(std::vector<Vec3> path, std::span<const double> we
     z.push_back(point.z);
   }
   const double deviation = deviation_frames(frame_rate_hz, deviation_s);
-  x = local_lines(x, weights, deviation);
-  z = local_lines(z, weights, deviation);
+  x = local_fit(x, weights, deviation);
+  z = local_fit(z, weights, deviation);
   for (std::size_t f = 0; f < path.size(); ++f) path[f] = {x[f], 0, z[f]};
   return path;
 }

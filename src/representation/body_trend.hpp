@@ -8,9 +8,10 @@
 namespace kinemend::representation {
 
 /// The slow part of a track: a running median over a tenth of a second (five frames at least), so
-/// that spikes do not move it, then at each frame the straight line fitted with Gaussian weights of
-/// standard deviation `deviation_s` (cut at three of them), so that steady motion stays as it is,
-/// also at the ends. `weights`: one a frame, how well the sample is known; where all are 0 the
+/// that spikes do not move it, then at each frame the parabola fitted with Gaussian weights of
+/// standard deviation `deviation_s` (cut at three of them), so that curves are hardly cut; towards
+/// the ends it becomes the straight line, so that steady motion stays as it is, and noise is not
+/// amplified. `weights`: one a frame, how well the sample is known; where all are 0 the
 /// track is held or bridged in a straight line. Cost grows linearly with length.
 std::vector<double> smooth_trend(std::vector<double> track, std::span<const double> weights,
                                  double frame_rate_hz, double deviation_s);

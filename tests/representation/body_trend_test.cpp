@@ -12,28 +12,51 @@ namespace {
 
 std::vector<double> ones(std::size_t count) { return std::vector<double>(count, 1.0); }
 
-// The definition: a weighted least squares line around each frame.
-double line_by_definition(const std::vector<double>& track, double deviation, std::size_t frame) {
-  double s0 = 0, s1 = 0, s2 = 0, t0 = 0, t1 = 0;
-  const double reach = std::ceil(3 * deviation);
+// The definition: the value of a weighted least squares polynomial around each frame, by
+// Gauss-Jordan elimination.
+double polynomial_at(const std::vector<double>& track, double deviation, std::size_t frame,
+                     std::size_t degree) {
+  const std::size_t n = degree + 1;
+  std::vector<std::vector<double>> a(n, std::vector<double>(n + 1));
   for (std::size_t g = 0; g < track.size(); ++g) {
-    const double k = static_cast<double>(g) - static_cast<double>(frame);
-    if (std::fabs(k) > reach) continue;
-    const double w = std::exp(-0.5 * (k / deviation) * (k / deviation));
-    s0 += w, s1 += w * k, s2 += w * k * k, t0 += w * track[g], t1 += w * k * track[g];
+    const double k = (static_cast<double>(g) - static_cast<double>(frame)) / deviation;
+    if (std::fabs(k) * deviation > std::ceil(3 * deviation)) continue;
+    const double w = std::exp(-0.5 * k * k);
+    for (std::size_t r = 0; r < n; ++r) {
+      for (std::size_t c = 0; c < n; ++c) a[r][c] += w * std::pow(k, static_cast<double>(r + c));
+      a[r][n] += w * std::pow(k, static_cast<double>(r)) * track[g];
+    }
   }
-  return (s2 * t0 - s1 * t1) / (s0 * s2 - s1 * s1);
+  for (std::size_t p = 0; p < n; ++p) {
+    for (std::size_t r = 0; r < n; ++r) {
+      if (r == p) continue;
+      const double factor = a[r][p] / a[p][p];
+      for (std::size_t c = p; c <= n; ++c) a[r][c] -= factor * a[p][c];
+    }
+  }
+  return a[0][n] / a[0][0];
 }
 
-TEST(SmoothTrend, IsTheLineAroundEachFrame) {
-  // Monotone, so that the median changes nothing but the curve's own bend.
+TEST(SmoothTrend, IsAParabolaAroundEachFrameAndALineAtTheEnds) {
+  // Monotone, so that the median changes nothing.
   std::vector<double> track;
-  for (int f = 0; f < 400; ++f) track.push_back(f * 0.1 + 20 * std::sin(f * 0.004));
+  for (int f = 0; f < 400; ++f) track.push_back(f * 0.1 + 5 * std::sin(f * 0.016));
   for (const double rate : {20.0, 100.0}) {
+    const double deviation = 0.5 * rate;
     const auto trend = smooth_trend(track, ones(400), rate, 0.5);
-    for (std::size_t f = 0; f < 400; ++f)
-      EXPECT_NEAR(trend[f], line_by_definition(track, 0.5 * rate, f), 1e-3) << rate << " " << f;
+    for (std::size_t f = 80; f < 320; ++f)
+      EXPECT_NEAR(trend[f], polynomial_at(track, deviation, f, 2), 1e-3) << rate << " " << f;
+    for (const std::size_t f : {0, 399})
+      EXPECT_NEAR(trend[f], polynomial_at(track, deviation, f, 1), 1e-3) << rate << " " << f;
   }
+}
+
+TEST(SmoothTrend, HardlyCutsCurves) {
+  // A walk of 1.3 m/s on a circle of a metre.
+  std::vector<Vec3> path;
+  for (int f = 0; f < 600; ++f) path.push_back({std::cos(1.3 * f / 60), 0, std::sin(1.3 * f / 60)});
+  const auto trend = smooth_path(path, ones(600), 60, 0.5);
+  for (std::size_t f = 60; f < 540; ++f) EXPECT_NEAR(norm(trend[f]), 1, 0.03) << f;
 }
 
 TEST(SmoothTrend, KeepsStraightLinesToTheEnds) {
@@ -94,9 +117,9 @@ TEST(SmoothTrend, AveragesNoise) {
   const auto trend = smooth_trend(noise, ones(2000), 30, 0.5);
   double sum = 0;
   for (std::size_t f = 100; f < 1900; ++f) sum += trend[f] * trend[f];
-  // A Gaussian of 15 frames leaves 1 / sqrt(2 sqrt(pi) 15) = 0.137 of white noise; a median of
-  // five frames before it is less efficient than a mean.
-  EXPECT_NEAR(std::sqrt(sum / 1800), 0.16, 0.04);
+  // A Gaussian of 15 frames leaves 1 / sqrt(2 sqrt(pi) 15) = 0.137 of white noise, the parabola
+  // sqrt(27 / 16) times as much, and a median of five frames before it is less efficient.
+  EXPECT_NEAR(std::sqrt(sum / 1800), 0.2, 0.04);
 }
 
 TEST(ContinueAngles, PassesWholeTurnsAndIsNotTurnedBySpikes) {
