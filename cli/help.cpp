@@ -126,7 +126,8 @@ std::string group_option_name(const Command& command, const OptionSpec& spec) {
 }
 
 std::string group_option_line(const OptionSpec& spec) {
-  return fmt::format("{} ({})", spec.help, range_text(spec));
+  const std::string range = range_text(spec);
+  return range.empty() ? spec.help : fmt::format("{} ({})", spec.help, range);
 }
 
 std::string program_help(bool is_long) {
