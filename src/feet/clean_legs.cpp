@@ -178,8 +178,9 @@ class FeetCleaning {
     const LegRotations turned = solve_leg(pose, model, target, hip_shift, settings_.soft_reach);
     const auto set = [&](const LegJoint& joint, Quat rotation) {
       Quat& own = clip_.rotation(frame, joint.index);
-      if (joint.order.count == 0 || angle_between(own, rotation) < least_turn_rad) return;
-      own = align_hemisphere(rotation, own);
+      const Quat aligned = align_hemisphere(rotation, own);
+      if (joint.order.count == 0 || 2 * norm(aligned + -own) < least_turn_rad) return;
+      own = aligned;
       report_.changed[frame * clip_.joint_count() + joint.index] = 1;
     };
     set(model.hip, turned.hip);

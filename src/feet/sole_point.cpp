@@ -56,7 +56,7 @@ SolePoint sole_point(const BodyPoints& body, std::size_t index, Up up,
     const Vec3 level = level_part(velocity, up);
     point.heights.push_back(along(path[f], up));
     point.velocities.push_back(level);
-    point.speeds.push_back(std::hypot(norm(level), along(velocity, up)));
+    point.speeds.push_back(norm(velocity));
     point.seen.push_back(body.is_observed(f, index) && body.is_observed(before, index) ? 1 : 0);
   }
   point.level = standing_level(point, body.height, thresholds.begin_speed);

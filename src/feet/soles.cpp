@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/quantiles.hpp"
 
@@ -47,17 +48,25 @@ double standing_speed(const SolePoint& point, double low) {
   return quantile_of(speeds, slower_share);
 }
 
-// Jitter that a filter left is no white noise: it shows in feet that never seem to stand.
+// Jitter that a filter left is no white noise: it shows in feet that never seem to stand. Smoothing
+// goes on while it slows them; where stands are short, as in running, it would soon mix them with
+// the swing.
 SolePoint quiet_sole_point(const BodyPoints& body, std::size_t point, Up up,
                            const ContactSettings& settings) {
-  constexpr double share = 0.35, times = 1.6, most_s = 0.1;
+  constexpr double quiet = 0.35, times = 1.6, most_s = 0.1, least_gain = 0.15;
+  const double low = settings.begin_height * body.height;
   double reach_s = least_reach_s(body, point, settings.begin_speed);
-  while (true) {
-    SolePoint found = sole_point(body, point, up, thresholds_of(settings), reach_s);
-    const double speed = standing_speed(found, settings.begin_height * body.height);
-    if (speed < share * settings.begin_speed * body.height || reach_s >= most_s) return found;
+  SolePoint best = sole_point(body, point, up, thresholds_of(settings), reach_s);
+  double speed = standing_speed(best, low);
+  while (speed > quiet * settings.begin_speed * body.height && reach_s < most_s) {
     reach_s = std::min(times * reach_s, most_s);
+    SolePoint next = sole_point(body, point, up, thresholds_of(settings), reach_s);
+    const double slower = standing_speed(next, low);
+    if (slower > (1 - least_gain) * speed) break;
+    best = std::move(next);
+    speed = slower;
   }
+  return best;
 }
 
 }  // namespace
