@@ -43,6 +43,8 @@ void store_example(const ExamplePrior& prior, Model& model) {
 ExamplePrior example_of(const Model& model) {
   ExamplePrior prior;
   prior.rate_hz = model.rate_hz;
+  // Braces alone would be taken for a number of dimensions.
+  using Shape = std::vector<std::size_t>;
   const Tensor& bases = model.tensor("bases", 3);
   FilterBases& b = prior.bases;
   b.window_frames = bases.shape[0];
@@ -52,11 +54,11 @@ ExamplePrior example_of(const Model& model) {
     throw Error(ErrorKind::unreadable_input, "the model's bases are not those of its body");
   }
   b.bases = bases.values;
-  b.eigenvalues = variances(model.tensor("eigenvalues", {b.count}), "eigenvalues");
-  b.mean = model.tensor("mean", {b.channels}).values;
-  b.residual = variances(model.tensor("residual", {b.channels}), "residuals");
+  b.eigenvalues = variances(model.tensor("eigenvalues", Shape{b.count}), "eigenvalues");
+  b.mean = model.tensor("mean", Shape{b.channels}).values;
+  b.residual = variances(model.tensor("residual", Shape{b.channels}), "residuals");
   b.total_energy = model.number("energy");
-  const Tensor& limits = model.tensor("limits", {b.channels, 2});
+  const Tensor& limits = model.tensor("limits", Shape{b.channels, 2});
   for (std::size_t c = 0; c < b.channels; ++c) {
     prior.lowest.push_back(limits.values[2 * c]);
     prior.highest.push_back(limits.values[2 * c + 1]);

@@ -16,6 +16,41 @@ namespace {
 // So many ends of sequences are added to the covariance at a time, as one product.
 constexpr std::size_t ends_at_once = 64;
 
+// Of each channel the mean variance over the window: diagonal of C less what is in `kept`.
+std::vector<double> residual_variances(const FilterBases& bases, std::span<const double> matrix,
+                                       std::span<const double> kept) {
+  const std::size_t side = bases.window_frames * bases.channels;
+  std::vector<double> residual(bases.channels);
+  for (std::size_t row = 0; row < side; ++row) {
+    residual[row % bases.channels] += std::max(matrix[row * side + row] - kept[row], 0.0) /
+                                      static_cast<double>(bases.window_frames);
+  }
+  return residual;
+}
+
+// Variances along the bases (K) and outside them (L) of windows that have this covariance.
+void spread_along(const FilterBases& bases, std::span<const double> matrix,
+                  std::vector<double>& along, std::vector<double>& outside) {
+  const std::size_t side = bases.window_frames * bases.channels, count = bases.count;
+  std::vector<double> image(side * count), gram(count * count), projected(side * count);
+  const nn::MatrixView E{bases.bases.data(), side, count, count};
+  nn::multiply({matrix.data(), side, side, side}, E, {image.data(), side, count, count});
+  const nn::MatrixView CE{image.data(), side, count, count};
+  nn::multiply(E.transposed(), CE, {gram.data(), count, count, count});
+  nn::multiply(E, {gram.data(), count, count, count}, {projected.data(), side, count, count});
+  along.resize(count);
+  for (std::size_t k = 0; k < count; ++k) along[k] = gram[k * count + k];
+  // diag((1 - E E^T) C (1 - E E^T)) = diag(C) - diag(2 C E E^T - E (E^T C E) E^T)
+  std::vector<double> kept(side);
+  for (std::size_t row = 0; row < side; ++row) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = row * count + k;
+      kept[row] += (2 * image[i] - projected[i]) * bases.bases[i];
+    }
+  }
+  outside = residual_variances(bases, matrix, kept);
+}
+
 }  // namespace
 
 LagCovariance::LagCovariance(std::size_t window_frames, std::size_t channels)
@@ -93,6 +128,10 @@ std::vector<double> LagCovariance::mean() const {
 }
 
 std::vector<double> LagCovariance::covariance(bool centred) {
+  return covariance_about(centred ? mean() : std::vector<double>(channels_));
+}
+
+std::vector<double> LagCovariance::covariance_about(std::span<const double> mu) {
   add_ends();
   const std::size_t L = channels_, side = window_ * L, steps_side = side - L;
   std::vector<double> matrix(side * side);
@@ -105,7 +144,6 @@ std::vector<double> LagCovariance::covariance(bool centred) {
       matrix[row * side + column] = above[column - L] + step[column - L];
     }
   }
-  const std::vector<double> mu = centred ? mean() : std::vector<double>(L);
   for (std::size_t row = 0; row < side; ++row) {
     const double row_mean = window_sum_[row] / windows_;
     for (std::size_t column = row; column < side; ++column) {
@@ -134,18 +172,38 @@ FilterBases filter_bases(LagCovariance& covariance, const BasesLimits& limits, b
   result.count = leading.values.size();
   result.bases = std::move(leading.vectors);
   result.eigenvalues = std::move(leading.values);
-  result.residual.assign(result.channels, 0.0);
+  std::vector<double> kept(side);
   for (std::size_t row = 0; row < side; ++row) {
     result.total_energy += matrix[row * side + row];
-    double left = matrix[row * side + row];
     for (std::size_t k = 0; k < result.count; ++k) {
       const double entry = result.bases[row * result.count + k];
-      left -= entry * entry * result.eigenvalues[k];
+      kept[row] += entry * entry * result.eigenvalues[k];
     }
-    result.residual[row % result.channels] +=
-        std::max(left, 0.0) / static_cast<double>(result.window_frames);
   }
+  result.residual = residual_variances(result, matrix, kept);
   return result;
+}
+
+void cross_validate(FilterBases& bases, LagCovariance& half, LagCovariance& other_half,
+                    bool centred) {
+  std::vector<double> eigenvalues(bases.count), counts(bases.count);
+  std::vector<double> residual(bases.channels);
+  const auto hold = [&](LagCovariance& learned, LagCovariance& held) {
+    const FilterBases part = filter_bases(learned, {.count = bases.count}, centred);
+    std::vector<double> along, outside;
+    spread_along(part, held.covariance_about(part.mean), along, outside);
+    for (std::size_t k = 0; k < part.count; ++k) {
+      eigenvalues[k] += along[k];
+      counts[k] += 1;
+    }
+    for (std::size_t c = 0; c < bases.channels; ++c) residual[c] += outside[c] / 2;
+  };
+  hold(half, other_half);
+  hold(other_half, half);
+  for (std::size_t k = 0; k < bases.count; ++k) {
+    if (counts[k] > 0) bases.eigenvalues[k] = eigenvalues[k] / counts[k];
+  }
+  bases.residual = residual;
 }
 
 }  // namespace kinemend

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "kinemend/pose_matrix.hpp"
@@ -30,6 +31,8 @@ class LagCovariance {
   /// M L x M L, row-major, symmetric. Centred: of the channels less their means; else of the raw
   /// channels, as in the paper. Zeros when there was no window.
   std::vector<double> covariance(bool centred = true);
+  /// The same of the channels less `centre` (L).
+  std::vector<double> covariance_about(std::span<const double> centre);
 
   std::size_t window_frames() const noexcept { return window_; }
   std::size_t channels() const noexcept { return channels_; }
@@ -69,5 +72,12 @@ struct BasesLimits {
 /// Errors: `ErrorKind::usage` when there was no window.
 FilterBases filter_bases(LagCovariance& covariance, const BasesLimits& limits = {},
                          bool centred = true);
+
+/// Puts the spread of motion that was not learned from in the place of eigenvalues and residual:
+/// each half's bases are held against the other half's covariance, and of every rank and channel
+/// the mean of both is taken. What bases keep of their own takes says too little of what they will
+/// leave of others.
+void cross_validate(FilterBases& bases, LagCovariance& half, LagCovariance& other_half,
+                    bool centred = true);
 
 }  // namespace kinemend
