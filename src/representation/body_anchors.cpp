@@ -63,6 +63,7 @@ std::optional<RigidFit> least_squares(const std::vector<Anchor>& anchors) {
 bool drop_strangers(const RigidFit& fit, double stature, std::vector<Anchor>& anchors) {
   constexpr double least_share = 0.05, times_median = 4;
   std::vector<double> distances;
+  distances.reserve(anchors.size());
   for (const Anchor& anchor : anchors)
     distances.push_back(norm(anchor.seen - fit.seen_at(anchor.expected)));
   std::vector<double> sorted(distances);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -19,10 +20,14 @@ namespace {
 
 constexpr std::size_t most_frames = 64;
 
-// Where `Subject36_LASI` is LASI.
+// LASI of `Subject36_LASI`.
 std::string after_underscore(std::string_view name) {
   const std::size_t at = name.find_last_of('_');
   return at == name.npos ? std::string() : plain_name(name.substr(at + 1));
+}
+
+std::string_view subject_of(std::string_view name) {
+  return name.substr(0, name.size() - without_subject(name).size());
 }
 
 std::vector<std::size_t> seen_often(const MarkerClip& clip) {
@@ -93,36 +98,83 @@ std::vector<std::int32_t> feet_of(const BodyLayout& layout, const MarkerClip& cl
   return feet;
 }
 
+class MarkerMatcher {
+ public:
+  MarkerMatcher(const BodyLayout& layout, const MarkerClip& clip, const NameMap& map)
+      : clip_(clip), mapped_(mapped_parts(layout, clip.names, map)), seen_(seen_often(clip)) {
+    for (const std::string& name : layout.names) {
+      known_.push_back(plain_name(name));
+      known_tails_.push_back(after_underscore(name));
+    }
+    for (const std::string& name : clip.names) {
+      found_.push_back(plain_name(name));
+      found_tails_.push_back(after_underscore(name));
+    }
+    choose_subject();
+  }
+
+  std::vector<std::int32_t> match() {
+    match_by(known_, found_);
+    match_by(known_, found_tails_);
+    match_by(known_tails_, found_);
+    return std::move(mapped_.parts);
+  }
+
+ private:
+  bool is_known(const std::string& name) const {
+    return !name.empty() && std::find(known_.begin(), known_.end(), name) != known_.end();
+  }
+
+  // Of several people in a take the one that has most of the markers; the first of equals.
+  void choose_subject() {
+    std::map<std::string_view, std::size_t> counts;
+    for (std::size_t m = 0; m < found_.size(); ++m) {
+      if (!is_known(found_[m])) continue;
+      ++counts[subject_of(clip_.names[m])];
+    }
+    std::size_t most = 0;
+    for (const std::string& name : clip_.names) {
+      const auto found = counts.find(subject_of(name));
+      if (found == counts.end() || found->second <= most) continue;
+      most = found->second;
+      subject_ = found->first;
+    }
+  }
+
+  bool is_candidate(std::size_t marker) const {
+    const std::string_view subject = subject_of(clip_.names[marker]);
+    return mapped_.used[marker] == 0 && clip_.holds_positions(marker) &&
+           (subject.empty() || subject == subject_);
+  }
+
+  // Of several of one name, the one that is seen most.
+  void match_by(const std::vector<std::string>& known, const std::vector<std::string>& found) {
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      if (mapped_.settled[i] != 0 || known[i].empty()) continue;
+      std::size_t best = found.size();
+      for (std::size_t m = 0; m < found.size(); ++m) {
+        if (found[m] != known[i] || !is_candidate(m)) continue;
+        if (best == found.size() || seen_[m] > seen_[best]) best = m;
+      }
+      if (best == found.size()) continue;
+      mapped_.parts[i] = static_cast<std::int32_t>(best);
+      mapped_.settled[i] = 1;
+      mapped_.used[best] = 1;
+    }
+  }
+
+  const MarkerClip& clip_;
+  MappedParts mapped_;
+  std::vector<std::size_t> seen_;
+  std::vector<std::string> known_, known_tails_, found_, found_tails_;
+  std::string_view subject_;
+};
+
 }  // namespace
 
 std::vector<std::int32_t> match_markers(const BodyLayout& layout, const MarkerClip& clip,
                                         const NameMap& map) {
-  MappedParts mapped = mapped_parts(layout, clip.names, map);
-  const std::vector<std::size_t> seen = seen_often(clip);
-  std::vector<std::string> plain, tails;
-  for (const std::string& name : clip.names) {
-    plain.push_back(plain_name(name));
-    tails.push_back(after_underscore(name));
-  }
-  const auto match_by = [&](const std::vector<std::string>& names) {
-    for (std::size_t i = 0; i < layout.part_count(); ++i) {
-      if (mapped.settled[i] != 0) continue;
-      const std::string wanted = plain_name(layout.names[i]);
-      // Of several of one name, the one that is seen most.
-      std::size_t best = names.size();
-      for (std::size_t m = 0; m < names.size(); ++m) {
-        if (mapped.used[m] != 0 || !clip.holds_positions(m) || names[m] != wanted) continue;
-        if (best == names.size() || seen[m] > seen[best]) best = m;
-      }
-      if (best == names.size()) continue;
-      mapped.parts[i] = static_cast<std::int32_t>(best);
-      mapped.settled[i] = 1;
-      mapped.used[best] = 1;
-    }
-  };
-  match_by(plain);
-  match_by(tails);
-  return std::move(mapped.parts);
+  return MarkerMatcher(layout, clip, map).match();
 }
 
 }  // namespace representation
