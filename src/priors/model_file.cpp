@@ -47,6 +47,11 @@ class ModelReader {
     read_layout(model.layout);
     read_numbers(model.numbers);
     model.tensors = std::move(file_.tensors);
+    for (const auto& [name, tensor] : model.tensors) {
+      if (name.starts_with(layout_prefix))
+        refuse(fmt::format("tensor {}: a body of {} has none of this name", quote(name),
+                           to_string(model.layout.kind)));
+    }
     return model;
   }
 

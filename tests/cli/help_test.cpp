@@ -133,13 +133,17 @@ TEST_F(Help, BashCompletesOptionsAndTheirValues) {
       "complete_words kinemend clean --preset bio\n"
       "complete_words kinemend methods wei\n"
       "complete_words kinemend synth pun\n"
-      "complete_words kinemend clean --config kinemend.b\n");
+      "complete_words kinemend clean --config kinemend.b\n"
+      "complete_words kinemend clean --model kinemend.b\n"
+      "complete_words kinemend clean --model velo\n"
+      "complete_words kinemend train wien\n"
+      "complete_words kinemend train wiener kinemend.b\n");
   const fs::path out = folder / "said";
   const std::string command = "cd '" + folder.string() + "' && bash --norc try.bash > said 2>&1";
   ASSERT_EQ(std::system(command.c_str()), 0);
   EXPECT_EQ(contents(out),
             "clean\n--cutoff-hz\nbutterworth\none-euro\nbiomech\nweighted-mean\npunch\n"
-            "kinemend.bash\n");
+            "kinemend.bash\nkinemend.bash\nvelocity\nwiener\nkinemend.bash\n");
 }
 
 }  // namespace

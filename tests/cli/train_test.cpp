@@ -40,7 +40,9 @@ TEST_F(Train, EveryMethodWritesAModelAndSaysWhatItLearned) {
 TEST_F(Train, TheSameTakesGiveTheSameBytesWhateverTheThreads) {
   walks();
   for (const std::string method : {"example", "wiener"}) {
-    ASSERT_EQ(run({"train", method, "a.bvh", "b.bvh", "-o", "one", "--jobs", "1", "-q"}).code, 0);
+    ASSERT_EQ(
+        run({"train", method, "a.bvh", "b.bvh", "-o", "one", "--jobs", "1", "-q", "--force"}).code,
+        0);
     const std::string one = contents(folder / "one");
     const Ran again =
         run({"train", method, "a.bvh", "b.bvh", "-o", "one", "--jobs", "4", "-q", "--force"});
@@ -256,7 +258,7 @@ TEST_F(Train, WhatShipsIsListedAndExported) {
     const Json info = Json::parse(run({"info", method + ".kmodel", "--json"}).out)["takes"][0];
     EXPECT_EQ(info["checksum"], shipped["checksum"]);
   }
-  if (list.empty()) EXPECT_EQ(text, "no model ships with this program\n");
+  EXPECT_EQ(list.empty(), text == "no model ships with this program\n");
   const Ran unknown = run({"models", "--export", "kalman-learned", "-o", "k.kmodel"});
   EXPECT_EQ(unknown.code, 2);
   EXPECT_THAT(unknown.err, HasSubstr("no model ships for kalman-learned"));

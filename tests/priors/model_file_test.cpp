@@ -169,6 +169,9 @@ TEST(ModelFile, RefusesABodyThatKeepsNotTheRules) {
   EXPECT_THAT(message_with([](TensorFile& file) { file.tensors.erase("layout.bones"); }),
               HasSubstr("tensor \"layout.bones\" is missing"));
   EXPECT_THAT(
+      message_with([](TensorFile& file) { file.tensors["layout.means"] = file.tensors["mean"]; }),
+      HasSubstr("tensor \"layout.means\": a body of joints has none of this name"));
+  EXPECT_THAT(
       message_with([](TensorFile& file) { file.tensors["layout.references"].values[0] = 9; }),
       StartsWith("walk.kmodel: "));
 }
