@@ -74,11 +74,11 @@ struct FeetSettings {
   ContactSettings contact;
   /// Instead of those found, and all held; frames of the whole take.
   std::optional<std::vector<FootContact>> contacts;
-  double blend_s = 0.15;  ///< in which a correction fades out beside a contact (0.02 to 1)
+  double blend_s = 0.12;  ///< in which a correction fades out beside a contact (0.02 to 1)
   /// Share of a leg's length short of full stretch from which on the root gives way rather than the
   /// knee, which would pop (0.001 to 0.2). A leg that is straighter in the take may stay so up to a
   /// quarter of this.
-  double soft_reach = 0.02;
+  double soft_reach = 0.01;
 };
 
 /// Feet of a clip, for the report. Lengths in file units.

@@ -59,8 +59,8 @@ INSTANTIATE_TEST_SUITE_P(Takes, CmuWalks,
                          testing::Values("bvh/02_01.bvh", "bvh/07_01.bvh", "bvh/08_01.bvh",
                                          "bvh/16_15.bvh", "bvh/35_01.bvh", "bvh/49_01.bvh",
                                          "amc/35/35_01.amc"),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         [](const auto& take) {
+                           std::string name = take.param;
                            std::replace_if(
                                name.begin(), name.end(), [](char c) { return !std::isalnum(c); },
                                '_');
