@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/quantiles.hpp"
+#include "clean/example_rest.hpp"
 #include "clean/joint_limits.hpp"
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
@@ -22,10 +23,11 @@ namespace kinemend {
 
 namespace {
 
-constexpr double least_noise_deg = 0.05;
 constexpr double welsch_deviations = 3;
-// p is wide at first, so that outliers cannot hold each other.
-constexpr double first_welsch = 8;
+// Where spikes are about, p is narrower against what the bases leave.
+// What the bases leave lasts: it says something new in one frame of so many.
+constexpr double rest_memory_frames = 3;
+constexpr double many_suspects = 0.005;
 constexpr double rejected_weight = 0.01;
 
 const OptionTable<ExampleOptions>& table() {
@@ -49,25 +51,6 @@ const OptionTable<ExampleOptions>& table() {
                   "weight of the joint limits; 0: none")
           .flag(&ExampleOptions::fill, "fill_gaps", "fills gaps of what the model knows");
   return options;
-}
-
-// Noise of each channel; of channels about which nothing is known the typical one.
-std::vector<double> noise_levels(const std::vector<double>& noise) {
-  std::vector<double> known;
-  for (const double n : noise) {
-    if (n > 0) known.push_back(n);
-  }
-  double typical = least_noise_deg;
-  if (!known.empty()) {
-    const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
-    std::nth_element(known.begin(), middle, known.end());
-    typical = std::max(typical, *middle);
-  }
-  std::vector<double> levels(noise.size(), typical);
-  for (std::size_t c = 0; c < noise.size(); ++c) {
-    if (noise[c] > 0) levels[c] = std::max(noise[c], least_noise_deg);
-  }
-  return levels;
 }
 
 // The first guess: what was measured, `auto`'s opinion of spikes and gaps, and the mean pose where
@@ -120,17 +103,21 @@ class Example final : public Cleaner {
     const WindowBases bases =
         bases_at_rate(prior_.bases, prior_.rate_hz, channels.frame_rate_hz, channels.poses.frames,
                       static_cast<std::size_t>(options_.bases));
-    PoseMatrix cleaned = first_guess(work, mean);
+    const PoseMatrix guess = first_guess(work, mean);
+    // Starting from what the bases express, outliers stand out at once.
+    PoseMatrix cleaned = guess;
+    linear_example_filter(cleaned, bases, mean);
     if (!options_.robust) {
-      linear_example_filter(cleaned, bases, mean);
       channels.poses = std::move(cleaned);
       return;
     }
+    const std::vector<double> noise = example_noise(work);
+    const double suspects = suspect_share(work, cleaned);
+    const double rest = strangeness(work, guess, cleaned, noise, prior_.bases.residual);
     ExampleSettings settings;
     settings.iterations = static_cast<std::size_t>(options_.iterations);
     settings.tolerance = options_.tolerance;
-    settings.first_welsch = first_welsch;
-    const ExampleWeights weights = weights_for(work, bases);
+    const ExampleWeights weights = weights_for(noise, rest, suspects, bases);
     hold_to_limits(work, limits, weights, settings);
     const ExampleTrace trace =
         example_filter(cleaned, channels.poses, channels.observed, bases, mean, weights, settings);
@@ -138,6 +125,10 @@ class Example final : public Cleaner {
     for (std::size_t i = 0; i < work.rejected.size(); ++i) {
       work.rejected[i] =
           channels.observed[i] != 0 && trace.weights.values[i] < rejected_weight ? 1 : 0;
+    }
+    if (options_.lambda == 0) {
+      smooth_rest(work, trace.weights, bases, mean, noise, cleaned);
+      if (options_.welsch_deg == 0 && suspects <= many_suspects) fall_back(work, rest, cleaned);
     }
     channels.poses = std::move(cleaned);
   }
@@ -160,9 +151,15 @@ class Example final : public Cleaner {
     };
   }
 
-  ExampleWeights weights_for(const PriorWork& work, const WindowBases& bases) const {
-    const std::vector<double> noise = noise_levels(work.noise);
+  ExampleWeights weights_for(const std::vector<double>& noise, double rest, double suspects,
+                             const WindowBases& bases) const {
     ExampleWeights weights = probable_weights(prior_, bases, noise, welsch_deviations);
+    const double deviations = suspects > many_suspects ? 1 : welsch_deviations;
+    for (std::size_t c = 0; c < noise.size(); ++c) {
+      weights.prior[c] /= rest_memory_frames * rest;
+      weights.welsch[c] =
+          std::hypot(weights.welsch[c], deviations * std::sqrt(rest * prior_.bases.residual[c]));
+    }
     if (options_.lambda > 0) {
       std::fill(weights.data.begin(), weights.data.end(), 1.0);
       std::fill(weights.prior.begin(), weights.prior.end(), options_.lambda);

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
+#include <vector>
 
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
@@ -26,6 +28,23 @@ const OptionTable<KalmanLearnedOptions>& table() {
   return options;
 }
 
+// A filter of least squares takes spikes for noise like any other: their squares count.
+std::vector<double> noise_with_spikes(const PriorWork& work) {
+  const PoseMatrix& poses = work.channels.poses;
+  std::vector<double> noise = work.noise;
+  for (std::size_t c = 0; c < poses.channels; ++c) {
+    double sum = 0;
+    for (std::size_t f = 0; f < poses.frames; ++f) {
+      const std::size_t i = f * poses.channels + c;
+      if (work.channels.observed[i] == 0 || work.suspect[i] == 0) continue;
+      const double jump = poses.values[i] - work.fallback.values[i];
+      sum += jump * jump;
+    }
+    noise[c] = std::sqrt(noise[c] * noise[c] + sum / static_cast<double>(poses.frames));
+  }
+  return noise;
+}
+
 class KalmanLearned final : public Cleaner {
  public:
   KalmanLearned(const KalmanLearnedOptions& options, std::shared_ptr<const Model> model)
@@ -47,7 +66,7 @@ class KalmanLearned final : public Cleaner {
  private:
   void filter(PriorWork& work) const {
     BodyChannels& channels = work.channels;
-    std::vector<double> noise = work.noise;
+    std::vector<double> noise = noise_with_spikes(work);
     if (options_.noise_deg > 0) std::fill(noise.begin(), noise.end(), options_.noise_deg);
     const LinearDynamics dynamics = at_rate(dynamics_, channels.frame_rate_hz);
     const MeasurementFacts facts{channels.observed, noise};

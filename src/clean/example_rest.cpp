@@ -1,0 +1,150 @@
+#include "clean/example_rest.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/quantiles.hpp"
+#include "signal/evidence.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr double least_noise_deg = 0.05;
+constexpr double most_noise_kept = 1.2;  // of what `auto` took away
+constexpr double least_variance = 1e-6;  // square degrees: less is rounding
+constexpr double least_strangeness = 10;
+constexpr double rejected_weight = 0.01;
+constexpr double known_motion = 15, unknown_motion = 150;  // strangeness
+constexpr std::size_t part_channels = 3;
+// A measurement is far from what the bases express beyond so many medians of its channel's
+// distances, and beyond so much.
+constexpr double far_medians = 8, least_far_deg = 8;
+
+// Root mean square of what `auto` took away from a part, spikes and gaps left out; what counts as
+// none where there is nothing to see.
+double taken_away(const PriorWork& work, std::size_t part) {
+  const PoseMatrix& poses = work.channels.poses;
+  double sum = 0, count = 0;
+  for (std::size_t f = 0; f < poses.frames; ++f) {
+    for (std::size_t c = part_channels * part; c < part_channels * (part + 1); ++c) {
+      const std::size_t i = f * poses.channels + c;
+      if (work.channels.observed[i] == 0 || work.suspect[i] != 0) continue;
+      const double difference = poses.values[i] - work.fallback.values[i];
+      sum += difference * difference, count += 1;
+    }
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
+// Mean of the squares without the largest tenth, and what a Gaussian variance of 1 makes of it.
+constexpr double trimmed_share = 0.9, trimmed_of_one = 0.64;
+double trimmed_mean(std::vector<double>& squares) {
+  const auto kept = std::max<std::size_t>(
+      1, static_cast<std::size_t>(trimmed_share * static_cast<double>(squares.size())));
+  std::nth_element(squares.begin(), squares.begin() + static_cast<std::ptrdiff_t>(kept - 1),
+                   squares.end());
+  double sum = 0;
+  for (std::size_t i = 0; i < kept; ++i) sum += squares[i];
+  return sum / static_cast<double>(kept);
+}
+
+}  // namespace
+
+std::vector<double> example_noise(const PriorWork& work) {
+  std::vector<double> levels = work.noise, known;
+  for (std::size_t part = 0; part_channels * part < levels.size(); ++part) {
+    const double most = most_noise_kept * taken_away(work, part);
+    for (std::size_t c = part_channels * part; c < part_channels * (part + 1); ++c) {
+      if (work.noise[c] <= 0) continue;
+      levels[c] = std::max(std::min(work.noise[c], most), least_noise_deg);
+      known.push_back(levels[c]);
+    }
+  }
+  const double typical = std::max(median_of(known), least_noise_deg);
+  for (double& level : levels) level = level > 0 ? level : typical;
+  return levels;
+}
+
+double strangeness(const PriorWork& work, const PoseMatrix& guess, const PoseMatrix& expressed,
+                   const std::vector<double>& noise, const std::vector<double>& residual) {
+  double found = 0, known = 0;
+  for (std::size_t c = 0; c < guess.channels; ++c) {
+    std::vector<double> squares;
+    for (std::size_t f = 0; f < guess.frames; ++f) {
+      if (work.channels.observed[f * guess.channels + c] == 0) continue;
+      const double left = guess(f, c) - expressed(f, c);
+      squares.push_back(left * left);
+    }
+    if (squares.empty()) continue;
+    found += trimmed_mean(squares) - trimmed_of_one * noise[c] * noise[c];
+    known += trimmed_of_one * std::max(residual[c], least_variance);
+  }
+  return known > 0 ? std::max(least_strangeness, found / known) : least_strangeness;
+}
+
+double suspect_share(const PriorWork& work, const PoseMatrix& expressed) {
+  double suspects = 0, count = 0;
+  std::vector<double> sizes;
+  for (std::size_t c = 0; c < expressed.channels; ++c) {
+    sizes.clear();
+    double by_auto = 0;
+    for (std::size_t f = 0; f < expressed.frames; ++f) {
+      const std::size_t i = f * expressed.channels + c;
+      if (work.channels.observed[i] == 0) continue;
+      sizes.push_back(std::abs(work.channels.poses.values[i] - expressed.values[i]));
+      by_auto += work.suspect[i] != 0 ? 1 : 0;
+    }
+    const double far = std::max(least_far_deg, far_medians * median_of(sizes));
+    const auto beyond = static_cast<double>(
+        std::count_if(sizes.begin(), sizes.end(), [&](double size) { return size > far; }));
+    suspects += std::max(by_auto, beyond);
+    count += static_cast<double>(sizes.size());
+  }
+  return count > 0 ? suspects / count : 0;
+}
+
+void smooth_rest(const PriorWork& work, const PoseMatrix& weights, const WindowBases& bases,
+                 const std::vector<double>& mean, const std::vector<double>& noise,
+                 PoseMatrix& cleaned) {
+  PoseMatrix expressed = cleaned;
+  linear_example_filter(expressed, bases, mean);
+  PoseMatrix rest = cleaned;
+  std::vector<std::uint8_t> missing(rest.values.size(), 0);
+  std::vector<std::size_t> seen(rest.channels, 0);
+  for (std::size_t i = 0; i < rest.values.size(); ++i) {
+    const double weight = work.channels.observed[i] != 0 ? weights.values[i] : 0.0;
+    const double measured = weight > 0 ? work.channels.poses.values[i] : 0.0;
+    rest.values[i] = weight * measured + (1 - weight) * cleaned.values[i] - expressed.values[i];
+    missing[i] = weight < rejected_weight ? 1 : 0;
+    seen[i % rest.channels] += missing[i] == 0 ? 1 : 0;
+  }
+  // Of a channel that is hardly seen the filter's result is all there is.
+  for (std::size_t i = 0; i < missing.size(); ++i) {
+    if (2 * seen[i % rest.channels] < rest.frames) missing[i] = 0;
+  }
+  std::vector<double> variances;
+  for (const double n : noise) variances.push_back(n * n);
+  const signal::ModelGrid grid(rest.frames, work.channels.frame_rate_hz);
+  PoseMatrix by_evidence = rest;
+  const std::vector<std::size_t> chosen =
+      signal::smooth_by_evidence(by_evidence, variances, grid, part_channels);
+  if (chosen.empty()) return;
+  std::vector<signal::SmoothingModel> models;
+  for (const std::size_t model : chosen) models.push_back(grid.models()[model]);
+  signal::smooth_adaptively(rest, missing, variances, models, work.channels.frame_rate_hz);
+  for (std::size_t i = 0; i < rest.values.size(); ++i)
+    cleaned.values[i] = expressed.values[i] + rest.values[i];
+}
+
+void fall_back(const PriorWork& work, double strangeness, PoseMatrix& cleaned) {
+  const double share = std::clamp(
+      std::log(strangeness / known_motion) / std::log(unknown_motion / known_motion), 0.0, 1.0);
+  if (share == 0) return;
+  for (std::size_t i = 0; i < cleaned.values.size(); ++i) {
+    if (work.channels.observed[i] != 0)
+      cleaned.values[i] += share * (work.fallback.values[i] - cleaned.values[i]);
+  }
+}
+
+}  // namespace kinemend

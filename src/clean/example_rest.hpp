@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "clean/prior_cleaning.hpp"
+#include "priors/example_filter.hpp"
+
+// What a take does that the filter bases do not know.
+namespace kinemend {
+
+/// Standard deviation of each channel's noise (D, degrees, at least 0.05): as `auto` measures it,
+/// but little more than what `auto` took away, which leaves clean takes alone; of channels about
+/// which nothing is known the typical one.
+std::vector<double> example_noise(const PriorWork& work);
+
+/// How many times as much of the take lies outside of the bases as of the clips that they were
+/// learned from: mean squares of `guess` less `expressed`, what the bases make of it, without the
+/// noise, over those in training (`residual`, D). At least 10: bases fit the clips that they come
+/// from better than any other, and what they leave is no white noise.
+double strangeness(const PriorWork& work, const PoseMatrix& guess, const PoseMatrix& expressed,
+                   const std::vector<double>& noise, const std::vector<double>& residual);
+
+/// Share of the measurements that `auto` takes for spikes, or that are far from what the bases
+/// express where most of their channel are not.
+double suspect_share(const PriorWork& work, const PoseMatrix& expressed);
+
+/// Motion outside of the bases is smooth, too: what is measured less what the bases express is
+/// smoothed by its own evidence, without the samples that the filter rejected (`weights`, F x D),
+/// and added to what the bases express. `cleaned` is the filter's result.
+void smooth_rest(const PriorWork& work, const PoseMatrix& weights, const WindowBases& bases,
+                 const std::vector<double>& mean, const std::vector<double>& noise,
+                 PoseMatrix& cleaned);
+
+/// The stranger the take, the more of what `auto` made of its measurements: none of it below a
+/// strangeness of 15, nothing else from 150 on. Gaps stay as the bases fill them.
+void fall_back(const PriorWork& work, double strangeness, PoseMatrix& cleaned);
+
+}  // namespace kinemend
