@@ -22,9 +22,10 @@ std::string_view to_string(BodyKind kind);
 
 /// The parts of a body that a model knows, and what its channels are measured from.
 ///
-/// The body's frame at a moment is upright (y up, z ahead), stands below the body and turns with
-/// its heading. It is a trend: place and heading smoothed over `trend_s`, so that noise of single
-/// parts does not move it and channels stay linear in what was measured.
+/// The body's frame at a moment is upright (y up, z ahead), stands on the floor below the body and
+/// turns with its heading. It is a trend: place and heading smoothed over `trend_s`, so that noise
+/// and spikes do not move it and channels stay linear in what was measured. The floor is one height
+/// a take, that to which the feet return: takes whose floor is elsewhere are alike.
 ///
 /// Joints: three channels each, the rotation vector Log(r^-1 q) in degrees, where q is the joint's
 /// local rotation in frames that are parallel to the body's when all bones point along `bones`
@@ -44,7 +45,7 @@ struct BodyLayout {
   bool with_place = true;             ///< joints
   Vec3 place;                         ///< joints: mean of the first joint's position, statures
   std::vector<Vec3> means;            ///< N, markers: mean position, statures
-  std::vector<std::uint8_t> anchors;  ///< N, markers: 1 for those that carry the body's frame
+  std::vector<std::uint8_t> anchors;  ///< N, markers: 1 for the steadiest, which carry the frame
   /// N, markers: mean position in a frame that also leans with the anchors, statures.
   std::vector<Vec3> shape;
   double trend_s = 0.5;  ///< standard deviation of the smoothing of place and heading
@@ -65,16 +66,19 @@ struct BodyLayout {
 class BodyLayoutBuilder {
  public:
   /// `names`: joints or markers, or shell patterns, to be learned; empty: all that move.
+  /// Errors: `ErrorKind::usage` for a trend that is not positive.
   explicit BodyLayoutBuilder(std::vector<std::string> names = {}, double trend_s = 0.5);
   ~BodyLayoutBuilder();
   BodyLayoutBuilder(BodyLayoutBuilder&&) noexcept;
 
   /// The first take says which parts there are; of later ones at least half must be found again.
-  /// Errors: `ErrorKind::usage` for a take of the other kind, or in which parts are not found,
-  /// with their names.
+  /// All frames are motion: leave a calibration pose out. Errors: `ErrorKind::usage` for a take of
+  /// the other kind, one in which too few parts are found, with their names, and a name or pattern
+  /// that means nothing.
   void add(const Clip& clip);
   void add(const MarkerClip& clip);
-  /// Errors: `ErrorKind::usage` when there was no take, or nothing that moves.
+  /// Joints that turn by less than 0.1 degrees in all takes are left out, and parts that half of
+  /// the takes lack. Errors: `ErrorKind::usage` when there was no take, or nothing that moves.
   BodyLayout finish() const;
 
  private:
@@ -109,10 +113,12 @@ struct BodyMatch {
 };
 
 /// By name (case, separators, subject and prefixes such as `mixamorig:` do not count; the usual
-/// spellings of one bone are one name), then by topology: a joint that hangs on the same parts and
-/// has the same children. A joint whose matched ancestors are not those of the layout is no match.
-/// Errors: `ErrorKind::usage` when less than half of the parts are found, or no root: `the model
-/// knows 24 joints, of which the take lacks 20: ...`; for a name of the map that there is not.
+/// spellings of one bone are one name), joints of the trunk and the neck by their order, then by
+/// topology: the one joint between two that are matched. A joint whose matched ancestors are not
+/// those of the layout is no match. Of several people in a take of markers the one with the most
+/// markers of the layout. Errors: `ErrorKind::usage` when less than half of the parts are found, or
+/// no root, or fewer than three anchors: `the model knows 24 joints, of which the take lacks 20:
+/// ...`; for a name of the map that there is not.
 BodyMatch match_body(const BodyLayout& layout, const Clip& clip, const NameMap& names = {});
 BodyMatch match_body(const BodyLayout& layout, const MarkerClip& clip, const NameMap& names = {});
 

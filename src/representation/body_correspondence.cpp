@@ -88,12 +88,11 @@ void list_unmatched(const BodyLayout& layout, const std::vector<std::string>& na
   const std::size_t found = layout.part_count() - match.missing.size();
   const bool rootless = layout.kind == BodyKind::joints && match.parts[0] < 0;
   if (2 * found >= layout.part_count() && !rootless) return;
-  throw Error(
-      ErrorKind::usage,
-      fmt::format("the model knows {} {}s, of which the take lacks {}: {}; a file of names can say "
-                  "which of the take's are the same",
-                  layout.part_count(), noun(layout), match.missing.size(),
-                  fmt::join(match.missing, ", ")));
+  throw Error(ErrorKind::usage,
+              fmt::format("the model knows {} {}s, of which the take lacks {}: {}; a file of names "
+                          "can say which of the take's are the same (kinemend models --map)",
+                          layout.part_count(), noun(layout), match.missing.size(),
+                          fmt::join(match.missing, ", ")));
 }
 
 }  // namespace kinemend::representation

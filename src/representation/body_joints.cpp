@@ -19,17 +19,21 @@ void encode_part(const Clip& clip, const BodyLayout& layout, const std::vector<Q
                  BodyChannels& channels) {
   const Quat from_reference = conjugate(layout.references[part]);
   const auto joint = static_cast<std::size_t>(match.parts[part]);
-  representation::VectorContinuation continuation;
+  std::vector<std::size_t> frames;  // those that were measured
+  std::vector<Vec3> vectors;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     if (!clip.is_observed(f, joint)) continue;
     Vec3 v = log(normalized(from_reference * rotations[f]));
-    if (guide != nullptr)
+    if (guide != nullptr) {
       v = continue_rotation_vector(
           v, radians_per_degree * representation::channels_at(*guide, f, 3 * part));
-    else
-      v = continuation.next(v);
-    representation::put_channels(channels, f, 3 * part, degrees_per_radian * v);
+    }
+    frames.push_back(f);
+    vectors.push_back(v);
   }
+  if (guide == nullptr) representation::continue_vectors(vectors, clip.frame_rate_hz);
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    representation::put_channels(channels, frames[i], 3 * part, degrees_per_radian * vectors[i]);
 }
 
 void encode_place(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "kinemend/body.hpp"
@@ -13,16 +14,10 @@ namespace kinemend::representation {
 std::vector<Quat> part_rotations(const Clip& clip, const BodyMatch& match, const RootMotion& root,
                                  const BodyChannels& channels, std::size_t part);
 
-/// Continues rotation vectors from frame to frame past half a turn. A few frames that are thrown
-/// far off (more than 60 degrees) do not turn the motion that goes on after them.
-class VectorContinuation {
- public:
-  /// `v` or another vector of the same rotation. The first one is taken as it is.
-  Vec3 next(Vec3 v);
-
- private:
-  Vec3 previous_, steady_;
-  int frames_away_ = -1;  // -1: nothing came yet
-};
+/// Continues rotation vectors of length up to pi from sample to sample, past half a turn. A few
+/// samples that are thrown far off (more than 60 degrees) do not turn the motion that goes on after
+/// them. A joint that turns on, and stays more than 210 degrees away for half a second, starts anew
+/// from the vector of length up to pi: models know no joint that has turned once round.
+void continue_vectors(std::span<Vec3> vectors, double frame_rate_hz);
 
 }  // namespace kinemend::representation
