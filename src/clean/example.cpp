@@ -118,7 +118,7 @@ class Example final : public Cleaner {
     settings.iterations = static_cast<std::size_t>(options_.iterations);
     settings.tolerance = options_.tolerance;
     const ExampleWeights weights = weights_for(noise, rest, suspects, bases);
-    hold_to_limits(work, limits, weights, settings);
+    hold_to_limits(work, limits, weights, bases, settings);
     const ExampleTrace trace =
         example_filter(cleaned, channels.poses, channels.observed, bases, mean, weights, settings);
     work.rejected.assign(channels.observed.size(), 0);
@@ -133,9 +133,10 @@ class Example final : public Cleaner {
     channels.poses = std::move(cleaned);
   }
 
-  // A pose beyond the limits is drawn back about as much as a typical measurement draws it out.
+  // A pose beyond the limits is drawn back about as much as the patterns draw. (A term as strong as
+  // the measurements would hold what is not measured at its first guess.)
   void hold_to_limits(PriorWork& work, JointLimits& limits, const ExampleWeights& weights,
-                      ExampleSettings& settings) const {
+                      const WindowBases& bases, ExampleSettings& settings) const {
     if (options_.limits == 0) return;
     const std::vector<std::string> broken = widen_joint_limits(limits, work.fallback);
     if (!broken.empty()) {
@@ -144,8 +145,11 @@ class Example final : public Cleaner {
                       "moved or left: {}",
                       fmt::join(broken, ", ")));
     }
-    std::vector<double> data = weights.data;
-    settings.limit_weight = options_.limits * median_of(data);
+    std::vector<double> prior = weights.prior;
+    const double windows =
+        std::max(1.0, static_cast<double>(bases.frames) /
+                          static_cast<double>(std::max<std::size_t>(1, bases.hop)));
+    settings.limit_weight = options_.limits * windows * median_of(prior);
     settings.project = [&limits](const PoseMatrix& poses, PoseMatrix& nearest) {
       project_to_limits(limits, poses, nearest);
     };
