@@ -27,7 +27,7 @@ Bases bases_of(const std::vector<Clip>& training, std::size_t most) {
   bases.channels = bases.model->layout.channel_count();
   bases.count = patterns.shape[2];
   bases.patterns = &patterns.values;
-  bases.mean = &bases.model->tensor("mean", {bases.channels}).values;
+  bases.mean = &bases.model->tensor("mean", 1).values;
   return bases;
 }
 
