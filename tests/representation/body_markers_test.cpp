@@ -101,6 +101,21 @@ TEST(BodyOfMarkers, KeepsItsFrameUnderNoiseAndSpikes) {
   }
 }
 
+TEST(BodyOfMarkers, HeedsNoAnchorThatLiesFarOff) {
+  const MarkerClip clip = marker_walk("stroll");
+  const BodyLayout layout = layout_of(clip);
+  const BodyChannels clean = channels_of(layout, clip);
+  MarkerClip odd = clip;
+  const auto shoulder = static_cast<std::size_t>(clip.find("LeftArm"));
+  ASSERT_NE(layout.anchors[part_named(layout, "LeftArm")], 0);
+  for (std::size_t f = 40; f < 120; ++f) odd.position(f, shoulder) += Vec3{60, 0, 40};
+  const BodyChannels found = channels_of(layout, odd);
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    EXPECT_NEAR(found.headings[f], clean.headings[f], 2.5 * radians_per_degree) << f;
+    EXPECT_LT(norm(found.places[f] - clean.places[f]), 1) << f;
+  }
+}
+
 TEST(BodyOfMarkers, HardlyMissesBothArms) {
   const MarkerClip clip = marker_walk("stroll");
   const BodyLayout layout = layout_of(clip);
@@ -194,9 +209,9 @@ TEST(BodyOfMarkers, DoesNotMixTwoPeople) {
   two.observed.assign(two.positions.size(), 1);
   two.is_position.clear();
   two.residuals.clear();
-  // Ann is seen less, and lacks one.
+  // Ann is seen more, but lacks one.
   for (std::size_t i = 0; i < two.observed.size(); i += 3) {
-    if (i % (2 * count) < count) two.observed[i] = 0;
+    if (i % (2 * count) >= count) two.observed[i] = 0;
   }
   for (const std::int32_t marker : match_body(layout, two).parts)
     EXPECT_GE(marker, static_cast<std::int32_t>(count));
