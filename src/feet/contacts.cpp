@@ -123,7 +123,7 @@ class ContactFinder {
   std::pair<std::size_t, std::size_t> trimmed(const SolePoint& sole,
                                               std::pair<std::size_t, std::size_t> span) const {
     constexpr double times_median = 2.5, sure_speed = 0.05, sure_height = 0.006;
-    auto [first, last] = span;
+    std::size_t first = span.first, last = span.second;
     const auto part = [&](const std::vector<double>& values) {
       return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(first),
                                  values.begin() + static_cast<std::ptrdiff_t>(last + 1));

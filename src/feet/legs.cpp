@@ -100,6 +100,7 @@ std::int32_t toe_of(const Skeleton& skeleton, std::int32_t ankle, double shortes
 void name_sides(const Skeleton& skeleton, std::vector<Leg>& legs) {
   for (Leg& leg : legs) leg.side = side_of(skeleton.names[static_cast<std::size_t>(leg.ankle)]);
   std::vector<std::string> sides;
+  sides.reserve(legs.size());
   for (const Leg& leg : legs) sides.push_back(leg.side);
   for (Leg& leg : legs) {
     if (leg.side.empty() || std::count(sides.begin(), sides.end(), leg.side) > 1)
