@@ -33,6 +33,9 @@ PoseMatrix whitened(const PoseMatrix& poses, std::size_t phase, std::size_t hop,
   return part;
 }
 
+// Windows overlap, so that chance has fewer to average over than there are frames.
+constexpr double overlap_penalty = 2;
+
 // Variance of a pattern of which noise of variance 1 makes `seen`; 0 where noise alone would do.
 double without_noise(double seen, double values_per_frame) {
   const double edge = std::pow(1 + std::sqrt(values_per_frame), 2);
@@ -99,7 +102,8 @@ ExamplePrior self_bases(const PoseMatrix& poses, double clip_rate_hz, std::span<
   FilterBases& bases = prior.bases;
   std::size_t kept = bases.count;
   if (clean == 0) {
-    const double values_per_frame = static_cast<double>(window * poses.channels) / frames;
+    const double values_per_frame =
+        overlap_penalty * static_cast<double>(window * poses.channels) / frames;
     kept = 0;
     while (kept < bases.count && without_noise(bases.eigenvalues[kept], values_per_frame) > 0) {
       ++kept;

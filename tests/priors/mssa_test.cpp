@@ -164,5 +164,31 @@ TEST(FilterBases, SayWhatTheyLeaveOfEachChannel) {
   }
 }
 
+TEST(CrossValidation, HoldsEachHalfsBasesAgainstTheOtherHalf) {
+  const std::vector<Weighted> first = {{waves(150, 4, 1), 1.0}}, second = {{waves(90, 4, 2), 1.0}};
+  LagCovariance both(8, 4), half(8, 4), other(8, 4);
+  both.add(first[0].poses), both.add(second[0].poses);
+  half.add(first[0].poses);
+  other.add(second[0].poses);
+  FilterBases bases = filter_bases(both, {.count = 5});
+  cross_validate(bases, half, other);
+
+  Eigen::VectorXd along = Eigen::VectorXd::Zero(5), outside = Eigen::VectorXd::Zero(4);
+  const auto hold = [&](const std::vector<Weighted>& learned, const std::vector<Weighted>& held) {
+    const Eigen::VectorXd mean = frame_mean(learned);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> full(brute_covariance(learned, 8, mean));
+    const Eigen::MatrixXd E = full.eigenvectors().rightCols(5).rowwise().reverse();
+    const Eigen::MatrixXd C = brute_covariance(held, 8, mean);
+    along += (E.transpose() * C * E).diagonal() / 2;
+    const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(32, 32) - E * E.transpose();
+    const Eigen::VectorXd left = (rest * C * rest).diagonal();
+    for (int i = 0; i < 32; ++i) outside[i % 4] += left[i] / 16;
+  };
+  hold(first, second);
+  hold(second, first);
+  for (int k = 0; k < 5; ++k) EXPECT_NEAR(bases.eigenvalues[k], along[k], 1e-8);
+  for (int c = 0; c < 4; ++c) EXPECT_NEAR(bases.residual[c], outside[c], 1e-8);
+}
+
 }  // namespace
 }  // namespace kinemend
