@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <string>
@@ -37,6 +38,7 @@ struct Model {
   /// Errors: `ErrorKind::unreadable_input` naming what is missing, or has another shape.
   double number(std::string_view name) const;
   const Tensor& tensor(std::string_view name, const std::vector<std::size_t>& shape) const;
+  const Tensor& tensor(std::string_view name, std::initializer_list<std::size_t> shape) const;
   /// Any shape of this many dimensions.
   const Tensor& tensor(std::string_view name, std::size_t dimensions) const;
 };

@@ -39,6 +39,11 @@ const Tensor& Model::tensor(std::string_view name, const std::vector<std::size_t
   return found;
 }
 
+// Without it `{3}` would be a count of dimensions.
+const Tensor& Model::tensor(std::string_view name, std::initializer_list<std::size_t> shape) const {
+  return tensor(name, std::vector<std::size_t>(shape));
+}
+
 const Tensor& Model::tensor(std::string_view name, std::size_t dimensions) const {
   const Tensor& found = find_tensor(*this, name);
   if (found.shape.size() != dimensions) {

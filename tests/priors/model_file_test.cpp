@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/file_bytes.hpp"
 #include "kinemend/content_hash.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/model.hpp"
@@ -43,6 +44,7 @@ Model markers_model() {
   model.layout.kind = BodyKind::markers;
   model.layout.names = {"LASI", "RASI", "SACR", "LHEE"};
   model.layout.means = {{0.1, 0.6, 0}, {-0.1, 0.6, 0}, {0, 0.6, -0.1}, {0.1, 0.05, 0}};
+  model.layout.shape = {{0.1, 0.02, 0}, {-0.1, 0.02, 0}, {0, 0, -0.1}, {0.1, -0.5, 0}};
   model.layout.anchors = {1, 1, 1, 0};
   return model;
 }
@@ -66,6 +68,7 @@ void expect_same(const Model& a, const Model& b) {
   EXPECT_EQ(a.layout.with_place, b.layout.with_place);
   EXPECT_EQ(a.layout.place, b.layout.place);
   EXPECT_EQ(a.layout.means, b.layout.means);
+  EXPECT_EQ(a.layout.shape, b.layout.shape);
   EXPECT_EQ(a.layout.anchors, b.layout.anchors);
   EXPECT_EQ(a.layout.trend_s, b.layout.trend_s);
   EXPECT_EQ(a.numbers, b.numbers);
@@ -107,6 +110,17 @@ TEST(ModelFile, ComesBackWhole) {
   Model without_place = joints_model();
   without_place.layout.with_place = false;
   EXPECT_FALSE(parse_model(write_model(without_place), "a").layout.with_place);
+}
+
+// The files by tools/reference/tensors.py.
+TEST(ModelFile, IsLaidOutAsTheReferenceLaysItOut) {
+  const auto fixture = [](const char* name) {
+    return std::filesystem::path(KINEMEND_TEST_FIXTURES) / "models/good" / name;
+  };
+  expect_same(read_model(fixture("joints.kmodel")), joints_model());
+  expect_same(read_model(fixture("markers.kmodel")), markers_model());
+  EXPECT_EQ(write_model(joints_model()), file_bytes(fixture("joints.kmodel")));
+  EXPECT_EQ(write_model(markers_model()), file_bytes(fixture("markers.kmodel")));
 }
 
 TEST(ModelFile, IsTheSameBytesForTheSameModel) {

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Files of tensors (safetensors) and halves, by Python's json and struct.
+"""Files of tensors (safetensors), models and halves, by Python's json and struct.
 
 Writes tests/fixtures/tensors/good and bad (files; what is wrong is their name), and halves.csv: number, bits of the
-nearest half (IEEE 754 binary16, ties to even), or "overflow".
+nearest half (IEEE 754 binary16, ties to even), or "overflow". Writes tests/fixtures/models/good: models in the layout
+of docs/models.md.
 """
 import json
 import pathlib
@@ -126,6 +127,28 @@ def bad():
             yield f"{what}_{kind.lower()}", file_of(compact({"a": entry(kind, offsets=[0, len(chunk)])}), chunk)
 
 
+CARD = {"title": 'A "walk"', "data": "two clips\nof one person", "licence": "CC0, ü", "command": "kinemend train",
+        "figures": "0.7"}
+OF_METHOD = [("kind", "U8", [0], []), ("mean", "F32", [2, 2], [1.0, 2.0, 3.0, 4.5])]
+JOINTS = ({"kind": "joints", "names": ["Hips", "Spine", 'Left "Arm"'], "trend_s": 0.4, "parents": [-1, 0, 1],
+           "with_place": True},
+          [("layout.bones", "F64", [3, 3], [0, 1, 0, 0.6, 0.8, 0, 0, 0, 0]),
+           ("layout.place", "F64", [1, 3], [0.1, 0.55, -0.3]),
+           ("layout.references", "F64", [3, 4], [1, 0, 0, 0, 0.6, 0, 0.8, 0, 0.5, -0.5, 0.5, -0.5])])
+MARKERS = ({"kind": "markers", "names": ["LASI", "RASI", "SACR", "LHEE"], "trend_s": 0.5},
+           [("layout.anchors", "U8", [4], [1, 1, 1, 0]),
+            ("layout.means", "F64", [4, 3], [0.1, 0.6, 0, -0.1, 0.6, 0, 0, 0.6, -0.1, 0.1, 0.05, 0]),
+            ("layout.shape", "F64", [4, 3], [0.1, 0.02, 0, -0.1, 0.02, 0, 0, 0, -0.1, 0.1, -0.5, 0])])
+
+
+def model(layout, tensors):
+    metadata = {"kinemend.model": "1", "method": "wiener", "version": "1", "rate_hz": "60.5", "takes": "3",
+                "seconds": "12.25", "layout": compact(layout), "numbers": compact({"a": 1 / 3, "b": -1e300, "c": 0.0}),
+                **CARD}
+    header, data = in_order(sorted(tensors + OF_METHOD))
+    return file_of(compact({"__metadata__": dict(sorted(metadata.items())), **header}), data)
+
+
 def half_bits(value):
     try:
         return "%04x" % struct.unpack("<H", struct.pack("<e", value))[0]
@@ -152,6 +175,10 @@ def main():
         (FOLDER / kind).mkdir(parents=True, exist_ok=True)
         for name, content in files:
             (FOLDER / kind / f"{name}.safetensors").write_bytes(content)
+    models = FOLDER.parent / "models/good"
+    models.mkdir(parents=True, exist_ok=True)
+    (models / "joints.kmodel").write_bytes(model(*JOINTS))
+    (models / "markers.kmodel").write_bytes(model(*MARKERS))
     lines = ["# number,bits of the nearest half"] + [f"{value!r},{bits}" for value, bits in halves()]
     (FOLDER / "halves.csv").write_text("\n".join(lines) + "\n")
 
