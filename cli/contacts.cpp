@@ -57,8 +57,9 @@ Command contacts_command() {
   command.summary = "say when feet stand, as a file to edit";
   command.description =
       "Finds the times in which heels and toes stand and writes them one a line: side, part, first "
-      "and last frame from 1. What clean --feet auto would leave alone stands in a comment that "
-      "says why. Edit the file and give it to clean with --contacts: it holds what is listed.";
+      "and last frame from 1. A slide that clean --feet auto would take for intended stands in a "
+      "comment that says why. Edit the file and give it to clean with --contacts: it holds what is "
+      "listed.";
   command.positionals = {{"IN", "take of joints; - is standard input", 1, 1, {}}};
   command.flags = {output_flag("where to write; standard output where it is left out"),
                    force_flag(), json_flag("print the contacts as JSON instead of text")};

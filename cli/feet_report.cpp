@@ -23,7 +23,7 @@ std::string left_alone_text(const FeetReport& report, bool all_rows) {
   std::string text;
   std::size_t listed = 0;
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
-    const bool is_news = report.held[i] == 0 && report.reasons[i].rfind("stands still", 0) != 0;
+    const bool is_news = report.held[i] == 0 && report.still[i] == 0;
     if (!is_news && !(all_rows && report.held[i] == 0)) continue;
     if (++listed > short_list && !all_rows) continue;
     text +=
@@ -53,12 +53,16 @@ std::string feet_text(const FeetReport& report, bool all_rows) {
   const double scale = in_cm ? 100 * report.metres_per_unit : 1;
   const std::string unit = in_cm ? "cm" : "units";
   const FeetFigures &a = report.before, &b = report.after;
+  // What is left of a held slide is rounding.
+  const auto length = [&](double units) {
+    constexpr double least = 1e-5;
+    return figure(scale * units < least ? 0 : scale * units);
+  };
   if (!report.contacts.empty()) {
     text += fmt::format(
         "; slide {} to {} {} a frame, {} to {} {} at most, sink {} to {} {}, knee pop {} to {} deg",
-        figure(scale * a.slide), figure(scale * b.slide), unit, figure(scale * a.most_slide),
-        figure(scale * b.most_slide), unit, figure(scale * a.sink), figure(scale * b.sink), unit,
-        figure(a.knee_pop_deg), figure(b.knee_pop_deg));
+        length(a.slide), length(b.slide), unit, length(a.most_slide), length(b.most_slide), unit,
+        length(a.sink), length(b.sink), unit, figure(a.knee_pop_deg), figure(b.knee_pop_deg));
   }
   return text + "\n" + left_alone_text(report, all_rows);
 }

@@ -94,6 +94,7 @@ struct FeetReport {
   double metres_per_unit = 0;         ///< of the figures: stated or guessed; 0 where not known
   std::vector<FootContact> contacts;  ///< all
   std::vector<std::uint8_t> held;     ///< one a contact, 1 where the slide was taken out
+  std::vector<std::uint8_t> still;    ///< one a contact, 1 where there was nothing to take out
   std::vector<std::string> reasons;   ///< one a contact: why it was not held; empty where held
   FeetFigures before, after;
   std::vector<std::uint8_t> changed;       ///< F x J, 1 where a rotation changed
@@ -111,8 +112,8 @@ FeetReport clean_feet(Clip& clip, const FeetSettings& settings = {});
 /// The figures of a clip under given contacts. Errors: `ErrorKind::usage` as above.
 FeetFigures feet_figures(const Clip& clip, const std::vector<FootContact>& contacts);
 
-/// Contacts as text, with those that were not held as comments that say why, so that the file holds
-/// what `clean_feet` did and can be edited.
+/// Contacts as text, with those that were left alone as comments that say why. What stands still
+/// already is listed like what was held.
 std::string contacts_text(const Clip& clip, const FeetReport& report);
 
 }  // namespace kinemend

@@ -16,7 +16,7 @@ std::string_view to_string(Action action) {
     case Action::filled:
       return "filled";
     case Action::foot_adjusted:
-      return "foot-adjusted";
+      return "foot_adjusted";
     case Action::refused:
       return "refused";
   }

@@ -103,15 +103,17 @@ class FeetCleaning {
     const std::size_t count = report_.contacts.size();
     if (settings_.contacts || settings_.mode == FeetMode::force) {
       report_.held.assign(count, 1);
+      report_.still.resize(count);
       report_.reasons.resize(count);
     } else {
       Verdicts verdicts = judge(soles, legs_, report_.contacts, 100 * report_.metres_per_unit);
       report_.held = std::move(verdicts.held);
+      report_.still = std::move(verdicts.still);
       report_.reasons = std::move(verdicts.reasons);
     }
     for (std::size_t i = 0; i < count; ++i) {
       if (may_turn(legs_.models[report_.contacts[i].leg], limits_)) continue;
-      report_.held[i] = 0;
+      report_.held[i] = report_.still[i] = 0;
       report_.reasons[i] = "hip, knee and ankle may not all turn";
     }
   }

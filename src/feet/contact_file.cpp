@@ -140,7 +140,9 @@ std::string contacts_text(const Clip& clip, const FeetReport& report) {
   std::string text(heading);
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
     const std::string line = line_of(legs, report.contacts[i]);
-    text += report.held[i] != 0 ? line + "\n" : fmt::format("# {}  {}\n", line, report.reasons[i]);
+    text += report.held[i] != 0 || report.still[i] != 0
+                ? line + "\n"
+                : fmt::format("# {}  {}\n", line, report.reasons[i]);
   }
   return text;
 }

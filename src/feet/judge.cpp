@@ -119,14 +119,20 @@ struct Judge {
     return {};
   }
 
-  // Why a stand is not held; empty where it is.
-  std::string reason(const std::vector<std::size_t>& stand) const {
+  // Why the slide of a stand is no error; empty where it is one.
+  std::string excuse(const std::vector<std::size_t>& stand) const {
     for (const std::size_t i : stand) {
       if (std::string found = excuse(contacts[i]); !found.empty()) return found;
     }
-    const bool all_still = std::all_of(stand.begin(), stand.end(),
-                                       [&](std::size_t i) { return is_still(contacts[i]); });
-    if (!all_still) return {};
+    return {};
+  }
+
+  bool is_still(const std::vector<std::size_t>& stand) const {
+    return std::all_of(stand.begin(), stand.end(),
+                       [&](std::size_t i) { return is_still(contacts[i]); });
+  }
+
+  std::string stillness(const std::vector<std::size_t>& stand) const {
     double way = 0;
     for (const std::size_t i : stand) way = std::max(way, travel(contacts[i]));
     return fmt::format("stands still: moves {}", length_text(way));
@@ -160,10 +166,14 @@ Verdicts judge(const Soles& soles, const LegMotion& motion,
   Judge bench{soles, motion, contacts, unit_cm};
   bench.jitters = bench.take_jitters();
   Verdicts verdicts{std::vector<std::uint8_t>(contacts.size()),
+                    std::vector<std::uint8_t>(contacts.size()),
                     std::vector<std::string>(contacts.size())};
   for (const std::vector<std::size_t>& stand : stands_of(contacts)) {
-    const std::string reason = bench.reason(stand);
+    std::string reason = bench.excuse(stand);
+    const bool still = reason.empty() && bench.is_still(stand);
+    if (still) reason = bench.stillness(stand);
     for (const std::size_t i : stand) {
+      verdicts.still[i] = still ? 1 : 0;
       verdicts.held[i] = reason.empty() ? 1 : 0;
       verdicts.reasons[i] = reason;
     }

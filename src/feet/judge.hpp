@@ -10,6 +10,7 @@ namespace kinemend::feet {
 /// Whether the slide of each contact is an error to be taken out.
 struct Verdicts {
   std::vector<std::uint8_t> held;    ///< one a contact
+  std::vector<std::uint8_t> still;   ///< one a contact, 1 where there is no slide
   std::vector<std::string> reasons;  ///< one a contact; empty where held
 };
 

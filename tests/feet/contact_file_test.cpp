@@ -70,6 +70,7 @@ TEST(ContactFile, PutsWhatWasNotHeldIntoComments) {
   FeetReport report;
   report.contacts = {{0, FootPart::heel, 0, 9}, {1, FootPart::toe, 4, 30}};
   report.held = {1, 0};
+  report.still = {0, 0};
   report.reasons = {"", "slides 9 cm while the other foot stands: intended"};
   const std::string text = contacts_text(clip, report);
   EXPECT_THAT(text, testing::HasSubstr("\n# right toe 5 31  slides 9 cm while"));
