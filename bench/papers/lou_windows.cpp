@@ -48,20 +48,28 @@ void figure_9(const Arguments& arguments) {
   Table table(arguments, "lou_windows.csv", "window_frames,denoising_rms_deg,filling_rms_deg");
   fmt::print("Figure 9: windows of so many frames at 30 Hz. Degrees per joint angle.\n\n");
   TextTable text({"denoise", "fill"});
+  const auto errors_of = [&](const Cleaner& denoiser, const Cleaner& filler) {
+    LouErrors errors;
+    for (const Clip& truth : walks.tests) {
+      for (const std::uint64_t seed : {1, 2, 3})
+        errors.add(0, 0, rms_deg(truth, cleaned(denoiser, lou_noise(truth, 3, 0, seed))));
+    }
+    for (const Clip& truth : jumping.tests) errors.add(1, 0, filling_error(filler, truth));
+    return std::pair(errors.of(0), errors.of(1));
+  };
   for (const std::size_t window : windows) {
     const OptionValues options = {{"window_s", static_cast<double>(window) / lou_rate_hz}};
     const auto denoiser = make_example({}, learned("example", walks.training, options));
     const auto filler = make_example({}, learned("example", jumping.training, options));
-    LouErrors errors;
-    for (const Clip& truth : walks.tests) {
-      for (const std::uint64_t seed : {1, 2, 3})
-        errors.add(0, 0, rms_deg(truth, cleaned(*denoiser, lou_noise(truth, 3, 0, seed))));
-    }
-    for (const Clip& truth : jumping.tests) errors.add(1, 0, filling_error(*filler, truth));
-    text.add(fmt::format("window {}", window), {errors.of(0), errors.of(1)});
-    table.add({fmt::format("{}", window), fmt::format("{:.5g}", errors.of(0)),
-               fmt::format("{:.5g}", errors.of(1))});
+    const auto [denoising, filling] = errors_of(*denoiser, *filler);
+    text.add(fmt::format("window {}", window), {denoising, filling});
+    table.add({fmt::format("{}", window), fmt::format("{:.5g}", denoising),
+               fmt::format("{:.5g}", filling)});
   }
+  const auto [denoising, filling] =
+      errors_of(*make_kalman_learned({}, learned("kalman-learned", walks.training)),
+                *make_kalman_learned({}, learned("kalman-learned", jumping.training)));
+  text.add("(kalman-learned, smoother)", {denoising, filling});
   text.print();
   table.close();
 }
