@@ -124,6 +124,7 @@ void smooth_rest(const PriorWork& work, const PoseMatrix& weights, const WindowB
     if (2 * seen[i % rest.channels] < rest.frames) missing[i] = 0;
   }
   std::vector<double> variances;
+  variances.reserve(noise.size());
   for (const double n : noise) variances.push_back(n * n);
   const signal::ModelGrid grid(rest.frames, work.channels.frame_rate_hz);
   PoseMatrix by_evidence = rest;
@@ -131,6 +132,7 @@ void smooth_rest(const PriorWork& work, const PoseMatrix& weights, const WindowB
       signal::smooth_by_evidence(by_evidence, variances, grid, part_channels);
   if (chosen.empty()) return;
   std::vector<signal::SmoothingModel> models;
+  models.reserve(chosen.size());
   for (const std::size_t model : chosen) models.push_back(grid.models()[model]);
   signal::smooth_adaptively(rest, missing, variances, models, work.channels.frame_rate_hz);
   for (std::size_t i = 0; i < rest.values.size(); ++i)
