@@ -116,10 +116,12 @@ void smooth_rest(const PriorWork& work, const PoseMatrix& weights, const WindowB
     const double weight = work.channels.observed[i] != 0 ? weights.values[i] : 0.0;
     const double measured = weight > 0 ? work.channels.poses.values[i] : 0.0;
     rest.values[i] = weight * measured + (1 - weight) * cleaned.values[i] - expressed.values[i];
-    missing[i] = weight < rejected_weight ? 1 : 0;
+    // In a gap there is nothing outside of what the bases express; a curve that crosses it freely
+    // would be no better than one without bases.
+    missing[i] = work.channels.observed[i] != 0 && weight < rejected_weight ? 1 : 0;
     seen[i % rest.channels] += missing[i] == 0 ? 1 : 0;
   }
-  // Of a channel that is hardly seen the filter's result is all there is.
+  // Of a channel that is mostly rejected the filter's result is all there is.
   for (std::size_t i = 0; i < missing.size(); ++i) {
     if (2 * seen[i % rest.channels] < rest.frames) missing[i] = 0;
   }

@@ -112,5 +112,25 @@ TEST(SmoothRest, KeepsSmoothMotionThatTheBasesDoNotKnow) {
   EXPECT_NEAR(cleaned(50, 1), work.fallback(50, 1), 2);
 }
 
+// A gap at the end: what the filter made of it stays, however the motion beside it goes on.
+TEST(SmoothRest, LeavesLongGapsAsTheFilterFilledThem) {
+  PriorWork work = work_of(0.1);
+  WindowBases bases;
+  bases.frames = 10;
+  bases.channels = channels;
+  bases.count = 1;
+  bases.hop = 1;
+  bases.values.assign(10 * channels, 0);
+  const std::vector<double> mean(channels, 0.0), noise(channels, 0.1);
+  const PoseMatrix weights(frames, channels, 1.0);
+  PoseMatrix cleaned = work.channels.poses;
+  for (std::size_t f = 120; f < 160; ++f) {
+    work.channels.observed[f * channels + 1] = 0;
+    cleaned(f, 1) = 0;
+  }
+  smooth_rest(work, weights, bases, mean, noise, cleaned);
+  for (std::size_t f = 130; f < 150; ++f) EXPECT_NEAR(cleaned(f, 1), 0, 1.5) << f;
+}
+
 }  // namespace
 }  // namespace kinemend::test
