@@ -1,0 +1,68 @@
+#include <benchmark/benchmark.h>
+
+#include "kinemend/body.hpp"
+#include "kinemend/convert.hpp"
+#include "kinemend/synth.hpp"
+
+// Takes of 31 joints (38 markers) as channels of a body and back. Arguments: rate in hertz,
+// seconds.
+namespace {
+
+kinemend::Clip take(const benchmark::State& state) {
+  return kinemend::synthesize({.motion = "stroll",
+                               .duration_s = static_cast<double>(state.range(1)),
+                               .frame_rate_hz = static_cast<double>(state.range(0))});
+}
+
+template <class AnyClip>
+kinemend::BodyLayout layout_of(const AnyClip& clip) {
+  kinemend::BodyLayoutBuilder builder;
+  builder.add(clip);
+  return builder.finish();
+}
+
+template <class AnyClip>
+void match(benchmark::State& state, const AnyClip& clip) {
+  const kinemend::BodyLayout layout = layout_of(clip);
+  for (auto _ : state) benchmark::DoNotOptimize(kinemend::match_body(layout, clip));
+}
+
+template <class AnyClip>
+void encode(benchmark::State& state, const AnyClip& clip) {
+  const kinemend::BodyLayout layout = layout_of(clip);
+  const kinemend::BodyMatch match = kinemend::match_body(layout, clip);
+  for (auto _ : state) benchmark::DoNotOptimize(kinemend::encode_body(clip, layout, match));
+}
+
+template <class AnyClip>
+void decode(benchmark::State& state, AnyClip clip) {
+  const kinemend::BodyLayout layout = layout_of(clip);
+  const kinemend::BodyMatch match = kinemend::match_body(layout, clip);
+  const kinemend::BodyChannels channels = kinemend::encode_body(clip, layout, match);
+  for (auto _ : state) kinemend::decode_body(channels, layout, match, clip);
+}
+
+void match_joints(benchmark::State& state) { match(state, take(state)); }
+void encode_joints(benchmark::State& state) { encode(state, take(state)); }
+void decode_joints(benchmark::State& state) { decode(state, take(state)); }
+void match_markers(benchmark::State& state) {
+  match(state, kinemend::joint_markers(take(state), true));
+}
+void encode_markers(benchmark::State& state) {
+  encode(state, kinemend::joint_markers(take(state), true));
+}
+void decode_markers(benchmark::State& state) {
+  decode(state, kinemend::joint_markers(take(state), true));
+}
+
+void sizes(benchmark::internal::Benchmark* bench) {
+  bench->Args({30, 10})->Args({120, 10})->Args({120, 100})->Unit(benchmark::kMillisecond);
+}
+BENCHMARK(match_joints)->Apply(sizes);
+BENCHMARK(encode_joints)->Apply(sizes);
+BENCHMARK(decode_joints)->Apply(sizes);
+BENCHMARK(match_markers)->Apply(sizes);
+BENCHMARK(encode_markers)->Apply(sizes);
+BENCHMARK(decode_markers)->Apply(sizes);
+
+}  // namespace
