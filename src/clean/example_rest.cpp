@@ -15,7 +15,7 @@ constexpr double most_noise_kept = 1.2;  // of what `auto` took away
 constexpr double least_variance = 1e-6;  // square degrees: less is rounding
 constexpr double least_strangeness = 10;
 constexpr double rejected_weight = 0.01;
-constexpr double known_motion = 15, unknown_motion = 150;  // strangeness
+constexpr double known_motion = 15, unknown_motion = 60;  // strangeness
 constexpr std::size_t part_channels = 3;
 // A measurement is far from what the bases express beyond so many medians of its channel's
 // distances, and beyond so much.

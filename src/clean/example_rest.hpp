@@ -32,7 +32,7 @@ void smooth_rest(const PriorWork& work, const PoseMatrix& weights, const WindowB
                  PoseMatrix& cleaned);
 
 /// The stranger the take, the more of what `auto` made of its measurements: none of it below a
-/// strangeness of 15, nothing else from 150 on. Gaps stay as the bases fill them.
+/// strangeness of 15, nothing else from 60 on. Gaps stay as the bases fill them.
 void fall_back(const PriorWork& work, double strangeness, PoseMatrix& cleaned);
 
 }  // namespace kinemend
