@@ -10,6 +10,7 @@
 
 #include "base/quantiles.hpp"
 #include "clean/example_rest.hpp"
+#include "clean/example_self.hpp"
 #include "clean/joint_limits.hpp"
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
@@ -186,6 +187,7 @@ class Example final : public Cleaner {
 std::unique_ptr<Cleaner> make_example(const ExampleOptions& options,
                                       std::shared_ptr<const Model> model) {
   table().validate(options);
+  if (options.self) return make_self_example(options);
   if (!model) model = model_for("example", options.model);
   return std::make_unique<Example>(options, std::move(model));
 }
