@@ -12,8 +12,8 @@ namespace {
 
 // Steps on one least-squares problem. The weights change with the next one, so that it need not be
 // solved to the end.
-constexpr std::size_t most_steps = 12;
-constexpr double enough_of_residual = 0.05;
+constexpr std::size_t most_steps = 6;
+constexpr double enough_of_residual = 0.2;
 
 double dot(const PoseMatrix& a, const PoseMatrix& b) {
   // Four sums at once, so that additions do not wait for each other.
