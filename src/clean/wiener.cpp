@@ -6,7 +6,7 @@
 #include "clean/prior_cleaning.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/model.hpp"
-#include "priors/wiener_filter.hpp"
+#include "priors/wiener_guard.hpp"
 #include "priors/wiener_prior.hpp"
 
 namespace kinemend {
@@ -97,14 +97,12 @@ class Wiener final : public Cleaner {
     clear_noisy_suspects(work);
     PoseMatrix& poses = work.channels.poses;
     const std::vector<double> noise = noise_of(work);
-    for (std::size_t i = 0; i < poses.values.size(); ++i) {
-      if (work.channels.observed[i] == 0) poses.values[i] = work.fallback.values[i];
-    }
     WienerSettings settings;
     if (!options_.despike) settings.outlier_deviations = 0;
-    WienerResult result = wiener_filter(
-        prior_, {poses, work.channels.observed, work.suspect, noise, work.channels.frame_rate_hz},
-        settings);
+    WienerResult result = guarded_wiener_filter(prior_,
+                                                {poses, work.fallback, work.channels.observed,
+                                                 work.suspect, noise, work.channels.frame_rate_hz},
+                                                settings);
     poses = std::move(result.poses);
     work.rejected = std::move(result.rejected);
   }

@@ -51,12 +51,13 @@ class Filtering {
         settings_(settings),
         windows_(prior, window, static_cast<Index>(take.poses.frames), take.observed, take.noise),
         components_(prior.components),
-        rest_(prior.rest, windows_.noise(), window),
+        rest_(prior.rest, windows_.noise(), window, prior.window_s),
         taper_(taper(window)),
         guess_(take.poses),
         rejected_(take.poses.values.size(), 0) {
     if (settings_.outlier_deviations > 0 && !take.suspect.empty())
       rejected_.assign(take.suspect.begin(), take.suspect.end());
+    take_guesses(take.guess);
   }
 
   WienerResult run() {
@@ -130,7 +131,7 @@ class Filtering {
 
   void learn_rest() {
     const std::size_t chunks = (windows_.starts().size() + chunk_windows - 1) / chunk_windows;
-    const RestModel empty(prior_.rest, windows_.noise(), windows_.frames());
+    const RestModel empty(prior_.rest, windows_.noise(), windows_.frames(), prior_.window_s);
     std::vector<RestModel> parts(chunks, empty);
     for_each_chunk([&](std::size_t chunk, std::size_t first, std::size_t last) {
       for (std::size_t w = first; w < last; ++w) {
@@ -198,16 +199,18 @@ class Filtering {
 
   void judge_samples(const PoseMatrix& estimate) {
     if (settings_.outlier_deviations <= 0) return;
-    std::fill(rejected_.begin(), rejected_.end(), std::uint8_t{0});
+    const std::vector<std::uint8_t> before =
+        std::exchange(rejected_, std::vector<std::uint8_t>(rejected_.size(), 0));
     const std::size_t channels = estimate.channels;
     tbb::parallel_for(std::size_t{0}, (channels + 2) / 3, [&](std::size_t part) {
       const std::size_t first = 3 * part, last = std::min(first + 3, channels);
       for (std::size_t d = first; d < last; ++d) {
         const double limit = limit_of(estimate, d);
         for (std::size_t f = 0; f < estimate.frames; ++f) {
-          if (!is_observed(f * channels + d) ||
-              std::abs(take_.poses(f, d) - estimate(f, d)) <= limit)
-            continue;
+          const std::size_t sample = f * channels + d;
+          if (!is_observed(sample)) continue;
+          const double share = before[sample] != 0 ? settings_.return_share : 1;
+          if (std::abs(take_.poses(f, d) - estimate(f, d)) <= share * limit) continue;
           for (std::size_t other = first; other < last; ++other)
             rejected_[f * channels + other] = is_observed(f * channels + other) ? 1 : 0;
         }

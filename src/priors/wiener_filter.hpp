@@ -15,12 +15,14 @@ struct WienerSettings {
   double covariance_windows = 60;  ///< how many windows the learned covariances are worth
   double mean_windows = 5;         ///< and the learned means
   /// Standard deviations beyond which a sample counts for nothing; 0: all count.
-  double outlier_deviations = 5;
+  double outlier_deviations = 4.5;
   double least_outlier_deg = 1;  ///< nearer ones are never outliers
+  double return_share = 0.75;    ///< of both limits: within it an outlier counts again
 };
 
 struct WienerTake {
-  const PoseMatrix& poses;                 ///< F x D; a guess where nothing was observed
+  const PoseMatrix& poses;                 ///< F x D
+  const PoseMatrix& guess;                 ///< F x D, for samples that are missing or suspect
   std::span<const std::uint8_t> observed;  ///< F x D; empty: all
   std::span<const std::uint8_t> suspect;   ///< F x D, 1: an outlier at first sight; empty: none
   std::span<const double> noise;           ///< D, positive: standard deviations, degrees

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace kinemend {
 
@@ -14,9 +15,15 @@ using Eigen::VectorXd;
 
 constexpr int largest_octave = 5;        // scales are 2^-5 to 2^5
 constexpr double octave_penalty = 0.02;  // log prior of a scale: - penalty octave^2
+// The noise of a window, relative to that of the take, is a power of two between these.
+constexpr int least_noise_octave = -1;
+constexpr int largest_noise_octave = 6;
+constexpr double noise_coefficients = 20;  // that the take's noise is worth in a window
+constexpr double motionless_hz = 35;       // next to no motion is quicker
 constexpr double prior_windows = 8;
 constexpr double least_variance = 1e-9;  // square degrees
 constexpr std::size_t scale_count = 2 * largest_octave + 1;
+constexpr std::size_t noise_count = largest_noise_octave - least_noise_octave + 1;
 
 // Coefficients about k that are taken to have one variance.
 struct Band {
@@ -31,10 +38,11 @@ Band band_about(Index k, Index count) {
 
 }  // namespace
 
-RestModel::RestModel(const MatrixXd& prior, const VectorXd& noise, Index frames)
+RestModel::RestModel(const MatrixXd& prior, const VectorXd& noise, Index frames, double window_s)
     : prior_(frames, prior.rows()),
       noise_(noise),
-      squares_(MatrixXd::Zero(frames, prior.rows())),
+      motionless_(std::min(frames, static_cast<Index>(std::ceil(2 * window_s * motionless_hz)))),
+      signal_(MatrixXd::Zero(frames, prior.rows())),
       counts_(VectorXd::Zero(prior.rows())) {
   // Above the frequencies of the model, where takes have a higher rate, spectra fall on.
   for (Index k = 0; k < frames; ++k) {
@@ -44,13 +52,28 @@ RestModel::RestModel(const MatrixXd& prior, const VectorXd& noise, Index frames)
   }
 }
 
+// Of the noise of a channel in a window, by its highest frequencies.
+int RestModel::noise_octave(const MatrixXd& left, Index channel) const {
+  const Index count = left.rows() - motionless_;
+  if (count <= 0) return 0;
+  const double seen = left.col(channel).tail(count).squaredNorm();
+  const double factor = (seen / noise_(channel) + noise_coefficients) /
+                        (static_cast<double>(count) + noise_coefficients);
+  return std::clamp(static_cast<int>(std::lround(std::log2(factor))), least_noise_octave,
+                    largest_noise_octave);
+}
+
 void RestModel::add(const MatrixXd& left, const VectorXd& counts) {
-  squares_ += left.cwiseAbs2() * counts.asDiagonal();
+  for (Index d = 0; d < left.cols(); ++d) {
+    if (counts(d) == 0) continue;
+    signal_.col(d).array() +=
+        left.col(d).array().square() - std::ldexp(noise_(d), noise_octave(left, d));
+  }
   counts_ += counts;
 }
 
 void RestModel::add(const RestModel& other) {
-  squares_ += other.squares_;
+  signal_ += other.signal_;
   counts_ += other.counts_;
 }
 
@@ -58,7 +81,7 @@ void RestModel::learn(double window_weight) {
   const Index frames = prior_.rows(), channels = prior_.cols();
   MatrixXd variance(frames, channels);
   for (Index d = 0; d < channels; ++d) {
-    const VectorXd signal = (squares_.col(d) / std::max(counts_(d), 1.0)).array() - noise_(d);
+    const VectorXd signal = signal_.col(d) / std::max(counts_(d), 1.0);
     const double windows = counts_(d) * window_weight;
     for (Index k = 0; k < frames; ++k) {
       const Band band = band_about(k, frames);
@@ -71,33 +94,46 @@ void RestModel::learn(double window_weight) {
   scales_.clear();
   for (int octave = -largest_octave; octave <= largest_octave; ++octave) {
     const MatrixXd scaled = std::ldexp(1.0, octave) * variance;
-    const MatrixXd total = scaled.rowwise() + noise_.transpose();
-    scales_.push_back({-octave_penalty * octave * octave, scaled.cwiseQuotient(total),
-                       total.cwiseInverse(),
-                       -0.5 * total.array().log().colwise().sum().matrix().transpose()});
+    for (int noise = least_noise_octave; noise <= largest_noise_octave; ++noise) {
+      const MatrixXd total = scaled.rowwise() + std::ldexp(1.0, noise) * noise_.transpose();
+      scales_.push_back({scaled.cwiseQuotient(total), total.cwiseInverse(),
+                         -0.5 * total.array().log().colwise().sum().matrix().transpose()});
+    }
   }
 }
 
 void RestModel::shrink(MatrixXd& left) const {
-  const Index frames = prior_.rows();
   for (Index first = 0; first < left.cols(); first += 3) {
-    const Index width = std::min<Index>(3, left.cols() - first);
-    const MatrixXd squares = left.middleCols(first, width).cwiseAbs2();
+    const Index last = std::min<Index>(first + 3, left.cols());
+    std::array<std::size_t, 3> noise{};
+    for (Index d = first; d < last; ++d) {
+      noise[static_cast<std::size_t>(d - first)] =
+          static_cast<std::size_t>(noise_octave(left, d) - least_noise_octave);
+    }
+    const auto scale_at = [&](std::size_t s, Index d) -> const Scale& {
+      return scales_[s * noise_count + noise[static_cast<std::size_t>(d - first)]];
+    };
     std::array<double, scale_count> share{};
-    double best = -1e300;
+    double best = -std::numeric_limits<double>::infinity();
     for (std::size_t s = 0; s < scale_count; ++s) {
-      const Scale& scale = scales_[s];
-      share[s] = scale.log_prior + scale.log_density.segment(first, width).sum() -
-                 0.5 * squares.cwiseProduct(scale.precision.middleCols(first, width)).sum();
+      const double octave = static_cast<double>(s) - largest_octave;
+      share[s] = -octave_penalty * octave * octave;
+      for (Index d = first; d < last; ++d) {
+        const Scale& scale = scale_at(s, d);
+        share[s] +=
+            scale.log_density(d) - 0.5 * left.col(d).cwiseAbs2().dot(scale.precision.col(d));
+      }
       best = std::max(best, share[s]);
     }
     double sum = 0;
     for (double& value : share) sum += value = std::exp(value - best);
-    MatrixXd gain = MatrixXd::Zero(frames, width);
-    for (std::size_t s = 0; s < scale_count; ++s) {
-      if (share[s] > 1e-6 * sum) gain += share[s] / sum * scales_[s].gain.middleCols(first, width);
+    for (Index d = first; d < last; ++d) {
+      VectorXd gain = VectorXd::Zero(left.rows());
+      for (std::size_t s = 0; s < scale_count; ++s) {
+        if (share[s] > 1e-6 * sum) gain += share[s] / sum * scale_at(s, d).gain.col(d);
+      }
+      left.col(d).array() *= gain.array();
     }
-    left.middleCols(first, width).array() *= gain.array();
   }
 }
 

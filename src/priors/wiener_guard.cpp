@@ -1,0 +1,172 @@
+#include "priors/wiener_guard.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "kinemend/random.hpp"
+#include "kinemend/signal.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr std::array<double, 14> widths_s = {0.006, 0.008, 0.011, 0.014, 0.018, 0.024, 0.032,
+                                             0.042, 0.055, 0.075, 0.1,   0.14,  0.19,  0.25};
+constexpr double probe_share = 0.1;     // of the noise
+constexpr double clearly = 0.95;        // of the filter's risk
+constexpr double fewest_counted = 0.8;  // share of samples
+constexpr std::uint64_t probe_seed = 7;
+
+// The weight of a sample in its own mean.
+double centre_weight(double sigma_frames) {
+  double sum = 1;
+  for (int j = 1; j < 4 * sigma_frames + 1; ++j)
+    sum += 2 * std::exp(-0.5 * (j / sigma_frames) * (j / sigma_frames));
+  return 1 / sum;
+}
+
+class Guard {
+ public:
+  Guard(const WienerPrior& prior, const WienerTake& take, const WienerSettings& settings)
+      : prior_(prior), take_(take), settings_(settings) {}
+
+  WienerResult run() {
+    WienerResult result = wiener_filter(prior_, take_, settings_);
+    const std::size_t frames = take_.poses.frames, channels = take_.poses.channels;
+    if (frames < fewest_frames) return result;
+    counted_ = result.rejected;
+    samples_ = result.poses;
+    for (std::size_t i = 0; i < counted_.size(); ++i) {
+      const bool is_observed = take_.observed.empty() || take_.observed[i] != 0;
+      counted_[i] = is_observed && counted_[i] == 0 ? 1 : 0;
+      if (counted_[i] != 0) samples_.values[i] = take_.poses.values[i];
+    }
+    learn_noise();
+    std::vector<double> least = part_sums(risks(result.poses, divergence(result)));
+    for (double& risk : least) risk *= clearly;
+    std::vector<std::size_t> best(least.size(), widths_s.size());
+    std::vector<PoseMatrix> smooth(widths_s.size());
+    std::vector<std::vector<double>> smooth_risks(widths_s.size());
+    tbb::parallel_for(std::size_t{0}, widths_s.size(), [&](std::size_t w) {
+      const double sigma = widths_s[w] * take_.rate_hz;
+      smooth[w] = samples_;
+      gaussian_filter(smooth[w], sigma);
+      smooth_risks[w] =
+          part_sums(risks(smooth[w], std::vector<double>(channels, centre_weight(sigma))));
+    });
+    for (std::size_t w = 0; w < widths_s.size(); ++w) {
+      for (std::size_t part = 0; part < least.size(); ++part) {
+        if (smooth_risks[w][part] >= least[part]) continue;
+        least[part] = smooth_risks[w][part];
+        best[part] = w;
+      }
+    }
+    for (std::size_t d = 0; d < channels; ++d) {
+      const std::size_t w = best[d / 3];
+      if (w == widths_s.size() || !is_mostly_counted(d)) continue;
+      for (std::size_t f = 0; f < frames; ++f) result.poses(f, d) = smooth[w](f, d);
+    }
+    return result;
+  }
+
+ private:
+  static constexpr std::size_t fewest_frames = 16;
+
+  bool is_mostly_counted(std::size_t channel) const {
+    std::size_t count = 0;
+    for (std::size_t f = 0; f < take_.poses.frames; ++f)
+      count += counted_[f * take_.poses.channels + channel];
+    return static_cast<double>(count) >= fewest_counted * static_cast<double>(take_.poses.frames);
+  }
+
+  // Mean square of fourth differences of samples that count: noise may be stronger here than there,
+  // and risks add up.
+  void learn_noise() {
+    const PoseMatrix& y = take_.poses;
+    variance_.assign(y.channels, 0);
+    for (std::size_t d = 0; d < y.channels; ++d) {
+      const double typical = take_.noise[d] * take_.noise[d];
+      double sum = 0, count = 0;
+      std::size_t run = 0;
+      for (std::size_t f = 0; f < y.frames; ++f) {
+        run = counted_[f * y.channels + d] != 0 ? run + 1 : 0;
+        if (run < 5) continue;
+        const double difference =
+            y(f, d) - 4 * y(f - 1, d) + 6 * y(f - 2, d) - 4 * y(f - 3, d) + y(f - 4, d);
+        sum += std::min(difference * difference / 70, 25 * typical);
+        count += 1;
+      }
+      variance_[d] = count > 0 ? sum / count : typical;
+    }
+  }
+
+  // D: mean of d x_t / d y_t.
+  std::vector<double> divergence(const WienerResult& result) const {
+    const PoseMatrix& y = take_.poses;
+    PoseMatrix probed = samples_;
+    std::vector<double> signs(probed.values.size());
+    const Random random(probe_seed);
+    for (std::size_t f = 0; f < y.frames; ++f) {
+      Random own = random.fork(f);
+      for (std::size_t d = 0; d < y.channels; ++d) {
+        const std::size_t i = f * y.channels + d;
+        signs[i] = own.chance(0.5) ? 1 : -1;
+        if (counted_[i] != 0) probed.values[i] += probe_share * take_.noise[d] * signs[i];
+      }
+    }
+    WienerSettings settings = settings_;
+    settings.outlier_deviations = 0;
+    const WienerTake again{probed, result.poses, take_.observed, {}, take_.noise, take_.rate_hz};
+    const WienerTake before{samples_, result.poses, take_.observed, {}, take_.noise, take_.rate_hz};
+    const PoseMatrix moved = wiener_filter(prior_, again, settings).poses;
+    const PoseMatrix still = wiener_filter(prior_, before, settings).poses;
+    std::vector<double> sums(y.channels, 0), counts(y.channels, 0);
+    for (std::size_t i = 0; i < signs.size(); ++i) {
+      if (counted_[i] == 0) continue;
+      const std::size_t d = i % y.channels;
+      sums[d] += signs[i] * (moved.values[i] - still.values[i]) / (probe_share * take_.noise[d]);
+      counts[d] += 1;
+    }
+    for (std::size_t d = 0; d < sums.size(); ++d)
+      sums[d] = std::clamp(sums[d] / std::max(counts[d], 1.0), 0.0, 1.0);
+    return sums;
+  }
+
+  std::vector<double> risks(const PoseMatrix& x, const std::vector<double>& divergences) const {
+    std::vector<double> sums(x.channels, 0);
+    for (std::size_t i = 0; i < x.values.size(); ++i) {
+      if (counted_[i] == 0) continue;
+      const std::size_t d = i % x.channels;
+      const double change = take_.poses.values[i] - x.values[i];
+      sums[d] += change * change + (2 * divergences[d] - 1) * variance_[d];
+    }
+    return sums;
+  }
+
+  static std::vector<double> part_sums(const std::vector<double>& channels) {
+    std::vector<double> parts((channels.size() + 2) / 3, 0);
+    for (std::size_t d = 0; d < channels.size(); ++d) parts[d / 3] += channels[d];
+    return parts;
+  }
+
+  const WienerPrior& prior_;
+  const WienerTake& take_;
+  const WienerSettings& settings_;
+  std::vector<std::uint8_t> counted_;  // F x D
+  PoseMatrix samples_;                 // those that count, and the filter's where none does
+  std::vector<double> variance_;       // D
+};
+
+}  // namespace
+
+WienerResult guarded_wiener_filter(const WienerPrior& prior, const WienerTake& take,
+                                   const WienerSettings& settings) {
+  return Guard(prior, take, settings).run();
+}
+
+}  // namespace kinemend
