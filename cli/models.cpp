@@ -45,6 +45,7 @@ int export_model(const std::string& method, const Arguments& arguments) {
   const ShippedModel* shipped = find_shipped(models, method);
   if (shipped == nullptr) {
     std::vector<std::string> names;
+    names.reserve(models.size());
     for (const ShippedModel& model : models) names.emplace_back(model.method);
     throw Error(ErrorKind::usage,
                 fmt::format("models: no model ships for {}{} (there are {})", method,

@@ -23,8 +23,9 @@ std::vector<std::string> names_of(const auto& entries) {
 OptionValues checked_options(const TrainMethod& method, const OptionValues& values) {
   OptionValues checked;
   for (const auto& [name, value] : values) {
-    const auto spec = std::find_if(method.options.begin(), method.options.end(),
-                                   [&](const OptionSpec& s) { return s.name == name; });
+    const auto spec =
+        std::find_if(method.options.begin(), method.options.end(),
+                     [&wanted = name](const OptionSpec& s) { return s.name == wanted; });
     if (spec == method.options.end()) {
       const std::vector<std::string> names = names_of(method.options);
       throw Error(ErrorKind::usage,
