@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/quantiles.hpp"
 #include "clean/example_rest.hpp"
 #include "clean/prior_cleaning.hpp"
 #include "kinemend/body.hpp"
@@ -18,6 +19,8 @@ namespace {
 
 constexpr double welsch_deviations = 3;
 constexpr double rejected_weight = 0.01;
+// Degrees: a take with less noise is clean, and stays as `auto` leaves it.
+constexpr double least_noise_deg = 0.1;
 
 // `auto`'s opinion of spikes and gaps, else what was measured.
 PoseMatrix without_spikes(const PriorWork& work) {
@@ -63,6 +66,11 @@ class SelfExample final : public Cleaner {
 
   void filter(PriorWork& work) const {
     const std::vector<double> noise = example_noise(work);
+    std::vector<double> levels = noise;
+    if (median_of(levels) < least_noise_deg) {
+      work.channels.poses = work.fallback;
+      return;
+    }
     PoseMatrix poses = without_spikes(work);
     const double rate_hz = work.channels.frame_rate_hz;
     ExamplePrior prior = self_bases(poses, rate_hz, noise);

@@ -13,7 +13,7 @@ constexpr double usual_rate_hz = 30;
 constexpr double window_s = 20.0 / 30;
 constexpr std::size_t most_window_values = 4096;
 constexpr std::size_t most_bases = 150;
-constexpr double fewest_windows = 2;     // that the take is long
+constexpr double fewest_windows = 15;    // that the take is long: patterns have to come back
 constexpr double least_residual = 0.02;  // variance outside the bases, relative to the noise's
 
 std::size_t hop_frames(double clip_rate_hz) {
