@@ -11,9 +11,11 @@
 #include <span>
 #include <utility>
 
+#include "base/quantiles.hpp"
 #include "clean/tracks.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/methods.hpp"
+#include "kinemend/representation.hpp"
 
 namespace kinemend {
 
@@ -98,6 +100,41 @@ PriorWork work_of(const Clip& clip, const JointRun& run) {
       mark_part(work.suspect, channels, f, run.place_part());
   }
   return work;
+}
+
+Vec3 turn_of(const PoseMatrix& poses, std::size_t frame, std::size_t part) {
+  return {poses(frame, 3 * part), poses(frame, 3 * part + 1), poses(frame, 3 * part + 2)};
+}
+
+// From a frame to the next; where noise is strong, in medians of that.
+constexpr double flip_deg = 60, flip_medians = 6;
+constexpr double most_turns = 0.98;  // a few are noise
+
+// A joint that turns away from the model's mean as far as its channels can say, or flips, is
+// nothing that the model knows: to the filter it is missing, and `auto` keeps it.
+void leave_far_turns_to_auto(PriorWork& work, const JointRun& run,
+                             std::vector<std::uint8_t>& chosen) {
+  for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
+    std::vector<double> turns, steps;
+    double fastest = 0;
+    for (std::size_t f = 0; f < work.fallback.frames; ++f) {
+      turns.push_back(norm(turn_of(work.fallback, f, part)));
+      if (f == 0) continue;
+      const auto step = [&](const PoseMatrix& poses) {
+        return norm(turn_of(poses, f, part) - turn_of(poses, f - 1, part));
+      };
+      fastest = std::max(fastest, step(work.fallback));
+      steps.push_back(step(work.channels.poses));
+    }
+    const double flip = std::max(flip_deg, flip_medians * median_of(steps));
+    const double farthest = quantile_of(turns, most_turns);
+    if (farthest <= degrees_per_radian * tangent_limit_rad && fastest <= flip) continue;
+    chosen[part] = 0;
+    for (std::size_t f = 0; f < work.fallback.frames; ++f) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        work.channels.observed[f * work.fallback.channels + 3 * part + axis] = 0;
+    }
+  }
 }
 
 // What `auto` made of the joints and positions that the model does not know.
@@ -257,6 +294,7 @@ CleanTrace clean_with_prior(Clip& clip, const Selection& selection, const BodyLa
   std::vector<std::uint8_t> chosen = chosen_parts(match, selection.joints);
   const JointRun run = run_auto(clip, layout, match, selection);
   PriorWork work = work_of(clip, run);
+  leave_far_turns_to_auto(work, run, chosen);
   filter(work);
 
   Clip result = clip;

@@ -28,8 +28,10 @@ struct PriorWork {
 /// Cleans `work.channels.poses` in place.
 using PriorFilter = std::function<void(PriorWork& work)>;
 
-/// Runs the filter on the parts that layout and take share, and `auto` on all others; fills gaps of
-/// the shared parts where `fill` is set. Errors: `ErrorKind::usage` as of `match_body`.
+/// Runs the filter on the parts that layout and take share, and `auto` on all others and on joints
+/// that turn farther from the model's mean than their channels can say (`tangent_limit_rad`) or
+/// flip by more than 60 degrees in a frame; fills gaps of the shared parts where `fill` is set.
+/// Errors: `ErrorKind::usage` as of `match_body`.
 CleanTrace clean_with_prior(Clip& clip, const Selection& selection, const BodyLayout& layout,
                             const NameMap& names, bool fill, const PriorFilter& filter);
 MarkerTrace clean_with_prior(MarkerClip& clip, const MarkerSelection& selection,

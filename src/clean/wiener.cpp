@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
+#include "clean/track_smoother.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/model.hpp"
 #include "priors/wiener_guard.hpp"
@@ -65,6 +67,21 @@ void clear_noisy_suspects(PriorWork& work) {
   }
 }
 
+// The smoother of `auto`. Channels are brought to one noise, so that it is alike in all directions.
+void smooth_as_auto(PoseMatrix& poses, std::span<const std::uint8_t> missing,
+                    std::span<const double> noise, double rate_hz) {
+  VectorTracks tracks(poses.frames, poses.channels / 3);
+  SampleMarks marks(poses.frames, tracks.tracks());
+  for (std::size_t i = 0; i < poses.values.size(); ++i) {
+    tracks.values.values[i] = poses.values[i] / noise[i % poses.channels];
+    marks.marks[i / 3] |= missing[i];
+  }
+  const std::vector<double> one(tracks.tracks(), 1);
+  smooth_tracks(tracks, marks, one, one, rate_hz);
+  for (std::size_t i = 0; i < poses.values.size(); ++i)
+    poses.values[i] = tracks.values.values[i] * noise[i % poses.channels];
+}
+
 class Wiener final : public Cleaner {
  public:
   Wiener(const WienerOptions& options, std::shared_ptr<const Model> model)
@@ -99,10 +116,15 @@ class Wiener final : public Cleaner {
     const std::vector<double> noise = noise_of(work);
     WienerSettings settings;
     if (!options_.despike) settings.outlier_deviations = 0;
-    WienerResult result = guarded_wiener_filter(prior_,
-                                                {poses, work.fallback, work.channels.observed,
-                                                 work.suspect, noise, work.channels.frame_rate_hz},
-                                                settings);
+    const double rate_hz = work.channels.frame_rate_hz;
+    const TakeSmoother smoother = [rate_hz](PoseMatrix& samples,
+                                            std::span<const std::uint8_t> missing,
+                                            std::span<const double> deviations) {
+      smooth_as_auto(samples, missing, deviations, rate_hz);
+    };
+    WienerResult result = guarded_wiener_filter(
+        prior_, {poses, work.fallback, work.channels.observed, work.suspect, noise, rate_hz},
+        smoother, settings);
     poses = std::move(result.poses);
     work.rejected = std::move(result.rejected);
   }

@@ -49,7 +49,7 @@ struct ExampleSettings {
   double first_welsch = 1;
   double limit_weight = 0;
   /// The nearest allowed poses.
-  std::function<void(const PoseMatrix& poses, PoseMatrix& nearest)> project;
+  std::function<void(const PoseMatrix& poses, PoseMatrix& nearest)> project{};
 };
 
 struct ExampleTrace {

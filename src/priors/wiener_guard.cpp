@@ -17,10 +17,20 @@ namespace {
 
 constexpr std::array<double, 14> widths_s = {0.006, 0.008, 0.011, 0.014, 0.018, 0.024, 0.032,
                                              0.042, 0.055, 0.075, 0.1,   0.14,  0.19,  0.25};
+constexpr std::size_t part_channels = 3;
 constexpr double probe_share = 0.1;     // of the noise
 constexpr double clearly = 0.95;        // of the filter's risk
 constexpr double fewest_counted = 0.8;  // share of samples
 constexpr std::uint64_t probe_seed = 7;
+
+constexpr double least_variance = 1e-6;  // square degrees
+constexpr double gap_fade_s = 0.1;
+
+// What a way of filtering makes of the take, and D: the mean of d x_t / d y_t.
+struct Estimate {
+  PoseMatrix poses;
+  std::vector<double> divergence;
+};
 
 // The weight of a sample in its own mean.
 double centre_weight(double sigma_frames) {
@@ -32,8 +42,9 @@ double centre_weight(double sigma_frames) {
 
 class Guard {
  public:
-  Guard(const WienerPrior& prior, const WienerTake& take, const WienerSettings& settings)
-      : prior_(prior), take_(take), settings_(settings) {}
+  Guard(const WienerPrior& prior, const WienerTake& take, const TakeSmoother& smoother,
+        const WienerSettings& settings)
+      : prior_(prior), take_(take), smoother_(smoother), settings_(settings) {}
 
   WienerResult run() {
     WienerResult result = wiener_filter(prior_, take_, settings_);
@@ -47,7 +58,10 @@ class Guard {
       if (counted_[i] != 0) samples_.values[i] = take_.poses.values[i];
     }
     learn_noise();
-    std::vector<double> least = part_sums(risks(result.poses, divergence(result)));
+    Estimate estimate{result.poses, divergence(result)};
+    if (smoother_) mix(estimate, smoothed());
+    result.poses = std::move(estimate.poses);
+    std::vector<double> least = part_sums(risks(result.poses, estimate.divergence));
     for (double& risk : least) risk *= clearly;
     std::vector<std::size_t> best(least.size(), widths_s.size());
     std::vector<PoseMatrix> smooth(widths_s.size());
@@ -67,7 +81,7 @@ class Guard {
       }
     }
     for (std::size_t d = 0; d < channels; ++d) {
-      const std::size_t w = best[d / 3];
+      const std::size_t w = best[d / part_channels];
       if (w == widths_s.size() || !is_mostly_counted(d)) continue;
       for (std::size_t f = 0; f < frames; ++f) result.poses(f, d) = smooth[w](f, d);
     }
@@ -101,40 +115,106 @@ class Guard {
         sum += std::min(difference * difference / 70, 25 * typical);
         count += 1;
       }
-      variance_[d] = count > 0 ? sum / count : typical;
+      variance_[d] = std::max(count > 0 ? sum / count : typical, least_variance);
     }
   }
 
-  // D: mean of d x_t / d y_t.
-  std::vector<double> divergence(const WienerResult& result) const {
-    const PoseMatrix& y = take_.poses;
-    PoseMatrix probed = samples_;
-    std::vector<double> signs(probed.values.size());
+  // The samples with a probe added, and the probe's signs.
+  PoseMatrix probed(std::vector<double>& signs) const {
+    PoseMatrix poses = samples_;
+    signs.resize(poses.values.size());
     const Random random(probe_seed);
-    for (std::size_t f = 0; f < y.frames; ++f) {
+    for (std::size_t f = 0; f < poses.frames; ++f) {
       Random own = random.fork(f);
-      for (std::size_t d = 0; d < y.channels; ++d) {
-        const std::size_t i = f * y.channels + d;
+      for (std::size_t d = 0; d < poses.channels; ++d) {
+        const std::size_t i = f * poses.channels + d;
         signs[i] = own.chance(0.5) ? 1 : -1;
-        if (counted_[i] != 0) probed.values[i] += probe_share * take_.noise[d] * signs[i];
+        if (counted_[i] != 0) poses.values[i] += probe_share * take_.noise[d] * signs[i];
       }
     }
-    WienerSettings settings = settings_;
-    settings.outlier_deviations = 0;
-    const WienerTake again{probed, result.poses, take_.observed, {}, take_.noise, take_.rate_hz};
-    const WienerTake before{samples_, result.poses, take_.observed, {}, take_.noise, take_.rate_hz};
-    const PoseMatrix moved = wiener_filter(prior_, again, settings).poses;
-    const PoseMatrix still = wiener_filter(prior_, before, settings).poses;
-    std::vector<double> sums(y.channels, 0), counts(y.channels, 0);
+    return poses;
+  }
+
+  std::vector<double> divergence(const PoseMatrix& moved, const PoseMatrix& still,
+                                 const std::vector<double>& signs) const {
+    const std::size_t channels = still.channels;
+    std::vector<double> sums(channels, 0), counts(channels, 0);
     for (std::size_t i = 0; i < signs.size(); ++i) {
       if (counted_[i] == 0) continue;
-      const std::size_t d = i % y.channels;
+      const std::size_t d = i % channels;
       sums[d] += signs[i] * (moved.values[i] - still.values[i]) / (probe_share * take_.noise[d]);
       counts[d] += 1;
     }
-    for (std::size_t d = 0; d < sums.size(); ++d)
+    for (std::size_t d = 0; d < channels; ++d)
       sums[d] = std::clamp(sums[d] / std::max(counts[d], 1.0), 0.0, 1.0);
     return sums;
+  }
+
+  std::vector<double> divergence(const WienerResult& result) const {
+    std::vector<double> signs;
+    const PoseMatrix shaken = probed(signs);
+    WienerSettings settings = settings_;
+    settings.outlier_deviations = 0;
+    const WienerTake again{shaken, result.poses, take_.observed, {}, take_.noise, take_.rate_hz};
+    const WienerTake before{samples_, result.poses, take_.observed, {}, take_.noise, take_.rate_hz};
+    return divergence(wiener_filter(prior_, again, settings).poses,
+                      wiener_filter(prior_, before, settings).poses, signs);
+  }
+
+  Estimate smoothed() const {
+    std::vector<std::uint8_t> missing(counted_.size());
+    for (std::size_t i = 0; i < missing.size(); ++i) missing[i] = counted_[i] == 0 ? 1 : 0;
+    std::vector<double> deviations(variance_.size()), signs;
+    std::transform(variance_.begin(), variance_.end(), deviations.begin(),
+                   [](double variance) { return std::sqrt(variance); });
+    Estimate estimate{samples_, {}};
+    PoseMatrix shaken = probed(signs);
+    smoother_(estimate.poses, missing, deviations);
+    smoother_(shaken, missing, deviations);
+    estimate.divergence = divergence(shaken, estimate.poses, signs);
+    return estimate;
+  }
+
+  // Of each part a x + (1 - a) other with the a of least estimated risk, which is a parabola in a.
+  void mix(Estimate& x, const Estimate& other) const {
+    const std::size_t channels = samples_.channels, parts = (channels + 2) / part_channels;
+    std::vector<double> slope(parts, 0), curvature(parts, 0);
+    for (std::size_t i = 0; i < counted_.size(); ++i) {
+      if (counted_[i] == 0) continue;
+      const std::size_t d = i % channels;
+      const double step = x.poses.values[i] - other.poses.values[i];
+      const double left = take_.poses.values[i] - other.poses.values[i];
+      slope[d / part_channels] +=
+          left * step - (x.divergence[d] - other.divergence[d]) * variance_[d];
+      curvature[d / part_channels] += step * step;
+    }
+    std::vector<double> share(channels, 1);
+    for (std::size_t d = 0; d < channels; ++d) {
+      const std::size_t part = d / part_channels;
+      if (curvature[part] > 0 && is_mostly_counted(d))
+        share[d] = std::clamp(slope[part] / curvature[part], 0.0, 1.0);
+      x.divergence[d] = share[d] * x.divergence[d] + (1 - share[d]) * other.divergence[d];
+    }
+    const std::vector<std::size_t> depth = gap_depths();
+    for (std::size_t i = 0; i < counted_.size(); ++i) {
+      const double deep = static_cast<double>(depth[i]) / (gap_fade_s * take_.rate_hz);
+      const double other_share = (1 - share[i % channels]) * std::max(0.0, 1 - deep);
+      x.poses.values[i] += other_share * (other.poses.values[i] - x.poses.values[i]);
+    }
+  }
+
+  // F x D: frames to the nearest sample that counts. What crosses a gap by smoothness alone is
+  // worth less the deeper it gets.
+  std::vector<std::size_t> gap_depths() const {
+    const std::size_t channels = samples_.channels, count = counted_.size();
+    std::vector<std::size_t> depth(count, 0);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (counted_[i] == 0) depth[i] = i < channels ? samples_.frames : depth[i - channels] + 1;
+    }
+    for (std::size_t i = count; i-- > 0;) {
+      if (i + channels < count) depth[i] = std::min(depth[i], depth[i + channels] + 1);
+    }
+    return depth;
   }
 
   std::vector<double> risks(const PoseMatrix& x, const std::vector<double>& divergences) const {
@@ -149,13 +229,14 @@ class Guard {
   }
 
   static std::vector<double> part_sums(const std::vector<double>& channels) {
-    std::vector<double> parts((channels.size() + 2) / 3, 0);
-    for (std::size_t d = 0; d < channels.size(); ++d) parts[d / 3] += channels[d];
+    std::vector<double> parts((channels.size() + 2) / part_channels, 0);
+    for (std::size_t d = 0; d < channels.size(); ++d) parts[d / part_channels] += channels[d];
     return parts;
   }
 
   const WienerPrior& prior_;
   const WienerTake& take_;
+  const TakeSmoother& smoother_;
   const WienerSettings& settings_;
   std::vector<std::uint8_t> counted_;  // F x D
   PoseMatrix samples_;                 // those that count, and the filter's where none does
@@ -165,8 +246,8 @@ class Guard {
 }  // namespace
 
 WienerResult guarded_wiener_filter(const WienerPrior& prior, const WienerTake& take,
-                                   const WienerSettings& settings) {
-  return Guard(prior, take, settings).run();
+                                   const TakeSmoother& smoother, const WienerSettings& settings) {
+  return Guard(prior, take, smoother, settings).run();
 }
 
 }  // namespace kinemend

@@ -45,7 +45,7 @@ Eigen::VectorXd frame_mean(const std::vector<Weighted>& sequences) {
     for (std::size_t f = 0; f < poses.frames; ++f) {
       for (std::size_t c = 0; c < poses.channels; ++c) sum[c] += weight * poses(f, c);
     }
-    count += weight * poses.frames;
+    count += weight * static_cast<double>(poses.frames);
   }
   return sum / count;
 }
@@ -102,7 +102,7 @@ TEST(LagCovariance, IsThatOfTheWholeTrajectoryMatrix) {
 TEST(LagCovariance, IsTheSameForManySequencesThatAreAddedInBatches) {
   std::vector<Weighted> sequences;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    sequences.push_back({waves(20 + seed % 7, 3, seed), 1.0 / (1 + seed % 3)});
+    sequences.push_back({waves(20 + seed % 7, 3, seed), 1.0 / static_cast<double>(1 + seed % 3)});
   }
   LagCovariance covariance(20, 3);
   for (const auto& [poses, weight] : sequences) covariance.add(poses, weight);

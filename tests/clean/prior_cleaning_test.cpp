@@ -1,0 +1,267 @@
+#include "clean/prior_cleaning.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "clean/marker_takes.hpp"
+#include "clean/takes.hpp"
+#include "kinemend/clean.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/methods.hpp"
+#include "kinemend/synth.hpp"
+
+// The way of a take through the methods with a learned model, with filters whose effect is known.
+namespace kinemend::test {
+namespace {
+
+using testing::HasSubstr;
+
+Clip walk(double noise_deg = 0) {
+  SynthOptions options;
+  options.motion = "walk";
+  options.duration_s = 2;
+  options.frame_rate_hz = 60;
+  Clip clip = synthesize(options);
+  if (noise_deg > 0) add_noise(clip, noise_deg, 0.2, 3);
+  return clip;
+}
+
+BodyLayout layout_of(const Clip& clip, std::vector<std::string> names = {}) {
+  BodyLayoutBuilder builder(std::move(names));
+  builder.add(clip);
+  return builder.finish();
+}
+BodyLayout layout_of(const MarkerClip& clip) {
+  BodyLayoutBuilder builder;
+  builder.add(clip);
+  return builder.finish();
+}
+
+void keep(PriorWork&) {}
+void flatten(PriorWork& work) {
+  std::fill(work.channels.poses.values.begin(), work.channels.poses.values.end(), 0.0);
+}
+
+std::size_t part_called(const BodyLayout& layout, const std::string& name) {
+  const auto found = std::find(layout.names.begin(), layout.names.end(), name);
+  return static_cast<std::size_t>(found - layout.names.begin());
+}
+
+// Does to the takes of the pipeline what the filter does.
+class Filtering final : public Cleaner {
+ public:
+  Filtering(BodyLayout layout, bool fill, PriorFilter filter)
+      : layout_(std::move(layout)), fill_(fill), filter_(std::move(filter)) {}
+  CleanTrace clean(Clip& clip, const Selection& selection) const override {
+    return clean_with_prior(clip, selection, layout_, {}, fill_, filter_);
+  }
+  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
+    return clean_with_prior(clip, selection, layout_, {}, fill_, filter_);
+  }
+
+ private:
+  BodyLayout layout_;
+  bool fill_;
+  PriorFilter filter_;
+};
+
+TEST(PriorCleaning, BringsATakeBackThatTheFilterLeftAlone) {
+  const Clip before = walk(1.5);
+  Clip after = before;
+  const CleanTrace trace =
+      clean_with_prior(after, Selection::all(before), layout_of(before), {}, true, keep);
+  EXPECT_LT(max_angle_deg(before, after), 1e-6);
+  for (std::size_t f = 0; f < before.frame_count(); ++f)
+    EXPECT_LT(norm(before.root_positions[f] - after.root_positions[f]), 1e-9);
+  EXPECT_EQ(std::count(trace.actions.begin(), trace.actions.end(), Action::kept),
+            static_cast<std::ptrdiff_t>(trace.actions.size()));
+}
+
+TEST(PriorCleaning, PutsTheMeanPoseWhereTheFilterAnswersZero) {
+  const Clip before = walk();
+  Clip after = before;
+  const BodyLayout layout = layout_of(before);
+  clean_with_prior(after, Selection::all(before), layout, {}, true, flatten);
+  const auto arm = static_cast<std::size_t>(before.skeleton.find("LeftArm"));
+  for (std::size_t f = 1; f < after.frame_count(); ++f)
+    EXPECT_LT(angle_between(after.rotation(f, arm), after.rotation(0, arm)), 1e-9);
+  EXPECT_GT(angle_between(before.rotation(0, arm), before.rotation(30, arm)), 0.01);
+}
+
+TEST(PriorCleaning, ChangesWhatIsSelectedOnly) {
+  const Clip before = walk(1.5);
+  const auto arm = static_cast<std::size_t>(before.skeleton.find("LeftArm"));
+  CleanSettings settings;
+  settings.joints = {"LeftArm"};
+  const Filtering cleaner(layout_of(before), true, flatten);
+  const Clip after = clean_clip(before, cleaner, settings).clip;
+  for (std::size_t f = 0; f < before.frame_count(); ++f) {
+    EXPECT_EQ(after.root_positions[f], before.root_positions[f]);
+    for (std::size_t j = 0; j < before.joint_count(); ++j) {
+      if (j == arm) continue;
+      EXPECT_EQ(after.rotation(f, j), before.rotation(f, j));
+    }
+  }
+  EXPECT_GT(angle_between(after.rotation(0, arm), before.rotation(0, arm)), 0.01);
+}
+
+TEST(PriorCleaning, LeavesJointsThatTheModelDoesNotKnowToAuto) {
+  const Clip before = walk(1.5);
+  const BodyLayout layout = layout_of(before, {"Hips", "*Leg", "*UpLeg"});
+  Clip after = before, by_auto = before;
+  clean_with_prior(after, Selection::all(before), layout, {}, true, keep);
+  make_auto()->clean(by_auto, Selection::all(before));
+  const auto arm = static_cast<std::size_t>(before.skeleton.find("LeftArm"));
+  const auto leg = static_cast<std::size_t>(before.skeleton.find("LeftLeg"));
+  for (std::size_t f = 0; f < before.frame_count(); ++f) {
+    EXPECT_EQ(after.rotation(f, arm), by_auto.rotation(f, arm));
+    EXPECT_LT(angle_between(after.rotation(f, leg), before.rotation(f, leg)), 1e-8);
+  }
+}
+
+TEST(PriorCleaning, TellsTheFilterWhatIsMissingWhatIsSuspectAndHowLoudTheNoiseIs) {
+  Clip clip = walk(2);
+  const auto arm = static_cast<std::size_t>(clip.skeleton.find("LeftArm"));
+  clip.observed.assign(clip.local_rotations.size(), 1);
+  for (std::size_t f = 20; f < 30; ++f) clip.observed[f * clip.joint_count() + arm] = 0;
+  clip.rotation(60, arm) = clip.rotation(60, arm) * exp({0, 0.9, 0});
+  const BodyLayout layout = layout_of(walk());
+  const std::size_t part = part_called(layout, "LeftArm");
+  clean_with_prior(clip, Selection::all(clip), layout, {}, true, [&](PriorWork& work) {
+    const std::size_t channels = work.channels.poses.channels;
+    ASSERT_EQ(channels, layout.channel_count());
+    for (std::size_t f = 0; f < work.channels.poses.frames; ++f)
+      EXPECT_EQ(work.channels.observed[f * channels + 3 * part] == 0, f >= 20 && f < 30) << f;
+    EXPECT_EQ(work.suspect[60 * channels + 3 * part], 1);
+    EXPECT_NEAR(work.noise[3 * part], 2, 0.4);
+    EXPECT_EQ(work.fallback.frames, work.channels.poses.frames);
+  });
+}
+
+TEST(PriorCleaning, FillsGapsOfJointsOrBridgesThem) {
+  Clip clip = walk();
+  const auto arm = static_cast<std::size_t>(clip.skeleton.find("LeftArm"));
+  const Clip truth = clip;
+  const BodyLayout layout = layout_of(truth);
+  clip.observed.assign(clip.local_rotations.size(), 1);
+  for (std::size_t f = 20; f < 40; ++f) {
+    clip.observed[f * clip.joint_count() + arm] = 0;
+    clip.rotation(f, arm) = exp({1, 2, 0});
+  }
+  // A filter that knows the truth.
+  const PriorFilter oracle = [&](PriorWork& work) {
+    work.channels.poses =
+        encode_body(truth, layout, match_body(layout, truth), work.channels).poses;
+  };
+  Clip filled = clip, bridged = clip;
+  const CleanTrace trace = clean_with_prior(filled, Selection::all(clip), layout, {}, true, oracle);
+  EXPECT_LT(max_angle_deg(filled, truth), 1e-6);
+  EXPECT_EQ(trace.actions[25 * clip.joint_count() + arm], Action::filled);
+  clean_with_prior(bridged, Selection::all(clip), layout, {}, false, oracle);
+  EXPECT_GT(angle_between(bridged.rotation(30, arm), truth.rotation(30, arm)), 0.001);
+  EXPECT_LT(angle_between(bridged.rotation(30, arm), truth.rotation(30, arm)), 0.3);
+}
+
+TEST(PriorCleaning, ReportsRejectedMeasurementsAsSpikes) {
+  Clip clip = walk(1);
+  const BodyLayout layout = layout_of(clip);
+  const std::size_t part = part_called(layout, "RightArm");
+  const auto joint = static_cast<std::size_t>(clip.skeleton.find("RightArm"));
+  const CleanTrace trace =
+      clean_with_prior(clip, Selection::all(clip), layout, {}, true, [&](PriorWork& work) {
+        work.rejected.assign(work.channels.poses.values.size(), 0);
+        work.rejected[7 * work.channels.poses.channels + 3 * part + 1] = 1;
+        work.warnings.push_back("a word of the filter");
+      });
+  EXPECT_EQ(trace.actions[7 * clip.joint_count() + joint], Action::despiked);
+  EXPECT_EQ(std::count(trace.actions.begin(), trace.actions.end(), Action::despiked), 1);
+  EXPECT_THAT(trace.warnings, testing::Contains("a word of the filter"));
+}
+
+TEST(PriorCleaning, NamesWhatTheTakeLacks) {
+  Clip clip = walk();
+  const BodyLayout layout = layout_of(clip);
+  const auto hand = static_cast<std::size_t>(clip.skeleton.find("LeftHand"));
+  clip.skeleton.names[hand] = "Gripper";
+  const CleanTrace trace =
+      clean_with_prior(clip, Selection::all(clip), layout, {{"LeftHand", ""}}, true, keep);
+  ASSERT_FALSE(trace.warnings.empty());
+  EXPECT_THAT(trace.warnings[0], HasSubstr("LeftHand"));
+
+  Clip other = moving_take(30, 60);
+  try {
+    clean_with_prior(other, Selection::all(other), layout, {}, true, keep);
+    FAIL() << "a body that the model does not know";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_THAT(error.what(), HasSubstr("RightUpLeg"));
+  }
+}
+
+TEST(PriorCleaning, TakesAnyNumberOfFrames) {
+  const BodyLayout layout = layout_of(walk());
+  for (const std::size_t frames : {0, 1, 2, 3, 5}) {
+    Clip clip = slice(walk(1), 0, frames);
+    clean_with_prior(clip, Selection::all(clip), layout, {}, true, keep);
+    EXPECT_EQ(clip.frame_count(), frames);
+  }
+}
+
+TEST(PriorCleaning, FillsMarkersThatAreNeverSeen) {
+  const MarkerClip truth = marker_take("walk", 2, 60);
+  const BodyLayout layout = layout_of(truth);
+  MarkerClip clip = truth;
+  const auto marker = static_cast<std::size_t>(clip.find("LeftHand1"));
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    clip.observed[f * clip.marker_count() + marker] = 0;
+    clip.position(f, marker) = {};
+  }
+  const PriorFilter oracle = [&](PriorWork& work) {
+    work.channels.poses =
+        encode_body(truth, layout, match_body(layout, truth), work.channels).poses;
+  };
+  const Filtering filling(layout, true, oracle), leaving(layout, false, oracle);
+  const MarkerResult filled = clean_markers(clip, filling, {}, "oracle");
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    ASSERT_TRUE(filled.clip.is_observed(f, marker));
+    EXPECT_LT(norm(filled.clip.position(f, marker) - truth.position(f, marker)), 1e-6);
+  }
+  EXPECT_EQ(filled.report.markers[marker].frames_missing, 0u);
+  EXPECT_FALSE(clean_markers(clip, leaving, {}, "oracle").clip.is_observed(5, marker));
+}
+
+TEST(PriorCleaning, FillsNoMarkerOutsideTheRangeOrTheSelection) {
+  const MarkerClip truth = marker_take("walk", 2, 60);
+  MarkerClip clip = truth;
+  const auto marker = static_cast<std::size_t>(clip.find("LeftHand1"));
+  const auto other = static_cast<std::size_t>(clip.find("RightHand1"));
+  for (std::size_t f = 10; f < 60; ++f) {
+    clip.observed[f * clip.marker_count() + marker] = 0;
+    clip.observed[f * clip.marker_count() + other] = 0;
+  }
+  CleanSettings settings;
+  settings.range = {30, 119};
+  settings.exclude = {"RightHand1"};
+  const Filtering cleaner(layout_of(truth), true, keep);
+  const MarkerClip after = clean_markers(clip, cleaner, settings).clip;
+  for (std::size_t f = 0; f < 60; ++f) {
+    EXPECT_EQ(after.is_observed(f, marker), f < 10 || f >= 30) << f;
+    EXPECT_EQ(after.is_observed(f, other), f < 10) << f;
+  }
+}
+
+TEST(PriorCleaning, ReadsNamesFromAFileOrSaysThatItCannot) {
+  EXPECT_TRUE(name_map_at("").empty());
+  const auto path = std::filesystem::path(testing::TempDir()) / "prior_cleaning_names.txt";
+  std::ofstream(path) << "LeftArm,l_upper\n";
+  EXPECT_EQ(name_map_at(path.string()).at("LeftArm"), "l_upper");
+  EXPECT_THROW(name_map_at(path.string() + ".none"), Error);
+  EXPECT_THROW(name_map_at(testing::TempDir()), Error);
+}
+
+}  // namespace
+}  // namespace kinemend::test

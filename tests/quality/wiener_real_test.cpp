@@ -1,0 +1,97 @@
+// The model that ships, on takes that it has not seen: hold-outs of every kind of motion, and dance
+// and acrobatics, of which the general model knows little.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+
+#include "kinemend/io.hpp"
+#include "kinemend/methods.hpp"
+#include "kinemend/model.hpp"
+#include "quality/quality.hpp"
+
+namespace kinemend::quality {
+namespace {
+
+namespace fs = std::filesystem;
+
+Clip real_clip(const std::string& name) {
+  for (const char* folder : {"cmu/bvh", "cmu/bvh-rotations"}) {
+    const fs::path path = fs::path(KINEMEND_DATA_FOLDER) / folder / (name + ".bvh");
+    if (fs::exists(path)) return without_calibration(read_clip(path).clip);
+  }
+  throw Error(ErrorKind::unreadable_input, "no real take " + name);
+}
+
+struct Damaging {
+  const char* name;
+  double noise_deg;      // of white noise; 0: Mall's half of each channel's own deviation
+  double outlier_share;  // of 25 degrees
+};
+constexpr Damaging damagings[] = {{"1 deg", 1, 0}, {"4 deg and spikes", 4, 0.004}, {"half", 0, 0}};
+
+Clip damaged_by(const Damaging& damaging, const Clip& truth) {
+  if (damaging.noise_deg > 0) return damaged(truth, damaging.noise_deg, damaging.outlier_share, 3);
+  Clip clip = truth;
+  Random random(3);
+  apply_damage(clip, "gaussian-channels", {{"k", 0.5}}, random);
+  return clip;
+}
+
+// The error of the Gaussian whose width is the best for this take and this noise.
+double best_gaussian(const Clip& noisy, const Clip& truth) {
+  double best = std::numeric_limits<double>::infinity();
+  for (const double width_s :
+       {0.006, 0.009, 0.013, 0.018, 0.025, 0.035, 0.045, 0.058, 0.08, 0.11, 0.16}) {
+    const Clip smooth = clean_clip(noisy, *make_gaussian({.width_s = width_s})).clip;
+    best = std::min(best, rms_deg(truth, smooth));
+  }
+  return best;
+}
+
+struct Group {
+  const char* name;
+  std::vector<const char*> clips;
+  double mean_limits[3];  // of the error over that of the best Gaussian, for each damage
+  friend void PrintTo(const Group& group, std::ostream* out) { *out << group.name; }
+};
+
+class WienerOnUnseenTakes : public testing::TestWithParam<Group> {};
+
+TEST_P(WienerOnUnseenTakes, NeverLosesToTheBestGaussian) {
+  const auto wiener = make_wiener();
+  for (std::size_t d = 0; d < std::size(damagings); ++d) {
+    double sum = 0;
+    std::string text;
+    for (const char* name : GetParam().clips) {
+      const Clip truth = real_clip(name), noisy = damaged_by(damagings[d], truth);
+      const double theirs = best_gaussian(noisy, truth);
+      const double ratio = rms_deg(truth, clean_clip(noisy, *wiener).clip) / theirs;
+      const double by_auto = rms_deg(truth, cleaned(noisy, "auto")) / theirs;
+      const double by_example = rms_deg(truth, cleaned(noisy, "example")) / theirs;
+      EXPECT_LT(ratio, 1.0) << name << ", " << damagings[d].name;
+      text += fmt::format("{} {:.3f} (auto {:.3f}, example {:.3f}); ", name, ratio, by_auto,
+                          by_example);
+      sum += ratio;
+    }
+    const double mean = sum / static_cast<double>(GetParam().clips.size());
+    EXPECT_LT(mean, GetParam().mean_limits[d]) << damagings[d].name << ": " << text;
+    RecordProperty(fmt::format("damage_{}", d), fmt::format("mean {:.3f}: {}", mean, text));
+    if (std::getenv("KINEMEND_FIGURES") != nullptr)
+      fmt::print("{}, {}: mean {:.3f}: {}\n", GetParam().name, damagings[d].name, mean, text);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, WienerOnUnseenTakes,
+    testing::Values(Group{"HoldOuts",
+                          {"02_02", "35_02", "08_02", "16_35", "09_06", "127_07", "16_05", "10_01",
+                           "49_04"},
+                          {0.9, 0.9, 0.9}},
+                    Group{"DanceAndAcrobatics", {"05_03", "05_10", "49_07", "49_12"}, {1, 1, 1}}),
+    [](const auto& group) { return std::string(group.param.name); });
+
+}  // namespace
+}  // namespace kinemend::quality
