@@ -1,7 +1,7 @@
 #include <hwy/aligned_allocator.h>
 
-#include "signal/kernels.hpp"
 #include "base/simd.hpp"
+#include "signal/kernels.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "signal/median_kernel.cpp"

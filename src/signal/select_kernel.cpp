@@ -2,8 +2,8 @@
 #include <array>
 #include <limits>
 
-#include "signal/kernels.hpp"
 #include "base/simd.hpp"
+#include "signal/kernels.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "signal/select_kernel.cpp"
