@@ -1,5 +1,6 @@
 // The model that ships, on takes that it has not seen: hold-outs of every kind of motion, and dance
-// and acrobatics, of which the general model knows little.
+// and acrobatics, of which the general model knows little. (Takes whose thumbs flip are left out
+// here: half of such a channel's deviation is 90 degrees of noise.)
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -79,19 +80,18 @@ TEST_P(WienerOnUnseenTakes, NeverLosesToTheBestGaussian) {
     const double mean = sum / static_cast<double>(GetParam().clips.size());
     EXPECT_LT(mean, GetParam().mean_limits[d]) << damagings[d].name << ": " << text;
     RecordProperty(fmt::format("damage_{}", d), fmt::format("mean {:.3f}: {}", mean, text));
-    if (std::getenv("KINEMEND_FIGURES") != nullptr)
-      fmt::print("{}, {}: mean {:.3f}: {}\n", GetParam().name, damagings[d].name, mean, text);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Kinds, WienerOnUnseenTakes,
-    testing::Values(Group{"HoldOuts",
-                          {"02_02", "35_02", "08_02", "16_35", "09_06", "127_07", "16_05", "10_01",
-                           "49_04"},
-                          {0.9, 0.9, 0.9}},
-                    Group{"DanceAndAcrobatics", {"05_03", "05_10", "49_07", "49_12"}, {1, 1, 1}}),
-    [](const auto& group) { return std::string(group.param.name); });
+INSTANTIATE_TEST_SUITE_P(Kinds, WienerOnUnseenTakes,
+                         testing::Values(Group{"HoldOuts",
+                                               {"02_02", "35_02", "08_02", "16_35", "09_06",
+                                                "127_07", "16_05", "49_04"},
+                                               {0.81, 0.80, 0.88}},
+                                         Group{"DanceAndAcrobatics",
+                                               {"05_03", "05_10", "49_07", "49_12"},
+                                               {0.79, 0.80, 0.90}}),
+                         [](const auto& group) { return std::string(group.param.name); });
 
 }  // namespace
 }  // namespace kinemend::quality
