@@ -62,8 +62,10 @@ std::vector<ShippedModel> shipped_models();
 /// kalman-learned needs a model: --model FILE, made by kinemend train kalman-learned`.
 std::shared_ptr<const Model> shipped_model(std::string_view method);
 
-/// The model that a method's option `model` means: a path, or the shipped one where empty. Errors:
-/// as above; `ErrorKind::usage` for a model of another method.
-std::shared_ptr<const Model> model_for(std::string_view method, const std::string& path);
+/// The model that a method works with: the one given, else that of its option `model`, a path, or
+/// the shipped one where that is empty. Errors: as above; `ErrorKind::usage` for a model of another
+/// method.
+std::shared_ptr<const Model> model_for(std::string_view method, const std::string& path,
+                                       std::shared_ptr<const Model> given = nullptr);
 
 }  // namespace kinemend

@@ -14,6 +14,7 @@
 #include "clean/joint_limits.hpp"
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
+#include "kinemend/error.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/model.hpp"
 #include "priors/example_filter.hpp"
@@ -182,13 +183,30 @@ class Example final : public Cleaner {
   ExamplePrior prior_;
 };
 
+// Bases of the take itself come with weights of their own.
+void refuse_beside_self(const ExampleOptions& options, bool has_model) {
+  const ExampleOptions usual;
+  const char* name = nullptr;
+  if (has_model || !options.model.empty()) name = "model";
+  if (!options.map.empty()) name = "map";
+  if (!options.robust) name = "robust";
+  if (options.welsch_deg != usual.welsch_deg) name = "welsch_deg";
+  if (options.lambda != usual.lambda) name = "lambda";
+  if (options.bases != usual.bases) name = "bases";
+  if (name != nullptr)
+    throw Error(ErrorKind::usage, fmt::format("{}: has no meaning with self", name));
+}
+
 }  // namespace
 
 std::unique_ptr<Cleaner> make_example(const ExampleOptions& options,
                                       std::shared_ptr<const Model> model) {
   table().validate(options);
-  if (options.self) return make_self_example(options);
-  if (!model) model = model_for("example", options.model);
+  if (options.self) {
+    refuse_beside_self(options, model != nullptr);
+    return make_self_example(options);
+  }
+  model = model_for("example", options.model, std::move(model));
   return std::make_unique<Example>(options, std::move(model));
 }
 

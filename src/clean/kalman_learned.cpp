@@ -5,6 +5,7 @@
 
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
+#include "kinemend/error.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/model.hpp"
 #include "priors/linear_dynamics.hpp"
@@ -88,7 +89,7 @@ class KalmanLearned final : public Cleaner {
 std::unique_ptr<Cleaner> make_kalman_learned(const KalmanLearnedOptions& options,
                                              std::shared_ptr<const Model> model) {
   table().validate(options);
-  if (!model) model = model_for("kalman-learned", options.model);
+  model = model_for("kalman-learned", options.model, std::move(model));
   return std::make_unique<KalmanLearned>(options, std::move(model));
 }
 

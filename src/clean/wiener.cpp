@@ -6,6 +6,7 @@
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
 #include "clean/track_smoother.hpp"
+#include "kinemend/error.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/model.hpp"
 #include "priors/wiener_guard.hpp"
@@ -140,7 +141,7 @@ class Wiener final : public Cleaner {
 std::unique_ptr<Cleaner> make_wiener(const WienerOptions& options,
                                      std::shared_ptr<const Model> model) {
   table().validate(options);
-  if (!model) model = model_for("wiener", options.model);
+  model = model_for("wiener", options.model, std::move(model));
   return std::make_unique<Wiener>(options, std::move(model));
 }
 

@@ -39,14 +39,16 @@ std::shared_ptr<const Model> shipped_model(std::string_view method) {
   return model;
 }
 
-std::shared_ptr<const Model> model_for(std::string_view method, const std::string& path) {
-  if (path.empty()) return shipped_model(method);
-  auto model = std::make_shared<const Model>(read_model(path));
-  if (model->method != method) {
+std::shared_ptr<const Model> model_for(std::string_view method, const std::string& path,
+                                       std::shared_ptr<const Model> given) {
+  if (!given && path.empty()) return shipped_model(method);
+  const std::string name = given ? "the model given" : path;
+  if (!given) given = std::make_shared<const Model>(read_model(path));
+  if (given->method != method) {
     throw Error(ErrorKind::usage, fmt::format("{}: expected a model of method {}, found one of {}",
-                                              path, method, model->method));
+                                              name, method, given->method));
   }
-  return model;
+  return given;
 }
 
 }  // namespace kinemend

@@ -1,0 +1,211 @@
+// What the methods `example` and `wiener` promise on takes, with models learned from synthetic
+// walks.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "clean/marker_takes.hpp"
+#include "clean/takes.hpp"
+#include "kinemend/clean.hpp"
+#include "kinemend/convert.hpp"
+#include "kinemend/corrupt.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/methods.hpp"
+#include "kinemend/metrics.hpp"
+#include "kinemend/synth.hpp"
+#include "kinemend/train.hpp"
+
+namespace kinemend::test {
+namespace {
+
+using testing::HasSubstr;
+
+Clip walk(std::uint64_t seed, double rate_hz = 30, double duration_s = 4) {
+  SynthOptions options{.motion = "walk", .duration_s = duration_s, .frame_rate_hz = rate_hz};
+  options.seed = seed;
+  return synthesize(options);
+}
+
+template <class AnyClip>
+std::shared_ptr<const Model> learned(const std::string& method, const std::vector<AnyClip>& clips) {
+  return std::make_shared<const Model>(train_model(
+      method,
+      {clips.size(), [&](std::size_t i) { return std::variant<Clip, MarkerClip>(clips[i]); }}));
+}
+
+std::shared_ptr<const Model> walking(const std::string& method) {
+  const std::vector<Clip> clips = {walk(1, 120), walk(2, 120), walk(3, 120)};
+  return learned(method, clips);
+}
+
+struct LearnedMethod {
+  const char* name;
+  std::unique_ptr<Cleaner> (*make)(std::shared_ptr<const Model> model);
+  friend void PrintTo(const LearnedMethod& method, std::ostream* out) { *out << method.name; }
+};
+
+class Learned : public testing::TestWithParam<LearnedMethod> {
+ protected:
+  // Each model is learned once.
+  const Cleaner& cleaner() const {
+    static std::map<std::string, std::unique_ptr<Cleaner>> cleaners;
+    auto& made = cleaners[GetParam().name];
+    if (!made) made = GetParam().make(walking(GetParam().name));
+    return *made;
+  }
+};
+
+Clip noisy(Clip clip, double std_deg, double outlier_share) {
+  Random random(7);
+  apply_damage(clip, "gaussian", {{"std_deg", std_deg}}, random);
+  if (outlier_share > 0) apply_damage(clip, "outliers", {{"share", outlier_share}}, random);
+  return clip;
+}
+
+double error(const Clip& truth, const Clip& input, const Cleaner& cleaner) {
+  return rms_deg(truth, clean_clip(input, cleaner).clip);
+}
+
+TEST_P(Learned, BringsANoisyWalkNearerToTheTruthThanAutoDoes) {
+  const Clip truth = walk(4), input = noisy(truth, 3, 0);
+  const double ours = error(truth, input, cleaner());
+  EXPECT_LT(ours, 0.5 * rms_deg(truth, input));
+  EXPECT_LT(ours, error(truth, input, *make_auto()));
+}
+
+TEST_P(Learned, TakesSpikesOut) {
+  const Clip truth = walk(4), input = noisy(truth, 1, 0.03);
+  EXPECT_LT(error(truth, input, cleaner()), 0.4 * rms_deg(truth, input));
+}
+
+TEST_P(Learned, KeepsTheRateOfTheTake) {
+  for (const double rate_hz : {120.0, 100.0, 60.0, 25.0}) {
+    const Clip truth = walk(4, rate_hz), input = noisy(truth, 3, 0);
+    const Clip result = clean_clip(input, cleaner()).clip;
+    EXPECT_EQ(result.frame_count(), truth.frame_count());
+    EXPECT_EQ(result.frame_rate_hz, rate_hz);
+    EXPECT_LT(rms_deg(truth, result), 0.55 * rms_deg(truth, input)) << rate_hz;
+  }
+}
+
+TEST_P(Learned, LeavesACleanWalkNearlyAlone) {
+  const Clip truth = walk(4, 120);
+  EXPECT_LT(error(truth, truth, cleaner()), 0.1);
+}
+
+TEST_P(Learned, FillsBothArmsThatAreMissingThroughout) {
+  const Clip truth = walk(4);
+  Clip input = truth;
+  input.observed.assign(truth.local_rotations.size(), 1);
+  std::vector<std::size_t> arms;
+  for (const char* name : {"LeftArm", "LeftForeArm", "RightArm", "RightForeArm"})
+    arms.push_back(static_cast<std::size_t>(truth.skeleton.find(name)));
+  for (std::size_t f = 0; f < truth.frame_count(); ++f) {
+    for (const std::size_t joint : arms) {
+      input.observed[f * truth.joint_count() + joint] = 0;
+      input.rotation(f, joint) = exp({2, -1, 1});
+    }
+  }
+  const CleanResult result = clean_clip(input, cleaner());
+  const std::vector<double> errors = geodesic_rms_deg_per_joint(truth, result.clip);
+  Clip still = truth;
+  for (std::size_t f = 0; f < truth.frame_count(); ++f) {
+    for (const std::size_t joint : arms) still.rotation(f, joint) = truth.rotation(0, joint);
+  }
+  const std::vector<double> of_stillness = geodesic_rms_deg_per_joint(truth, still);
+  for (const std::size_t joint : arms) {
+    EXPECT_LT(errors[joint], 12) << truth.skeleton.names[joint];
+    EXPECT_EQ(result.report.joints[joint].frames_repaired, truth.frame_count());
+  }
+  EXPECT_LT(errors[arms[0]] + errors[arms[2]], of_stillness[arms[0]] + of_stillness[arms[2]]);
+}
+
+TEST_P(Learned, RefusesABodyThatTheModelDoesNotKnow) {
+  const Clip chain = synthesize({.motion = "spin", .duration_s = 1});
+  try {
+    clean_clip(chain, cleaner());
+    FAIL() << "a chain is no body";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_THAT(error.what(), HasSubstr("LeftArm"));
+  }
+}
+
+TEST_P(Learned, RefusesTheModelOfAnotherMethod) {
+  const auto other = walking(std::string(GetParam().name) == "example" ? "wiener" : "example");
+  EXPECT_THROW(GetParam().make(other), Error);
+}
+
+TEST_P(Learned, TakesAnyNumberOfFrames) {
+  for (const std::size_t frames : {0, 1, 2, 3, 7}) {
+    const Clip input = slice(noisy(walk(4), 1, 0), 0, frames);
+    EXPECT_EQ(clean_clip(input, cleaner()).clip.frame_count(), frames);
+  }
+}
+
+TEST_P(Learned, WorksOnMarkersAndFillsThoseThatAreNeverSeen) {
+  std::vector<MarkerClip> clips;
+  for (const std::uint64_t seed : {1, 2, 3}) clips.push_back(joint_markers(walk(seed, 60), true));
+  const auto model = learned(GetParam().name, clips);
+  const MarkerClip truth = joint_markers(walk(4, 60), true);
+  MarkerClip input = damaged(truth, 1, 0.005, 20, 3);
+  const auto hand = static_cast<std::size_t>(truth.find("LeftHand"));
+  for (std::size_t f = 0; f < truth.frame_count(); ++f)
+    input.observed[f * truth.marker_count() + hand] = 0;
+  const MarkerClip result = clean_markers(input, *GetParam().make(model)).clip;
+  double before = 0, after = 0, of_hand = 0;
+  for (std::size_t f = 0; f < truth.frame_count(); ++f) {
+    for (std::size_t m = 0; m < truth.marker_count(); ++m) {
+      const double left = norm(result.position(f, m) - truth.position(f, m));
+      if (m == hand) {
+        of_hand += left * left;
+        continue;
+      }
+      after += left * left;
+      before += std::pow(norm(input.position(f, m) - truth.position(f, m)), 2);
+    }
+  }
+  EXPECT_LT(std::sqrt(after), 0.6 * std::sqrt(before));
+  EXPECT_LT(std::sqrt(of_hand / static_cast<double>(truth.frame_count())), 8);  // cm
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, Learned,
+                         testing::Values(LearnedMethod{"example",
+                                                       [](std::shared_ptr<const Model> model) {
+                                                         return make_example({}, std::move(model));
+                                                       }},
+                                         LearnedMethod{"wiener",
+                                                       [](std::shared_ptr<const Model> model) {
+                                                         return make_wiener({}, std::move(model));
+                                                       }}),
+                         [](const auto& method) { return camel_case(method.param.name); });
+
+TEST(ExampleSelf, DoesNotLoseToAutoOnALongWalk) {
+  const Clip truth = walk(5, 60, 15), input = noisy(truth, 2, 0);
+  ExampleOptions options;
+  options.self = true;
+  EXPECT_LT(error(truth, input, *make_example(options)), 1.02 * error(truth, input, *make_auto()));
+}
+
+TEST(ExampleSelf, LeavesACleanTakeAlone) {
+  const Clip truth = walk(5, 60, 12);
+  ExampleOptions options;
+  options.self = true;
+  EXPECT_LT(error(truth, truth, *make_example(options)), 0.02);
+}
+
+TEST(ExampleSelf, TakesNoModelAndNoNames) {
+  ExampleOptions options;
+  options.self = true;
+  options.model = "walk.kmodel";
+  EXPECT_THROW(make_example(options), Error);
+  options.model.clear();
+  options.lambda = 0.1;
+  EXPECT_THROW(make_example(options), Error);
+}
+
+}  // namespace
+}  // namespace kinemend::test
