@@ -16,6 +16,7 @@
 #include "kinemend/error.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/representation.hpp"
+#include "kinemend/signal.hpp"
 
 namespace kinemend {
 
@@ -108,22 +109,26 @@ Vec3 turn_of(const PoseMatrix& poses, std::size_t frame, std::size_t part) {
 
 // From a frame to the next; where noise is strong, in medians of that.
 constexpr double flip_deg = 60, flip_medians = 6;
+constexpr std::size_t flip_half_frames = 3;
 constexpr double most_turns = 0.98;  // a few are noise
 
 // A joint that turns away from the model's mean as far as its channels can say, or flips, is
 // nothing that the model knows: to the filter it is missing, and `auto` keeps it.
 void leave_far_turns_to_auto(PriorWork& work, const JointRun& run,
                              std::vector<std::uint8_t>& chosen) {
+  // Spikes that `auto` left go there and back; a flip stays.
+  PoseMatrix steady = work.fallback;
+  median_filter(steady, flip_half_frames);
   for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
     std::vector<double> turns, steps;
     double fastest = 0;
-    for (std::size_t f = 0; f < work.fallback.frames; ++f) {
-      turns.push_back(norm(turn_of(work.fallback, f, part)));
+    for (std::size_t f = 0; f < steady.frames; ++f) {
+      turns.push_back(norm(turn_of(steady, f, part)));
       if (f == 0) continue;
       const auto step = [&](const PoseMatrix& poses) {
         return norm(turn_of(poses, f, part) - turn_of(poses, f - 1, part));
       };
-      fastest = std::max(fastest, step(work.fallback));
+      fastest = std::max(fastest, step(steady));
       steps.push_back(step(work.channels.poses));
     }
     const double flip = std::max(flip_deg, flip_medians * median_of(steps));
