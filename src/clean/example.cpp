@@ -130,7 +130,10 @@ class Example final : public Cleaner {
     }
     if (options_.lambda == 0) {
       smooth_rest(work, trace.weights, bases, mean, noise, cleaned);
-      if (options_.welsch_deg == 0 && suspects <= many_suspects) fall_back(work, rest, cleaned);
+      if (options_.welsch_deg == 0) {
+        fall_back_where_rejected(work, trace.weights, cleaned);
+        if (suspects <= many_suspects) fall_back(work, rest, cleaned);
+      }
     }
     channels.poses = std::move(cleaned);
   }

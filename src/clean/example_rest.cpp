@@ -13,9 +13,10 @@ namespace {
 constexpr double least_noise_deg = 0.05;
 constexpr double most_noise_kept = 1.2;  // of what `auto` took away
 constexpr double least_variance = 1e-6;  // square degrees: less is rounding
-constexpr double least_strangeness = 10;
+constexpr double least_strangeness = 1;
 constexpr double rejected_weight = 0.01;
-constexpr double known_motion = 15, unknown_motion = 60;  // strangeness
+constexpr double known_motion = 1.5, unknown_motion = 5;  // strangeness
+constexpr double believable_rejected = 0.2, unbelievable_rejected = 0.35;
 constexpr std::size_t part_channels = 3;
 // A measurement is far from what the bases express beyond so many medians of its channel's
 // distances, and beyond so much.
@@ -148,6 +149,31 @@ void fall_back(const PriorWork& work, double strangeness, PoseMatrix& cleaned) {
   for (std::size_t i = 0; i < cleaned.values.size(); ++i) {
     if (work.channels.observed[i] != 0)
       cleaned.values[i] += share * (work.fallback.values[i] - cleaned.values[i]);
+  }
+}
+
+void fall_back_where_rejected(const PriorWork& work, const PoseMatrix& weights,
+                              PoseMatrix& cleaned) {
+  for (std::size_t first = 0; first + part_channels <= cleaned.channels; first += part_channels) {
+    double rejected = 0, count = 0;
+    for (std::size_t f = 0; f < cleaned.frames; ++f) {
+      for (std::size_t c = first; c < first + part_channels; ++c) {
+        const std::size_t i = f * cleaned.channels + c;
+        if (work.channels.observed[i] == 0 || work.suspect[i] != 0) continue;
+        rejected += 1 - weights.values[i];
+        count += 1;
+      }
+    }
+    if (count == 0) continue;
+    const double share = std::clamp(
+        (rejected / count - believable_rejected) / (unbelievable_rejected - believable_rejected),
+        0.0, 1.0);
+    for (std::size_t f = 0; f < cleaned.frames && share > 0; ++f) {
+      for (std::size_t c = first; c < first + part_channels; ++c) {
+        if (work.channels.observed[f * cleaned.channels + c] != 0)
+          cleaned(f, c) += share * (work.fallback(f, c) - cleaned(f, c));
+      }
+    }
   }
 }
 

@@ -15,8 +15,7 @@ std::vector<double> example_noise(const PriorWork& work);
 
 /// How many times as much of the take lies outside of the bases as of the clips that they were
 /// learned from: mean squares of `guess` less `expressed`, what the bases make of it, without the
-/// noise, over those in training (`residual`, D). At least 10: bases fit the clips that they come
-/// from better than any other, and what they leave is no white noise.
+/// noise, over those in training (`residual`, D, cross-validated). At least 1.
 double strangeness(const PriorWork& work, const PoseMatrix& guess, const PoseMatrix& expressed,
                    const std::vector<double>& noise, const std::vector<double>& residual);
 
@@ -32,7 +31,13 @@ void smooth_rest(const PriorWork& work, const PoseMatrix& weights, const WindowB
                  PoseMatrix& cleaned);
 
 /// The stranger the take, the more of what `auto` made of its measurements: none of it below a
-/// strangeness of 15, nothing else from 60 on. Gaps stay as the bases fill them.
+/// strangeness of 1.5, nothing else from 5 on. Gaps stay as the bases fill them.
 void fall_back(const PriorWork& work, double strangeness, PoseMatrix& cleaned);
+
+/// A part of which the filter rejects what `auto` finds nothing wrong with is one that the bases
+/// are wrong about: from 35 % of rejected measurements on it becomes what `auto` made of it, wholly
+/// at 55 %. `weights` is F x D, those of the filter.
+void fall_back_where_rejected(const PriorWork& work, const PoseMatrix& weights,
+                              PoseMatrix& cleaned);
 
 }  // namespace kinemend

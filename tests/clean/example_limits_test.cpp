@@ -69,15 +69,16 @@ TEST(ExampleLimits, DrawAnElbowBackThatNoiseBentBackwards) {
   const auto beyond_with = [&](double weight) {
     ExampleOptions options;
     options.limits = weight;
+    options.welsch_deg = 30;  // so that the bent elbow is no outlier
     Clip result = input;
     make_example(options, model)->clean(result, Selection::all(result));
     return most_beyond(result, elbow);
   };
   const double without = beyond_with(0), soft = beyond_with(1), hard = beyond_with(500);
   EXPECT_GT(most_beyond(input, elbow), 10);
-  EXPECT_GT(without, 0.5);
-  EXPECT_LE(soft, without);
-  EXPECT_LT(hard, without);
+  EXPECT_GT(without, 0.5) << soft << " " << hard;
+  EXPECT_LT(soft, without + 0.1);
+  EXPECT_LT(hard, 0.8 * without);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "kinemend/random.hpp"
@@ -65,7 +66,7 @@ TEST(Strangeness, IsTheVarianceOutsideOfTheBasesOverThatOfTraining) {
   const std::vector<double> noise(channels, 1.0), residual(channels, 0.04);
   EXPECT_NEAR(strangeness(work, work.channels.poses, expressed, noise, residual), 100, 12);
   // The noise alone makes nothing strange.
-  EXPECT_EQ(strangeness(work, work.channels.poses, work.fallback, noise, residual), 10);
+  EXPECT_EQ(strangeness(work, work.channels.poses, work.fallback, noise, residual), 1);
 }
 
 TEST(SuspectShare, CountsWhatIsFarFromTheBasesAndWhatAutoSuspects) {
@@ -82,13 +83,33 @@ TEST(FallBack, TakesWhatAutoMadeOfStrangeMotionButFillsNoGaps) {
   work.channels.observed[0] = 0;
   const PoseMatrix filtered(frames, channels, 5.0);
   PoseMatrix known = filtered, between = filtered, unknown = filtered;
-  fall_back(work, 12, known);
+  fall_back(work, 1.2, known);
   EXPECT_EQ(known.values, filtered.values);
   fall_back(work, 1000, unknown);
   EXPECT_EQ(unknown(0, 0), 5);
   EXPECT_NEAR(unknown(1, 0), work.fallback(1, 0), 1e-12);
-  fall_back(work, 30, between);
+  fall_back(work, std::sqrt(1.5 * 5), between);
   EXPECT_NEAR(between(1, 0), 0.5 * (5 + work.fallback(1, 0)), 1e-9);
+}
+
+TEST(FallBack, TakesWhatAutoMadeOfAPartThatTheFilterMostlyRejects) {
+  PriorWork work = work_of(1);
+  work.channels.observed[0] = 0;
+  const PoseMatrix filtered(frames, channels, 5.0);
+  PoseMatrix weights(frames, channels, 0.9), result = filtered;
+  fall_back_where_rejected(work, weights, result);
+  EXPECT_EQ(result.values, filtered.values);
+  for (std::size_t f = 0; f < frames; ++f) {
+    for (std::size_t c = 0; c < 3; ++c) weights(f, c) = 0.2;
+  }
+  fall_back_where_rejected(work, weights, result);
+  EXPECT_EQ(result(0, 0), 5) << "a gap";
+  for (std::size_t f = 1; f < frames; ++f) EXPECT_NEAR(result(f, 0), work.fallback(f, 0), 1e-12);
+  // What `auto` suspects is rejected rightly.
+  result = filtered;
+  std::fill(work.suspect.begin(), work.suspect.end(), 1);
+  fall_back_where_rejected(work, weights, result);
+  EXPECT_EQ(result.values, filtered.values);
 }
 
 // Bases of one constant pattern in one channel know next to nothing of the motion: what is outside
