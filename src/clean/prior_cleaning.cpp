@@ -120,11 +120,15 @@ void leave_far_turns_to_auto(PriorWork& work, const JointRun& run,
   PoseMatrix steady = work.fallback;
   median_filter(steady, flip_half_frames);
   for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
+    const auto is_seen = [&](std::size_t frame) {
+      return work.channels.observed[frame * steady.channels + 3 * part] != 0;
+    };
     std::vector<double> turns, steps;
     double fastest = 0;
     for (std::size_t f = 0; f < steady.frames; ++f) {
+      if (!is_seen(f)) continue;
       turns.push_back(norm(turn_of(steady, f, part)));
-      if (f == 0) continue;
+      if (f == 0 || !is_seen(f - 1)) continue;
       const auto step = [&](const PoseMatrix& poses) {
         return norm(turn_of(poses, f, part) - turn_of(poses, f - 1, part));
       };

@@ -166,6 +166,29 @@ TEST(PriorCleaning, FillsGapsOfJointsOrBridgesThem) {
   EXPECT_LT(angle_between(bridged.rotation(30, arm), truth.rotation(30, arm)), 0.3);
 }
 
+TEST(PriorCleaning, LeavesJointsThatFlipToAutoButNotThoseThatAreMissing) {
+  const Clip truth = walk();
+  const BodyLayout layout = layout_of(truth);
+  Clip clip = truth;
+  const auto left = static_cast<std::size_t>(clip.skeleton.find("LeftHand"));
+  const auto right = static_cast<std::size_t>(clip.skeleton.find("RightHand"));
+  clip.observed.assign(clip.local_rotations.size(), 1);
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    const bool flipped = f / 30 % 2 == 1;
+    if (flipped) clip.rotation(f, left) = clip.rotation(f, left) * exp({0, 0, 3.0});
+    clip.observed[f * clip.joint_count() + right] = 0;
+    clip.rotation(f, right) = exp({3, 0, 0});
+  }
+  Clip after = clip, by_auto = clip;
+  make_auto()->clean(by_auto, Selection::all(clip));
+  clean_with_prior(after, Selection::all(clip), layout, {}, true, flatten);
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    EXPECT_EQ(after.rotation(f, left), by_auto.rotation(f, left));
+    EXPECT_LT(angle_between(after.rotation(f, right), after.rotation(0, right)), 1e-9);
+    EXPECT_GT(angle_between(after.rotation(f, right), clip.rotation(f, right)), 1);
+  }
+}
+
 TEST(PriorCleaning, ReportsRejectedMeasurementsAsSpikes) {
   Clip clip = walk(1);
   const BodyLayout layout = layout_of(clip);
