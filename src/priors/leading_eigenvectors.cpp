@@ -132,8 +132,8 @@ class KrylovSpace {
     const Eigen::MatrixXd upper =
         qr.matrixQR().topRows(block.cols()).triangularView<Eigen::Upper>();
     rest_ = upper.topRows(rank) * qr.colsPermutation().transpose();
+    if (rank == 0) return {block.rows(), 0};
     RowMatrix fresh = qr.householderQ() * Eigen::MatrixXd::Identity(block.rows(), rank);
-    if (rank == 0) return fresh;
     remove_basis(fresh);
     const Eigen::HouseholderQR<Eigen::MatrixXd> again(fresh);
     const Eigen::VectorXd signs = again.matrixQR().diagonal().head(rank).cwiseSign();
