@@ -27,6 +27,7 @@ Selection make_selection(const Clip& clip, const CleanSettings& settings) {
 template <class T>
 void put_back(std::vector<T>& whole, const std::vector<T>& part, std::size_t first_frame,
               std::size_t width) {
+  if (part.empty()) return;  // as may be `whole`, of which nothing is offset then
   std::copy(part.begin(), part.end(),
             whole.begin() + static_cast<std::ptrdiff_t>(first_frame * width));
 }
