@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "check/feet.hpp"
+#include "feet/legs.hpp"
 #include "kinemend/kinematics.hpp"
 #include "kinemend/metrics.hpp"
 
@@ -29,21 +30,12 @@ std::vector<std::size_t> points_below(const Skeleton& skeleton, std::size_t join
   return points;
 }
 
-// The upper ones of the joints that are named after parts of a foot, with what hangs on them: the
-// ankle itself rolls over the foot.
+// Ankles with what hangs on them: the ankle itself rolls over the foot.
 std::vector<Foot> feet_of(const Skeleton& skeleton) {
-  const std::vector<std::size_t> named = foot_joints(skeleton);
   std::vector<Foot> feet;
-  for (const std::size_t joint : named) {
-    bool is_upper = true;
-    for (std::int32_t p = skeleton.parents[joint]; p >= 0;
-         p = skeleton.parents[static_cast<std::size_t>(p)]) {
-      is_upper = is_upper &&
-                 std::find(named.begin(), named.end(), static_cast<std::size_t>(p)) == named.end();
-    }
-    if (!is_upper) continue;
-    Foot foot{skeleton.names[joint], points_below(skeleton, joint)};
-    if (foot.points.empty()) foot.points.push_back(joint);
+  for (const std::size_t ankle : feet::ankles_of(skeleton)) {
+    Foot foot{skeleton.names[ankle], points_below(skeleton, ankle)};
+    if (foot.points.empty()) foot.points.push_back(ankle);
     feet.push_back(std::move(foot));
   }
   return feet;

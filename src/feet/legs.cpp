@@ -1,3 +1,5 @@
+#include "feet/legs.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -49,22 +51,6 @@ std::string_view side_of(const std::string& joint) {
   return "";
 }
 
-// The upper ones of the joints that are named after parts of a foot.
-std::vector<std::size_t> ankles_of(const Skeleton& skeleton) {
-  const std::vector<std::size_t> named = foot_joints(skeleton);
-  std::vector<std::size_t> ankles;
-  for (const std::size_t joint : named) {
-    bool is_upper = true;
-    for (std::int32_t p = skeleton.parents[joint]; p >= 0;
-         p = skeleton.parents[static_cast<std::size_t>(p)]) {
-      is_upper = is_upper &&
-                 std::find(named.begin(), named.end(), static_cast<std::size_t>(p)) == named.end();
-    }
-    if (is_upper) ankles.push_back(joint);
-  }
-  return ankles;
-}
-
 // The joint at the other end of the bone above `joint`; -1 where there is none.
 std::int32_t upper_end(const Skeleton& skeleton, std::int32_t joint, double shortest) {
   double length = 0;
@@ -110,12 +96,31 @@ void name_sides(const Skeleton& skeleton, std::vector<Leg>& legs) {
 
 }  // namespace
 
+namespace feet {
+
+std::vector<std::size_t> ankles_of(const Skeleton& skeleton) {
+  const std::vector<std::size_t> named = foot_joints(skeleton);
+  std::vector<std::size_t> ankles;
+  for (const std::size_t joint : named) {
+    bool is_upper = true;
+    for (std::int32_t p = skeleton.parents[joint]; p >= 0;
+         p = skeleton.parents[static_cast<std::size_t>(p)]) {
+      is_upper = is_upper &&
+                 std::find(named.begin(), named.end(), static_cast<std::size_t>(p)) == named.end();
+    }
+    if (is_upper) ankles.push_back(joint);
+  }
+  return ankles;
+}
+
+}  // namespace feet
+
 std::vector<Leg> find_legs(const Skeleton& skeleton) {
   constexpr double shortest_bone = 0.08, shortest_foot = 0.02;  // statures
   const double height = skeleton_height(skeleton);
   std::vector<Leg> legs;
   if (!(height > 0)) return legs;
-  for (const std::size_t ankle : ankles_of(skeleton)) {
+  for (const std::size_t ankle : feet::ankles_of(skeleton)) {
     Leg leg;
     leg.ankle = static_cast<std::int32_t>(ankle);
     leg.knee = upper_end(skeleton, leg.ankle, shortest_bone * height);

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "kinemend/clip.hpp"
+
+namespace kinemend::feet {
+
+/// The upper ones of the joints that are named after parts of a foot (`foot_joints`): one a foot.
+std::vector<std::size_t> ankles_of(const Skeleton& skeleton);
+
+}  // namespace kinemend::feet
