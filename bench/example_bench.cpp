@@ -129,23 +129,6 @@ void eigenvectors_by_energy(benchmark::State& state) {
 }
 BENCHMARK(eigenvectors_by_energy)->Arg(2)->Arg(3)->Arg(4)->Unit(benchmark::kMillisecond);
 
-// The same number of eigenvectors by other solvers, for comparison.
-void eigenvectors_of_spectra(benchmark::State& state) {
-  const std::vector<double> matrix = gait_covariance();
-  const double energy = 1 - std::pow(10.0, -static_cast<double>(state.range(0)));
-  const auto count = static_cast<Eigen::Index>(
-      kinemend::leading_eigenvectors(matrix, side, {.energy = energy}).values.size());
-  const Eigen::Map<const Eigen::MatrixXd> m(matrix.data(), side, side);
-  for (auto _ : state) {
-    Spectra::DenseSymMatProd<double> product(m);
-    Spectra::SymEigsSolver<Spectra::DenseSymMatProd<double>> solver(product, count, 2 * count + 10);
-    solver.init();
-    benchmark::DoNotOptimize(solver.compute(Spectra::SortRule::LargestAlge, 1000, 1e-11));
-  }
-  state.counters["bases"] = static_cast<double>(count);
-}
-BENCHMARK(eigenvectors_of_spectra)->Arg(2)->Arg(3)->Arg(4)->Unit(benchmark::kMillisecond);
-
 void eigenvectors_of_eigen(benchmark::State& state) {
   const std::vector<double> matrix = gait_covariance();
   const Eigen::Map<const Eigen::MatrixXd> m(matrix.data(), side, side);

@@ -19,9 +19,9 @@ struct EigenvectorLimits {
 };
 
 /// The eigenvectors with the largest eigenvalues of a positive semidefinite matrix, n x n and
-/// symmetric, by block Lanczos with full reorthogonalisation: nearly all work are products with
-/// the matrix, which run at full speed where a tridiagonalisation waits for memory. The signs make
-/// the entry of largest size positive. Eigenvalues that are 0 to rounding are not returned.
+/// symmetric, by Spectra's implicitly restarted Lanczos, or by Eigen's full solver where a large
+/// share of them is asked for. The signs make the entry of largest size positive. Eigenvalues that
+/// are 0 to rounding are not returned.
 LeadingEigenvectors leading_eigenvectors(std::span<const double> matrix, std::size_t n,
                                          const EigenvectorLimits& limits = {});
 
