@@ -2,34 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <vector>
 
+#include "base/named_table.hpp"
 #include "clean/method_list.hpp"
 #include "kinemend/cleaner.hpp"
 
 namespace kinemend {
-
-namespace {
-
-std::vector<std::string> names_of(const auto& entries) {
-  std::vector<std::string> names;
-  names.reserve(entries.size());
-  for (const auto& entry : entries) names.push_back(entry.name);
-  return names;
-}
-
-void check_option_names(const Method& method, const OptionValues& values) {
-  const std::vector<std::string> names = names_of(method.options);
-  for (const auto& [name, value] : values) {
-    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    throw Error(ErrorKind::usage,
-                fmt::format("method {} has no option \"{}\"{} (it takes {})", method.name, name,
-                            suggestion(name, names), fmt::join(names, ", ")));
-  }
-}
-
-}  // namespace
 
 std::span<const Method> methods() {
   static const std::vector<Method> table = [] {
@@ -54,17 +33,13 @@ std::span<const Method> methods() {
 }
 
 const Method& find_method(std::string_view name) {
-  for (const Method& method : methods()) {
-    if (method.name == name) return method;
-  }
-  const std::vector<std::string> names = names_of(methods());
-  throw Error(ErrorKind::usage, fmt::format("unknown method \"{}\"{} (there are {})", name,
-                                            suggestion(name, names), fmt::join(names, ", ")));
+  return find_named(methods(), name, "unknown method");
 }
 
 std::unique_ptr<Cleaner> make_cleaner(std::string_view method, const OptionValues& values) {
   const Method& entry = find_method(method);
-  check_option_names(entry, values);
+  for (const auto& [option, value] : values)
+    find_option(entry.options, option, fmt::format("method {}", entry.name));
   return entry.make(values);
 }
 

@@ -1,10 +1,8 @@
 #include "kinemend/train.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
-
+#include "base/named_table.hpp"
 #include "kinemend/error.hpp"
 #include "priors/train_list.hpp"
 
@@ -12,27 +10,13 @@ namespace kinemend {
 
 namespace {
 
-std::vector<std::string> names_of(const auto& entries) {
-  std::vector<std::string> names;
-  names.reserve(entries.size());
-  for (const auto& entry : entries) names.push_back(entry.name);
-  return names;
-}
-
 // Checked here and once, so that a typing error is known before any take is read.
 OptionValues checked_options(const TrainMethod& method, const OptionValues& values) {
   OptionValues checked;
   for (const auto& [name, value] : values) {
-    const auto spec =
-        std::find_if(method.options.begin(), method.options.end(),
-                     [&wanted = name](const OptionSpec& s) { return s.name == wanted; });
-    if (spec == method.options.end()) {
-      const std::vector<std::string> names = names_of(method.options);
-      throw Error(ErrorKind::usage,
-                  fmt::format("training {} has no option \"{}\"{} (it takes {})", method.name, name,
-                              suggestion(name, names), fmt::join(names, ", ")));
-    }
-    checked[name] = check_option(*spec, value);
+    const OptionSpec& spec =
+        find_option(method.options, name, fmt::format("training {}", method.name));
+    checked[name] = check_option(spec, value);
   }
   return checked;
 }
@@ -51,12 +35,7 @@ std::span<const TrainMethod> train_methods() {
 }
 
 const TrainMethod& find_train_method(std::string_view name) {
-  for (const TrainMethod& method : train_methods()) {
-    if (method.name == name) return method;
-  }
-  const std::vector<std::string> names = names_of(train_methods());
-  throw Error(ErrorKind::usage, fmt::format("no model is trained for \"{}\"{} (there are {})", name,
-                                            suggestion(name, names), fmt::join(names, ", ")));
+  return find_named(train_methods(), name, "no model is trained for");
 }
 
 Model train_model(std::string_view method, const TrainingTakes& takes, const OptionValues& values,

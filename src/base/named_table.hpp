@@ -1,0 +1,46 @@
+#pragma once
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemend/error.hpp"
+#include "kinemend/options.hpp"
+
+// Entries that are chosen by their member `name`: methods, trainings, options.
+namespace kinemend {
+
+std::vector<std::string> names_of(const auto& entries) {
+  std::vector<std::string> names;
+  names.reserve(entries.size());
+  for (const auto& entry : entries) names.push_back(entry.name);
+  return names;
+}
+
+/// Errors: `ErrorKind::usage`: `unknown method "gausian"; did you mean gaussian? (there are ...)`
+/// for an `unknown` of `unknown method`.
+const auto& find_named(const auto& entries, std::string_view name, std::string_view unknown) {
+  const auto found = std::find_if(entries.begin(), entries.end(),
+                                  [&](const auto& entry) { return entry.name == name; });
+  if (found != entries.end()) return *found;
+  const std::vector<std::string> names = names_of(entries);
+  throw Error(ErrorKind::usage, fmt::format("{} \"{}\"{} (there are {})", unknown, name,
+                                            suggestion(name, names), fmt::join(names, ", ")));
+}
+
+/// The option of a method. Errors: `ErrorKind::usage`, naming `taker` and what it takes.
+inline const OptionSpec& find_option(const std::vector<OptionSpec>& options, std::string_view name,
+                                     std::string_view taker) {
+  const auto found = std::find_if(options.begin(), options.end(),
+                                  [&](const OptionSpec& option) { return option.name == name; });
+  if (found != options.end()) return *found;
+  const std::vector<std::string> names = names_of(options);
+  throw Error(ErrorKind::usage, fmt::format("{} has no option \"{}\"{} (it takes {})", taker, name,
+                                            suggestion(name, names), fmt::join(names, ", ")));
+}
+
+}  // namespace kinemend
