@@ -9,8 +9,6 @@ namespace kinemend {
 
 namespace {
 
-constexpr double trend_s = 0.5;  // of the body's frame
-
 struct KalmanLearnedTraining {
   double rate_hz = 30;
   std::int64_t order = 1;
@@ -35,7 +33,7 @@ const OptionTable<KalmanLearnedTraining>& table() {
 Model train(const TrainingTakes& takes, const OptionValues& values, const TrainSettings& settings) {
   const KalmanLearnedTraining options = table().parse(values);
   Model model;
-  model.layout = learn_layout(takes, settings, trend_s);
+  model.layout = learn_layout(takes, settings);
   const auto order = static_cast<std::size_t>(options.order);
   LinearDynamicsFit fit(model.layout.channel_count(), order);
   model.seconds = for_each_sequence(

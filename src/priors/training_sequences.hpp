@@ -12,7 +12,8 @@ namespace kinemend {
 
 /// The layout of a set of takes; each is asked for once. Errors: `ErrorKind::usage` as of
 /// `BodyLayoutBuilder`, and for no takes.
-BodyLayout learn_layout(const TrainingTakes& takes, const TrainSettings& settings, double trend_s);
+BodyLayout learn_layout(const TrainingTakes& takes, const TrainSettings& settings,
+                        double trend_s = BodyLayout{}.trend_s);
 
 /// Motion without gaps.
 struct TrainingSequence {

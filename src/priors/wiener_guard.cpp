@@ -10,6 +10,7 @@
 
 #include "kinemend/random.hpp"
 #include "kinemend/signal.hpp"
+#include "signal/fourth_difference.hpp"
 
 namespace kinemend {
 
@@ -23,6 +24,7 @@ constexpr double clearly = 0.95;        // of the filter's risk
 constexpr double fewest_counted = 0.8;  // share of samples
 constexpr std::uint64_t probe_seed = 7;
 
+constexpr double most_of_typical = 25;   // a single difference, of the typical variance
 constexpr double least_variance = 1e-6;  // square degrees
 constexpr double gap_fade_s = 0.1;
 
@@ -109,10 +111,10 @@ class Guard {
       std::size_t run = 0;
       for (std::size_t f = 0; f < y.frames; ++f) {
         run = counted_[f * y.channels + d] != 0 ? run + 1 : 0;
-        if (run < 5) continue;
-        const double difference =
-            y(f, d) - 4 * y(f - 1, d) + 6 * y(f - 2, d) - 4 * y(f - 3, d) + y(f - 4, d);
-        sum += std::min(difference * difference / 70, 25 * typical);
+        if (run <= signal::fourth_difference_span) continue;
+        const double difference = signal::fourth_difference(y, f, d);
+        sum += std::min(difference * difference / signal::fourth_difference_variance,
+                        most_of_typical * typical);
         count += 1;
       }
       variance_[d] = std::max(count > 0 ? sum / count : typical, least_variance);

@@ -8,8 +8,6 @@ namespace kinemend {
 
 namespace {
 
-constexpr double trend_s = 0.5;  // of the body's frame
-
 struct WienerTraining {
   double rate_hz = 120;
   double window_s = 0.5;
@@ -44,7 +42,7 @@ const OptionTable<WienerTraining>& table() {
 Model train(const TrainingTakes& takes, const OptionValues& values, const TrainSettings& settings) {
   const WienerTraining options = table().parse(values);
   Model model;
-  model.layout = learn_layout(takes, settings, trend_s);
+  model.layout = learn_layout(takes, settings);
   model.rate_hz = options.rate_hz;
   WienerFitSettings fitting;
   fitting.rate_hz = options.rate_hz;
