@@ -26,9 +26,9 @@ namespace kinemend {
 namespace {
 
 constexpr double welsch_deviations = 3;
-// Where spikes are about, p is narrower against what the bases leave.
 // What the bases leave lasts: it says something new in one frame of so many.
 constexpr double rest_memory_frames = 3;
+// Where spikes are about, p is narrower against what the bases leave.
 constexpr double many_suspects = 0.005;
 constexpr double rejected_weight = 0.01;
 
@@ -73,34 +73,22 @@ PoseMatrix first_guess(const PriorWork& work, const std::vector<double>& mean) {
   return guess;
 }
 
-class Example final : public Cleaner {
+class ExampleCleaning {
  public:
-  Example(const ExampleOptions& options, std::shared_ptr<const Model> model)
-      : options_(options),
-        names_(name_map_at(options.map)),
-        model_(std::move(model)),
-        prior_(example_of(*model_)) {}
+  ExampleCleaning(const ExampleOptions& options, std::shared_ptr<const Model> model)
+      : options_(options), model_(std::move(model)), prior_(example_of(*model_)) {}
 
-  CleanTrace clean(Clip& clip, const Selection& selection) const override {
+  void filter(PriorWork& work) const {
+    if (work.channels.poses.frames == 0) return;
     JointLimits limits = learned_joint_limits(*model_);
-    if (!clip.skeleton.limits.empty()) {
-      limits.joints = skeleton_joint_limits(clip.skeleton, model_->layout,
-                                            match_body(model_->layout, clip, names_))
-                          .joints;
-    }
-    return clean_with_prior(clip, selection, model_->layout, names_, options_.fill,
-                            [&](PriorWork& work) { filter(work, limits); });
-  }
-
-  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
-    return clean_with_prior(clip, selection, model_->layout, names_, options_.fill,
-                            [&](PriorWork& work) { filter(work, learned_joint_limits(*model_)); });
+    if (work.skeleton != nullptr && !work.skeleton->limits.empty())
+      limits.joints = skeleton_joint_limits(*work.skeleton, model_->layout, *work.match).joints;
+    filter(work, std::move(limits));
   }
 
  private:
   void filter(PriorWork& work, JointLimits limits) const {
     BodyChannels& channels = work.channels;
-    if (channels.poses.frames == 0) return;
     const std::vector<double>& mean = prior_.bases.mean;
     const WindowBases bases =
         bases_at_rate(prior_.bases, prior_.rate_hz, channels.frame_rate_hz, channels.poses.frames,
@@ -181,7 +169,6 @@ class Example final : public Cleaner {
   }
 
   ExampleOptions options_;
-  NameMap names_;
   std::shared_ptr<const Model> model_;
   ExamplePrior prior_;
 };
@@ -210,7 +197,9 @@ std::unique_ptr<Cleaner> make_example(const ExampleOptions& options,
     return make_self_example(options);
   }
   model = model_for("example", options.model, std::move(model));
-  return std::make_unique<Example>(options, std::move(model));
+  return make_prior_cleaner(
+      model, options.map, options.fill,
+      [cleaning = ExampleCleaning(options, model)](PriorWork& work) { cleaning.filter(work); });
 }
 
 Method example_method() {

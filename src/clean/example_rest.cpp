@@ -50,6 +50,21 @@ double trimmed_mean(std::vector<double>& squares) {
   return sum / static_cast<double>(kept);
 }
 
+// Where a part was measured, so much of what `auto` makes of it takes the place of what is there.
+void blend_part(const PriorWork& work, std::size_t part, double share, PoseMatrix& cleaned) {
+  for (std::size_t f = 0; f < cleaned.frames && share > 0; ++f) {
+    for (std::size_t c = part_channels * part; c < part_channels * (part + 1); ++c) {
+      if (work.channels.observed[f * cleaned.channels + c] != 0)
+        cleaned(f, c) += share * (work.fallback(f, c) - cleaned(f, c));
+    }
+  }
+}
+
+// 0 up to `none`, 1 from `all` on.
+double ramp(double value, double none, double all) {
+  return std::clamp((value - none) / (all - none), 0.0, 1.0);
+}
+
 }  // namespace
 
 std::vector<double> example_noise(const PriorWork& work) {
@@ -143,13 +158,10 @@ void smooth_rest(const PriorWork& work, const PoseMatrix& weights, const WindowB
 }
 
 void fall_back(const PriorWork& work, double strangeness, PoseMatrix& cleaned) {
-  const double share = std::clamp(
-      std::log(strangeness / known_motion) / std::log(unknown_motion / known_motion), 0.0, 1.0);
-  if (share == 0) return;
-  for (std::size_t i = 0; i < cleaned.values.size(); ++i) {
-    if (work.channels.observed[i] != 0)
-      cleaned.values[i] += share * (work.fallback.values[i] - cleaned.values[i]);
-  }
+  const double share =
+      ramp(std::log(strangeness), std::log(known_motion), std::log(unknown_motion));
+  for (std::size_t part = 0; part_channels * part < cleaned.channels; ++part)
+    blend_part(work, part, share, cleaned);
 }
 
 void fall_back_where_rejected(const PriorWork& work, const PoseMatrix& weights,
@@ -165,15 +177,8 @@ void fall_back_where_rejected(const PriorWork& work, const PoseMatrix& weights,
       }
     }
     if (count == 0) continue;
-    const double share = std::clamp(
-        (rejected / count - believable_rejected) / (unbelievable_rejected - believable_rejected),
-        0.0, 1.0);
-    for (std::size_t f = 0; f < cleaned.frames && share > 0; ++f) {
-      for (std::size_t c = first; c < first + part_channels; ++c) {
-        if (work.channels.observed[f * cleaned.channels + c] != 0)
-          cleaned(f, c) += share * (work.fallback(f, c) - cleaned(f, c));
-      }
-    }
+    const double share = ramp(rejected / count, believable_rejected, unbelievable_rejected);
+    blend_part(work, first / part_channels, share, cleaned);
   }
 }
 

@@ -5,7 +5,6 @@
 
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
-#include "kinemend/error.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/model.hpp"
 #include "priors/linear_dynamics.hpp"
@@ -46,43 +45,18 @@ std::vector<double> noise_with_spikes(const PriorWork& work) {
   return noise;
 }
 
-class KalmanLearned final : public Cleaner {
- public:
-  KalmanLearned(const KalmanLearnedOptions& options, std::shared_ptr<const Model> model)
-      : options_(options),
-        names_(name_map_at(options.map)),
-        model_(std::move(model)),
-        dynamics_(dynamics_of(*model_)) {}
-
-  CleanTrace clean(Clip& clip, const Selection& selection) const override {
-    return clean_with_prior(clip, selection, model_->layout, names_, options_.fill,
-                            [this](PriorWork& work) { filter(work); });
+void filter(PriorWork& work, const KalmanLearnedOptions& options, const LinearDynamics& learned) {
+  BodyChannels& channels = work.channels;
+  std::vector<double> noise = noise_with_spikes(work);
+  if (options.noise_deg > 0) std::fill(noise.begin(), noise.end(), options.noise_deg);
+  const LinearDynamics dynamics = at_rate(learned, channels.frame_rate_hz);
+  const MeasurementFacts facts{channels.observed, noise};
+  if (options.smoother) {
+    smooth_with_dynamics(channels.poses, facts, dynamics);
+  } else {
+    filter_with_dynamics(channels.poses, facts, dynamics);
   }
-
-  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
-    return clean_with_prior(clip, selection, model_->layout, names_, options_.fill,
-                            [this](PriorWork& work) { filter(work); });
-  }
-
- private:
-  void filter(PriorWork& work) const {
-    BodyChannels& channels = work.channels;
-    std::vector<double> noise = noise_with_spikes(work);
-    if (options_.noise_deg > 0) std::fill(noise.begin(), noise.end(), options_.noise_deg);
-    const LinearDynamics dynamics = at_rate(dynamics_, channels.frame_rate_hz);
-    const MeasurementFacts facts{channels.observed, noise};
-    if (options_.smoother) {
-      smooth_with_dynamics(channels.poses, facts, dynamics);
-    } else {
-      filter_with_dynamics(channels.poses, facts, dynamics);
-    }
-  }
-
-  KalmanLearnedOptions options_;
-  NameMap names_;
-  std::shared_ptr<const Model> model_;
-  LinearDynamics dynamics_;
-};
+}
 
 }  // namespace
 
@@ -90,7 +64,10 @@ std::unique_ptr<Cleaner> make_kalman_learned(const KalmanLearnedOptions& options
                                              std::shared_ptr<const Model> model) {
   table().validate(options);
   model = model_for("kalman-learned", options.model, std::move(model));
-  return std::make_unique<KalmanLearned>(options, std::move(model));
+  return make_prior_cleaner(model, options.map, options.fill,
+                            [options, dynamics = dynamics_of(*model)](PriorWork& work) {
+                              filter(work, options, dynamics);
+                            });
 }
 
 Method kalman_learned_method() {

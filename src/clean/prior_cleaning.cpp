@@ -5,15 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <span>
 #include <utility>
 
+#include "base/file_bytes.hpp"
 #include "base/quantiles.hpp"
 #include "clean/tracks.hpp"
-#include "kinemend/error.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/representation.hpp"
 #include "kinemend/signal.hpp"
@@ -37,6 +33,29 @@ std::vector<std::uint8_t> chosen_parts(const BodyMatch& match,
 void mark_part(std::vector<std::uint8_t>& marks, std::size_t channels, std::size_t frame,
                std::size_t part) {
   for (std::size_t axis = 0; axis < 3; ++axis) marks[frame * channels + 3 * part + axis] = 1;
+}
+
+// The take's channels in the frame of what `auto` made of it, with what `auto` says of each part's
+// samples; `noise` and `actions` are by joint or marker.
+PriorWork work_of(BodyChannels channels, PoseMatrix fallback, const BodyMatch& match,
+                  const std::vector<double>& noise, const std::vector<Action>& actions) {
+  PriorWork work;
+  work.match = &match;
+  work.channels = std::move(channels);
+  work.fallback = std::move(fallback);
+  const std::size_t frames = work.fallback.frames, width = work.fallback.channels;
+  work.noise.assign(width, 0);
+  work.suspect.assign(frames * width, 0);
+  for (std::size_t part = 0; part < match.parts.size(); ++part) {
+    if (match.parts[part] < 0) continue;
+    const auto index = static_cast<std::size_t>(match.parts[part]);
+    for (std::size_t axis = 0; axis < 3; ++axis) work.noise[3 * part + axis] = noise[index];
+    for (std::size_t f = 0; f < frames; ++f) {
+      if (actions[f * noise.size() + index] == Action::despiked)
+        mark_part(work.suspect, width, f, part);
+    }
+  }
+  return work;
 }
 
 bool is_rejected(const PriorWork& work, std::size_t frame, std::size_t part) {
@@ -74,23 +93,11 @@ JointRun run_auto(const Clip& clip, const BodyLayout& layout, const BodyMatch& m
 }
 
 PriorWork work_of(const Clip& clip, const JointRun& run) {
-  PriorWork work;
-  const BodyChannels guide = encode_body(run.fallback, run.layout, run.match);
-  work.channels = encode_body(clip, run.layout, run.match, guide);
-  work.fallback = guide.poses;
-  const std::size_t channels = work.fallback.channels, joints = clip.joint_count();
-  work.noise.assign(channels, 0);
-  work.suspect.assign(clip.frame_count() * channels, 0);
-  for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
-    if (run.match.parts[part] < 0) continue;
-    const auto joint = static_cast<std::size_t>(run.match.parts[part]);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      work.noise[3 * part + axis] = run.trace.noise_deg[joint];
-    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-      if (run.trace.actions[f * joints + joint] == Action::despiked)
-        mark_part(work.suspect, channels, f, part);
-    }
-  }
+  BodyChannels guide = encode_body(run.fallback, run.layout, run.match);
+  BodyChannels channels = encode_body(clip, run.layout, run.match, guide);
+  PriorWork work = work_of(std::move(channels), std::move(guide.poses), run.match,
+                           run.trace.noise_deg, run.trace.actions);
+  work.skeleton = &clip.skeleton;
   if (!run.layout.with_place) return work;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     work.noise[3 * run.place_part() + axis] =
@@ -98,7 +105,7 @@ PriorWork work_of(const Clip& clip, const JointRun& run) {
   }
   for (std::size_t f = 0; f < run.trace.root_actions.size(); ++f) {
     if (run.trace.root_actions[f] == Action::despiked)
-      mark_part(work.suspect, channels, f, run.place_part());
+      mark_part(work.suspect, work.fallback.channels, f, run.place_part());
   }
   return work;
 }
@@ -232,24 +239,11 @@ MarkerRun run_auto(const MarkerClip& clip, const BodyLayout& layout, const BodyM
 }
 
 PriorWork work_of(const MarkerClip& clip, const MarkerRun& run) {
-  PriorWork work;
-  const BodyChannels guide = encode_body(run.fallback, run.layout, run.match);
-  work.channels = encode_body(clip, run.layout, run.match, guide);
-  work.fallback = guide.poses;
-  const std::size_t channels = work.fallback.channels, markers = clip.marker_count();
-  work.noise.assign(channels, 0);
-  work.suspect.assign(clip.frame_count() * channels, 0);
-  for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
-    if (run.match.parts[part] < 0) continue;
-    const auto marker = static_cast<std::size_t>(run.match.parts[part]);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      work.noise[3 * part + axis] = run.trace.noise[marker] * work.channels.degrees_per_unit;
-    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-      if (run.trace.actions[f * markers + marker] == Action::despiked)
-        mark_part(work.suspect, channels, f, part);
-    }
-  }
-  return work;
+  BodyChannels guide = encode_body(run.fallback, run.layout, run.match);
+  BodyChannels channels = encode_body(clip, run.layout, run.match, guide);
+  std::vector<double> noise = run.trace.noise;
+  for (double& level : noise) level *= channels.degrees_per_unit;
+  return work_of(std::move(channels), std::move(guide.poses), run.match, noise, run.trace.actions);
 }
 
 MarkerTrace trace_of(const MarkerClip& clip, const MarkerSelection& selection, const MarkerRun& run,
@@ -338,13 +332,42 @@ MarkerTrace clean_with_prior(MarkerClip& clip, const MarkerSelection& selection,
   return trace;
 }
 
+namespace {
+
+class PriorCleaner final : public Cleaner {
+ public:
+  PriorCleaner(std::shared_ptr<const Model> model, NameMap names, bool fill, PriorFilter filter)
+      : model_(std::move(model)),
+        names_(std::move(names)),
+        fill_(fill),
+        filter_(std::move(filter)) {}
+
+  CleanTrace clean(Clip& clip, const Selection& selection) const override {
+    return clean_with_prior(clip, selection, model_->layout, names_, fill_, filter_);
+  }
+
+  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
+    return clean_with_prior(clip, selection, model_->layout, names_, fill_, filter_);
+  }
+
+ private:
+  std::shared_ptr<const Model> model_;
+  NameMap names_;
+  bool fill_;
+  PriorFilter filter_;
+};
+
+}  // namespace
+
+std::unique_ptr<Cleaner> make_prior_cleaner(std::shared_ptr<const Model> model,
+                                            const std::string& map, bool fill, PriorFilter filter) {
+  return std::make_unique<PriorCleaner>(std::move(model), name_map_at(map), fill,
+                                        std::move(filter));
+}
+
 NameMap name_map_at(const std::string& path) {
   if (path.empty()) return {};
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
-    throw Error(ErrorKind::unreadable_input, path + ": cannot read");
-  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  return parse_name_map(text, path);
+  return parse_name_map(file_bytes(path), path);
 }
 
 }  // namespace kinemend

@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "kinemend/body.hpp"
 #include "kinemend/cleaner.hpp"
+#include "kinemend/model.hpp"
 
 // What the methods with a learned model share: a take becomes channels, the method filters them,
 // and they go back into the take.
@@ -14,6 +16,8 @@ namespace kinemend {
 
 /// A take as such a method sees it.
 struct PriorWork {
+  const Skeleton* skeleton = nullptr;  ///< null for markers
+  const BodyMatch* match = nullptr;    ///< of the take's joints or markers with the model's parts
   /// Degrees. Samples that are missing, and those of parts that the take lacks, are not observed.
   BodyChannels channels;
   std::vector<double> noise;          ///< D, degrees per channel, as `auto` measures it; 0: none
@@ -38,7 +42,12 @@ MarkerTrace clean_with_prior(MarkerClip& clip, const MarkerSelection& selection,
                              const BodyLayout& layout, const NameMap& names, bool fill,
                              const PriorFilter& filter);
 
-/// The names of a mapping file; none for an empty path.
+/// A cleaner that does this to every take of joints or markers; `map` is the path of a mapping
+/// file, or empty. Errors: as of `name_map_at`.
+std::unique_ptr<Cleaner> make_prior_cleaner(std::shared_ptr<const Model> model,
+                                            const std::string& map, bool fill, PriorFilter filter);
+
+/// The names of a mapping file; none for an empty path. Errors: `ErrorKind::unreadable_input`.
 NameMap name_map_at(const std::string& path);
 
 }  // namespace kinemend

@@ -6,11 +6,11 @@
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
 #include "clean/track_smoother.hpp"
-#include "kinemend/error.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/model.hpp"
 #include "priors/wiener_guard.hpp"
 #include "priors/wiener_prior.hpp"
+#include "signal/fourth_difference.hpp"
 
 namespace kinemend {
 
@@ -31,9 +31,6 @@ const OptionTable<WienerOptions>& table() {
   return options;
 }
 
-// Fourth differences of white noise of variance 1 have variance 70; motion has next to none.
-constexpr std::size_t difference_order = 4;
-constexpr double difference_deviation = 8.366600265340756;
 constexpr double deviations_per_median = 1.4826;
 constexpr double least_noise_deg = 1e-3;
 // More suspects than this are noise.
@@ -47,14 +44,13 @@ double channel_noise(const PriorWork& work, std::size_t channel) {
   for (std::size_t f = 0; f < y.frames; ++f) {
     const std::size_t sample = f * y.channels + channel;
     run = work.channels.observed[sample] != 0 ? run + 1 : 0;
-    if (run <= difference_order) continue;
-    sizes.push_back(std::abs(y(f, channel) - 4 * y(f - 1, channel) + 6 * y(f - 2, channel) -
-                             4 * y(f - 3, channel) + y(f - 4, channel)));
+    if (run <= signal::fourth_difference_span) continue;
+    sizes.push_back(std::abs(signal::fourth_difference(y, f, channel)));
   }
   if (sizes.empty()) return 0;
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
-  return deviations_per_median * *middle / difference_deviation;
+  return deviations_per_median * *middle / std::sqrt(signal::fourth_difference_variance);
 }
 
 // Channels of which `auto` suspects too much are not despiked beforehand.
@@ -83,58 +79,33 @@ void smooth_as_auto(PoseMatrix& poses, std::span<const std::uint8_t> missing,
     poses.values[i] = tracks.values.values[i] * noise[i % poses.channels];
 }
 
-class Wiener final : public Cleaner {
- public:
-  Wiener(const WienerOptions& options, std::shared_ptr<const Model> model)
-      : options_(options),
-        names_(name_map_at(options.map)),
-        model_(std::move(model)),
-        prior_(wiener_prior_of(*model_)) {}
-
-  CleanTrace clean(Clip& clip, const Selection& selection) const override {
-    return clean_with_prior(clip, selection, model_->layout, names_, options_.fill,
-                            [this](PriorWork& work) { filter(work); });
+std::vector<double> noise_of(const PriorWork& work, const WienerOptions& options) {
+  std::vector<double> noise(work.channels.poses.channels, options.noise_deg);
+  for (std::size_t c = 0; c < noise.size(); ++c) {
+    if (options.noise_deg <= 0) noise[c] = channel_noise(work, c);
+    noise[c] = std::max(options.sensitivity * noise[c], least_noise_deg);
   }
+  return noise;
+}
 
-  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
-    return clean_with_prior(clip, selection, model_->layout, names_, options_.fill,
-                            [this](PriorWork& work) { filter(work); });
-  }
-
- private:
-  std::vector<double> noise_of(const PriorWork& work) const {
-    std::vector<double> noise(work.channels.poses.channels, options_.noise_deg);
-    for (std::size_t c = 0; c < noise.size(); ++c) {
-      if (options_.noise_deg <= 0) noise[c] = channel_noise(work, c);
-      noise[c] = std::max(options_.sensitivity * noise[c], least_noise_deg);
-    }
-    return noise;
-  }
-
-  void filter(PriorWork& work) const {
-    clear_noisy_suspects(work);
-    PoseMatrix& poses = work.channels.poses;
-    const std::vector<double> noise = noise_of(work);
-    WienerSettings settings;
-    if (!options_.despike) settings.outlier_deviations = 0;
-    const double rate_hz = work.channels.frame_rate_hz;
-    const TakeSmoother smoother = [rate_hz](PoseMatrix& samples,
-                                            std::span<const std::uint8_t> missing,
-                                            std::span<const double> deviations) {
-      smooth_as_auto(samples, missing, deviations, rate_hz);
-    };
-    WienerResult result = guarded_wiener_filter(
-        prior_, {poses, work.fallback, work.channels.observed, work.suspect, noise, rate_hz},
-        smoother, settings);
-    poses = std::move(result.poses);
-    work.rejected = std::move(result.rejected);
-  }
-
-  WienerOptions options_;
-  NameMap names_;
-  std::shared_ptr<const Model> model_;
-  WienerPrior prior_;
-};
+void filter(PriorWork& work, const WienerOptions& options, const WienerPrior& prior) {
+  clear_noisy_suspects(work);
+  PoseMatrix& poses = work.channels.poses;
+  const std::vector<double> noise = noise_of(work, options);
+  WienerSettings settings;
+  if (!options.despike) settings.outlier_deviations = 0;
+  const double rate_hz = work.channels.frame_rate_hz;
+  const TakeSmoother smoother = [rate_hz](PoseMatrix& samples,
+                                          std::span<const std::uint8_t> missing,
+                                          std::span<const double> deviations) {
+    smooth_as_auto(samples, missing, deviations, rate_hz);
+  };
+  WienerResult result = guarded_wiener_filter(
+      prior, {poses, work.fallback, work.channels.observed, work.suspect, noise, rate_hz}, smoother,
+      settings);
+  poses = std::move(result.poses);
+  work.rejected = std::move(result.rejected);
+}
 
 }  // namespace
 
@@ -142,7 +113,10 @@ std::unique_ptr<Cleaner> make_wiener(const WienerOptions& options,
                                      std::shared_ptr<const Model> model) {
   table().validate(options);
   model = model_for("wiener", options.model, std::move(model));
-  return std::make_unique<Wiener>(options, std::move(model));
+  return make_prior_cleaner(model, options.map, options.fill,
+                            [options, prior = wiener_prior_of(*model)](PriorWork& work) {
+                              filter(work, options, prior);
+                            });
 }
 
 Method wiener_method() {
