@@ -2,24 +2,13 @@
 // promise to leave clean takes alone.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <map>
 
-#include "kinemend/io.hpp"
 #include "quality/quality.hpp"
+#include "quality/real_takes.hpp"
 
 namespace kinemend::quality {
 namespace {
-
-namespace fs = std::filesystem;
-
-Clip real_clip(const std::string& name) {
-  for (const char* folder : {"cmu/bvh", "cmu/bvh-rotations"}) {
-    const fs::path path = fs::path(KINEMEND_DATA_FOLDER) / folder / (name + ".bvh");
-    if (fs::exists(path)) return without_calibration(read_clip(path).clip);
-  }
-  throw Error(ErrorKind::unreadable_input, "no real take " + name);
-}
 
 struct Gate {
   const char* clip;

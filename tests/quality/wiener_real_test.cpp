@@ -5,26 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <limits>
 
-#include "kinemend/io.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/model.hpp"
 #include "quality/quality.hpp"
+#include "quality/real_takes.hpp"
 
 namespace kinemend::quality {
 namespace {
-
-namespace fs = std::filesystem;
-
-Clip real_clip(const std::string& name) {
-  for (const char* folder : {"cmu/bvh", "cmu/bvh-rotations"}) {
-    const fs::path path = fs::path(KINEMEND_DATA_FOLDER) / folder / (name + ".bvh");
-    if (fs::exists(path)) return without_calibration(read_clip(path).clip);
-  }
-  throw Error(ErrorKind::unreadable_input, "no real take " + name);
-}
 
 struct Damaging {
   const char* name;

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "kinemend/io.hpp"
+#include "quality/quality.hpp"
+
+namespace kinemend::quality {
+
+/// A take of CMU's by its name, without its calibration pose.
+inline Clip real_clip(const std::string& name) {
+  for (const char* folder : {"cmu/bvh", "cmu/bvh-rotations"}) {
+    const std::filesystem::path path =
+        std::filesystem::path(KINEMEND_DATA_FOLDER) / folder / (name + ".bvh");
+    if (std::filesystem::exists(path)) return without_calibration(read_clip(path).clip);
+  }
+  throw Error(ErrorKind::unreadable_input, "no real take " + name);
+}
+
+}  // namespace kinemend::quality
