@@ -31,6 +31,34 @@ std::size_t count_held(const FeetReport& report) {
   return static_cast<std::size_t>(std::count(report.held.begin(), report.held.end(), 1));
 }
 
+// How far knees pop before and after, take by take: the one that rises most above both what it was
+// and what was recorded, and how many rise above that by more than a tenth and half a degree.
+struct Pops {
+  std::string worst;
+  std::size_t takes = 0, above = 0;
+  double most_rise = -1, recorded = 0, before = 0, after = 0;
+
+  void add(const std::string& take, double of_record, double was, double is) {
+    const double allowed = std::max(of_record, was);
+    ++takes;
+    above += is > std::max(1.1 * allowed, allowed + 0.5) ? 1 : 0;
+    if (is - allowed <= most_rise) return;
+    most_rise = is - allowed;
+    worst = take;
+    recorded = of_record, before = was, after = is;
+  }
+  void print(const std::string& group) const {
+    fmt::print("| {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} |\n", group, takes, above, worst,
+               recorded, before, after);
+  }
+};
+
+// One a group of takes and a way to clean them.
+struct NamedPops {
+  std::string group;
+  Pops pops;
+};
+
 // Sums over takes.
 struct Row {
   double takes = 0, slide = 0, most_slide = 0, position = 0, knee_pop = 0;
@@ -51,9 +79,10 @@ struct Row {
 };
 
 void after_cleaning(const Arguments& arguments, const std::string& group,
-                    const std::vector<std::string>& names) {
+                    const std::vector<std::string>& names, std::vector<NamedPops>& all_pops) {
   for (const char* method : {"gaussian", "auto"}) {
     Row clean, plain, held;
+    Pops pops;
     for (const std::string& name : names) {
       const Clip truth = load_take(arguments, name + ".bvh", {}).clip;
       const std::vector<FootContact> contacts = find_contacts(truth);
@@ -63,26 +92,41 @@ void after_cleaning(const Arguments& arguments, const std::string& group,
       const std::unique_ptr<Cleaner> cleaner = make_cleaner(method);
       CleanSettings settings;
       clean.add(truth, truth, contacts);
-      plain.add(truth, clean_clip(noisy, *cleaner, settings).clip, contacts);
+      const Clip before = clean_clip(noisy, *cleaner, settings).clip;
+      plain.add(truth, before, contacts);
       settings.feet.emplace();
-      held.add(truth, clean_clip(noisy, *cleaner, settings).clip, contacts);
+      const Clip after = clean_clip(noisy, *cleaner, settings).clip;
+      held.add(truth, after, contacts);
+      pops.add(name, feet_figures(truth, contacts).knee_pop_deg,
+               feet_figures(before, contacts).knee_pop_deg,
+               feet_figures(after, contacts).knee_pop_deg);
       if (arguments.quick) break;
     }
     if (std::string(method) == "gaussian") clean.print(group, "as recorded", "");
     plain.print(group, method, "off");
     held.print(group, method, "auto");
+    all_pops.push_back({fmt::format("{}, noise, {}", group, method), pops});
   }
 }
 
-void as_recorded(const Arguments& arguments) {
+void as_recorded(const Arguments& arguments, std::vector<NamedPops>& all_pops) {
   fmt::print(
       "\n| takes as recorded | contacts | held by auto | frames changed | slide cm | after |\n"
       "|---|---|---|---|---|---|\n");
   const auto row = [&](const std::string& group, const std::vector<std::string>& names) {
     double contacts = 0, held = 0, frames = 0, changed = 0, before = 0, after = 0;
+    Pops pops, forced;
     for (const std::string& name : names) {
       Clip clip = load_take(arguments, name + ".bvh", {}).clip;
+      FeetSettings force;
+      force.mode = FeetMode::force;
+      Clip copy = clip;
+      const FeetFigures by_force = clean_feet(copy, force).after;
       const FeetReport report = clean_feet(clip);
+      pops.add(name, report.before.knee_pop_deg, report.before.knee_pop_deg,
+               report.after.knee_pop_deg);
+      forced.add(name, report.before.knee_pop_deg, report.before.knee_pop_deg,
+                 by_force.knee_pop_deg);
       const std::size_t joints = clip.joint_count();
       contacts += static_cast<double>(report.contacts.size());
       held += static_cast<double>(count_held(report));
@@ -97,6 +141,8 @@ void as_recorded(const Arguments& arguments) {
     const auto takes = static_cast<double>(names.size());
     fmt::print("| {} | {} | {} | {:.0f} % | {:.3f} | {:.3f} |\n", group, contacts, held,
                100 * changed / frames, before / takes, after / takes);
+    all_pops.push_back({group + " as recorded, auto", pops});
+    all_pops.push_back({group + " as recorded, force", forced});
   };
   row("walks", walks());
   row("runs", runs());
@@ -104,12 +150,13 @@ void as_recorded(const Arguments& arguments) {
   row("bones of another subject", {"38_03", "46_01", "105_39", "105_40"});
 }
 
-void pairs(const Arguments& arguments) {
+void pairs(const Arguments& arguments, std::vector<NamedPops>& all_pops) {
   const std::string stem = "style_transfer_demo_results_";
   if (!find_take(arguments.data, stem + "comp_3d_1_raw.bvh")) return;
   fmt::print(
       "\n| pair | contacts | slide cm, raw | their fix | held here | knee pop deg | their fix "
       "| held here |\n|---|---|---|---|---|---|---|---|\n");
+  Pops pops;
   for (const char* name : {"comp_3d_1", "comp_3d_2", "comp_video_1", "comp_video_2", "demo_3d_1",
                            "demo_3d_2", "demo_video_1", "demo_video_2"}) {
     Clip raw = load_take(arguments, stem + name + "_raw.bvh", {}).clip;
@@ -123,7 +170,10 @@ void pairs(const Arguments& arguments) {
                settings.contacts->size(), cm * report.before.slide, cm * theirs.slide,
                cm * report.after.slide, report.before.knee_pop_deg, theirs.knee_pop_deg,
                report.after.knee_pop_deg);
+    pops.add(name, report.before.knee_pop_deg, report.before.knee_pop_deg,
+             report.after.knee_pop_deg);
   }
+  all_pops.push_back({"pairs", pops});
 }
 
 void experiment(const Arguments& arguments) {
@@ -133,11 +183,18 @@ void experiment(const Arguments& arguments) {
       "knee pop: largest second difference of a knee's angle.\n\n"
       "| takes | method | feet | slide cm | most cm | position cm | knee pop deg |\n"
       "|---|---|---|---|---|---|---|\n");
-  after_cleaning(arguments, "walks", walks());
-  after_cleaning(arguments, "runs", runs());
-  after_cleaning(arguments, "dances", dances());
-  as_recorded(arguments);
-  pairs(arguments);
+  std::vector<NamedPops> pops;
+  after_cleaning(arguments, "walks", walks(), pops);
+  after_cleaning(arguments, "runs", runs(), pops);
+  after_cleaning(arguments, "dances", dances(), pops);
+  as_recorded(arguments, pops);
+  pairs(arguments, pops);
+  fmt::print(
+      "\nKnee pop, degrees: takes that rise by more than a tenth and half a degree above what was\n"
+      "recorded and what they had before their feet were held; and the take that rises most.\n\n"
+      "| takes | number | above | most | recorded | before | after "
+      "|\n|---|---|---|---|---|---|---|\n");
+  for (const NamedPops& own : pops) own.pops.print(own.group);
 }
 
 }  // namespace

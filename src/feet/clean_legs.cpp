@@ -10,6 +10,7 @@
 
 #include "feet/figures.hpp"
 #include "feet/judge.hpp"
+#include "feet/knees.hpp"
 #include "feet/leg_solver.hpp"
 #include "feet/placement.hpp"
 #include "feet/root.hpp"
@@ -66,7 +67,7 @@ class FeetCleaning {
       report_.after = report_.before;
       return std::move(report_);
     }
-    const std::vector<FootTarget> targets = find_targets(soles);
+    std::vector<FootTarget> targets = find_targets(soles);
     move(targets);
     update_poses(clip_, found_, legs_);
     warn_of_rest(targets);
@@ -150,12 +151,14 @@ class FeetCleaning {
                        [&](const LegModel& model) { return may_turn(model, limits_); });
   }
 
-  void move(const std::vector<FootTarget>& targets) {
+  void move(std::vector<FootTarget>& targets) {
+    const std::vector<Reach> reaches = reaches_of(legs_, targets, settings_.soft_reach);
+    const bool lowered = may_lower();
     std::vector<double> drops(legs_.frames);
-    if (may_lower())
-      drops = root_drops(legs_, targets, up_, settings_.soft_reach, settings_.blend_s);
+    if (lowered) drops = root_drops(legs_, reaches, targets, up_, settings_.blend_s);
+    ease_knees(legs_, reaches, up_, lowered, targets, drops);
     for (std::size_t f = 0; f < legs_.frames; ++f) {
-      const bool lowers = drops[f] > least_shift * legs_.height;
+      const bool lowers = std::fabs(drops[f]) > least_shift * legs_.height;
       const Vec3 shift = lowers ? -drops[f] * up_.direction() : Vec3{};
       if (lowers) lower(f, shift);
       for (std::size_t l = 0; l < legs_.legs(); ++l) {

@@ -73,6 +73,17 @@ KneeCircle knee_circle(const LegPose& pose, Vec3 hinge) {
   return circle;
 }
 
+Reach reach_of(const LegPose& pose, const KneeCircle& circle, KneeTurn turn, double soft_reach,
+               double hold) {
+  Reach reach;
+  reach.now = norm(pose.ankle_at - pose.hip_at);
+  reach.most = turn == KneeTurn::none ? reach.now : std::max(reach.now, circle.most());
+  const double free = std::max((1 - soft_reach) * reach.most, reach.now);
+  const double held = std::min(free, (1 - soft_reach / 4) * reach.most);
+  reach.easy = hold * held + (1 - hold) * free;
+  return reach;
+}
+
 // The turn of the shank that puts the ankle at this distance from the hip, on the side to which the
 // knee is bent.
 double turn_for(const KneeCircle& circle, double distance) {
@@ -101,7 +112,7 @@ class Leg {
         hip_at_(pose.hip_at + hip_shift),
         turn_(knee_turn(pose, model)),
         circle_(knee_circle(pose, hinge_of(pose, model, turn_))),
-        reach_(feet::reach_of(pose, model, soft_reach, target.hold)) {}
+        reach_(reach_of(pose, circle_, turn_, soft_reach, target.hold)) {}
 
   LegRotations solve() {
     constexpr int rounds = 8;
@@ -161,17 +172,17 @@ Vec3 turn_between(Vec3 from, Vec3 to) {
 
 Reach reach_of(const LegPose& pose, const LegModel& model, double soft_reach, double hold) {
   const KneeTurn turn = knee_turn(pose, model);
-  Reach reach;
-  reach.now = norm(pose.ankle_at - pose.hip_at);
-  reach.most = reach.now;
-  if (turn != KneeTurn::none) {
-    const KneeCircle circle = knee_circle(pose, hinge_of(pose, model, turn));
-    reach.most = std::max(reach.now, circle.most());
+  return reach_of(pose, knee_circle(pose, hinge_of(pose, model, turn)), turn, soft_reach, hold);
+}
+
+std::vector<Reach> reaches_of(const LegMotion& motion, const std::vector<FootTarget>& targets,
+                              double soft_reach) {
+  std::vector<Reach> reaches(targets.size());
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    reaches[i] =
+        reach_of(motion.poses[i], motion.models[i % motion.legs()], soft_reach, targets[i].hold);
   }
-  const double free = std::max((1 - soft_reach) * reach.most, reach.now);
-  const double held = std::min(free, (1 - soft_reach / 4) * reach.most);
-  reach.easy = hold * held + (1 - hold) * free;
-  return reach;
+  return reaches;
 }
 
 double soft_distance(double distance, const Reach& reach) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "feet/leg_motion.hpp"
 #include "feet/placement.hpp"
 
@@ -19,6 +21,10 @@ struct Reach {
 /// leg
 /// (`hold` 1; 0 for a free one) stays short by a quarter of the share even then.
 Reach reach_of(const LegPose& pose, const LegModel& model, double soft_reach, double hold);
+
+/// F x L, as the targets hold them.
+std::vector<Reach> reaches_of(const LegMotion& motion, const std::vector<FootTarget>& targets,
+                              double soft_reach);
 
 /// `distance`, or where that is beyond `reach.easy` a distance that nears `reach.most` smoothly:
 /// e + (m - e) (1 - exp(-(d - e) / (m - e))).

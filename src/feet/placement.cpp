@@ -219,6 +219,7 @@ FootTarget foot_target(const LegPose& pose, const LegModel& model, const PartCor
   FootTarget target;
   const double h = heel.weight[frame], t = toe.weight[frame];
   target.hold = std::max(h, t);
+  target.free_turn = 1 - std::min(h, t);
   target.rotation = pose.ankle;
   const Vec3 heel_shift = heel.shift[frame], toe_shift = toe.shift[frame];
   target.moves = norm(heel_shift) > least_shift || norm(toe_shift) > least_shift;

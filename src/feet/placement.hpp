@@ -24,11 +24,12 @@ std::vector<PartCorrection> place_contacts(const Soles& soles, const LegMotion& 
 
 /// Where a foot shall be in one frame.
 struct FootTarget {
-  bool moves = false;  ///< it goes elsewhere than it is
-  double hold = 0;     ///< 1 where a part of it is in contact, fading to 0 beside contacts
-  Quat rotation;       ///< of the ankle, world
-  Vec3 pivot;          ///< a point of the foot, in the ankle's frame ...
-  Vec3 place;          ///< ... and where it shall be, world
+  bool moves = false;    ///< it goes elsewhere than it is
+  double hold = 0;       ///< 1 where a part of it is in contact, fading to 0 beside contacts
+  double free_turn = 0;  ///< 1 where it may turn about its pivot, 0 where both parts are down
+  Quat rotation;         ///< of the ankle, world
+  Vec3 pivot;            ///< a point of the foot, in the ankle's frame ...
+  Vec3 place;            ///< ... and where it shall be, world
 };
 
 /// The foot turns as little as it can to bring both parts where they shall be; with one part alone

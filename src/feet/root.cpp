@@ -4,19 +4,15 @@
 #include <cmath>
 #include <deque>
 
-#include "feet/leg_solver.hpp"
-
 namespace kinemend::feet {
 
 namespace {
 
 // The least way down after which the ankle is within reach; 0 where going down does not help.
-double drop_for(const LegPose& pose, const LegModel& model, const FootTarget& target, Up up,
-                double soft_reach) {
+double drop_for(const LegPose& pose, const Reach& reach, const FootTarget& target, Up up) {
   constexpr double most_share = 0.1, least_cosine = 0.5;
   const Vec3 ankle_at = target.place - rotate(target.rotation, target.pivot);
   const Vec3 way = ankle_at - pose.hip_at;
-  const Reach reach = reach_of(pose, model, soft_reach, target.hold);
   const double beyond = dot(way, way) - reach.easy * reach.easy;
   const double below = -along(way, up);
   if (beyond <= 0 || below < least_cosine * norm(way)) return 0;
@@ -64,15 +60,15 @@ std::vector<double> smoothed(const std::vector<double>& values, std::size_t reac
 
 }  // namespace
 
-std::vector<double> root_drops(const LegMotion& motion, const std::vector<FootTarget>& targets,
-                               Up up, double soft_reach, double blend_s) {
+std::vector<double> root_drops(const LegMotion& motion, const std::vector<Reach>& reaches,
+                               const std::vector<FootTarget>& targets, Up up, double blend_s) {
   std::vector<double> needed(motion.frames);
   bool any = false;
   for (std::size_t f = 0; f < motion.frames; ++f) {
     for (std::size_t l = 0; l < motion.legs(); ++l) {
-      const FootTarget& target = targets[f * motion.legs() + l];
-      if (target.hold < 1 || !target.moves) continue;
-      const double drop = drop_for(motion.pose(f, l), motion.models[l], target, up, soft_reach);
+      const std::size_t i = f * motion.legs() + l;
+      if (targets[i].hold < 1 || !targets[i].moves) continue;
+      const double drop = drop_for(motion.poses[i], reaches[i], targets[i], up);
       needed[f] = std::max(needed[f], drop);
       any = any || drop > 0;
     }

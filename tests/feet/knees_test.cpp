@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "feet/support.hpp"
+
+// Feet are held and knees do not pop: the largest second difference of their angles is hardly above
+// that of the take.
+namespace kinemend {
+namespace {
+
+using test::synthetic_clip;
+using test::with_drift;
+
+FeetSettings forced() {
+  FeetSettings settings;
+  settings.mode = FeetMode::force;
+  return settings;
+}
+
+double allowed_pop_deg(const FeetReport& report) {
+  return std::max(1.1 * report.before.knee_pop_deg, report.before.knee_pop_deg + 0.5);
+}
+
+// What a filter leaves of noise: smooth over a few frames.
+Clip with_smooth_noise(Clip clip, double deg, std::uint64_t seed) {
+  constexpr std::size_t reach = 3;
+  const std::size_t joints = clip.joint_count();
+  Random random(seed);
+  std::vector<Vec3> noise(clip.local_rotations.size() + 2 * reach * joints);
+  for (Vec3& turn : noise) turn = {random.normal(), random.normal(), random.normal()};
+  for (std::size_t i = 0; i < clip.local_rotations.size(); ++i) {
+    Vec3 sum;
+    for (std::size_t k = 0; k <= 2 * reach; ++k) sum += noise[i + k * joints];
+    const double share = deg * radians_per_degree / std::sqrt(2 * reach + 1.0);
+    clip.local_rotations[i] = normalized(clip.local_rotations[i] * exp(share * sum));
+  }
+  return clip;
+}
+
+TEST(Knees, DoNotPopInWalksThatDriftAndJitter) {
+  for (const double rate : {30.0, 60.0, 120.0}) {
+    for (const double noise_deg : {0.0, 0.3, 0.6}) {
+      for (const std::uint64_t seed : {1u, 2u, 3u}) {
+        Clip clip = with_smooth_noise(with_drift(synthetic_clip("walk", 8, rate, seed), 4),
+                                      noise_deg, seed);
+        const FeetReport report = clean_feet(clip, forced());
+        EXPECT_LE(report.after.knee_pop_deg, allowed_pop_deg(report))
+            << rate << " Hz, noise " << noise_deg << ", seed " << seed;
+        EXPECT_LT(report.after.most_slide, 0.1) << rate << " Hz, seed " << seed;  // cm
+      }
+    }
+  }
+}
+
+// A standing body whose hips or one foot jump for two frames: what a filter takes for real.
+Clip with_jump(const char* joint, double deg, double rise) {
+  Clip clip = synthetic_clip("still", 3);
+  for (const std::size_t f : {180u, 181u}) {
+    clip.root_positions[f].y += rise;
+    Quat& own = clip.rotation(f, test::joint_of(clip, joint));
+    own = own * exp({deg * radians_per_degree, 0, 0});
+  }
+  return clip;
+}
+
+TEST(Knees, AreSparedWhatTheHipsJump) {
+  Clip clip = with_jump("Hips", 0, 0.5);
+  const Clip before = clip;
+  const FeetReport report = clean_feet(clip, forced());
+  ASSERT_FALSE(report.contacts.empty());
+  EXPECT_LT(report.after.knee_pop_deg, allowed_pop_deg(report));
+  EXPECT_LT(report.after.most_slide, 0.02);
+  // The root takes the jump back.
+  const double jump = before.root_positions[180].y - before.root_positions[176].y;
+  const double left = clip.root_positions[180].y - clip.root_positions[176].y;
+  EXPECT_LT(std::fabs(left), 0.3 * jump);
+}
+
+TEST(Knees, AreSparedWhatAFootTurnsThatStandsOnItsToe) {
+  Clip clip = with_jump("LeftFoot", 6, 0);
+  FeetSettings settings;
+  settings.contacts = {{{0, FootPart::toe, 100, 260}}};
+  const FeetReport report = clean_feet(clip, settings);
+  EXPECT_LT(report.after.knee_pop_deg, allowed_pop_deg(report));
+  EXPECT_LT(report.after.most_slide, 0.02);
+}
+
+TEST(Knees, AreSparedWithoutARootThatMoves) {
+  Clip clip = with_smooth_noise(with_drift(synthetic_clip("walk", 8), 2), 0.3, 4);
+  clip.skeleton.channels[0] = make_channels(false, parse_rotation_order("ZXY"));
+  const Clip before = clip;
+  const FeetReport report = clean_feet(clip, forced());
+  EXPECT_EQ(clip.root_positions, before.root_positions);
+  EXPECT_LE(report.after.knee_pop_deg, allowed_pop_deg(report));
+}
+
+}  // namespace
+}  // namespace kinemend
