@@ -187,9 +187,8 @@ TEST(CsvReader, FaultsNameTheLine) {
       {"channel", "take.csv:5: expected a channel such as Xrotation, found \"Qposition\""},
       {"offset", "take.csv:4: expected 3 numbers behind \"offset\""}};
   for (const auto& [name, message] : expected) {
-    EXPECT_EQ(message_of([&] { read_table(csv_fixture(std::string("bad/") + name + ".csv")); },
-                         ErrorKind::unreadable_input),
-              message);
+    const std::string table = csv_fixture(std::string("bad/") + name + ".csv");
+    EXPECT_EQ(message_of([&] { read_table(table); }, ErrorKind::unreadable_input), message);
   }
 }
 
