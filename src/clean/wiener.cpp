@@ -33,6 +33,7 @@ const OptionTable<WienerOptions>& table() {
 
 constexpr double deviations_per_median = 1.4826;
 constexpr double least_noise_deg = 1e-3;
+constexpr std::size_t fewest_smoothed_frames = 16;
 // More suspects than this are noise.
 constexpr double most_suspects = 0.05;
 
@@ -65,6 +66,7 @@ void clear_noisy_suspects(PriorWork& work) {
 }
 
 // The smoother of `auto`. Channels are brought to one noise, so that it is alike in all directions.
+// Three of which hardly a sample was seen stay as they are.
 void smooth_as_auto(PoseMatrix& poses, std::span<const std::uint8_t> missing,
                     std::span<const double> noise, double rate_hz) {
   VectorTracks tracks(poses.frames, poses.channels / 3);
@@ -74,7 +76,13 @@ void smooth_as_auto(PoseMatrix& poses, std::span<const std::uint8_t> missing,
     marks.marks[i / 3] |= missing[i];
   }
   const std::vector<double> one(tracks.tracks(), 1);
-  smooth_tracks(tracks, marks, one, one, rate_hz);
+  std::vector<double> shares(tracks.tracks(), 1);
+  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
+    std::size_t seen = 0;
+    for (std::size_t f = 0; f < tracks.frames(); ++f) seen += marks(f, n) == 0;
+    if (seen < fewest_smoothed_frames) shares[n] = 0;
+  }
+  smooth_tracks(tracks, marks, one, shares, rate_hz);
   for (std::size_t i = 0; i < poses.values.size(); ++i)
     poses.values[i] = tracks.values.values[i] * noise[i % poses.channels];
 }

@@ -57,33 +57,6 @@ std::size_t window_frames(const ExampleTraining& options, std::size_t channels) 
   return frames;
 }
 
-// Every other take, or the halves of the only one.
-struct Halves {
-  Halves(std::size_t takes, std::size_t window, std::size_t channels)
-      : single(takes == 1),
-        sums{LagCovariance(window, channels), LagCovariance(window, channels)} {}
-
-  void add(const TrainingSequence& sequence) {
-    if (!single) {
-      sums[sequence.take % 2].add(sequence.poses, sequence.weight);
-      return;
-    }
-    const std::size_t middle = sequence.poses.frames / 2;
-    sums[0].add(frames_of(sequence.poses, 0, middle), sequence.weight);
-    sums[1].add(frames_of(sequence.poses, middle, sequence.poses.frames), sequence.weight);
-  }
-  bool are_whole() const { return sums[0].windows() > 0 && sums[1].windows() > 0; }
-
-  static PoseMatrix frames_of(const PoseMatrix& poses, std::size_t first, std::size_t last) {
-    PoseMatrix part(last - first, poses.channels);
-    std::copy_n(poses.row(first).begin(), part.values.size(), part.values.begin());
-    return part;
-  }
-
-  bool single;
-  std::array<LagCovariance, 2> sums;
-};
-
 Model train(const TrainingTakes& takes, const OptionValues& values, const TrainSettings& settings) {
   const ExampleTraining options = table().parse(values);
   Model model;
@@ -92,11 +65,15 @@ Model train(const TrainingTakes& takes, const OptionValues& values, const TrainS
   const std::size_t window = window_frames(options, channels);
   LagCovariance covariance(window, channels);
   ChannelRanges ranges(channels);
-  Halves halves(takes.count, window, channels);
+  std::array<LagCovariance, 2> halves{LagCovariance(window, channels),
+                                      LagCovariance(window, channels)};
   model.seconds = for_each_sequence(takes, model.layout, options.rate_hz, window, settings,
                                     [&](const TrainingSequence& sequence) {
                                       covariance.add(sequence.poses, sequence.weight);
-                                      halves.add(sequence);
+                                      for_each_half(sequence, takes.count, window,
+                                                    [&](std::size_t half, const PoseMatrix& poses) {
+                                                      halves[half].add(poses, sequence.weight);
+                                                    });
                                       ranges.add(sequence.poses, sequence.weight);
                                     });
   if (covariance.windows() <= 0) {
@@ -108,9 +85,8 @@ Model train(const TrainingTakes& takes, const OptionValues& values, const TrainS
   prior.bases = filter_bases(covariance, {options.energy, static_cast<std::size_t>(options.bases)},
                              options.centred);
   if (prior.bases.count == 0) throw Error(ErrorKind::usage, "nothing moves in these takes");
-  if (halves.are_whole()) {
-    cross_validate(prior.bases, halves.sums[0], halves.sums[1], options.centred);
-  }
+  if (halves[0].windows() > 0 && halves[1].windows() > 0)
+    cross_validate(prior.bases, halves[0], halves[1], options.centred);
   for (std::size_t c = 0; c < channels; ++c) {
     prior.lowest.push_back(ranges.quantile(c, lowest_share));
     prior.highest.push_back(ranges.quantile(c, highest_share));

@@ -75,6 +75,13 @@ BodyChannels channels_at_rate(AnyClip clip, const BodyLayout& layout, double rat
   return encode_body(clip, layout, match_body(layout, clip));
 }
 
+PoseMatrix frames_of(const PoseMatrix& poses, std::size_t first, std::size_t last) {
+  PoseMatrix part(last - first, poses.channels);
+  std::copy_n(poses.values.begin() + static_cast<std::ptrdiff_t>(first * poses.channels),
+              part.values.size(), part.values.begin());
+  return part;
+}
+
 }  // namespace
 
 BodyLayout learn_layout(const TrainingTakes& takes, const TrainSettings& settings, double trend_s) {
@@ -112,6 +119,17 @@ double for_each_sequence(const TrainingTakes& takes, const BodyLayout& layout, d
     }
   }
   return frames / rate_hz;
+}
+
+void for_each_half(const TrainingSequence& sequence, std::size_t takes, std::size_t least_frames,
+                   const std::function<void(std::size_t half, const PoseMatrix& poses)>& use) {
+  const std::size_t middle = sequence.poses.frames / 2;
+  if (takes > 1 || middle < least_frames) {
+    use(takes > 1 ? sequence.take % 2 : 0, sequence.poses);
+    return;
+  }
+  use(0, frames_of(sequence.poses, 0, middle));
+  use(1, frames_of(sequence.poses, middle, sequence.poses.frames));
 }
 
 }  // namespace kinemend

@@ -30,4 +30,10 @@ double for_each_sequence(const TrainingTakes& takes, const BodyLayout& layout, d
                          std::size_t least_frames, const TrainSettings& settings,
                          const std::function<void(const TrainingSequence&)>& use);
 
+/// A sequence as of one of the halves of all takes, 0 or 1, so that what is learned of one can be
+/// tried on the other: every other take; of `takes` = 1 the halves of each sequence, or 0 where
+/// these would be shorter than `least_frames`.
+void for_each_half(const TrainingSequence& sequence, std::size_t takes, std::size_t least_frames,
+                   const std::function<void(std::size_t half, const PoseMatrix& poses)>& use);
+
 }  // namespace kinemend

@@ -6,7 +6,6 @@
 
 #include "kinemend/error.hpp"
 #include "kinemend/random.hpp"
-#include "priors/leading_eigenvectors.hpp"
 #include "priors/mixture_fit.hpp"
 #include "priors/window_cosines.hpp"
 
@@ -39,8 +38,7 @@ WienerFit::WienerFit(std::size_t channels, const WienerFitSettings& settings)
       frames_(kinemend::window_frames(settings.window_s, settings.rate_hz)),
       coefficients_(std::min(static_cast<Index>(settings.coefficients), frames_)),
       cosines_(window_cosines(frames_, frames_)),
-      sum_(VectorXd::Zero(channels_ * coefficients_)),
-      moments_(MatrixXd::Zero(channels_ * coefficients_, channels_ * coefficients_)),
+      halves_{WindowMoments(channels_ * coefficients_), WindowMoments(channels_ * coefficients_)},
       tail_(MatrixXd::Zero(channels_, frames_)) {}
 
 std::size_t WienerFit::window_frames() const noexcept { return static_cast<std::size_t>(frames_); }
@@ -71,43 +69,38 @@ MatrixXd WienerFit::low(const MatrixXd& all) const {
   return result;
 }
 
-void WienerFit::add_moments(const PoseMatrix& sequence, double weight) {
+void WienerFit::add_moments(const PoseMatrix& sequence, double weight, std::size_t half) {
   const MatrixXd all = coefficients_of(sequence);
   if (all.cols() == 0) return;
-  const MatrixXd kept = low(all);
-  weight_ += weight * static_cast<double>(all.cols());
-  sum_ += weight * kept.rowwise().sum();
-  moments_.selfadjointView<Eigen::Lower>().rankUpdate(kept, weight);
+  halves_.at(half).add(low(all), weight);
   const VectorXd squares = weight * all.rowwise().squaredNorm();
   tail_ += Eigen::Map<const MatrixXd>(squares.data(), frames_, channels_).transpose();
 }
 
 void WienerFit::find_basis() {
-  if (weight_ <= 0)
+  WindowMoments all = halves_[0];
+  all.add(halves_[1]);
+  if (all.weight() <= 0)
     throw Error(ErrorKind::usage, "all takes are shorter than a window, or turn too far in one");
-  const Index size = channels_ * coefficients_;
   prior_.window_s = settings_.window_s;
-  prior_.mean = sum_ / weight_;
-  MatrixXd covariance = moments_.selfadjointView<Eigen::Lower>();
-  covariance /= weight_;
-  covariance -= prior_.mean * prior_.mean.transpose();
-  const std::size_t rank = std::min(settings_.rank, static_cast<std::size_t>(size));
-  const LeadingEigenvectors leading =
-      leading_eigenvectors({covariance.data(), static_cast<std::size_t>(size * size)},
-                           static_cast<std::size_t>(size), {1, rank, 1e-7});
-  const auto found = static_cast<Index>(leading.values.size());
-  prior_.basis =
-      Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-          leading.vectors.data(), size, found);
-  const Eigen::Map<const VectorXd> values(leading.values.data(), found);
-  const VectorXd outside = covariance.diagonal() - prior_.basis.array().square().matrix() * values;
-  prior_.rest = (tail_ / weight_).cwiseMax(least_variance / static_cast<double>(frames_));
+  prior_.mean = all.mean();
+  const auto frames = static_cast<double>(frames_);
+  const auto rank = static_cast<Index>(
+      std::min(settings_.rank, static_cast<std::size_t>(channels_ * coefficients_)));
+  const MatrixXd covariance = all.covariance();
+  const Directions directions = leading_directions(covariance, rank);
+  prior_.basis = directions.vectors;
+  const bool has_halves = halves_[0].weight() > 0 && halves_[1].weight() > 0;
+  const VectorXd outside =
+      has_halves ? cross_validated_rest(halves_[0], halves_[1], rank)
+                 : VectorXd(covariance.diagonal() -
+                            prior_.basis.array().square().matrix() * directions.variances);
+  prior_.rest = (tail_ / all.weight()).cwiseMax(least_variance / frames);
   for (Index d = 0; d < channels_; ++d) {
     for (Index k = 0; k < coefficients_; ++k)
-      prior_.rest(d, k) =
-          std::max(outside(d * coefficients_ + k), least_variance / static_cast<double>(frames_));
+      prior_.rest(d, k) = std::max(outside(d * coefficients_ + k), least_variance / frames);
   }
-  moments_.resize(0, 0);
+  halves_.fill(WindowMoments(0));
 }
 
 void WienerFit::add_windows(const PoseMatrix& sequence) {

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "kinemend/pose_matrix.hpp"
 #include "priors/wiener_prior.hpp"
+#include "priors/window_moments.hpp"
 
 namespace kinemend {
 
@@ -31,7 +33,8 @@ class WienerFit {
   WienerFit(std::size_t channels, const WienerFitSettings& settings);
 
   std::size_t window_frames() const noexcept;
-  void add_moments(const PoseMatrix& sequence, double weight = 1);
+  /// Takes come in halves, 0 and 1, so that what is learned of one is tried on the other.
+  void add_moments(const PoseMatrix& sequence, double weight = 1, std::size_t half = 0);
   /// Between the passes. Errors: `ErrorKind::usage` when there was no window.
   void find_basis();
   void add_windows(const PoseMatrix& sequence);
@@ -46,10 +49,8 @@ class WienerFit {
   WienerFitSettings settings_;
   Eigen::Index channels_, frames_, coefficients_;
   Eigen::MatrixXd cosines_;
-  double weight_ = 0;
-  Eigen::VectorXd sum_;      // D K
-  Eigen::MatrixXd moments_;  // D K x D K, lower half
-  Eigen::MatrixXd tail_;     // D x N: second moments of single coefficients
+  std::array<WindowMoments, 2> halves_;  // D K
+  Eigen::MatrixXd tail_;                 // D x N: second moments of single coefficients
   WienerPrior prior_;
   std::vector<Eigen::VectorXd> sample_;
   std::uint64_t seen_ = 0;

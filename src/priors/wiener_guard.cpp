@@ -201,6 +201,7 @@ class Guard {
     for (std::size_t i = 0; i < counted_.size(); ++i) {
       const double deep = static_cast<double>(depth[i]) / (gap_fade_s * take_.rate_hz);
       const double other_share = (1 - share[i % channels]) * std::max(0.0, 1 - deep);
+      if (other_share <= 0) continue;  // the other may have nothing to say here
       x.poses.values[i] += other_share * (other.poses.values[i] - x.poses.values[i]);
     }
   }

@@ -54,9 +54,13 @@ Model train(const TrainingTakes& takes, const OptionValues& values, const TrainS
   fitting.windows = static_cast<std::size_t>(options.windows);
   fitting.seed = static_cast<std::uint64_t>(options.seed);
   WienerFit fit(model.layout.channel_count(), fitting);
-  model.seconds = for_each_sequence(
-      takes, model.layout, options.rate_hz, fit.window_frames(), settings,
-      [&](const TrainingSequence& sequence) { fit.add_moments(sequence.poses, sequence.weight); });
+  model.seconds = for_each_sequence(takes, model.layout, options.rate_hz, fit.window_frames(),
+                                    settings, [&](const TrainingSequence& sequence) {
+                                      for_each_half(sequence, takes.count, fit.window_frames(),
+                                                    [&](std::size_t half, const PoseMatrix& poses) {
+                                                      fit.add_moments(poses, sequence.weight, half);
+                                                    });
+                                    });
   fit.find_basis();
   for_each_sequence(takes, model.layout, options.rate_hz, fit.window_frames(), settings,
                     [&](const TrainingSequence& sequence) { fit.add_windows(sequence.poses); });

@@ -117,7 +117,7 @@ TEST_P(Learned, FillsBothArmsThatAreMissingThroughout) {
   }
   const std::vector<double> of_stillness = geodesic_rms_deg_per_joint(truth, still);
   for (const std::size_t joint : arms) {
-    EXPECT_LT(errors[joint], 12) << truth.skeleton.names[joint];
+    EXPECT_LT(errors[joint], 3) << truth.skeleton.names[joint];
     EXPECT_EQ(result.report.joints[joint].frames_repaired, truth.frame_count());
   }
   EXPECT_LT(errors[arms[0]] + errors[arms[2]], of_stillness[arms[0]] + of_stillness[arms[2]]);

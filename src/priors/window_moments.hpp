@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace kinemend {
+
+/// Sums over windows, given as vectors of n numbers.
+class WindowMoments {
+ public:
+  explicit WindowMoments(Eigen::Index size);
+
+  /// One window a column.
+  void add(const Eigen::MatrixXd& windows, double weight = 1);
+  void add(const WindowMoments& other);
+
+  double weight() const noexcept { return weight_; }
+  Eigen::VectorXd mean() const { return sum_ / weight_; }
+  /// n x n: mean of (x - centre) (x - centre)^T.
+  Eigen::MatrixXd about(const Eigen::VectorXd& centre) const;
+  Eigen::MatrixXd covariance() const { return about(mean()); }
+
+ private:
+  double weight_ = 0;
+  Eigen::VectorXd sum_;
+  Eigen::MatrixXd squares_;  // lower half
+};
+
+/// Directions in which windows move together: orthonormal columns, variances falling.
+struct Directions {
+  Eigen::MatrixXd vectors;    ///< n x R
+  Eigen::VectorXd variances;  ///< R
+};
+Directions leading_directions(const Eigen::MatrixXd& covariance, Eigen::Index rank);
+
+/// n: mean square of what the leading directions of one half of the windows leave of the other
+/// half, about the mean of the one; the mean of both ways round. Directions leave less of the
+/// windows that they were learned from. Both halves have windows.
+Eigen::VectorXd cross_validated_rest(const WindowMoments& half, const WindowMoments& other_half,
+                                     Eigen::Index rank);
+
+}  // namespace kinemend
