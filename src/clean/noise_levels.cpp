@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "clean/tracks.hpp"
 #include "clean/vector_tracks.hpp"
@@ -19,16 +20,18 @@ double quantile(std::vector<double>& values, double share) {
 
 double squared(double x) { return x * x; }
 
-// Mean square over the axes of the difference of some order at each frame where no sample of it is
-// marked, divided by what white noise of variance 1 would give.
-std::vector<double> mean_squared_differences(const VectorTracks& tracks, const SampleMarks& marked,
-                                             std::size_t track,
-                                             std::span<const double> coefficients) {
+constexpr double third_difference[] = {-1, 3, -3, 1};
+constexpr double fifth_difference[] = {-1, 5, -10, 10, -5, 1};
+
+// The difference of some order at each frame where no sample of it is marked, divided by what white
+// noise of deviation 1 would give.
+std::vector<Vec3> differences(const VectorTracks& tracks, const SampleMarks& marked,
+                              std::size_t track, std::span<const double> coefficients) {
   const std::size_t order = coefficients.size() - 1;
   double gain = 0;
   for (const double c : coefficients) gain += c * c;
-  std::vector<double> squares;
-  squares.reserve(tracks.frames());
+  std::vector<Vec3> result;
+  result.reserve(tracks.frames());
   for (std::size_t t = 0; t + order < tracks.frames(); ++t) {
     Vec3 difference;
     bool whole = true;
@@ -36,8 +39,16 @@ std::vector<double> mean_squared_differences(const VectorTracks& tracks, const S
       difference += coefficients[k] * tracks.at(t + k, track);
       whole = whole && marked(t + k, track) == 0;
     }
-    if (whole) squares.push_back(dot(difference, difference) / (3 * gain));
+    if (whole) result.push_back((1 / std::sqrt(gain)) * difference);
   }
+  return result;
+}
+
+// Mean over the axes.
+std::vector<double> mean_squares(const std::vector<Vec3>& vectors) {
+  std::vector<double> squares;
+  squares.reserve(vectors.size());
+  for (const Vec3 v : vectors) squares.push_back(dot(v, v) / 3);
   return squares;
 }
 
@@ -60,24 +71,68 @@ double quiet_quarter(const std::vector<double>& squares) {
 }
 
 double noise_level(const VectorTracks& tracks, const SampleMarks& marked, std::size_t track) {
-  static constexpr double third[] = {-1, 3, -3, 1};
-  static constexpr double fifth[] = {-1, 5, -10, 10, -5, 1};
   const std::size_t frames = tracks.frames();
   double least = std::numeric_limits<double>::infinity();
-  std::vector<double> squares = mean_squared_differences(tracks, marked, track, third);
+  std::vector<double> squares = mean_squares(differences(tracks, marked, track, third_difference));
   if (squares.size() >= 3) {
     if (squares.size() >= 30) least = quiet_quarter(squares);
     least = std::min(least, std::sqrt(3 * quantile(squares, 0.5)) / median_of_chi3);
   }
   if (frames >= 20) {
-    squares = mean_squared_differences(tracks, marked, track, fifth);
+    squares = mean_squares(differences(tracks, marked, track, fifth_difference));
     if (squares.size() >= 3)
       least = std::min(least, std::sqrt(3 * quantile(squares, 0.5)) / median_of_chi3);
   }
   return std::isfinite(least) ? chance_excess * least : 0;
 }
 
+// Deviation of numbers of which some may lie far off: Huber's, whose squares are cut at 2.5
+// deviations.
+double robust_deviation(std::vector<double> numbers) {
+  constexpr double cut = 2.5, share_within_cut = 0.9775, median_size = 0.6745;
+  constexpr int rounds = 10;
+  if (numbers.empty()) return 0;
+  for (double& number : numbers) number = std::abs(number);
+  std::vector<double> ordered = numbers;
+  double deviation = quantile(ordered, 0.5) / median_size;
+  for (int round = 0; round < rounds; ++round) {
+    double sum = 0;
+    for (const double number : numbers) sum += squared(std::min(number, cut * deviation));
+    deviation = std::sqrt(sum / (share_within_cut * static_cast<double>(numbers.size())));
+  }
+  return deviation;
+}
+
+// Mean over the axes that have the track's noise.
+double loud_level(const VectorTracks& tracks, const SampleMarks& marked, std::size_t track) {
+  const Vec3 levels = noise_along(fifth_differences(tracks, marked, track),
+                                  {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}});
+  const double loudest = std::max({levels.x, levels.y, levels.z});
+  double sum = 0, count = 0;
+  for (const double level : {levels.x, levels.y, levels.z}) {
+    if (level < 0.5 * loudest) continue;
+    sum += squared(level);
+    count += 1;
+  }
+  return std::sqrt(sum / count);
+}
+
 }  // namespace
+
+std::vector<Vec3> fifth_differences(const VectorTracks& tracks, const SampleMarks& marked,
+                                    std::size_t track) {
+  return differences(tracks, marked, track, fifth_difference);
+}
+
+Vec3 noise_along(std::span<const Vec3> differences, const std::array<Vec3, 3>& directions) {
+  const auto along = [&](Vec3 direction) {
+    std::vector<double> numbers(differences.size());
+    std::transform(differences.begin(), differences.end(), numbers.begin(),
+                   [&](Vec3 v) { return dot(v, direction); });
+    return robust_deviation(std::move(numbers));
+  };
+  return {along(directions[0]), along(directions[1]), along(directions[2])};
+}
 
 SampleMarks either(const SampleMarks& a, const SampleMarks& b) {
   SampleMarks result = a;
@@ -114,8 +169,10 @@ void fill_marked(VectorTracks& tracks, const SampleMarks& marked) {
 std::vector<double> noise_levels(const VectorTracks& tracks, const SampleMarks& marked) {
   std::vector<double> levels(tracks.tracks(), 0);
   if (tracks.frames() < 6) return levels;
-  for_each_parallel(tracks.tracks(), tracks.values.values.size(),
-                    [&](std::size_t n) { levels[n] = noise_level(tracks, marked, n); });
+  for_each_parallel(tracks.tracks(), tracks.values.values.size(), [&](std::size_t n) {
+    levels[n] = tracks.has_quiet_axes[n] != 0 ? loud_level(tracks, marked, n)
+                                              : noise_level(tracks, marked, n);
+  });
   return levels;
 }
 

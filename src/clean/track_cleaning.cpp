@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "clean/noise_shape.hpp"
 #include "clean/spikes.hpp"
 #include "clean/track_smoother.hpp"
 
@@ -11,6 +12,8 @@ CleanedTracks clean_tracks(VectorTracks& tracks, const SampleMarks& suspects,
                            const SampleMarks& always_missing,
                            const std::vector<std::vector<std::size_t>>& nearby,
                            double frame_rate_hz, const AutoOptions& options) {
+  const std::vector<NoiseShape> shapes = noise_shapes(tracks, always_missing, frame_rate_hz);
+  make_round(tracks, shapes);
   CleanedTracks verdicts{SampleMarks(tracks.frames(), tracks.tracks()), {}, {}};
   if (options.despike) {
     SpikeVerdicts found = find_spikes(tracks, suspects, nearby, frame_rate_hz, &always_missing);
@@ -29,6 +32,7 @@ CleanedTracks clean_tracks(VectorTracks& tracks, const SampleMarks& suspects,
     if (seen < 2 * fewest_clean_frames) verdicts.shares[n] = 0;
   }
   smooth_tracks(tracks, missing, verdicts.noise, verdicts.shares, frame_rate_hz);
+  undo_round(tracks, shapes);
   return verdicts;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "kinemend/pose_matrix.hpp"
@@ -13,8 +15,11 @@ namespace kinemend {
 /// positions brought to the same scale. Noise on a track is alike in all directions.
 struct VectorTracks {
   PoseMatrix values;  ///< F x 3N
+  /// N: 1 where the noise is alike only along those axes that have any (`make_round`).
+  std::vector<std::uint8_t> has_quiet_axes;
 
-  VectorTracks(std::size_t frames, std::size_t tracks) : values(frames, 3 * tracks) {}
+  VectorTracks(std::size_t frames, std::size_t tracks)
+      : values(frames, 3 * tracks), has_quiet_axes(tracks) {}
   std::size_t frames() const noexcept { return values.frames; }
   std::size_t tracks() const noexcept { return values.channels / 3; }
   Vec3 at(std::size_t frame, std::size_t track) const {
@@ -56,8 +61,17 @@ void fill_marked(VectorTracks& tracks, const SampleMarks& marked);
 /// Standard deviation per axis of the white noise on each track, degrees; 0 for takes under 6
 /// frames. Differences of order 3 and 5 hardly see the motion; the smaller of their medians counts,
 /// or that of the quietest quarter of the take, each made unbiased for white noise. Differences
-/// that touch a marked sample are left out.
+/// that touch a marked sample are left out. Of a track with quiet axes it is the noise on the
+/// others.
 std::vector<double> noise_levels(const VectorTracks& tracks, const SampleMarks& marked);
+
+/// Fifth differences of a track that touch no marked sample, scaled so that white noise keeps its
+/// deviation.
+std::vector<Vec3> fifth_differences(const VectorTracks& tracks, const SampleMarks& marked,
+                                    std::size_t track);
+/// Standard deviation of such differences in three directions (unit vectors), those that lie far
+/// off cut short. 0 for none.
+Vec3 noise_along(std::span<const Vec3> differences, const std::array<Vec3, 3>& directions);
 
 /// How far each track is to be smoothed, 0 (left alone) to 1: a ramp over its noise, so that a take
 /// as clean as a good capture is not touched. Where the median track is quiet the ramp starts

@@ -46,6 +46,21 @@ Clip turning_chain() {
   return clip;
 }
 
+// Noise that moves some axes much more than others: half of what each channel does.
+TEST(Auto, BeatsGaussiansOfAnyWidthWhereNoiseHasDirections) {
+  for (const char* motion : {"walk", "run", "punch"}) {
+    const Clip truth = take(motion);
+    Clip noisy = truth;
+    Random random(7);
+    apply_damage(noisy, "gaussian-channels", {{"k", 0.5}}, random);
+    const double ours = figures(truth, cleaned(noisy, "auto")).rms;
+    for (const double width_s : {0.01, 0.018, 0.025, 0.035, 0.045, 0.06, 0.08}) {
+      EXPECT_LT(ours, figures(truth, cleaned(noisy, "gaussian", {{"width_s", width_s}})).rms)
+          << motion << ", " << width_s << " s";
+    }
+  }
+}
+
 class AutoOnShippedMotions : public testing::TestWithParam<const char*> {};
 
 TEST_P(AutoOnShippedMotions, BeatsEveryFilterWithFixedParameters) {
