@@ -13,11 +13,11 @@ namespace {
 // What weighs as much as a knee whose angle changes by a radian to and fro at `knee_hz`; slower
 // changes of the knee count less by the fourth power of their rate, faster ones more.
 constexpr double knee_hz = 4;
-constexpr double root_room = 0.02;         // statures, up or down
-constexpr double turn_room = 1;            // radians of the foot about what it stands on
-constexpr double bend_room = 2;            // radians of the knee of a leg that nothing holds
-constexpr double root_hz = 8, leg_hz = 6;  // the rate at which their curvature weighs the same
-constexpr double least_room = 1e-6;        // less is none
+constexpr double root_room = 0.02;          // statures, up or down
+constexpr double turn_room = 1;             // radians of the foot about what it stands on
+constexpr double bend_room = 2;             // radians of the knee of a leg that nothing holds
+constexpr double root_hz = 12, leg_hz = 6;  // the rate at which their curvature weighs the same
+constexpr double least_room = 1e-6;         // less is none
 
 // The leg as a triangle of thigh, shank and the line from hip to ankle.
 struct Triangle {

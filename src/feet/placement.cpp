@@ -126,7 +126,7 @@ struct Edge {
 // The shift and, by a parabola through three frames inside the contact, its slope.
 Edge edge_at(const BodyPoints& body, const PartCorrection& part, std::size_t frame,
              const FootContact& contact) {
-  constexpr double step_s = 0.008;
+  constexpr double step_s = 0.008, most_speed = 0.5;  // statures a second: faster is jitter
   const auto wanted =
       static_cast<std::size_t>(std::max(1L, std::lround(step_s * body.frame_rate_hz)));
   const std::size_t step = std::min(wanted, (contact.last_frame - contact.first_frame) / 2);
@@ -139,6 +139,8 @@ Edge edge_at(const BodyPoints& body, const PartCorrection& part, std::size_t fra
   };
   const Vec3 inwards = 4.0 * path(1) - 3.0 * path(0) - path(2);
   edge.slope = ((is_first ? -0.5 : 0.5) / static_cast<double>(step)) * inwards;
+  const double speed = norm(edge.slope), most = most_speed * body.height / body.frame_rate_hz;
+  if (speed > most) edge.slope = (most / speed) * edge.slope;
   return edge;
 }
 

@@ -174,6 +174,23 @@ TEST(CleanFeet, KeepsVelocityContinuousAtTheEndsOfContacts) {
   EXPECT_LT(largest_kick(960, contacts), 5);
 }
 
+TEST(CleanFeet, DoesNotFlingAFootThatJittersWhereItsContactEnds) {
+  Clip clip = synthetic_clip("still", 3);
+  constexpr std::size_t last = 200;
+  Quat& hip = clip.rotation(last, test::joint_of(clip, "LeftUpLeg"));
+  hip = hip * exp({0.1, 0, 0});
+  FeetSettings settings;
+  settings.contacts = {{{0, FootPart::toe, 100, last}}};
+  Clip cleaned = clip;
+  clean_feet(cleaned, settings);
+  const std::vector<Vec3> before = track_of(clip, "LeftToeBase"),
+                          after = track_of(cleaned, "LeftToeBase");
+  const double jump = norm(after[last] - before[last]);
+  EXPECT_GT(jump, 5);
+  for (std::size_t f = last + 1; f < after.size(); ++f)
+    EXPECT_LT(norm(after[f] - before[f]), 1.2 * jump) << "frame " << f;
+}
+
 TEST(CleanFeet, HasNothingLeftToDoTheSecondTime) {
   const Clip clip = with_drift(synthetic_clip("walk", 8), 4);
   Clip once = clip;
