@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "clean/method_list.hpp"
+#include "clean/noise_shape.hpp"
 #include "clean/prior_cleaning.hpp"
 #include "clean/track_smoother.hpp"
 #include "kinemend/methods.hpp"
@@ -96,9 +97,37 @@ std::vector<double> noise_of(const PriorWork& work, const WienerOptions& options
   return noise;
 }
 
-void filter(PriorWork& work, const WienerOptions& options, const WienerPrior& prior) {
+// The axes of each three channels' noise, as rows: along them noise is independent.
+std::vector<Eigen::Matrix3d> noise_axes(const PriorWork& work) {
+  const PoseMatrix& poses = work.channels.poses;
+  VectorTracks tracks(poses.frames, poses.channels / 3);
+  SampleMarks marks(poses.frames, tracks.tracks());
+  tracks.values.values = poses.values;
+  for (std::size_t i = 0; i < poses.values.size(); ++i)
+    marks.marks[i / 3] |= static_cast<std::uint8_t>(work.channels.observed[i] == 0);
+  std::vector<Eigen::Matrix3d> axes;
+  for (const NoiseShape& shape : noise_shapes(tracks, marks, work.channels.frame_rate_hz))
+    axes.push_back(shape.to_round.rowwise().normalized());
+  return axes;
+}
+
+// Multiplies each three channels by their matrix.
+void turn_channels(PoseMatrix& poses, std::span<const Eigen::Matrix3d> turns) {
+  for (std::size_t f = 0; f < poses.frames; ++f) {
+    for (std::size_t part = 0; part < turns.size(); ++part) {
+      Eigen::Map<Eigen::Vector3d> values(poses.row(f).data() + 3 * part);
+      values = (turns[part] * values).eval();
+    }
+  }
+}
+
+void filter(PriorWork& work, const WienerOptions& options, const WienerPrior& known) {
   clear_noisy_suspects(work);
   PoseMatrix& poses = work.channels.poses;
+  std::vector<Eigen::Matrix3d> axes = noise_axes(work);
+  const WienerPrior prior = with_turned_channels(known, axes);
+  turn_channels(poses, axes);
+  turn_channels(work.fallback, axes);
   const std::vector<double> noise = noise_of(work, options);
   WienerSettings settings;
   if (!options.despike) settings.outlier_deviations = 0;
@@ -112,6 +141,9 @@ void filter(PriorWork& work, const WienerOptions& options, const WienerPrior& pr
       prior, {poses, work.fallback, work.channels.observed, work.suspect, noise, rate_hz}, smoother,
       settings);
   poses = std::move(result.poses);
+  for (Eigen::Matrix3d& turn : axes) turn.transposeInPlace();
+  turn_channels(poses, axes);
+  turn_channels(work.fallback, axes);
   work.rejected = std::move(result.rejected);
 }
 

@@ -63,6 +63,27 @@ WienerPrior with_coefficients(const WienerPrior& prior, Index coefficients) {
   return result;
 }
 
+WienerPrior with_turned_channels(const WienerPrior& prior, std::span<const Eigen::Matrix3d> turns) {
+  WienerPrior result = prior;
+  const Index k = prior.coefficients();
+  for (std::size_t part = 0; part < turns.size(); ++part) {
+    const Index first = 3 * static_cast<Index>(part);
+    result.rest.middleRows<3>(first) = turns[part].cwiseAbs2() * prior.rest.middleRows<3>(first);
+    for (Index row = 0; row < 3; ++row) {
+      const Index to = (first + row) * k;
+      result.mean.segment(to, k).setZero();
+      result.basis.middleRows(to, k).setZero();
+      for (Index column = 0; column < 3; ++column) {
+        const double share = turns[part](row, column);
+        const Index from = (first + column) * k;
+        result.mean.segment(to, k) += share * prior.mean.segment(from, k);
+        result.basis.middleRows(to, k) += share * prior.basis.middleRows(from, k);
+      }
+    }
+  }
+  return result;
+}
+
 void store_wiener_prior(const WienerPrior& prior, Model& model) {
   const auto count = prior.components.size();
   const auto rank = static_cast<std::size_t>(prior.rank());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "kinemend/model.hpp"
@@ -36,6 +37,10 @@ struct WienerPrior {
 /// The prior of windows at another rate, where a window has fewer frames than there are
 /// coefficients: the high ones are left out.
 WienerPrior with_coefficients(const WienerPrior& prior, Eigen::Index coefficients);
+
+/// The prior of channels that are turned three at a time: x' = turn x, one rotation for each three.
+/// What is not in the basis is taken for independent as before.
+WienerPrior with_turned_channels(const WienerPrior& prior, std::span<const Eigen::Matrix3d> turns);
 
 /// The model file's form, and back. Covariances are kept as their Cholesky factors, in 16 bits,
 /// like all that is large. Errors: `ErrorKind::unreadable_input` naming what does not fit.

@@ -183,6 +183,25 @@ INSTANTIATE_TEST_SUITE_P(Methods, Learned,
                                                        }}),
                          [](const auto& method) { return camel_case(method.param.name); });
 
+TEST(Wiener, TakesNoiseForWhatItIsInEachDirection) {
+  const Clip truth = walk(4, 120);
+  const auto shaken = [&](const auto& turn) {
+    Clip clip = truth;
+    Random random(5);
+    for (Quat& rotation : clip.local_rotations) rotation = rotation * exp(turn(random));
+    return clip;
+  };
+  constexpr double deviation = 8 * radians_per_degree;
+  const Clip even = shaken([](Random& random) {
+    return (deviation / std::sqrt(3)) * Vec3{random.normal(), random.normal(), random.normal()};
+  });
+  const Clip uneven = shaken([](Random& random) {
+    return (deviation * random.normal() / std::sqrt(3)) * Vec3{1, -1, 1};
+  });
+  const auto wiener = make_wiener({}, walking("wiener"));
+  EXPECT_LT(error(truth, uneven, *wiener), 0.8 * error(truth, even, *wiener));
+}
+
 TEST(ExampleSelf, DoesNotLoseToAutoOnALongWalk) {
   const Clip truth = walk(5, 60, 15), input = noisy(truth, 2, 0);
   ExampleOptions options;

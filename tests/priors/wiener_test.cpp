@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -378,6 +379,27 @@ TEST(WienerGuard, TakesNothingFromASmootherWhereNothingWasMeasured) {
   const WienerTake take{noisy, zeros, observed, {}, deviations, 100};
   const WienerResult result = guarded_wiener_filter(learned(), take, smoother);
   for (std::size_t f = 0; f < 300; ++f) EXPECT_NEAR(result.poses(f, 2), truth(f, 2), 3);
+}
+
+TEST(WienerPrior, TurnsItsChannels) {
+  Random random(6);
+  const WienerPrior prior = random_prior(random, 1);
+  const Eigen::Matrix3d turn =
+      Eigen::HouseholderQR<Eigen::Matrix3d>(random_matrix(random, 3, 3)).householderQ();
+  const WienerPrior turned = with_turned_channels(prior, std::vector{turn});
+  const auto windows_of = [](const VectorXd& x) {
+    return MatrixXd(Eigen::Map<const MatrixXd>(x.data(), coefficients, channels));
+  };
+  EXPECT_LT((windows_of(turned.mean) - windows_of(prior.mean) * turn.transpose()).norm(), 1e-12);
+  for (Index r = 0; r < rank; ++r) {
+    EXPECT_LT((windows_of(turned.basis.col(r)) - windows_of(prior.basis.col(r)) * turn.transpose())
+                  .norm(),
+              1e-12);
+  }
+  for (Index k = 0; k < window; ++k) {
+    const Eigen::Matrix3d covariance = turn * prior.rest.col(k).asDiagonal() * turn.transpose();
+    EXPECT_LT((turned.rest.col(k) - covariance.diagonal()).norm(), 1e-12);
+  }
 }
 
 TEST(WienerPrior, ComesBackFromAModel) {
