@@ -8,16 +8,6 @@ namespace kinemend::feet {
 BandedLeastSquares::BandedLeastSquares(std::size_t size, std::size_t band)
     : size_(size), band_(band), normal_(size * (band + 1)), right_(size) {}
 
-void BandedLeastSquares::add(std::span<const Term> terms, double value, double weight) {
-  for (const Term& a : terms) {
-    const double factor = weight * a.factor;
-    right_[a.unknown] -= factor * value;
-    for (const Term& b : terms) {
-      if (b.unknown >= a.unknown) column(a.unknown)[b.unknown - a.unknown] += factor * b.factor;
-    }
-  }
-}
-
 // L D L^T without pivots: the normal matrix is positive definite.
 std::vector<double> BandedLeastSquares::solve() {
   for (std::size_t p = 0; p < size_; ++p) {

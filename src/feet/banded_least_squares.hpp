@@ -1,7 +1,7 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
-#include <span>
 #include <vector>
 
 namespace kinemend::feet {
@@ -18,7 +18,20 @@ class BandedLeastSquares {
   /// Unknowns of one square are at most `band` apart.
   BandedLeastSquares(std::size_t size, std::size_t band);
 
-  void add(std::span<const Term> terms, double value, double weight);
+  /// Unknowns in ascending order but for those of factor 0, which do not count.
+  template <std::size_t count>
+  void add(const std::array<Term, count>& terms, double value, double weight) {
+    for (std::size_t a = 0; a < count; ++a) {
+      if (terms[a].factor == 0) continue;
+      const double factor = weight * terms[a].factor;
+      double* const own = column(terms[a].unknown);
+      right_[terms[a].unknown] -= factor * value;
+      for (std::size_t b = a; b < count; ++b) {
+        if (terms[b].factor != 0)
+          own[terms[b].unknown - terms[a].unknown] += factor * terms[b].factor;
+      }
+    }
+  }
 
   /// To be called once. Every unknown must have a square of its own or one that ties it to others
   /// that do, or else the result is not finite.

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "feet/blocks.hpp"
 #include "feet/figures.hpp"
 #include "feet/judge.hpp"
 #include "feet/knees.hpp"
@@ -123,13 +124,13 @@ class FeetCleaning {
     const std::vector<PartCorrection> parts =
         place_contacts(soles, legs_, report_.contacts, report_.held, settings_.blend_s);
     std::vector<FootTarget> targets(legs_.poses.size());
-    for (std::size_t f = 0; f < legs_.frames; ++f) {
-      for (std::size_t l = 0; l < legs_.legs(); ++l) {
-        targets[f * legs_.legs() + l] =
-            foot_target(legs_.pose(f, l), legs_.models[l], parts[2 * l], parts[2 * l + 1], f,
-                        least_shift * legs_.height);
+    for_blocks(0, targets.size(), [&](std::size_t first, std::size_t end) {
+      for (std::size_t i = first; i < end; ++i) {
+        const std::size_t f = i / legs_.legs(), l = i % legs_.legs();
+        targets[i] = foot_target(legs_.poses[i], legs_.models[l], parts[2 * l], parts[2 * l + 1], f,
+                                 least_shift * legs_.height);
       }
-    }
+    });
     return targets;
   }
 
@@ -157,14 +158,18 @@ class FeetCleaning {
     std::vector<double> drops(legs_.frames);
     if (lowered) drops = root_drops(legs_, reaches, targets, up_, settings_.blend_s);
     ease_knees(legs_, reaches, up_, lowered, targets, drops);
-    for (std::size_t f = 0; f < legs_.frames; ++f) {
-      const bool lowers = std::fabs(drops[f]) > least_shift * legs_.height;
-      const Vec3 shift = lowers ? -drops[f] * up_.direction() : Vec3{};
-      if (lowers) lower(f, shift);
-      for (std::size_t l = 0; l < legs_.legs(); ++l) {
-        const FootTarget& target = targets[f * legs_.legs() + l];
-        if (target.moves || lowers) turn(f, legs_.models[l], legs_.pose(f, l), target, shift);
-      }
+    for_blocks(0, legs_.frames, [&](std::size_t first, std::size_t end) {
+      for (std::size_t f = first; f < end; ++f) move(f, drops[f], targets);
+    });
+  }
+
+  void move(std::size_t frame, double drop, const std::vector<FootTarget>& targets) {
+    const bool lowers = std::fabs(drop) > least_shift * legs_.height;
+    const Vec3 shift = lowers ? -drop * up_.direction() : Vec3{};
+    if (lowers) lower(frame, shift);
+    for (std::size_t l = 0; l < legs_.legs(); ++l) {
+      const FootTarget& target = targets[frame * legs_.legs() + l];
+      if (target.moves || lowers) turn(frame, legs_.models[l], legs_.pose(frame, l), target, shift);
     }
   }
 

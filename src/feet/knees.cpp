@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "feet/banded_least_squares.hpp"
+#include "feet/blocks.hpp"
 
 namespace kinemend::feet {
 
@@ -64,14 +65,16 @@ class KneeEasing {
         legs_(motion.legs()) {}
 
   void run() {
-    constexpr int rounds = 3;
+    triangles_.resize(targets_.size());
+    bends_.resize(targets_.size());
+    changes_.resize(targets_.size());
+    states_.resize(targets_.size());
+    rooms_.resize(targets_.size());
     for (std::size_t f = 0; f < motion_.frames; ++f) {
       if (!is_open(f)) continue;
-      first_ = f;
+      const std::size_t first = f;
       while (f + 1 < motion_.frames && is_open(f + 1)) ++f;
-      count_ = f - first_ + 1;
-      measure();
-      for (int round = 0; round < rounds; ++round) ease();
+      ease_thoroughly(first, f + 1);
     }
   }
 
@@ -82,40 +85,79 @@ class KneeEasing {
                                             [](const FootTarget& t) { return t.hold > 0; });
   }
 
-  // Legs in these frames, by frame then leg.
-  const LegPose& pose(std::size_t i) const { return motion_.poses[first_ * legs_ + i]; }
-  const Reach& reach(std::size_t i) const { return reaches_[first_ * legs_ + i]; }
-  FootTarget& target(std::size_t i) const { return targets_[first_ * legs_ + i]; }
-  double& drop(std::size_t i) const { return drops_[first_ + i / legs_]; }
-  std::size_t root_unknown(std::size_t frame) const { return frame * (legs_ + 1); }
-  std::size_t leg_unknown(std::size_t i) const { return i + i / legs_ + 1; }
-
-  void measure() {
-    triangles_.resize(count_ * legs_);
-    bends_.resize(count_ * legs_);
-    for (std::size_t i = 0; i < bends_.size(); ++i) {
-      const Vec3 thigh = pose(i).knee_at - pose(i).hip_at;
-      const Vec3 shank = pose(i).ankle_at - pose(i).knee_at;
-      const double a = dot(thigh, thigh), b = dot(shank, shank);
-      triangles_[i] = {a + b, std::sqrt(a * b)};
-      bends_[i] = std::acos(triangles_[i].cosine_of(reach(i).now));
+  // Frames from `first` until `end`. After the first step only those about which a knee still pops.
+  void ease_thoroughly(std::size_t first, std::size_t end) {
+    constexpr int more_rounds = 2;
+    constexpr double around_s = 0.2;
+    const auto around = static_cast<std::size_t>(std::ceil(around_s * motion_.frame_rate_hz));
+    measure(first, end);
+    ease(first, end);
+    for (int round = 0; round < more_rounds; ++round) {
+      std::size_t done = first;
+      for (std::size_t f = first; f < end; ++f) {
+        if (!pops(f, first, end)) continue;
+        const std::size_t begin = std::max(done, f < around ? 0 : f - around);
+        std::size_t last = f;
+        while (f + 1 < end && f <= last + 2 * around) {
+          ++f;
+          if (pops(f, first, end)) last = f;
+        }
+        done = std::min(last + around + 1, end);
+        ease(begin, done);
+        f = done - 1;
+      }
     }
+  }
+
+  // The change of a knee's angle has a kink.
+  bool pops(std::size_t frame, std::size_t first, std::size_t end) const {
+    constexpr double most_rad = 0.2 * radians_per_degree;
+    const auto change = [&](std::size_t f, std::size_t l) {
+      return f < first || f >= end ? 0 : changes_[f * legs_ + l];
+    };
+    for (std::size_t l = 0; l < legs_; ++l) {
+      const double before = frame == 0 ? 0 : change(frame - 1, l);
+      if (std::fabs(before - 2 * change(frame, l) + change(frame + 1, l)) > most_rad) return true;
+    }
+    return false;
+  }
+
+  void measure(std::size_t first, std::size_t end) {
+    for_blocks(first * legs_, end * legs_, [&](std::size_t from, std::size_t until) {
+      for (std::size_t i = from; i < until; ++i) {
+        const LegPose& pose = motion_.poses[i];
+        const Vec3 thigh = pose.knee_at - pose.hip_at, shank = pose.ankle_at - pose.knee_at;
+        const double a = dot(thigh, thigh), b = dot(shank, shank);
+        triangles_[i] = {a + b, std::sqrt(a * b)};
+        bends_[i] = std::acos(triangles_[i].cosine_of(reaches_[i].now));
+      }
+    });
+  }
+
+  // Where the leg goes; the rest of its state is left open.
+  LegState stretched(std::size_t i) const {
+    LegState leg;
+    const FootTarget& target = targets_[i];
+    leg.way = target.place - rotate(target.rotation, target.pivot) - motion_.poses[i].hip_at +
+              drops_[i / legs_] * up_.direction();
+    leg.far = norm(leg.way);
+    leg.reached = soft_distance(leg.far, reaches_[i]);
+    leg.bend = std::acos(triangles_[i].cosine_of(leg.reached));
+    return leg;
   }
 
   LegState state(std::size_t i) const {
     constexpr double least_sine = 0.12;  // a straight knee turns by degrees for a millimetre
-    LegState leg;
-    const Vec3 lever = -rotate(target(i).rotation, target(i).pivot);
-    leg.way = target(i).place + lever - pose(i).hip_at + drop(i) * up_.direction();
-    leg.far = norm(leg.way);
-    leg.reached = soft_distance(leg.far, reach(i));
+    LegState leg = stretched(i);
     const Triangle& triangle = triangles_[i];
-    const double cosine = triangle.cosine_of(leg.reached);
-    leg.bend = std::acos(cosine);
     if (!(leg.far > 0 && triangle.product > 0)) return leg;
+    const double cosine = triangle.cosine_of(leg.reached);
     const double sine = std::max(std::sqrt(1 - cosine * cosine), least_sine);
     leg.by_distance = -leg.reached / (triangle.product * sine);
     leg.by_root = -leg.by_distance * along(leg.way, up_) / leg.far;
+    const FootTarget& target = targets_[i];
+    if (target.hold * target.free_turn == 0) return leg;
+    const Vec3 lever = -rotate(target.rotation, target.pivot);
     const Vec3 moment = (1 / leg.far) * cross(lever, leg.way);
     leg.lever = norm(moment);
     if (leg.lever > 0) leg.axis = (1 / leg.lever) * moment;
@@ -123,79 +165,98 @@ class KneeEasing {
   }
 
   LegRoom room(std::size_t i, const LegState& leg) const {
+    const FootTarget& target = targets_[i];
     LegRoom room;
     room.by_turn =
-        target(i).hold * target(i).free_turn * turn_room * std::fabs(leg.by_distance) * leg.lever;
-    const double by_bend = (1 - target(i).hold) * bend_room;
+        target.hold * target.free_turn * turn_room * std::fabs(leg.by_distance) * leg.lever;
+    const double by_bend = (1 - target.hold) * bend_room;
     room.in_all = std::sqrt(room.by_turn * room.by_turn + by_bend * by_bend);
     return room;
   }
 
+  // Unknowns of frames counted from the first that is eased: a root and its legs.
+  std::size_t root_unknown(std::size_t frame) const { return frame * (legs_ + 1); }
+  std::size_t leg_unknown(std::size_t frame, std::size_t leg) const {
+    return frame * (legs_ + 1) + 1 + leg;
+  }
+
   // One step: what makes the sum of squares least if all was as linear as it is nearby.
-  void ease() {
-    states_.resize(count_ * legs_);
-    rooms_.resize(count_ * legs_);
-    for (std::size_t i = 0; i < states_.size(); ++i) {
-      states_[i] = state(i);
-      rooms_[i] = room(i, states_[i]);
-    }
-    BandedLeastSquares squares(count_ * (legs_ + 1), 3 * legs_ + 2);
-    add_rooms(squares);
-    for (std::size_t f = 0; f < count_ + 2; ++f) add_curvatures(f, squares);
+  void ease(std::size_t first, std::size_t end) {
+    for_blocks(first * legs_, end * legs_, [&](std::size_t from, std::size_t until) {
+      for (std::size_t i = from; i < until; ++i) {
+        states_[i] = state(i);
+        changes_[i] = states_[i].bend - bends_[i];
+        rooms_[i] = room(i, states_[i]);
+      }
+    });
+    const std::size_t count = end - first;
+    BandedLeastSquares squares(count * (legs_ + 1), 3 * legs_ + 2);
+    for (std::size_t f = 0; f < count; ++f) add_rooms(first, f, squares);
+    for (std::size_t f = 0; f < count + 2; ++f) add_curvatures(first, count, f, squares);
     const std::vector<double> solution = squares.solve();
-    for (std::size_t f = 0; f < count_; ++f) {
-      const double rise = may_lower_ ? solution[root_unknown(f)] : 0;
-      drops_[first_ + f] -= rise;
-      for (std::size_t i = f * legs_; i < (f + 1) * legs_; ++i) {
-        if (rooms_[i].in_all > least_room)
-          apply(i, solution[leg_unknown(i)], states_[i].by_root * rise);
+    for_blocks(0, count, [&](std::size_t from, std::size_t until) {
+      for (std::size_t f = from; f < until; ++f) {
+        const double rise = may_lower_ ? solution[root_unknown(f)] : 0;
+        drops_[first + f] -= rise;
+        for (std::size_t l = 0; l < legs_; ++l) {
+          const std::size_t i = (first + f) * legs_ + l;
+          if (rooms_[i].in_all > least_room)
+            apply(i, solution[leg_unknown(f, l)], states_[i].by_root * rise);
+          changes_[i] = stretched(i).bend - bends_[i];
+        }
       }
-    }
+    });
   }
 
-  void add_rooms(BandedLeastSquares& squares) const {
+  void add_rooms(std::size_t first, std::size_t frame, BandedLeastSquares& squares) const {
     const auto add = [&](std::size_t unknown, double room) {
-      const BandedLeastSquares::Term term{unknown, 1 / std::max(room, least_room)};
-      squares.add({&term, 1}, 0, 1);
+      squares.add<1>({{{unknown, 1 / std::max(room, least_room)}}}, 0, 1);
     };
-    for (std::size_t f = 0; f < count_; ++f)
-      add(root_unknown(f), may_lower_ ? root_room * motion_.height : 0);
-    for (std::size_t i = 0; i < rooms_.size(); ++i) add(leg_unknown(i), rooms_[i].in_all);
+    add(root_unknown(frame), may_lower_ ? root_room * motion_.height : 0);
+    for (std::size_t l = 0; l < legs_; ++l)
+      add(leg_unknown(frame, l), rooms_[(first + frame) * legs_ + l].in_all);
   }
 
-  // Second differences over three frames, of which `last` is the last; nothing changes outside.
-  void add_curvatures(std::size_t last, BandedLeastSquares& squares) const {
-    if (first_ + last < 2 || first_ + last >= motion_.frames) return;
-    const std::size_t begin = last < 2 ? 0 : last - 2, end = std::min(last + 1, count_);
-    const auto weight = [&](double hz, double room) {
-      const double period = motion_.frame_rate_hz / (2 * pi * hz);
-      return period * period * period * period / (room * room);
-    };
-    const auto difference = [&](std::size_t frame) { return frame + 1 == last ? -2.0 : 1.0; };
+  // Second differences over three frames, of which `last` is the last, counted from the first that
+  // is eased; those that are not eased stay as they are.
+  void add_curvatures(std::size_t first, std::size_t count, std::size_t last,
+                      BandedLeastSquares& squares) const {
     using Term = BandedLeastSquares::Term;
-    std::array<Term, 3> root, own;
-    std::array<Term, 6> both;
-    for (std::size_t f = begin; f < end; ++f) root[f - begin] = {root_unknown(f), difference(f)};
-    squares.add({root.data(), end - begin}, 0, weight(root_hz, root_room * motion_.height));
-    for (std::size_t l = 0; l < legs_; ++l) {
-      double value = 0;
-      for (std::size_t f = begin; f < end; ++f) {
-        const std::size_t i = f * legs_ + l;
-        const double times = difference(f);
-        value += times * (states_[i].bend - bends_[i]);
-        own[f - begin] = {leg_unknown(i), times};
-        both[2 * (f - begin)] = {root_unknown(f), times * states_[i].by_root};
-        both[2 * (f - begin) + 1] = own[f - begin];
-      }
-      squares.add({both.data(), 2 * (end - begin)}, value, weight(knee_hz, 1));
-      squares.add({own.data(), end - begin}, 0, weight(leg_hz, bend_room));
+    if (first + last < 2 || first + last >= motion_.frames) return;
+    std::array<std::size_t, 3> frames{};
+    std::array<double, 3> factors{};
+    constexpr std::array<double, 3> difference{1, -2, 1};
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (last + k < 2 || last + k - 2 >= count) continue;
+      frames[k] = last + k - 2;
+      factors[k] = difference[k];
     }
+    std::array<Term, 3> root, own;
+    for (std::size_t k = 0; k < 3; ++k) root[k] = {root_unknown(frames[k]), factors[k]};
+    squares.add(root, 0, curvature_weight(root_hz, root_room * motion_.height));
+    for (std::size_t l = 0; l < legs_; ++l) {
+      std::array<Term, 6> knee;
+      double value = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        value += difference[k] * changes_[(first + last + k - 2) * legs_ + l];
+        const double by_root = states_[(first + frames[k]) * legs_ + l].by_root;
+        knee[2 * k] = {root_unknown(frames[k]), factors[k] * by_root};
+        knee[2 * k + 1] = own[k] = {leg_unknown(frames[k], l), factors[k]};
+      }
+      squares.add(knee, value, curvature_weight(knee_hz, 1));
+      squares.add(own, 0, curvature_weight(leg_hz, bend_room));
+    }
+  }
+
+  double curvature_weight(double hz, double room) const {
+    const double period = motion_.frame_rate_hz / (2 * pi * hz);
+    return period * period * period * period / (room * room);
   }
 
   // The foot turns for its share, and goes nearer to the hip or farther away for the rest.
   void apply(std::size_t i, double bend, double by_root) const {
     constexpr double most_turn = 0.35;
-    FootTarget& foot = target(i);
+    FootTarget& foot = targets_[i];
     const LegState& before = states_[i];
     const double share = rooms_[i].turn_share();
     foot.moves = true;
@@ -205,7 +266,7 @@ class KneeEasing {
           normalized(exp(std::clamp(turn, -most_turn, most_turn) * before.axis) * foot.rotation);
     }
     if (foot.hold >= 1) return;
-    const LegState now = state(i);
+    const LegState now = stretched(i);
     double wanted = now.bend + (1 - share) * bend;
     // What was not linear is made good where nothing holds the foot.
     wanted += (1 - foot.hold) * (before.bend + by_root + bend - wanted);
@@ -220,9 +281,9 @@ class KneeEasing {
   std::vector<FootTarget>& targets_;
   std::vector<double>& drops_;
   std::size_t legs_;
-  std::size_t first_ = 0, count_ = 0;  // the frames in hand
+  // F x L
   std::vector<Triangle> triangles_;
-  std::vector<double> bends_;  // in the take, radians
+  std::vector<double> bends_, changes_;  // radians: in the take, and of that
   std::vector<LegState> states_;
   std::vector<LegRoom> rooms_;
 };

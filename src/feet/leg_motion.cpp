@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "feet/blocks.hpp"
 #include "feet/sole_point.hpp"
 #include "kinemend/kinematics.hpp"
 
@@ -184,11 +185,10 @@ void update_poses(const Clip& clip, const std::vector<Leg>& legs, LegMotion& mot
   const std::vector<std::size_t> joints = needed_joints(skeleton, legs);
   const std::vector<std::int32_t> tracks = translation_tracks(clip);
   const std::size_t width = clip.translated_joints.size();
-  std::vector<Quat> rotations(clip.joint_count());
-  std::vector<Vec3> positions(clip.joint_count());
   motion.poses.resize(motion.frames * legs.size());
   motion.carrier.frames_of.assign(motion.frames, Quat{});
-  for (std::size_t f = 0; f < motion.frames; ++f) {
+  const auto update = [&](std::size_t f, std::vector<Quat>& rotations,
+                          std::vector<Vec3>& positions) {
     for (const std::size_t j : joints) {
       const Quat local = skeleton.rest_rotations[j] * clip.rotation(f, j);
       const Vec3 offset = j == 0 ? clip.root_positions[f]
@@ -216,7 +216,12 @@ void update_poses(const Clip& clip, const std::vector<Leg>& legs, LegMotion& mot
                            rotations[k],       parent_rotation(a), rotations[a],
                            positions[h],       positions[k],       positions[a]};
     }
-  }
+  };
+  for_blocks(0, motion.frames, [&](std::size_t first, std::size_t end) {
+    std::vector<Quat> rotations(clip.joint_count());
+    std::vector<Vec3> positions(clip.joint_count());
+    for (std::size_t f = first; f < end; ++f) update(f, rotations, positions);
+  });
 }
 
 LegMotion leg_motion(const Clip& clip, const std::vector<Leg>& legs) {

@@ -3,15 +3,31 @@
 #include <algorithm>
 #include <cmath>
 
+#include "feet/blocks.hpp"
+
 namespace kinemend::feet {
 
 namespace {
+
+// By cosine and sine of the angle.
+Quat turn_about(Vec3 axis, double cosine, double sine) {
+  double w = 0, share = 0;
+  if (cosine >= 0) {
+    w = std::sqrt((1 + cosine) / 2);
+    share = sine / (2 * w);
+  } else {
+    share = std::copysign(std::sqrt((1 - cosine) / 2), sine);
+    w = sine / (2 * share);
+  }
+  return {w, share * axis.x, share * axis.y, share * axis.z};
+}
 
 // |thigh + R(hinge, angle) shank|^2 = constant + 2 swing cos(angle - straight).
 struct KneeCircle {
   Vec3 hinge;  // world, unit; bending is positive
   double constant = 0, swing = 0;
-  double straight = 0;  // the turn of the shank that takes the ankle farthest away, radians
+  // Of the turn of the shank that takes the ankle farthest away.
+  double straight_cosine = 1, straight_sine = 0;
 
   double most() const { return std::sqrt(std::max(constant + 2 * swing, 0.0)); }
 };
@@ -68,8 +84,10 @@ KneeCircle knee_circle(const LegPose& pose, Vec3 hinge) {
   KneeCircle circle;
   circle.hinge = hinge;
   circle.constant = dot(thigh, thigh) + dot(shank, shank) + 2 * along;
-  circle.swing = std::hypot(cosine, sine);
-  circle.straight = std::atan2(sine, cosine);
+  circle.swing = std::sqrt(cosine * cosine + sine * sine);
+  if (!(circle.swing > 0)) return circle;
+  circle.straight_cosine = cosine / circle.swing;
+  circle.straight_sine = sine / circle.swing;
   return circle;
 }
 
@@ -86,12 +104,14 @@ Reach reach_of(const LegPose& pose, const KneeCircle& circle, KneeTurn turn, dou
 
 // The turn of the shank that puts the ankle at this distance from the hip, on the side to which the
 // knee is bent.
-double turn_for(const KneeCircle& circle, double distance) {
-  if (!(circle.swing > 0)) return 0;
-  const double cosine = (distance * distance - circle.constant) / (2 * circle.swing);
-  const double bend = std::acos(std::clamp(cosine, -1.0, 1.0));
-  const double side = circle.straight > 0 ? -1 : 1;
-  return circle.straight + side * bend;
+Quat turn_for(const KneeCircle& circle, double distance) {
+  if (!(circle.swing > 0)) return {};
+  const double cosine =
+      std::clamp((distance * distance - circle.constant) / (2 * circle.swing), -1.0, 1.0);
+  const double side = circle.straight_sine > 0 ? -1 : 1;
+  const double sine = side * std::sqrt((1 - cosine) * (1 + cosine));
+  return turn_about(circle.hinge, circle.straight_cosine * cosine - circle.straight_sine * sine,
+                    circle.straight_sine * cosine + circle.straight_cosine * sine);
 }
 
 // What the channels of a joint can hold of a rotation.
@@ -126,15 +146,15 @@ class Leg {
   void solve_once() {
     const Vec3 ankle_at = target_.place - rotate(foot_, target_.pivot);
     const Vec3 way = ankle_at - hip_at_;
-    const double angle =
-        turn_ == KneeTurn::none ? 0 : turn_for(circle_, soft_distance(norm(way), reach_));
-    const Quat bend = exp(angle * circle_.hinge);
+    const double far = norm(way);
+    const Quat bend =
+        turn_ == KneeTurn::none ? Quat{} : turn_for(circle_, soft_distance(far, reach_));
     const Quat knee_frame = pose_.knee_parent * model_.knee.rest;
     rotations_.knee = normalized(conjugate(knee_frame) * bend * pose_.knee);
 
     const Vec3 bent = pose_.knee_at - pose_.hip_at + rotate(bend, pose_.ankle_at - pose_.knee_at);
-    Quat swing = exp(turn_between(bent, way));
-    if (norm(way) > 0) swing = exp((twist_ / norm(way)) * way) * swing;
+    Quat swing = least_turn(bent, way);
+    if (twist_ != 0 && far > 0) swing = exp((twist_ / far) * way) * swing;
     const Quat hip_frame = pose_.hip_parent * model_.hip.rest;
     rotations_.hip =
         within_channels(normalized(conjugate(hip_frame) * swing * pose_.hip), model_.hip);
@@ -145,8 +165,8 @@ class Leg {
         within_channels(normalized(conjugate(ankle_frame) * target_.rotation), model_.ankle);
     foot_ = ankle_frame * rotations_.ankle;
     // What the ankle cannot turn about the line of the leg, the hip can.
-    if (model_.ankle.order.count < 3 && norm(way) > 0)
-      twist_ += dot(log(target_.rotation * conjugate(foot_)), way) / norm(way);
+    if (model_.ankle.order.count < 3 && far > 0)
+      twist_ += dot(log(target_.rotation * conjugate(foot_)), way) / far;
   }
 
   const LegPose& pose_;
@@ -168,6 +188,15 @@ Vec3 turn_between(Vec3 from, Vec3 to) {
   const double sine = norm(axis), cosine = dot(from, to);
   if (!(sine > 0)) return {};
   return (std::atan2(sine, cosine) / sine) * axis;
+}
+
+Quat least_turn(Vec3 from, Vec3 to) {
+  constexpr double nearly_opposite = 1e-6;
+  const double lengths = std::sqrt(dot(from, from) * dot(to, to));
+  const double w = lengths + dot(from, to);
+  if (!(w > nearly_opposite * lengths)) return exp(turn_between(from, to));
+  const Vec3 axis = cross(from, to);
+  return normalized({w, axis.x, axis.y, axis.z});
 }
 
 Reach reach_of(const LegPose& pose, const LegModel& model, double soft_reach, double hold) {

@@ -10,6 +10,9 @@ namespace kinemend::feet {
 /// The rotation vector of the least turn that brings the direction of `from` to that of `to`.
 Vec3 turn_between(Vec3 from, Vec3 to);
 
+/// The same as a rotation.
+Quat least_turn(Vec3 from, Vec3 to);
+
 /// How far a leg reaches from hip to ankle.
 struct Reach {
   double now = 0;   ///< as it is

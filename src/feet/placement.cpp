@@ -234,7 +234,9 @@ FootTarget foot_target(const LegPose& pose, const LegModel& model, const PartCor
   if (!target.moves || h * t == 0) return target;
   const Vec3 foot = rotate(pose.ankle, model.sole[1] - model.sole[0]);
   const Vec3 wanted = foot + toe_shift - heel_shift;
-  target.rotation = normalized(exp((h * t) * turn_between(foot, wanted)) * pose.ankle);
+  const Quat turn =
+      h * t == 1 ? least_turn(foot, wanted) : exp((h * t) * turn_between(foot, wanted));
+  target.rotation = normalized(turn * pose.ankle);
   return target;
 }
 

@@ -1,5 +1,7 @@
 #include "feet/soles.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -76,10 +78,12 @@ Soles find_soles(const LegMotion& motion, Up up, const ContactSettings& settings
   soles.body = sole_points(motion);
   soles.up = up;
   soles.height = motion.height;
-  for (std::size_t p = 0; p < soles.body.points; ++p) {
+  for (std::size_t p = 0; p < soles.body.points; ++p)
     soles.has.push_back(motion.models[p / 2].has[p % 2] ? 1 : 0);
-    soles.points.push_back(quiet_sole_point(soles.body, p, up, settings));
-  }
+  soles.points.resize(soles.body.points);
+  tbb::parallel_for(std::size_t{0}, soles.body.points, [&](std::size_t p) {
+    soles.points[p] = quiet_sole_point(soles.body, p, up, settings);
+  });
   return soles;
 }
 

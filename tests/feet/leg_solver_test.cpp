@@ -191,7 +191,10 @@ TEST(TurnBetween, IsTheLeastTurnThatAlignsTwoDirections) {
     EXPECT_LT(norm(cross(turned, b)), 1e-12);
     EXPECT_GT(dot(turned, b), 0);
     EXPECT_NEAR(dot(turn_between(a, b), a), 0, 1e-12);
+    EXPECT_LT(angle_between(least_turn(a, b), exp(turn_between(a, b))), 1e-12);
+    EXPECT_LT(norm(rotate(least_turn(a, -a + 1e-8 * b), a) + a), 1e-7);
   }
+  EXPECT_LT(angle_between(least_turn({}, {1, 2, 3}), Quat{}), 1e-15);
 }
 
 }  // namespace
