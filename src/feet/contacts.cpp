@@ -54,11 +54,13 @@ class ContactFinder {
     const SolePoint& sole = soles_.points[point];
     const std::size_t leg = point / 2;
     const double height = soles_.height;
-    std::vector<std::uint8_t> slow(sole.speeds.size());
+    std::vector<double> speeds(sole.speeds.size());
+    for (std::size_t f = 0; f < speeds.size(); ++f) speeds[f] = sole.speeds[f] / soles_.paces[f];
+    std::vector<std::uint8_t> slow(speeds.size());
     bool is_slow = false;
     for (std::size_t f = 0; f < slow.size(); ++f) {
       const double limit = is_slow ? settings_.keep_speed : settings_.begin_speed;
-      is_slow = sole.seen[f] != 0 && sole.speeds[f] < limit * height;
+      is_slow = sole.seen[f] != 0 && speeds[f] < limit * height;
       slow[f] = is_slow;
     }
     // A heel and a toe of one foot need not stand equally high.
@@ -72,7 +74,7 @@ class ContactFinder {
     }
     const ContactThresholds thresholds{settings_.begin_height, settings_.keep_height,
                                        settings_.begin_speed, settings_.keep_speed};
-    Spans spans = without_short(spans_of(touches(sole, levels, height, thresholds)));
+    Spans spans = without_short(spans_of(touches(sole, levels, speeds, height, thresholds)));
     for (auto& span : spans) span = trimmed(sole, span);
     return without_short(spans);
   }

@@ -65,13 +65,19 @@ SolePoint sole_point(const BodyPoints& body, std::size_t index, Up up,
 
 std::vector<std::uint8_t> touches(const SolePoint& point, const std::vector<double>& levels,
                                   double body_height, const ContactThresholds& thresholds) {
+  return touches(point, levels, point.speeds, body_height, thresholds);
+}
+
+std::vector<std::uint8_t> touches(const SolePoint& point, const std::vector<double>& levels,
+                                  const std::vector<double>& speeds, double body_height,
+                                  const ContactThresholds& thresholds) {
   std::vector<std::uint8_t> result(point.heights.size());
   bool down = false;
   for (std::size_t f = 0; f < result.size(); ++f) {
     const double height = point.heights[f] - (levels.size() == 1 ? levels[0] : levels[f]);
     down = point.seen[f] != 0 &&
            height < (down ? thresholds.keep_height : thresholds.begin_height) * body_height &&
-           point.speeds[f] < (down ? thresholds.keep_speed : thresholds.begin_speed) * body_height;
+           speeds[f] < (down ? thresholds.keep_speed : thresholds.begin_speed) * body_height;
     result[f] = down;
   }
   return result;

@@ -33,5 +33,9 @@ SolePoint sole_point(const BodyPoints& body, std::size_t index, Up up,
 /// slow.
 std::vector<std::uint8_t> touches(const SolePoint& point, const std::vector<double>& levels,
                                   double body_height, const ContactThresholds& thresholds);
+/// The same with other speeds than its own.
+std::vector<std::uint8_t> touches(const SolePoint& point, const std::vector<double>& levels,
+                                  const std::vector<double>& speeds, double body_height,
+                                  const ContactThresholds& thresholds);
 
 }  // namespace kinemend::feet

@@ -71,6 +71,29 @@ SolePoint quiet_sole_point(const BodyPoints& body, std::size_t point, Up up,
   return best;
 }
 
+// A foot rolls the faster over the floor the faster the body goes, and stands so shortly that
+// smoothing mixes its stand with its swing.
+std::vector<double> paces_of(const LegMotion& motion, Up up) {
+  constexpr double walk = 1.2;  // statures a second: from 2 m/s on people run
+  constexpr double reach_s = 0.1;
+  const auto reach = static_cast<std::size_t>(std::lround(reach_s * motion.frame_rate_hz));
+  const auto hips = [&](std::size_t frame) {
+    Vec3 sum;
+    for (std::size_t l = 0; l < motion.legs(); ++l) sum += motion.pose(frame, l).hip_at;
+    return (1.0 / static_cast<double>(motion.legs())) * sum;
+  };
+  std::vector<double> paces(motion.frames, 1);
+  for (std::size_t f = 0; f < motion.frames; ++f) {
+    const std::size_t first = f < reach ? 0 : f - reach;
+    const std::size_t last = std::min(f + reach, motion.frames - 1);
+    if (last == first) continue;
+    const Vec3 way = level_part(hips(last) - hips(first), up);
+    const double speed = norm(way) * motion.frame_rate_hz / static_cast<double>(last - first);
+    paces[f] = std::max(1.0, speed / (walk * motion.height));
+  }
+  return paces;
+}
+
 }  // namespace
 
 Soles find_soles(const LegMotion& motion, Up up, const ContactSettings& settings) {
@@ -80,6 +103,7 @@ Soles find_soles(const LegMotion& motion, Up up, const ContactSettings& settings
   soles.height = motion.height;
   for (std::size_t p = 0; p < soles.body.points; ++p)
     soles.has.push_back(motion.models[p / 2].has[p % 2] ? 1 : 0);
+  soles.paces = paces_of(motion, up);
   soles.points.resize(soles.body.points);
   tbb::parallel_for(std::size_t{0}, soles.body.points, [&](std::size_t p) {
     soles.points[p] = quiet_sole_point(soles.body, p, up, settings);

@@ -13,6 +13,7 @@ struct Soles {
   BodyPoints body;                ///< as measured; points 2 l + part
   std::vector<SolePoint> points;  ///< smoothed as far as noise asks for; 2 l + part
   std::vector<std::uint8_t> has;  ///< 2 l + part; 0 for a part that is not there
+  std::vector<double> paces;      ///< F: how much faster than in a walk the body goes, at least 1
   Up up;
   double height = 0;  ///< of the body
 

@@ -11,6 +11,7 @@ namespace {
 
 using test::synthetic_clip;
 using test::with_drift;
+using test::with_smooth_noise;
 
 FeetSettings forced() {
   FeetSettings settings;
@@ -20,22 +21,6 @@ FeetSettings forced() {
 
 double allowed_pop_deg(const FeetReport& report) {
   return std::max(1.1 * report.before.knee_pop_deg, report.before.knee_pop_deg + 0.5);
-}
-
-// What a filter leaves of noise: smooth over a few frames.
-Clip with_smooth_noise(Clip clip, double deg, std::uint64_t seed) {
-  constexpr std::size_t reach = 3;
-  const std::size_t joints = clip.joint_count();
-  Random random(seed);
-  std::vector<Vec3> noise(clip.local_rotations.size() + 2 * reach * joints);
-  for (Vec3& turn : noise) turn = {random.normal(), random.normal(), random.normal()};
-  for (std::size_t i = 0; i < clip.local_rotations.size(); ++i) {
-    Vec3 sum;
-    for (std::size_t k = 0; k <= 2 * reach; ++k) sum += noise[i + k * joints];
-    const double share = deg * radians_per_degree / std::sqrt(2 * reach + 1.0);
-    clip.local_rotations[i] = normalized(clip.local_rotations[i] * exp(share * sum));
-  }
-  return clip;
 }
 
 TEST(Knees, DoNotPopInWalksThatDriftAndJitter) {

@@ -62,7 +62,22 @@ inline Clip with_noise(Clip clip, double deg, std::uint64_t seed = 7) {
   return clip;
 }
 
-/// Farthest that a part is from where each held contact began, horizontally (y is up).
+/// What a filter leaves of white noise: smooth over a few frames.
+inline Clip with_smooth_noise(Clip clip, double deg, std::uint64_t seed) {
+  constexpr std::size_t reach = 3;
+  const std::size_t joints = clip.joint_count();
+  Random random(seed);
+  std::vector<Vec3> noise(clip.local_rotations.size() + 2 * reach * joints);
+  for (Vec3& turn : noise) turn = {random.normal(), random.normal(), random.normal()};
+  for (std::size_t i = 0; i < clip.local_rotations.size(); ++i) {
+    Vec3 sum;
+    for (std::size_t k = 0; k <= 2 * reach; ++k) sum += noise[i + k * joints];
+    const double share = deg * radians_per_degree / std::sqrt(2 * reach + 1.0);
+    clip.local_rotations[i] = normalized(clip.local_rotations[i] * exp(share * sum));
+  }
+  return clip;
+}
+
 inline bool same_bits(const Clip& a, const Clip& b, std::size_t frame) {
   for (std::size_t j = 0; j < a.joint_count(); ++j) {
     if (!(a.rotation(frame, j) == b.rotation(frame, j))) return false;
