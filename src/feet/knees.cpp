@@ -32,15 +32,20 @@ struct Triangle {
   }
 };
 
-// A leg as its target has it.
-struct LegState {
-  double bend = 0;              // of the knee, radians
-  double by_distance = 0;       // change of the bend, for a unit of length from hip to ankle ...
-  double by_root = 0;           // ... and that the root rises
-  Vec3 way;                     // from hip to where the ankle shall be
+// How far a leg goes to where its target has the ankle.
+struct Stretch {
+  Vec3 way;                     // from the hip
   double far = 0, reached = 0;  // its length, and what the leg makes of it
-  Vec3 axis;         // about which a turn of the foot brings the ankle away from the hip ...
-  double lever = 0;  // ... by this a radian
+  double cosine = 1;            // of the bend of the knee
+};
+
+// How the bend of a knee follows what is open, radians.
+struct LegState {
+  double bend = 0;
+  double by_distance = 0;  // for a unit of length from hip to ankle ...
+  double by_root = 0;      // ... and that the root rises
+  Vec3 axis;               // about which a turn of the foot brings the ankle away from the hip ...
+  double lever = 0;        // ... by this a radian
 };
 
 // How far a leg's angle may change without the root.
@@ -134,31 +139,31 @@ class KneeEasing {
     });
   }
 
-  // Where the leg goes; the rest of its state is left open.
-  LegState stretched(std::size_t i) const {
-    LegState leg;
+  Stretch stretch(std::size_t i) const {
     const FootTarget& target = targets_[i];
+    Stretch leg;
     leg.way = target.place - rotate(target.rotation, target.pivot) - motion_.poses[i].hip_at +
               drops_[i / legs_] * up_.direction();
     leg.far = norm(leg.way);
     leg.reached = soft_distance(leg.far, reaches_[i]);
-    leg.bend = std::acos(triangles_[i].cosine_of(leg.reached));
+    leg.cosine = triangles_[i].cosine_of(leg.reached);
     return leg;
   }
 
   LegState state(std::size_t i) const {
     constexpr double least_sine = 0.12;  // a straight knee turns by degrees for a millimetre
-    LegState leg = stretched(i);
-    const Triangle& triangle = triangles_[i];
-    if (!(leg.far > 0 && triangle.product > 0)) return leg;
-    const double cosine = triangle.cosine_of(leg.reached);
-    const double sine = std::max(std::sqrt(1 - cosine * cosine), least_sine);
-    leg.by_distance = -leg.reached / (triangle.product * sine);
-    leg.by_root = -leg.by_distance * along(leg.way, up_) / leg.far;
+    const Stretch stretch = this->stretch(i);
+    LegState leg;
+    leg.bend = std::acos(stretch.cosine);
+    const double product = triangles_[i].product;
+    if (!(stretch.far > 0 && product > 0)) return leg;
+    const double sine = std::sqrt(1 - stretch.cosine * stretch.cosine);
+    leg.by_distance = -stretch.reached / (product * std::max(sine, least_sine));
+    leg.by_root = -leg.by_distance * along(stretch.way, up_) / stretch.far;
     const FootTarget& target = targets_[i];
     if (target.hold * target.free_turn == 0) return leg;
     const Vec3 lever = -rotate(target.rotation, target.pivot);
-    const Vec3 moment = (1 / leg.far) * cross(lever, leg.way);
+    const Vec3 moment = (1 / stretch.far) * cross(lever, stretch.way);
     leg.lever = norm(moment);
     if (leg.lever > 0) leg.axis = (1 / leg.lever) * moment;
     return leg;
@@ -202,7 +207,7 @@ class KneeEasing {
           const std::size_t i = (first + f) * legs_ + l;
           if (rooms_[i].in_all > least_room)
             apply(i, solution[leg_unknown(f, l)], states_[i].by_root * rise);
-          changes_[i] = stretched(i).bend - bends_[i];
+          changes_[i] = std::acos(stretch(i).cosine) - bends_[i];
         }
       }
     });
@@ -266,8 +271,8 @@ class KneeEasing {
           normalized(exp(std::clamp(turn, -most_turn, most_turn) * before.axis) * foot.rotation);
     }
     if (foot.hold >= 1) return;
-    const LegState now = stretched(i);
-    double wanted = now.bend + (1 - share) * bend;
+    const Stretch now = stretch(i);
+    double wanted = std::acos(now.cosine) + (1 - share) * bend;
     // What was not linear is made good where nothing holds the foot.
     wanted += (1 - foot.hold) * (before.bend + by_root + bend - wanted);
     const double distance = triangles_[i].distance_of(std::max(wanted, 0.0));

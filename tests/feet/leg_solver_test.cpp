@@ -9,8 +9,6 @@
 namespace kinemend::feet {
 namespace {
 
-using test::joint_of;
-
 // Hips, thigh, shank, foot with random bones, rest rotations and pose; what the orders allow.
 struct RandomLeg {
   Clip clip;
