@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "kinemend/methods.hpp"
 #include "kinemend/model.hpp"
 #include "priors/wiener_guard.hpp"
+#include "priors/wiener_outliers.hpp"
 #include "priors/wiener_prior.hpp"
 #include "signal/fourth_difference.hpp"
 
@@ -34,36 +36,35 @@ const OptionTable<WienerOptions>& table() {
 
 constexpr double deviations_per_median = 1.4826;
 constexpr double least_noise_deg = 1e-3;
+constexpr std::size_t fewest_differences = 8;
 constexpr std::size_t fewest_smoothed_frames = 16;
-// More suspects than this are noise.
-constexpr double most_suspects = 0.05;
+constexpr double most_suspects = 0.03;  // share of samples
 
-// Of a channel, from runs of five samples that were measured and no spikes.
-double channel_noise(const PriorWork& work, std::size_t channel) {
+// Of a channel, from runs of five samples that were measured and no spikes; that of `auto` where
+// there are too few.
+double channel_noise(const PriorWork& work, std::span<const std::uint8_t> suspect,
+                     std::size_t channel) {
   const PoseMatrix& y = work.channels.poses;
   std::vector<double> sizes;
   std::size_t run = 0;
   for (std::size_t f = 0; f < y.frames; ++f) {
     const std::size_t sample = f * y.channels + channel;
-    run = work.channels.observed[sample] != 0 ? run + 1 : 0;
+    run = work.channels.observed[sample] != 0 && suspect[sample] == 0 ? run + 1 : 0;
     if (run <= signal::fourth_difference_span) continue;
     sizes.push_back(std::abs(signal::fourth_difference(y, f, channel)));
   }
-  if (sizes.empty()) return 0;
+  if (sizes.size() < fewest_differences) return work.noise[channel];
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
   return deviations_per_median * *middle / std::sqrt(signal::fourth_difference_variance);
 }
 
-// Channels of which `auto` suspects too much are not despiked beforehand.
-void clear_noisy_suspects(PriorWork& work) {
-  const std::size_t frames = work.channels.poses.frames, channels = work.channels.poses.channels;
-  for (std::size_t c = 0; c < channels; ++c) {
-    std::size_t count = 0;
-    for (std::size_t f = 0; f < frames; ++f) count += work.suspect[f * channels + c];
-    if (static_cast<double>(count) <= most_suspects * static_cast<double>(frames)) continue;
-    for (std::size_t f = 0; f < frames; ++f) work.suspect[f * channels + c] = 0;
-  }
+// `auto` finds no more than some of them.
+bool has_dense_outliers(const PriorWork& work) {
+  const auto suspects = std::accumulate(work.suspect.begin(), work.suspect.end(), std::size_t{0});
+  const auto samples =
+      std::accumulate(work.channels.observed.begin(), work.channels.observed.end(), std::size_t{0});
+  return static_cast<double>(suspects) > most_suspects * static_cast<double>(samples);
 }
 
 // The smoother of `auto`. Channels are brought to one noise, so that it is alike in all directions.
@@ -88,10 +89,11 @@ void smooth_as_auto(PoseMatrix& poses, std::span<const std::uint8_t> missing,
     poses.values[i] = tracks.values.values[i] * noise[i % poses.channels];
 }
 
-std::vector<double> noise_of(const PriorWork& work, const WienerOptions& options) {
+std::vector<double> noise_of(const PriorWork& work, std::span<const std::uint8_t> suspect,
+                             const WienerOptions& options) {
   std::vector<double> noise(work.channels.poses.channels, options.noise_deg);
   for (std::size_t c = 0; c < noise.size(); ++c) {
-    if (options.noise_deg <= 0) noise[c] = channel_noise(work, c);
+    if (options.noise_deg <= 0) noise[c] = channel_noise(work, suspect, c);
     noise[c] = std::max(options.sensitivity * noise[c], least_noise_deg);
   }
   return noise;
@@ -122,13 +124,12 @@ void turn_channels(PoseMatrix& poses, std::span<const Eigen::Matrix3d> turns) {
 }
 
 void filter(PriorWork& work, const WienerOptions& options, const WienerPrior& known) {
-  clear_noisy_suspects(work);
   PoseMatrix& poses = work.channels.poses;
   std::vector<Eigen::Matrix3d> axes = noise_axes(work);
   const WienerPrior prior = with_turned_channels(known, axes);
   turn_channels(poses, axes);
   turn_channels(work.fallback, axes);
-  const std::vector<double> noise = noise_of(work, options);
+  std::vector<double> noise = noise_of(work, work.suspect, options);
   WienerSettings settings;
   if (!options.despike) settings.outlier_deviations = 0;
   const double rate_hz = work.channels.frame_rate_hz;
@@ -137,9 +138,15 @@ void filter(PriorWork& work, const WienerOptions& options, const WienerPrior& kn
                                           std::span<const double> deviations) {
     smooth_as_auto(samples, missing, deviations, rate_hz);
   };
+  WienerOutliers outliers{work.suspect, work.fallback};
+  if (options.despike && has_dense_outliers(work)) {
+    outliers = dense_outliers(
+        prior, {poses, work.fallback, work.channels.observed, work.suspect, noise, rate_hz});
+    noise = noise_of(work, outliers.suspect, options);
+  }
   WienerResult result = guarded_wiener_filter(
-      prior, {poses, work.fallback, work.channels.observed, work.suspect, noise, rate_hz}, smoother,
-      settings);
+      prior, {poses, outliers.guess, work.channels.observed, outliers.suspect, noise, rate_hz},
+      smoother, settings);
   poses = std::move(result.poses);
   for (Eigen::Matrix3d& turn : axes) turn.transposeInPlace();
   turn_channels(poses, axes);

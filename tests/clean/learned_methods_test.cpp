@@ -81,6 +81,11 @@ TEST_P(Learned, TakesSpikesOut) {
   EXPECT_LT(error(truth, input, cleaner()), 0.4 * rms_deg(truth, input));
 }
 
+TEST_P(Learned, TakesDenseSpikesOut) {
+  const Clip truth = walk(4), input = noisy(truth, 0.3, 0.1);
+  EXPECT_LT(error(truth, input, cleaner()), 0.2 * rms_deg(truth, input));
+}
+
 TEST_P(Learned, KeepsTheRateOfTheTake) {
   for (const double rate_hz : {120.0, 100.0, 60.0, 25.0}) {
     const Clip truth = walk(4, rate_hz), input = noisy(truth, 3, 0);

@@ -14,6 +14,7 @@
 #include "priors/wiener_filter.hpp"
 #include "priors/wiener_fit.hpp"
 #include "priors/wiener_guard.hpp"
+#include "priors/wiener_outliers.hpp"
 #include "priors/wiener_posterior.hpp"
 #include "priors/wiener_windows.hpp"
 #include "priors/window_cosines.hpp"
@@ -379,6 +380,27 @@ TEST(WienerGuard, TakesNothingFromASmootherWhereNothingWasMeasured) {
   const WienerTake take{noisy, zeros, observed, {}, deviations, 100};
   const WienerResult result = guarded_wiener_filter(learned(), take, smoother);
   for (std::size_t f = 0; f < 300; ++f) EXPECT_NEAR(result.poses(f, 2), truth(f, 2), 3);
+}
+
+TEST(WienerOutliers, AreFoundWhereTheyAreDense) {
+  const PoseMatrix truth = oscillation(77, 300);
+  PoseMatrix noisy = with_noise(truth, 0.5);
+  Random random(3);
+  std::vector<std::uint8_t> hit(noisy.values.size(), 0);
+  for (std::size_t f = 0; f < 300; ++f) {
+    if (!random.chance(0.15)) continue;
+    for (std::size_t d = 0; d < channels; ++d) {
+      noisy(f, d) += random.uniform(20, 60) * (random.chance(0.5) ? 1 : -1);
+      hit[f * channels + d] = 1;
+    }
+  }
+  const std::vector<double> deviations(channels, 0.5);
+  const WienerOutliers found = dense_outliers(learned(), {noisy, noisy, {}, {}, deviations, 100});
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < hit.size(); ++i) wrong += found.suspect[i] != hit[i];
+  EXPECT_LT(wrong, hit.size() / 30);
+  const WienerTake take{noisy, found.guess, {}, found.suspect, deviations, 100};
+  EXPECT_LT(error(wiener_filter(learned(), take).poses, truth), 1.5);
 }
 
 TEST(WienerPrior, TurnsItsChannels) {
