@@ -93,7 +93,7 @@ class KneeEasing {
   // Frames from `first` until `end`. After the first step only those about which a knee still pops.
   void ease_thoroughly(std::size_t first, std::size_t end) {
     constexpr int more_rounds = 2;
-    constexpr double around_s = 0.2;
+    constexpr double around_s = 0.1;
     const auto around = static_cast<std::size_t>(std::ceil(around_s * motion_.frame_rate_hz));
     measure(first, end);
     ease(first, end);
@@ -116,7 +116,7 @@ class KneeEasing {
 
   // The change of a knee's angle has a kink.
   bool pops(std::size_t frame, std::size_t first, std::size_t end) const {
-    constexpr double most_rad = 0.2 * radians_per_degree;
+    constexpr double most_rad = 0.3 * radians_per_degree;
     const auto change = [&](std::size_t f, std::size_t l) {
       return f < first || f >= end ? 0 : changes_[f * legs_ + l];
     };

@@ -77,17 +77,15 @@ std::vector<double> paces_of(const LegMotion& motion, Up up) {
   constexpr double walk = 1.2;  // statures a second: from 2 m/s on people run
   constexpr double reach_s = 0.1;
   const auto reach = static_cast<std::size_t>(std::lround(reach_s * motion.frame_rate_hz));
-  const auto hips = [&](std::size_t frame) {
-    Vec3 sum;
-    for (std::size_t l = 0; l < motion.legs(); ++l) sum += motion.pose(frame, l).hip_at;
-    return (1.0 / static_cast<double>(motion.legs())) * sum;
-  };
+  std::vector<Vec3> hips(motion.frames);
+  for (std::size_t i = 0; i < motion.poses.size(); ++i)
+    hips[i / motion.legs()] += (1.0 / static_cast<double>(motion.legs())) * motion.poses[i].hip_at;
   std::vector<double> paces(motion.frames, 1);
   for (std::size_t f = 0; f < motion.frames; ++f) {
     const std::size_t first = f < reach ? 0 : f - reach;
     const std::size_t last = std::min(f + reach, motion.frames - 1);
     if (last == first) continue;
-    const Vec3 way = level_part(hips(last) - hips(first), up);
+    const Vec3 way = level_part(hips[last] - hips[first], up);
     const double speed = norm(way) * motion.frame_rate_hz / static_cast<double>(last - first);
     paces[f] = std::max(1.0, speed / (walk * motion.height));
   }
