@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "nn/gemm.hpp"
 #include "priors/wiener_posterior.hpp"
 #include "priors/wiener_rest.hpp"
 #include "priors/wiener_windows.hpp"
@@ -34,6 +35,21 @@ VectorXd taper(Index frames) {
     weights(i) = s * s;
   }
   return weights;
+}
+
+// By rows a matrix of Eigen's is its transpose.
+nn::MatrixView transposed(const MatrixXd& matrix) {
+  const auto rows = static_cast<std::size_t>(matrix.rows());
+  return {matrix.data(), static_cast<std::size_t>(matrix.cols()), rows, rows};
+}
+
+// a b for the transpose of a.
+MatrixXd product(const nn::MatrixView& a_transposed, const MatrixXd& b) {
+  MatrixXd result(static_cast<Index>(a_transposed.columns), b.cols());
+  nn::multiply(transposed(b), a_transposed,
+               {result.data(), static_cast<std::size_t>(b.cols()), a_transposed.columns,
+                a_transposed.columns});
+  return result;
 }
 
 double median(std::vector<double>& values) {
@@ -76,13 +92,22 @@ class Filtering {
     return take_.observed.empty() || take_.observed[sample] != 0;
   }
 
+  // Of the windows from `first` to before `last`.
+  template <class Work>
+  static void for_each_chunk_of(std::size_t first, std::size_t last, const Work& work) {
+    const std::size_t chunks = (last - first + chunk_windows - 1) / chunk_windows;
+    tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
+      const std::size_t from = first + chunk * chunk_windows;
+      work(from, std::min(last, from + chunk_windows));
+    });
+  }
+
+  // Of all windows, with the number of the chunk.
   template <class Work>
   void for_each_chunk(const Work& work) const {
-    const std::size_t count = windows_.starts().size();
-    tbb::parallel_for(
-        std::size_t{0}, (count + chunk_windows - 1) / chunk_windows, [&](std::size_t chunk) {
-          work(chunk, chunk * chunk_windows, std::min(count, (chunk + 1) * chunk_windows));
-        });
+    for_each_chunk_of(0, windows_.starts().size(), [&](std::size_t first, std::size_t last) {
+      work(first / chunk_windows, first, last);
+    });
   }
 
   // z_ of all windows; with `adapt` the components are adapted to them.
@@ -90,11 +115,13 @@ class Filtering {
     const auto count = static_cast<Index>(windows_.starts().size());
     MatrixXd information(prior_.rank(), count);
     for_each_chunk([&](std::size_t, std::size_t first, std::size_t last) {
+      MatrixXd seen(prior_.mean.size(), static_cast<Index>(last - first));
       for (std::size_t w = first; w < last; ++w) {
-        information.col(static_cast<Index>(w)).noalias() =
-            prior_.basis.transpose() *
+        seen.col(static_cast<Index>(w - first)) =
             windows_.information(guess_, w, windows_.coefficients(guess_, w));
       }
+      information.middleCols(static_cast<Index>(first), seen.cols()) =
+          product(transposed(prior_.basis).transposed(), seen);
     });
     z_.resize(prior_.rank(), count);
     MixtureMoments moments(components_.size(), prior_.rank());
@@ -116,11 +143,16 @@ class Filtering {
     }
   }
 
-  // K x D: what the patterns make of a window.
-  MatrixXd pattern_of(std::size_t window) const {
-    VectorXd x = prior_.mean;
-    x.noalias() += prior_.basis * z_.col(static_cast<Index>(window));
-    return Eigen::Map<const MatrixXd>(x.data(), prior_.coefficients(), prior_.channels());
+  // K x D a window: what the patterns make of these windows.
+  std::vector<MatrixXd> patterns_of(std::size_t first, std::size_t last) const {
+    const MatrixXd z = z_.middleCols(static_cast<Index>(first), static_cast<Index>(last - first));
+    const MatrixXd x = product(transposed(prior_.basis), z).colwise() + prior_.mean;
+    std::vector<MatrixXd> patterns;
+    for (Index w = 0; w < x.cols(); ++w) {
+      patterns.emplace_back(
+          Eigen::Map<const MatrixXd>(x.col(w).data(), prior_.coefficients(), prior_.channels()));
+    }
+    return patterns;
   }
 
   // N x D: what is left of the coefficients.
@@ -134,10 +166,11 @@ class Filtering {
     const RestModel empty(prior_.rest, windows_.noise(), windows_.frames(), prior_.window_s);
     std::vector<RestModel> parts(chunks, empty);
     for_each_chunk([&](std::size_t chunk, std::size_t first, std::size_t last) {
+      const std::vector<MatrixXd> patterns = patterns_of(first, last);
       for (std::size_t w = first; w < last; ++w) {
         VectorXd counts = VectorXd::Ones(prior_.channels());
         for (const WindowGroup::Lost& lost : windows_.group_of(w).lost) counts(lost.channel) = 0;
-        parts[chunk].add(left_of(windows_.coefficients(guess_, w), pattern_of(w)), counts);
+        parts[chunk].add(left_of(windows_.coefficients(guess_, w), patterns[w - first]), counts);
       }
     });
     rest_ = empty;
@@ -146,9 +179,8 @@ class Filtering {
   }
 
   // N x D: the posterior mean of a window's coefficients.
-  MatrixXd window_mean(std::size_t window) const {
+  MatrixXd window_mean(std::size_t window, const MatrixXd& pattern) const {
     const MatrixXd coefficients = windows_.coefficients(guess_, window);
-    const MatrixXd pattern = pattern_of(window);
     MatrixXd mean = left_of(coefficients, pattern);
     rest_.shrink(mean);
     const WindowGroup& group = windows_.group_of(window);
@@ -179,8 +211,11 @@ class Filtering {
     std::vector<MatrixXd> parts(std::min(batch, starts.size()));
     for (std::size_t first = 0; first < starts.size(); first += batch) {
       const std::size_t last = std::min(first + batch, starts.size());
-      tbb::parallel_for(first, last, [&](std::size_t w) {
-        parts[w - first] = (windows_.cosines() * window_mean(w)).transpose();
+      for_each_chunk_of(first, last, [&](std::size_t from, std::size_t to) {
+        const std::vector<MatrixXd> patterns = patterns_of(from, to);
+        for (std::size_t w = from; w < to; ++w) {
+          parts[w - first] = (windows_.cosines() * window_mean(w, patterns[w - from])).transpose();
+        }
       });
       for (std::size_t w = first; w < last; ++w) {
         for (Index i = 0; i < windows_.frames() && starts[w] + i < frames; ++i) {
