@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "base/quantiles.hpp"
 #include "clean/method_list.hpp"
 #include "clean/noise_shape.hpp"
 #include "clean/prior_cleaning.hpp"
@@ -38,7 +39,7 @@ constexpr double deviations_per_median = 1.4826;
 constexpr double least_noise_deg = 1e-3;
 constexpr std::size_t fewest_differences = 8;
 constexpr std::size_t fewest_smoothed_frames = 16;
-constexpr double most_suspects = 0.03;  // share of samples
+constexpr double dense_share = 0.03, strong_noise_deg = 3;
 
 // Of a channel, from runs of five samples that were measured and no spikes; that of `auto` where
 // there are too few.
@@ -59,12 +60,16 @@ double channel_noise(const PriorWork& work, std::span<const std::uint8_t> suspec
   return deviations_per_median * *middle / std::sqrt(signal::fourth_difference_variance);
 }
 
-// `auto` finds no more than some of them.
-bool has_dense_outliers(const PriorWork& work) {
-  const auto suspects = std::accumulate(work.suspect.begin(), work.suspect.end(), std::size_t{0});
-  const auto samples =
-      std::accumulate(work.channels.observed.begin(), work.channels.observed.end(), std::size_t{0});
-  return static_cast<double>(suspects) > most_suspects * static_cast<double>(samples);
+double share_of(const std::vector<std::uint8_t>& suspect, const PriorWork& work) {
+  const std::vector<std::uint8_t>& observed = work.channels.observed;
+  const auto samples = std::accumulate(observed.begin(), observed.end(), std::size_t{0});
+  const auto suspects = std::accumulate(suspect.begin(), suspect.end(), std::size_t{0});
+  return static_cast<double>(suspects) / std::max(static_cast<double>(samples), 1.0);
+}
+
+// Of dense outliers `auto` finds some, or takes them all for noise.
+bool may_have_dense_outliers(const PriorWork& work, std::vector<double> noise) {
+  return share_of(work.suspect, work) > dense_share || median_of(noise) > strong_noise_deg;
 }
 
 // The smoother of `auto`. Channels are brought to one noise, so that it is alike in all directions.
@@ -139,10 +144,13 @@ void filter(PriorWork& work, const WienerOptions& options, const WienerPrior& kn
     smooth_as_auto(samples, missing, deviations, rate_hz);
   };
   WienerOutliers outliers{work.suspect, work.fallback};
-  if (options.despike && has_dense_outliers(work)) {
-    outliers = dense_outliers(
+  if (options.despike && may_have_dense_outliers(work, noise)) {
+    WienerOutliers found = dense_outliers(
         prior, {poses, work.fallback, work.channels.observed, work.suspect, noise, rate_hz});
-    noise = noise_of(work, outliers.suspect, options);
+    if (share_of(found.suspect, work) > dense_share) {
+      outliers = std::move(found);
+      noise = noise_of(work, outliers.suspect, options);
+    }
   }
   WienerResult result = guarded_wiener_filter(
       prior, {poses, outliers.guess, work.channels.observed, outliers.suspect, noise, rate_hz},

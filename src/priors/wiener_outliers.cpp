@@ -53,9 +53,8 @@ void judge(const WienerTake& take, const PoseMatrix& estimate, std::vector<std::
     for (std::size_t f = 0; f < estimate.frames; ++f) {
       if (is_observed(take, f * channels + d)) distances.push_back(distance(f));
     }
-    const double limit = std::max(
-        least_outlier_deg,
-        outlier_deviations * std::max(deviations_per_mad * median_of(distances), take.noise[d]));
+    const double limit =
+        std::max(least_outlier_deg, outlier_deviations * deviations_per_mad * median_of(distances));
     double sum = 0, count = 0;
     const std::size_t first = d - d % 3, last = std::min(first + 3, channels);
     for (std::size_t f = 0; f < estimate.frames; ++f) {

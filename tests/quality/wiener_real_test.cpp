@@ -1,6 +1,6 @@
-// The model that ships, on takes that it has not seen: hold-outs of every kind of motion, and dance
-// and acrobatics, of which the general model knows little. (Takes whose thumbs flip are left out
-// here: half of such a channel's deviation is 90 degrees of noise.)
+// The model that ships, on hold-outs of every kind of motion, which it has not seen, and on dance
+// and acrobatics, of which it has seen little else than these takes. (What it makes of subjects
+// that it has not seen is on docs/methods/wiener.md.)
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -48,9 +48,9 @@ struct Group {
   friend void PrintTo(const Group& group, std::ostream* out) { *out << group.name; }
 };
 
-class WienerOnUnseenTakes : public testing::TestWithParam<Group> {};
+class WienerOnRealTakes : public testing::TestWithParam<Group> {};
 
-TEST_P(WienerOnUnseenTakes, NeverLosesToTheBestGaussian) {
+TEST_P(WienerOnRealTakes, NeverLosesToTheBestGaussian) {
   const auto wiener = make_wiener();
   for (std::size_t d = 0; d < std::size(damagings); ++d) {
     double sum = 0;
@@ -60,10 +60,8 @@ TEST_P(WienerOnUnseenTakes, NeverLosesToTheBestGaussian) {
       const double theirs = best_gaussian(noisy, truth);
       const double ratio = rms_deg(truth, clean_clip(noisy, *wiener).clip) / theirs;
       const double by_auto = rms_deg(truth, cleaned(noisy, "auto")) / theirs;
-      const double by_example = rms_deg(truth, cleaned(noisy, "example")) / theirs;
       EXPECT_LT(ratio, 1.0) << name << ", " << damagings[d].name;
-      text += fmt::format("{} {:.3f} (auto {:.3f}, example {:.3f}); ", name, ratio, by_auto,
-                          by_example);
+      text += fmt::format("{} {:.3f} (auto {:.3f}); ", name, ratio, by_auto);
       sum += ratio;
     }
     const double mean = sum / static_cast<double>(GetParam().clips.size());
@@ -72,15 +70,16 @@ TEST_P(WienerOnUnseenTakes, NeverLosesToTheBestGaussian) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, WienerOnUnseenTakes,
-                         testing::Values(Group{"HoldOuts",
-                                               {"02_02", "35_02", "08_02", "16_35", "09_06",
-                                                "127_07", "16_05", "49_04"},
-                                               {0.81, 0.80, 0.88}},
-                                         Group{"DanceAndAcrobatics",
-                                               {"05_03", "05_10", "49_07", "49_12"},
-                                               {0.79, 0.80, 0.90}}),
-                         [](const auto& group) { return std::string(group.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, WienerOnRealTakes,
+    testing::Values(Group{"HoldOuts",
+                          {"02_02", "35_02", "08_02", "16_35", "09_06", "127_07", "16_05", "49_04",
+                           "10_01", "10_06", "127_10"},
+                          {0.79, 0.79, 0.85}},
+                    Group{"DanceAndAcrobatics",
+                          {"05_03", "05_10", "05_11", "05_13", "49_07", "49_12", "49_15"},
+                          {0.81, 0.78, 0.85}}),
+    [](const auto& group) { return std::string(group.param.name); });
 
 }  // namespace
 }  // namespace kinemend::quality
