@@ -6,7 +6,7 @@ namespace kinemend::test {
 namespace {
 
 // What the sanitizers themselves take is not the program's.
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(KINEMEND_SANITIZED)
 constexpr long memory_limit_kilobytes = 800 * 1024;
 #else
 constexpr long memory_limit_kilobytes = 50 * 1024;

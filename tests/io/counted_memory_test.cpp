@@ -5,7 +5,7 @@
 
 #include "hostile.hpp"
 
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(KINEMEND_SANITIZED)
 
 namespace {
 
