@@ -139,7 +139,9 @@ Motion jump(const Body& body, Random random) {
 
 Motion landing(const Body& body, Random random) {
   const Motion standing = still(body, random.fork(1));
-  const Jump down(body, random.uniform(4, 7), 40, random.uniform(50, 65));
+  // Drawn one by one: the order in which arguments are evaluated is the compiler's.
+  const double forward_cm = random.uniform(50, 65), rise_cm = random.uniform(4, 7);
+  const Jump down(body, rise_cm, 40, forward_cm);
   return [standing, down](double t) {
     Posture p = standing(t);
     down.apply(std::max(0.0, t - 0.3), p);
