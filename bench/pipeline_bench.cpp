@@ -109,6 +109,7 @@ void live_frame(benchmark::State& state, const std::string& method) {
 // One of each for every method in the table.
 [[maybe_unused]] const int registered = [] {
   for (const Method& method : methods()) {
+    if (method.learned) continue;  // they clean bodies; example_bench and wiener_bench time them
     const std::string& name = method.name;
     benchmark::RegisterBenchmark(("clean/" + name).c_str(), clean_take, name)
         ->Arg(1)
