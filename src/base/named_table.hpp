@@ -21,26 +21,23 @@ std::vector<std::string> names_of(const auto& entries) {
   return names;
 }
 
-/// Errors: `ErrorKind::usage`: `unknown method "gausian"; did you mean gaussian? (there are ...)`
-/// for an `unknown` of `unknown method`.
-const auto& find_named(const auto& entries, std::string_view name, std::string_view unknown) {
+/// The entry of that name. Errors: `ErrorKind::usage`: `unknown method "gausian"; did you mean
+/// gaussian? (there are ...)` for an `unknown` of `unknown method`; `listed` says what the list is.
+const auto& find_named(const auto& entries, std::string_view name, std::string_view unknown,
+                       std::string_view listed = "there are") {
   const auto found = std::find_if(entries.begin(), entries.end(),
                                   [&](const auto& entry) { return entry.name == name; });
   if (found != entries.end()) return *found;
   const std::vector<std::string> names = names_of(entries);
-  throw Error(ErrorKind::usage, fmt::format("{} \"{}\"{} (there are {})", unknown, name,
-                                            suggestion(name, names), fmt::join(names, ", ")));
+  throw Error(ErrorKind::usage,
+              fmt::format("{} \"{}\"{} ({} {})", unknown, name, suggestion(name, names), listed,
+                          fmt::join(names, ", ")));
 }
 
 /// The option of a method. Errors: `ErrorKind::usage`, naming `taker` and what it takes.
 inline const OptionSpec& find_option(const std::vector<OptionSpec>& options, std::string_view name,
                                      std::string_view taker) {
-  const auto found = std::find_if(options.begin(), options.end(),
-                                  [&](const OptionSpec& option) { return option.name == name; });
-  if (found != options.end()) return *found;
-  const std::vector<std::string> names = names_of(options);
-  throw Error(ErrorKind::usage, fmt::format("{} has no option \"{}\"{} (it takes {})", taker, name,
-                                            suggestion(name, names), fmt::join(names, ", ")));
+  return find_named(options, name, fmt::format("{} has no option", taker), "it takes");
 }
 
 }  // namespace kinemend

@@ -17,7 +17,7 @@ struct NoiseShape {
 };
 
 /// The shape of each track's noise: directions of Tyler's scatter of the fifth differences, and
-/// along each of them the noise as `noise_levels` measures it. A track is round where its noise
+/// along each of them the noise as `noise_along` measures it. A track is round where its noise
 /// does not differ clearly between directions, is small, or cannot be measured. `missing` samples
 /// do not count.
 std::vector<NoiseShape> noise_shapes(const VectorTracks& tracks, const SampleMarks& missing,
