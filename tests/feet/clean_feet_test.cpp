@@ -10,15 +10,10 @@
 namespace kinemend {
 namespace {
 
+using test::forced;
 using test::synthetic_clip;
 using test::track_of;
 using test::with_drift;
-
-FeetSettings forced() {
-  FeetSettings settings;
-  settings.mode = FeetMode::force;
-  return settings;
-}
 
 std::size_t count_held(const FeetReport& report) {
   return static_cast<std::size_t>(std::count(report.held.begin(), report.held.end(), 1));

@@ -9,15 +9,10 @@
 namespace kinemend {
 namespace {
 
+using test::forced;
 using test::synthetic_clip;
 using test::with_drift;
 using test::with_smooth_noise;
-
-FeetSettings forced() {
-  FeetSettings settings;
-  settings.mode = FeetMode::force;
-  return settings;
-}
 
 double allowed_pop_deg(const FeetReport& report) {
   return std::max(1.1 * report.before.knee_pop_deg, report.before.knee_pop_deg + 0.5);

@@ -14,6 +14,13 @@
 
 namespace kinemend::test {
 
+/// Whatever stands is held.
+inline FeetSettings forced() {
+  FeetSettings settings;
+  settings.mode = FeetMode::force;
+  return settings;
+}
+
 inline Clip synthetic_clip(const std::string& motion, double duration_s = 6,
                            double frame_rate_hz = 120, std::uint64_t seed = 1,
                            bool t_pose_first = false) {
