@@ -96,7 +96,8 @@ class ExampleCleaning {
     const PoseMatrix guess = first_guess(work, mean);
     // Starting from what the bases express, outliers stand out at once.
     PoseMatrix cleaned = guess;
-    linear_example_filter(cleaned, bases, mean);
+    LinearExampleFilter expressible(bases, mean, cleaned.frames);
+    expressible.filter(cleaned);
     if (!options_.robust) {
       channels.poses = std::move(cleaned);
       return;
@@ -117,7 +118,7 @@ class ExampleCleaning {
           channels.observed[i] != 0 && trace.weights.values[i] < rejected_weight ? 1 : 0;
     }
     if (options_.lambda == 0) {
-      smooth_rest(work, trace.weights, bases, mean, noise, cleaned);
+      smooth_rest(work, trace.weights, expressible, noise, cleaned);
       if (options_.welsch_deg == 0) {
         fall_back_where_rejected(work, trace.weights, cleaned);
         if (suspects <= many_suspects) fall_back(work, rest, cleaned);

@@ -120,11 +120,10 @@ double suspect_share(const PriorWork& work, const PoseMatrix& expressed) {
   return count > 0 ? suspects / count : 0;
 }
 
-void smooth_rest(const PriorWork& work, const PoseMatrix& weights, const WindowBases& bases,
-                 const std::vector<double>& mean, const std::vector<double>& noise,
-                 PoseMatrix& cleaned) {
+void smooth_rest(const PriorWork& work, const PoseMatrix& weights, LinearExampleFilter& expressible,
+                 const std::vector<double>& noise, PoseMatrix& cleaned) {
   PoseMatrix expressed = cleaned;
-  linear_example_filter(expressed, bases, mean);
+  expressible.filter(expressed);
   PoseMatrix rest = cleaned;
   std::vector<std::uint8_t> missing(rest.values.size(), 0);
   std::vector<std::size_t> seen(rest.channels, 0);

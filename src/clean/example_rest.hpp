@@ -26,9 +26,8 @@ double suspect_share(const PriorWork& work, const PoseMatrix& expressed);
 /// Motion outside of the bases is smooth, too: what is measured less what the bases express is
 /// smoothed by its own evidence, without the samples that the filter rejected (`weights`, F x D),
 /// and added to what the bases express. `cleaned` is the filter's result.
-void smooth_rest(const PriorWork& work, const PoseMatrix& weights, const WindowBases& bases,
-                 const std::vector<double>& mean, const std::vector<double>& noise,
-                 PoseMatrix& cleaned);
+void smooth_rest(const PriorWork& work, const PoseMatrix& weights, LinearExampleFilter& expressible,
+                 const std::vector<double>& noise, PoseMatrix& cleaned);
 
 /// The stranger the take, the more of what `auto` made of its measurements: none of it below a
 /// strangeness of 1.5, nothing else from 5 on. Gaps stay as the bases fill them.

@@ -86,7 +86,8 @@ class SelfExample final : public Cleaner {
     prior.bases.residual = residual;
     trace = refine(work, prior, noise, poses);
     const WindowBases bases = bases_at_rate(prior.bases, prior.rate_hz, rate_hz, poses.frames);
-    smooth_rest(work, trace.weights, bases, prior.bases.mean, noise, poses);
+    LinearExampleFilter expressible(bases, prior.bases.mean, poses.frames);
+    smooth_rest(work, trace.weights, expressible, noise, poses);
     work.rejected.assign(poses.values.size(), 0);
     for (std::size_t i = 0; i < work.rejected.size(); ++i) {
       work.rejected[i] =

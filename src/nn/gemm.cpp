@@ -17,9 +17,37 @@ namespace {
 constexpr std::size_t least_parallel_products = std::size_t{1} << 21;
 constexpr std::size_t rows_per_task = 64;
 
-void clear(const MutableMatrixView& c) {
-  for (std::size_t r = 0; r < c.rows; ++r) {
-    std::fill_n(c.values + r * c.row_stride, c.columns, 0.0);
+std::size_t packed_columns(std::size_t columns) {
+  const std::size_t panel = gemm_panel_columns();
+  return (columns + panel - 1) / panel * panel;
+}
+
+// What rows [first, first + depth) of b, packed, bring to c.
+void multiply_packed(const MatrixView& a, std::size_t first, std::size_t depth,
+                     const double* packed, const MutableMatrixView& c, Product product) {
+  const auto rows = [&](std::size_t begin, std::size_t end) {
+    multiply_rows(a, first, depth, packed, c, begin, end, product);
+  };
+  if (c.rows <= rows_per_task || c.rows * c.columns * depth < least_parallel_products) {
+    rows(0, c.rows);
+  } else {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, c.rows, rows_per_task),
+                      [&](const auto& range) { rows(range.begin(), range.end()); });
+  }
+}
+
+// `panels(first, depth)`: rows of b, packed.
+template <typename Panels>
+void multiply_in_depth(const MatrixView& a, std::size_t depth, const MutableMatrixView& c,
+                       Product product, const Panels& panels) {
+  if (depth == 0 && product == Product::overwrite) {
+    for (std::size_t r = 0; r < c.rows; ++r) {
+      std::fill_n(c.values + r * c.row_stride, c.columns, 0.0);
+    }
+  }
+  for (std::size_t first = 0; first < depth; first += gemm_depth) {
+    const std::size_t part = std::min(gemm_depth, depth - first);
+    multiply_packed(a, first, part, panels(first, part), c, first == 0 ? product : Product::add);
   }
 }
 
@@ -28,24 +56,32 @@ void clear(const MutableMatrixView& c) {
 void multiply(const MatrixView& a, const MatrixView& b, const MutableMatrixView& c,
               Product product) {
   assert(a.rows == c.rows && a.columns == b.rows && b.columns == c.columns);
-  if (product == Product::overwrite) clear(c);
   if (c.rows == 0 || c.columns == 0) return;
-  const std::size_t panel = gemm_panel_columns();
-  const std::size_t packed_columns = (b.columns + panel - 1) / panel * panel;
-  std::vector<double> packed(std::min(gemm_depth, b.rows) * packed_columns);
-  for (std::size_t first = 0; first < b.rows; first += gemm_depth) {
-    const std::size_t depth = std::min(gemm_depth, b.rows - first);
+  std::vector<double> packed(std::min(gemm_depth, b.rows) * packed_columns(b.columns));
+  multiply_in_depth(a, b.rows, c, product, [&](std::size_t first, std::size_t depth) {
     pack_panels(b, first, depth, packed.data());
-    const auto rows = [&](std::size_t begin, std::size_t end) {
-      multiply_rows(a, first, depth, packed.data(), c, begin, end);
-    };
-    if (c.rows <= rows_per_task || c.rows * c.columns * depth < least_parallel_products) {
-      rows(0, c.rows);
-    } else {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, c.rows, rows_per_task),
-                        [&](const auto& range) { rows(range.begin(), range.end()); });
-    }
+    return packed.data();
+  });
+}
+
+PackedMatrix::PackedMatrix(const MatrixView& b)
+    : rows_(b.rows), columns_(b.columns), panels_(b.rows * packed_columns(b.columns)) {
+  for (std::size_t first = 0; first < rows_; first += gemm_depth) {
+    pack_panels(b, first, std::min(gemm_depth, rows_ - first),
+                &panels_[first * packed_columns(columns_)]);
   }
+}
+
+const double* PackedMatrix::panels(std::size_t first) const noexcept {
+  return panels_.data() + first * packed_columns(columns_);
+}
+
+void multiply(const MatrixView& a, const PackedMatrix& b, const MutableMatrixView& c,
+              Product product) {
+  assert(a.rows == c.rows && a.columns == b.rows() && b.columns() == c.columns);
+  if (c.rows == 0 || c.columns == 0) return;
+  multiply_in_depth(a, b.rows(), c, product,
+                    [&](std::size_t first, std::size_t) { return b.panels(first); });
 }
 
 }  // namespace kinemend::nn

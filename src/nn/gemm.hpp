@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 /// Products of dense matrices of doubles.
 namespace kinemend::nn {
@@ -31,6 +32,26 @@ enum class Product { overwrite, add };
 /// views of overlapping rows cost nothing; `b` is copied block by block. Each element is summed in
 /// the same order on every processor and with any number of threads, without fused multiply-add.
 void multiply(const MatrixView& a, const MatrixView& b, const MutableMatrixView& c,
+              Product product = Product::overwrite);
+
+/// A right factor of many products, copied once into the order in which they read it.
+class PackedMatrix {
+ public:
+  PackedMatrix() = default;
+  explicit PackedMatrix(const MatrixView& b);
+
+  std::size_t rows() const noexcept { return rows_; }
+  std::size_t columns() const noexcept { return columns_; }
+  /// From row `first` on, a multiple of the kernel's depth.
+  const double* panels(std::size_t first) const noexcept;
+
+ private:
+  std::size_t rows_ = 0, columns_ = 0;
+  std::vector<double> panels_;
+};
+
+/// The same, bit by bit, as with the matrix that was packed.
+void multiply(const MatrixView& a, const PackedMatrix& b, const MutableMatrixView& c,
               Product product = Product::overwrite);
 
 }  // namespace kinemend::nn

@@ -46,6 +46,7 @@ struct Tile {
   double* c;
   std::size_t c_stride;
   std::size_t columns;  // of c, at most vectors * lanes
+  bool adds;            // to what c holds
 };
 
 // The tile's sums stay in registers over the whole depth.
@@ -75,10 +76,12 @@ HWY_INLINE void multiply_tile(const Tile& tile) {
     for (std::size_t v = 0; v < vectors; ++v) {
       const std::size_t from = v * lanes;
       if (from + lanes <= tile.columns) {
-        hn::StoreU(hn::Add(hn::LoadU(d, c + from), sum[r][v]), d, c + from);
+        const auto old = tile.adds ? hn::LoadU(d, c + from) : hn::Zero(d);
+        hn::StoreU(hn::Add(old, sum[r][v]), d, c + from);
       } else if (from < tile.columns) {
         const auto mask = hn::FirstN(d, tile.columns - from);
-        hn::BlendedStore(hn::Add(hn::MaskedLoad(mask, d, c + from), sum[r][v]), mask, d, c + from);
+        const auto old = tile.adds ? hn::MaskedLoad(mask, d, c + from) : hn::Zero(d);
+        hn::BlendedStore(hn::Add(old, sum[r][v]), mask, d, c + from);
       }
     }
   }
@@ -98,11 +101,18 @@ HWY_INLINE void multiply_tile_of(const Tile& tile) {
 
 void rows_of_product(const MatrixView& a, std::size_t first, std::size_t depth,
                      const double* packed, const MutableMatrixView& c, std::size_t first_row,
-                     std::size_t last_row) {
+                     std::size_t last_row, Product product) {
   const std::size_t width = panel_columns();
   for (std::size_t column = 0; column < c.columns; column += width, packed += depth * width) {
-    Tile tile{nullptr, a.row_stride, a.column_stride, depth,
-              packed,  nullptr,      c.row_stride,    std::min(width, c.columns - column)};
+    Tile tile{nullptr,
+              a.row_stride,
+              a.column_stride,
+              depth,
+              packed,
+              nullptr,
+              c.row_stride,
+              std::min(width, c.columns - column),
+              product == Product::add};
     std::size_t row = first_row;
     const auto place = [&] {
       tile.a = a.values + row * a.row_stride + first * a.column_stride;
@@ -132,8 +142,9 @@ void pack_panels(const MatrixView& b, std::size_t first, std::size_t depth, doub
   HWY_DYNAMIC_DISPATCH(pack)(b, first, depth, packed);
 }
 void multiply_rows(const MatrixView& a, std::size_t first, std::size_t depth, const double* packed,
-                   const MutableMatrixView& c, std::size_t first_row, std::size_t last_row) {
-  HWY_DYNAMIC_DISPATCH(rows_of_product)(a, first, depth, packed, c, first_row, last_row);
+                   const MutableMatrixView& c, std::size_t first_row, std::size_t last_row,
+                   Product product) {
+  HWY_DYNAMIC_DISPATCH(rows_of_product)(a, first, depth, packed, c, first_row, last_row, product);
 }
 }  // namespace kinemend::nn
 #endif

@@ -17,8 +17,9 @@ std::size_t gemm_panel_columns();
 /// another, `gemm_panel_columns()` values each, zeros where b has no more columns.
 void pack_panels(const MatrixView& b, std::size_t first, std::size_t depth, double* packed);
 
-/// c[r] += a[r, first .. first + depth) * packed for rows [first_row, last_row) of c.
+/// c[r] = or += a[r, first .. first + depth) * packed for rows [first_row, last_row) of c.
 void multiply_rows(const MatrixView& a, std::size_t first, std::size_t depth, const double* packed,
-                   const MutableMatrixView& c, std::size_t first_row, std::size_t last_row);
+                   const MutableMatrixView& c, std::size_t first_row, std::size_t last_row,
+                   Product product);
 
 }  // namespace kinemend::nn

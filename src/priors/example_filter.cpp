@@ -1,30 +1,31 @@
 #include "priors/example_filter.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-
-#include "priors/pattern_penalty.hpp"
+#include <functional>
 
 namespace kinemend {
 
 namespace {
 
-// Steps on one least-squares problem. The weights change with the next one, so that it need not be
-// solved to the end.
-constexpr std::size_t most_steps = 6;
-constexpr double enough_of_residual = 0.2;
+// What is prepared for the products of all iterations is worth it for so many.
+constexpr std::size_t usual_iterations = 12, usual_linear_products = 2;
+// Less of a plane's area than this, relative to its sides, and it is a line.
+constexpr double least_area = 1e-12;
 
-double dot(const PoseMatrix& a, const PoseMatrix& b) {
-  // Four sums at once, so that additions do not wait for each other.
-  double sums[4] = {};
-  const std::size_t whole = a.values.size() / 4 * 4;
-  for (std::size_t i = 0; i < whole; i += 4) {
-    for (std::size_t k = 0; k < 4; ++k) sums[k] += a.values[i + k] * b.values[i + k];
-  }
-  double rest = 0;
-  for (std::size_t i = whole; i < a.values.size(); ++i) rest += a.values[i] * b.values[i];
-  return (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest;
+// The sum over all frames of part(first, last), in an order that does not depend on threads.
+template <typename Sum, typename Part>
+Sum sum_over_frames(std::size_t frames, const Part& part) {
+  constexpr std::size_t frames_at_once = 64;
+  const tbb::blocked_range<std::size_t> all(0, frames, frames_at_once);
+  return tbb::parallel_deterministic_reduce(
+      all, Sum{},
+      [&](const auto& range, const Sum& sum) { return sum + part(range.begin(), range.end()); },
+      std::plus<Sum>());
 }
 
 class Minimisation {
@@ -38,16 +39,17 @@ class Minimisation {
         mean_(mean),
         weights_(weights),
         settings_(settings),
-        penalty_(bases, doubled(weights.prior), doubled(weights.coefficients), measured.frames),
+        penalty_(bases, doubled(weights.prior), doubled(weights.coefficients), measured.frames,
+                 usual_iterations),
         z_(penalty_.padded_frames(), channels_),
         y_(z_),
         alpha_(z_),
         image_(z_),
-        weight_(z_),
-        diagonal_(z_),
-        residual_(z_),
-        direction_(z_),
-        direction_image_(z_) {
+        confidence_(z_),
+        gradient_(z_),
+        gradient_image_(z_),
+        step_(z_),
+        step_image_(z_) {
     for (std::size_t f = 0; f < z_.frames; ++f) {
       const std::size_t from = std::min(f, frames_ - 1);
       for (std::size_t c = 0; c < channels_; ++c) {
@@ -67,30 +69,24 @@ class Minimisation {
     ExampleTrace trace;
     scale_ = std::max(settings_.first_welsch, 1.0);
     penalty_.multiply(z_, image_);
-    find_nearest();
-    trace.objective.push_back(objective());
+    double before = evaluate();
+    trace.objective.push_back(before);
     for (std::size_t i = 0; i < settings_.iterations; ++i) {
-      reweigh();
-      if (settings_.solver == ExampleSolver::alternation) {
-        alternate();
-      } else {
-        descend();
-      }
-      find_nearest();
-      const double before = trace.objective.back(), now = objective();
+      step();
+      const double now = evaluate();
       trace.objective.push_back(now);
       if (scale_ > 1) {
         scale_ = std::max(1.0, scale_ / 2);
+        before = evaluate();
       } else if (before - now <= settings_.tolerance * now) {
         break;
+      } else {
+        before = now;
       }
     }
-    reweigh();
     trace.weights = PoseMatrix(frames_, channels_);
-    for (std::size_t f = 0; f < frames_; ++f) {
-      for (std::size_t c = 0; c < channels_; ++c) {
-        trace.weights(f, c) = weight_(f, c) / weights_.data[c];
-      }
+    for (std::size_t i = 0; i < trace.weights.values.size(); ++i) {
+      trace.weights.values[i] = alpha_.values[i] > 0 ? confidence_.values[i] : 0.0;
     }
     return trace;
   }
@@ -110,115 +106,121 @@ class Minimisation {
 
   bool limited() const { return settings_.limit_weight > 0 && settings_.project; }
 
-  void find_nearest() {
-    if (!limited()) return;
-    store(poses_);
-    settings_.project(poses_, nearest_);
+  // The objective at z, whose image is known. What it finds on the way, the next step needs: the
+  // nearest poses within the limits and eq. 15's weights, w = phi(r) / r.
+  double evaluate() {
+    if (limited()) {
+      store(poses_);
+      settings_.project(poses_, nearest_);
+    }
+    return sum_over_frames<double>(
+        z_.frames, [&](std::size_t first, std::size_t last) { return evaluate(first, last); });
   }
 
-  double objective() const {
-    double data = 0;
-    for (std::size_t f = 0; f < frames_; ++f) {
+  double evaluate(std::size_t first, std::size_t last) {
+    double data = 0, patterns = 0, limits = 0;
+    for (std::size_t f = first; f < last; ++f) {
       for (std::size_t c = 0; c < channels_; ++c) {
+        patterns += z_(f, c) * (penalty_.diagonal()(f, c) * z_(f, c) - image_(f, c));
         if (alpha_(f, c) == 0) continue;
         const double r = z_(f, c) - y_(f, c), p = scale_ * weights_.welsch[c];
-        data +=
-            alpha_(f, c) * (std::isinf(p) ? r * r / 2 : -p * p / 2 * std::expm1(-r * r / (p * p)));
+        const double lost = std::expm1(-r * r / (p * p));
+        data += alpha_(f, c) * (std::isinf(p) ? r * r / 2 : -p * p / 2 * lost);
+        confidence_(f, c) = 1 + lost;
       }
-    }
-    double patterns = -dot(z_, image_);
-    const PoseMatrix& penalty_diagonal = penalty_.diagonal();
-    for (std::size_t i = 0; i < z_.values.size(); ++i) {
-      patterns += penalty_diagonal.values[i] * z_.values[i] * z_.values[i];
-    }
-    double limits = 0;
-    if (limited()) {
-      for (std::size_t i = 0; i < poses_.values.size(); ++i) {
-        const double beyond = poses_.values[i] - nearest_.values[i];
+      if (!limited() || f >= frames_) continue;
+      for (std::size_t c = 0; c < channels_; ++c) {
+        const double beyond = poses_(f, c) - nearest_(f, c);
         limits += beyond * beyond;
       }
     }
     return data + patterns / 2 + settings_.limit_weight * limits;
   }
 
-  // Eq. 15: w = phi(r) / r.
-  void reweigh() {
-    for (std::size_t f = 0; f < frames_; ++f) {
+  // Of the quadratic that majorises the objective at z, less the patterns' part: its diagonal and
+  // where it falls most.
+  struct Slope {
+    double diagonal, residual;
+  };
+  Slope slope(std::size_t f, std::size_t c) const {
+    const double w = alpha_(f, c) * confidence_(f, c), patterns = penalty_.diagonal()(f, c);
+    Slope slope{w + patterns, w * (y_(f, c) - z_(f, c)) - patterns * z_(f, c) + image_(f, c)};
+    if (limited() && f < frames_) {
+      const double limit = 2 * settings_.limit_weight;
+      slope.diagonal += limit;
+      slope.residual += limit * (nearest_(f, c) - poses_(f, c));
+    }
+    return slope;
+  }
+
+  void step() {
+    for_frames([&](std::size_t f, std::size_t c) {
+      const Slope s = slope(f, c);
+      gradient_(f, c) = s.diagonal > 0 ? s.residual / s.diagonal : 0.0;
+    });
+    if (settings_.solver == ExampleSolver::alternation) {
+      // Eq. 13 and 15: with the coefficients held, each sample has its own minimum.
+      for_frames([&](std::size_t f, std::size_t c) { z_(f, c) += gradient_(f, c); });
+      penalty_.multiply(z_, image_);
+    } else {
+      descend();
+    }
+  }
+
+  // To the least of the majorising quadratic on the plane of its preconditioned gradient and the
+  // last step: conjugate gradients, were the weights to stay.
+  void descend() {
+    penalty_.multiply(gradient_, gradient_image_);
+    const auto plane = sum_over_frames<Plane>(
+        z_.frames, [&](std::size_t first, std::size_t last) { return plane_of(first, last); });
+    if (!(plane.gg > 0)) return;
+    double along_gradient = plane.gr / plane.gg, along_step = 0;
+    const double area = plane.gg * plane.ss - plane.gs * plane.gs;
+    if (area > least_area * plane.gg * plane.ss) {
+      along_gradient = (plane.ss * plane.gr - plane.gs * plane.sr) / area;
+      along_step = (plane.gg * plane.sr - plane.gs * plane.gr) / area;
+    }
+    for_frames([&](std::size_t f, std::size_t c) {
+      step_(f, c) = along_gradient * gradient_(f, c) + along_step * step_(f, c);
+      step_image_(f, c) = along_gradient * gradient_image_(f, c) + along_step * step_image_(f, c);
+      z_(f, c) += step_(f, c);
+      image_(f, c) += step_image_(f, c);
+    });
+  }
+
+  // Of gradient g and last step s: the products g^T H g, g^T H s and s^T H s with the quadratic's
+  // matrix, and those with its steepest descent.
+  struct Plane {
+    double gg = 0, gs = 0, ss = 0, gr = 0, sr = 0;
+    Plane operator+(const Plane& o) const {
+      return {gg + o.gg, gs + o.gs, ss + o.ss, gr + o.gr, sr + o.sr};
+    }
+  };
+  Plane plane_of(std::size_t first, std::size_t last) const {
+    Plane sum;
+    for (std::size_t f = first; f < last; ++f) {
       for (std::size_t c = 0; c < channels_; ++c) {
-        if (alpha_(f, c) == 0) continue;
-        const double r = (z_(f, c) - y_(f, c)) / (scale_ * weights_.welsch[c]);
-        weight_(f, c) = alpha_(f, c) * std::exp(-r * r);
+        const Slope at = slope(f, c);
+        const double g = gradient_(f, c), s = step_(f, c);
+        const double bent_g = at.diagonal * g - gradient_image_(f, c);
+        sum.gg += g * bent_g;
+        sum.gs += s * bent_g;
+        sum.ss += s * (at.diagonal * s - step_image_(f, c));
+        sum.gr += g * at.residual;
+        sum.sr += s * at.residual;
       }
-    }
-  }
-
-  double limit_curvature() const { return limited() ? 2 * settings_.limit_weight : 0.0; }
-
-  // diagonal_: of the quadratic that majorises the objective, less the patterns' part.
-  // residual_: its steepest descent.
-  void linearise() {
-    const double limit = limit_curvature();
-    const PoseMatrix& penalty_diagonal = penalty_.diagonal();
-    for (std::size_t i = 0; i < z_.values.size(); ++i) {
-      const double w = weight_.values[i];
-      diagonal_.values[i] = w + penalty_diagonal.values[i];
-      residual_.values[i] = w * (y_.values[i] - z_.values[i]) -
-                            penalty_diagonal.values[i] * z_.values[i] + image_.values[i];
-    }
-    if (!limited()) return;
-    for (std::size_t i = 0; i < poses_.values.size(); ++i) {
-      diagonal_.values[i] += limit;
-      residual_.values[i] += limit * (nearest_.values[i] - poses_.values[i]);
-    }
-  }
-
-  double preconditioned(std::size_t i) const {
-    return diagonal_.values[i] > 0 ? residual_.values[i] / diagonal_.values[i] : 0.0;
-  }
-  double preconditioned_size() const {
-    double sum = 0;
-    for (std::size_t i = 0; i < residual_.values.size(); ++i) {
-      sum += residual_.values[i] * preconditioned(i);
     }
     return sum;
   }
 
-  // Eq. 13 and 15: with the coefficients held, each sample has its own minimum.
-  void alternate() {
-    linearise();
-    for (std::size_t i = 0; i < z_.values.size(); ++i) z_.values[i] += preconditioned(i);
-    penalty_.multiply(z_, image_);
-  }
-
-  // Conjugate gradients on (W + D - A) z = W y, preconditioned by the diagonal: what one step
-  // gains is at least what the alternation does.
-  void descend() {
-    linearise();
-    double size = preconditioned_size();
-    const double enough = enough_of_residual * enough_of_residual * size;
-    for (std::size_t i = 0; i < z_.values.size(); ++i) direction_.values[i] = preconditioned(i);
-    for (std::size_t step = 0; step < most_steps && size > enough; ++step) {
-      penalty_.multiply(direction_, direction_image_);
-      double curvature = -dot(direction_, direction_image_);
-      for (std::size_t i = 0; i < z_.values.size(); ++i) {
-        curvature += diagonal_.values[i] * direction_.values[i] * direction_.values[i];
+  // Each sample by itself.
+  template <typename Action>
+  void for_frames(const Action& action) const {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, z_.frames, 64), [&](const auto& range) {
+      for (std::size_t f = range.begin(); f < range.end(); ++f) {
+        for (std::size_t c = 0; c < channels_; ++c) action(f, c);
       }
-      if (!(curvature > 0)) break;
-      const double length = size / curvature;
-      for (std::size_t i = 0; i < z_.values.size(); ++i) {
-        const double move = length * direction_.values[i];
-        const double image_move = length * direction_image_.values[i];
-        z_.values[i] += move;
-        image_.values[i] += image_move;
-        residual_.values[i] += image_move - diagonal_.values[i] * move;
-      }
-      const double next = preconditioned_size();
-      const double carry = next / size;
-      size = next;
-      for (std::size_t i = 0; i < z_.values.size(); ++i) {
-        direction_.values[i] = preconditioned(i) + carry * direction_.values[i];
-      }
-    }
+    });
   }
 
   std::size_t frames_, channels_;
@@ -226,29 +228,36 @@ class Minimisation {
   const ExampleWeights& weights_;
   const ExampleSettings& settings_;
   PatternPenalty penalty_;
-  double scale_ = 1;  // of p
-  PoseMatrix z_, y_;  // less the mean; frames behind the clip belong to nothing
-  PoseMatrix alpha_;  // b_l where observed
-  PoseMatrix image_;  // A z
-  PoseMatrix weight_, diagonal_, residual_, direction_, direction_image_;
+  double scale_ = 1;       // of p
+  PoseMatrix z_, y_;       // less the mean; frames behind the clip belong to nothing
+  PoseMatrix alpha_;       // b_l where observed
+  PoseMatrix image_;       // A z
+  PoseMatrix confidence_;  // exp(-r^2 / p^2)
+  PoseMatrix gradient_, gradient_image_, step_, step_image_;
   PoseMatrix poses_, nearest_;  // of the limits
 };
 
 }  // namespace
 
-void linear_example_filter(PoseMatrix& poses, const WindowBases& bases,
-                           std::span<const double> mean) {
+LinearExampleFilter::LinearExampleFilter(const WindowBases& bases, std::span<const double> mean,
+                                         std::size_t frames)
+    : mean_(mean.begin(), mean.end()) {
+  if (frames > 0)
+    patterns_.emplace(bases, std::vector<double>(mean.size(), 1.0), std::span<const double>(),
+                      frames, usual_linear_products);
+}
+
+void LinearExampleFilter::filter(PoseMatrix& poses) {
   if (poses.frames == 0) return;
-  PatternPenalty patterns(bases, std::vector<double>(poses.channels, 1.0), {}, poses.frames);
-  PoseMatrix z(patterns.padded_frames(), poses.channels), image = z;
+  PoseMatrix z(patterns_->padded_frames(), poses.channels), image = z;
   for (std::size_t f = 0; f < z.frames; ++f) {
     const std::size_t from = std::min(f, poses.frames - 1);
-    for (std::size_t c = 0; c < z.channels; ++c) z(f, c) = poses(from, c) - mean[c];
+    for (std::size_t c = 0; c < z.channels; ++c) z(f, c) = poses(from, c) - mean_[c];
   }
-  patterns.multiply(z, image);
+  patterns_->multiply(z, image);
   for (std::size_t f = 0; f < poses.frames; ++f) {
     for (std::size_t c = 0; c < poses.channels; ++c) {
-      poses(f, c) = mean[c] + image(f, c) / patterns.diagonal()(f, c);
+      poses(f, c) = mean_[c] + image(f, c) / patterns_->diagonal()(f, c);
     }
   }
 }

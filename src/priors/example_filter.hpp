@@ -3,11 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "kinemend/pose_matrix.hpp"
-#include "priors/mssa.hpp"
+#include "priors/pattern_penalty.hpp"
 #include "priors/window_bases.hpp"
 
 // Motion that stays close to what was measured and follows learned patterns (Lou & Chai 2010,
@@ -16,8 +17,18 @@ namespace kinemend {
 
 /// The linear filter of eq. 7 on all sliding windows: each frame becomes the mean of what the
 /// windows over it make of it.
-void linear_example_filter(PoseMatrix& poses, const WindowBases& bases,
-                           std::span<const double> mean);
+class LinearExampleFilter {
+ public:
+  /// `mean`: of each channel (L). `frames`: of the sequences, at least `bases.frames`, or 0.
+  LinearExampleFilter(const WindowBases& bases, std::span<const double> mean, std::size_t frames);
+
+  /// `poses`: frames x L.
+  void filter(PoseMatrix& poses);
+
+ private:
+  std::vector<double> mean_;
+  std::optional<PatternPenalty> patterns_;
+};
 
 /// How the objective is brought down. Both only ever lower it.
 enum class ExampleSolver : std::uint8_t {

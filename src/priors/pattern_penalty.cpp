@@ -1,5 +1,7 @@
 #include "priors/pattern_penalty.hpp"
 
+#include <tbb/parallel_invoke.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 
@@ -42,7 +44,8 @@ std::vector<double> penalty_factor(const WindowBases& bases, std::span<const dou
 }  // namespace
 
 PatternPenalty::PatternPenalty(const WindowBases& bases, std::span<const double> weights,
-                               std::span<const double> ridge, std::size_t frames)
+                               std::span<const double> ridge, std::size_t frames,
+                               std::size_t products, Product product)
     : hop_(bases.hop),
       channels_(bases.channels),
       count_(bases.count),
@@ -50,35 +53,71 @@ PatternPenalty::PatternPenalty(const WindowBases& bases, std::span<const double>
       overlap_((bases.frames + bases.hop - 1) / bases.hop),
       windows_((frames - bases.frames + bases.hop - 1) / bases.hop + 1),
       groups_(windows_ - 1 + overlap_),
-      analysis_(penalty_factor(bases, weights, ridge)),
-      synthesis_(overlap_ * count_ * hop_ * channels_),
-      coefficients_((windows_ + 2 * (overlap_ - 1)) * count_),
       diagonal_(groups_ * hop_, channels_) {
+  std::vector<double> factor = penalty_factor(bases, weights, ridge);
+  analysis_ = nn::PackedMatrix({factor.data(), row_values_, count_, count_});
   // A hop's frames are sums over the windows that reach over it, the latest window last.
   const std::size_t hop_values = hop_ * channels_;
+  std::vector<double> synthesis(overlap_ * count_ * hop_values);
   for (std::size_t b = 0; b < overlap_; ++b) {
     const std::size_t first = (overlap_ - 1 - b) * hop_values;
     for (std::size_t i = 0; i < hop_values && first + i < row_values_; ++i) {
       for (std::size_t k = 0; k < count_; ++k) {
-        synthesis_[(b * count_ + k) * hop_values + i] = analysis_[(first + i) * count_ + k];
+        synthesis[(b * count_ + k) * hop_values + i] = factor[(first + i) * count_ + k];
       }
     }
   }
+  synthesis_ = nn::PackedMatrix({synthesis.data(), overlap_ * count_, hop_values, hop_values});
   for (std::size_t s = 0; s < windows_; ++s) {
     for (std::size_t f = s * hop_; f < s * hop_ + bases.frames; ++f) {
       for (std::size_t c = 0; c < channels_; ++c) diagonal_(f, c) += weights[c];
     }
   }
+  if (product == Product::windows ||
+      (product == Product::quicker && !frequencies_are_quicker(products)))
+    return;
+  factor.resize(overlap_ * hop_values * count_);
+  convolution_.emplace(factor, overlap_, hop_values, count_);
+  ends_.resize(2 * (overlap_ - 1) * hop_values);
+  ends_image_ = ends_;
+}
+
+bool PatternPenalty::frequencies_are_quicker(std::size_t products) const {
+  const auto of_window = 2 * static_cast<double>(row_values_ * count_);
+  const double saved = static_cast<double>(windows_ - (overlap_ - 1)) * of_window -
+                       PatternConvolution::work(groups_, overlap_, hop_ * channels_);
+  return saved * static_cast<double>(products) >
+         PatternConvolution::preparation(overlap_, hop_ * channels_, count_);
+}
+
+void PatternPenalty::multiply_windows(const double* z, std::size_t windows, double* image) {
+  const std::size_t hop_values = hop_ * channels_, groups = windows - 1 + overlap_;
+  coefficients_.assign((windows + 2 * (overlap_ - 1)) * count_, 0.0);
+  nn::multiply({z, windows, row_values_, hop_values}, analysis_,
+               {&coefficients_[(overlap_ - 1) * count_], windows, count_, count_});
+  nn::multiply({coefficients_.data(), groups, overlap_ * count_, count_}, synthesis_,
+               {image, groups, hop_values, hop_values});
 }
 
 void PatternPenalty::multiply(const PoseMatrix& z, PoseMatrix& image) {
-  const std::size_t hop_values = hop_ * channels_;
-  nn::multiply({z.values.data(), windows_, row_values_, hop_values},
-               {analysis_.data(), row_values_, count_, count_},
-               {&coefficients_[(overlap_ - 1) * count_], windows_, count_, count_});
-  nn::multiply({coefficients_.data(), groups_, overlap_ * count_, count_},
-               {synthesis_.data(), overlap_ * count_, hop_values, hop_values},
-               {image.values.data(), groups_, hop_values, hop_values});
+  if (!convolution_) {
+    multiply_windows(z.values.data(), windows_, image.values.data());
+    return;
+  }
+  const std::size_t over = overlap_ - 1, values = over * hop_ * channels_;
+  const std::size_t last = z.values.size() - values;
+  tbb::parallel_invoke(
+      [&] { convolution_->multiply(z.values.data(), groups_, image.values.data()); },
+      [&] {
+        if (over == 0) return;
+        std::copy_n(&z.values[last], values, ends_.begin());
+        std::copy_n(z.values.begin(), values, &ends_[values]);
+        multiply_windows(ends_.data(), over, ends_image_.data());
+      });
+  for (std::size_t i = 0; i < values; ++i) {
+    image.values[last + i] -= ends_image_[i];
+    image.values[i] -= ends_image_[values + i];
+  }
 }
 
 }  // namespace kinemend

@@ -1,10 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "kinemend/pose_matrix.hpp"
+#include "nn/gemm.hpp"
+#include "priors/pattern_convolution.hpp"
 #include "priors/window_bases.hpp"
 
 namespace kinemend {
@@ -16,13 +20,21 @@ namespace kinemend {
 ///   sum_s min_c sum (d_l (z_s - E c)_l)^2 + sum_k v_k c_k^2 = z^T (D - A) z
 ///
 /// with D diagonal and A = sum_s P_s^T G G^T P_s, where P_s takes window s out of the sequence.
-/// Both products with G are products of matrices that read overlapping windows where they lie.
 class PatternPenalty {
  public:
+  /// How A is applied. Both give the same but for rounding.
+  enum class Product : std::uint8_t {
+    quicker,     ///< of the two
+    windows,     ///< G^T, then G, of all windows: matrices that read overlapping windows in place
+    frequencies  ///< PatternConvolution, less the windows that reach over the end
+  };
+
   /// `weights`: d_l^2 of each channel, >= 0. `ridge`: v_k of each base, >= 0; empty: none.
-  /// `frames`: of the sequence, at least `bases.frames`.
+  /// `frames`: of the sequence, at least `bases.frames`. `products`: with A, about as many as will
+  /// be asked for; what is quicker depends on them.
   PatternPenalty(const WindowBases& bases, std::span<const double> weights,
-                 std::span<const double> ridge, std::size_t frames);
+                 std::span<const double> ridge, std::size_t frames, std::size_t products = 1,
+                 Product product = Product::quicker);
 
   /// Frames of the sequences that it works on: `frames` and as many more as make whole hops. The
   /// windows cover all frames of the clip; what is behind belongs to nothing.
@@ -34,13 +46,19 @@ class PatternPenalty {
   void multiply(const PoseMatrix& z, PoseMatrix& image);
 
  private:
+  bool frequencies_are_quicker(std::size_t products) const;
+  // Adds nothing to what is there: image = sum over so many windows from the first row of z on.
+  void multiply_windows(const double* z, std::size_t windows, double* image);
+
   std::size_t hop_, channels_, count_;
   std::size_t row_values_;  // M' L
   std::size_t overlap_;     // hops that a window reaches over
   std::size_t windows_, groups_;
-  std::vector<double> analysis_;      // G: M' L x K
-  std::vector<double> synthesis_;     // overlap K x hop L
-  std::vector<double> coefficients_;  // of all windows, with overlap - 1 rows of zeros at each end
+  nn::PackedMatrix analysis_;         // G: M' L x K
+  nn::PackedMatrix synthesis_;        // overlap K x hop L
+  std::vector<double> coefficients_;  // of the windows, with overlap - 1 rows of zeros at each end
+  std::optional<PatternConvolution> convolution_;
+  std::vector<double> ends_, ends_image_;  // the last and the first overlap - 1 hops
   PoseMatrix diagonal_;
 };
 

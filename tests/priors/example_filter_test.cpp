@@ -181,7 +181,7 @@ TEST(LinearExampleFilter, AveragesTheProjectionsOfAllWindows) {
     count.segment(s * 3, 18).array() += 1;
   }
   PoseMatrix found = noisy;
-  linear_example_filter(found, windows, bases.mean);
+  LinearExampleFilter(windows, bases.mean, found.frames).filter(found);
   for (std::size_t i = 0; i < 75; ++i) {
     EXPECT_NEAR(found.values[i], bases.mean[i % 3] + sum[i] / count[i], 1e-9);
   }

@@ -1,0 +1,183 @@
+#include "priors/pattern_convolution.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace kinemend {
+
+namespace {
+
+// Longer blocks repeat fewer rows and have more frequencies.
+std::size_t rows_of_block(std::size_t window_rows) { return (3 * window_rows) | 1; }
+
+// Frequencies whose matrices are made at once.
+constexpr std::size_t frequencies_at_once = 4;
+// Blocks of about so many columns are transformed at once.
+constexpr std::size_t columns_at_once = 300;
+
+}  // namespace
+
+PatternConvolution::PatternConvolution(const std::vector<double>& patterns, std::size_t window_rows,
+                                       std::size_t row_values, std::size_t count)
+    : row_values_(row_values),
+      reach_(window_rows - 1),
+      block_rows_(rows_of_block(window_rows)),
+      frequencies_((block_rows_ + 1) / 2),
+      fresh_rows_(block_rows_ - 2 * reach_),
+      matrices_(frequencies_) {
+  const double step = 2 * std::numbers::pi / static_cast<double>(block_rows_);
+  const auto angle = [&](std::size_t f, std::size_t t) {
+    return step * static_cast<double>(f * t % block_rows_);
+  };
+  for (std::size_t f = 0; f < frequencies_; ++f) {
+    for (std::size_t t = 0; t < frequencies_; ++t) {
+      cosines_.push_back(std::cos(angle(f, t)));
+      sines_.push_back(-std::sin(angle(f, t)));
+    }
+  }
+  for (std::size_t t = 0; t <= fresh_rows_ / 2; ++t) {
+    for (std::size_t f = 0; f < frequencies_; ++f) {
+      const double share = (f == 0 ? 1.0 : 2.0) / static_cast<double>(block_rows_);
+      cosines_back_.push_back(share * std::cos(angle(f, t)));
+      sines_back_.push_back(-share * std::sin(angle(f, t)));
+    }
+  }
+
+  const std::size_t v = row_values_, row_patterns = v * count;
+  std::vector<double> transposed(patterns.size());  // W x K x V
+  for (std::size_t row = 0; row < window_rows * v; ++row) {
+    for (std::size_t k = 0; k < count; ++k) {
+      transposed[row / v * row_patterns + k * v + row % v] = patterns[row * count + k];
+    }
+  }
+  const tbb::blocked_range<std::size_t> all(0, frequencies_, frequencies_at_once);
+  tbb::parallel_for(all, [&](const auto& range) {
+    // Transforms of G's rows, P + iQ, transposed: for each frequency P^T and Q^T.
+    std::vector<double> waves(2 * range.size() * window_rows);
+    for (std::size_t f = range.begin(); f < range.end(); ++f) {
+      double* wave = &waves[2 * (f - range.begin()) * window_rows];
+      for (std::size_t u = 0; u < window_rows; ++u) {
+        wave[u] = std::cos(angle(f, u));
+        wave[window_rows + u] = -std::sin(angle(f, u));
+      }
+    }
+    std::vector<double> parts(2 * range.size() * row_patterns), mixed(v * v), matrix(2 * v * v);
+    nn::multiply({waves.data(), 2 * range.size(), window_rows, window_rows},
+                 {transposed.data(), window_rows, row_patterns, row_patterns},
+                 {parts.data(), 2 * range.size(), row_patterns, row_patterns});
+    for (std::size_t f = range.begin(); f < range.end(); ++f) {
+      // (P + iQ)(P + iQ)^H = P P^T + Q Q^T + i (Q P^T - (Q P^T)^T)
+      const double* pq = &parts[2 * (f - range.begin()) * row_patterns];
+      const nn::MatrixView both{pq, 2 * count, v, v}, p{pq, count, v, v},
+          q{pq + row_patterns, count, v, v};
+      nn::multiply(both.transposed(), both, {matrix.data(), v, v, 2 * v});
+      nn::multiply(q.transposed(), p, {mixed.data(), v, v, v});
+      for (std::size_t r = 0; r < v; ++r) {
+        for (std::size_t c = 0; c < v; ++c)
+          matrix[r * 2 * v + v + c] = mixed[r * v + c] - mixed[c * v + r];
+      }
+      matrices_[f] = nn::PackedMatrix({matrix.data(), v, 2 * v, 2 * v});
+    }
+  });
+}
+
+void PatternConvolution::multiply(const double* z, std::size_t rows, double* image) {
+  blocks_ = (rows + fresh_rows_ - 1) / fresh_rows_;
+  spectrum_.resize(frequencies_ * 2 * blocks_ * row_values_);
+  const tbb::blocked_range<std::size_t> some_blocks(
+      0, blocks_, std::max<std::size_t>(1, columns_at_once / row_values_));
+  tbb::parallel_for(some_blocks,
+                    [&](const auto& range) { transform(z, rows, range.begin(), range.end()); });
+  tbb::parallel_for(std::size_t{0}, frequencies_, [&](std::size_t f) { filter(f); });
+  tbb::parallel_for(some_blocks, [&](const auto& range) {
+    transform_back(image, rows, range.begin(), range.end());
+  });
+}
+
+void PatternConvolution::transform(const double* z, std::size_t rows, std::size_t first,
+                                   std::size_t last) {
+  const std::size_t v = row_values_, columns = (last - first) * v;
+  std::vector<double> even(frequencies_ * columns), odd(frequencies_ * columns);
+  for (std::size_t b = first; b < last; ++b) {
+    const std::size_t middle = b * fresh_rows_ + fresh_rows_ / 2;
+    for (std::size_t t = 0; t < frequencies_; ++t) {
+      const double* after = &z[(middle + t) % rows * v];
+      const double* before = &z[(middle + t * (rows - 1)) % rows * v];
+      double* sum = &even[t * columns + (b - first) * v];
+      double* difference = &odd[t * columns + (b - first) * v];
+      for (std::size_t c = 0; c < v; ++c) {
+        sum[c] = t == 0 ? after[c] : after[c] + before[c];
+        difference[c] = after[c] - before[c];
+      }
+    }
+  }
+  const std::size_t stride = 2 * blocks_ * v;
+  double* real = &spectrum_[first * v];
+  nn::multiply({cosines_.data(), frequencies_, frequencies_, frequencies_},
+               {even.data(), frequencies_, columns, columns},
+               {real, frequencies_, columns, stride});
+  nn::multiply({sines_.data(), frequencies_, frequencies_, frequencies_},
+               {odd.data(), frequencies_, columns, columns},
+               {real + blocks_ * v, frequencies_, columns, stride});
+}
+
+// Of x + iy in rows: (Re + i Im)(x + iy), where Re is symmetric and Im is not but for its sign.
+void PatternConvolution::filter(std::size_t frequency) {
+  const std::size_t v = row_values_, rows = 2 * blocks_;
+  std::vector<double> parts(rows * 2 * v);
+  double* x = &spectrum_[frequency * rows * v];
+  double* y = x + blocks_ * v;
+  nn::multiply({x, rows, v, v}, matrices_[frequency], {parts.data(), rows, 2 * v, 2 * v});
+  for (std::size_t b = 0; b < blocks_; ++b) {
+    const double* of_x = &parts[b * 2 * v];
+    const double* of_y = &parts[(blocks_ + b) * 2 * v];
+    for (std::size_t c = 0; c < v; ++c) {
+      x[b * v + c] = of_x[c] + of_y[v + c];
+      y[b * v + c] = of_y[c] - of_x[v + c];
+    }
+  }
+}
+
+void PatternConvolution::transform_back(double* image, std::size_t rows, std::size_t first,
+                                        std::size_t last) {
+  const std::size_t v = row_values_, columns = (last - first) * v;
+  const std::size_t times = fresh_rows_ / 2 + 1, stride = 2 * blocks_ * v;
+  std::vector<double> even(times * columns), odd(times * columns);
+  const double* real = &spectrum_[first * v];
+  nn::multiply({cosines_back_.data(), times, frequencies_, frequencies_},
+               {real, frequencies_, columns, stride}, {even.data(), times, columns, columns});
+  nn::multiply({sines_back_.data(), times, frequencies_, frequencies_},
+               {real + blocks_ * v, frequencies_, columns, stride},
+               {odd.data(), times, columns, columns});
+  for (std::size_t b = first; b < last; ++b) {
+    const std::size_t middle = b * fresh_rows_ + fresh_rows_ / 2;
+    for (std::size_t t = 0; t < times; ++t) {
+      const double* sum = &even[t * columns + (b - first) * v];
+      const double* difference = &odd[t * columns + (b - first) * v];
+      double* after = &image[(middle + t) * v];
+      double* before = &image[(middle - t) * v];
+      for (std::size_t c = 0; c < v && middle + t < rows; ++c) after[c] = sum[c] + difference[c];
+      for (std::size_t c = 0; c < v && middle - t < rows; ++c) before[c] = sum[c] - difference[c];
+    }
+  }
+}
+
+double PatternConvolution::work(std::size_t rows, std::size_t window_rows, std::size_t row_values) {
+  const std::size_t block = rows_of_block(window_rows), fresh = block - 2 * (window_rows - 1);
+  const auto blocks = static_cast<double>((rows + fresh - 1) / fresh);
+  const auto v = static_cast<double>(row_values), length = static_cast<double>(block);
+  return blocks * v * length * (2 * v + (length + static_cast<double>(fresh)) / 2);
+}
+
+double PatternConvolution::preparation(std::size_t window_rows, std::size_t row_values,
+                                       std::size_t count) {
+  const std::size_t frequencies = (rows_of_block(window_rows) + 1) / 2;
+  const std::size_t of_one = row_values * count * (4 * row_values + 2 * window_rows);
+  return static_cast<double>(frequencies * of_one);
+}
+
+}  // namespace kinemend

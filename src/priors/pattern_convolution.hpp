@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "nn/gemm.hpp"
+
+namespace kinemend {
+
+/// The product with A = sum_s P_s^T G G^T P_s of a sequence that repeats itself, so that windows
+/// which reach over its end go on at its start. A row of the sequence, a hop, is a vector of V
+/// values and a window W rows. A is then a convolution in time with V x V matrices, which is one
+/// product of V x V complex matrices at each frequency: less work than two with all of G where G
+/// has many columns, and work that does not depend on their number.
+///
+/// Blocks of rows overlap by what the convolution reaches (overlap-save), so that work grows with
+/// length only. Fourier transforms of so few rows are products of matrices, too, one of what is
+/// even about the middle of the block and one of what is odd.
+class PatternConvolution {
+ public:
+  /// `patterns`: G, W V x K, row-major.
+  PatternConvolution(const std::vector<double>& patterns, std::size_t window_rows,
+                     std::size_t row_values, std::size_t count);
+
+  /// image = A z; both `rows` x V, row-major.
+  void multiply(const double* z, std::size_t rows, double* image);
+
+  /// Products of two doubles that `multiply` needs for so many rows, and the constructor.
+  static double work(std::size_t rows, std::size_t window_rows, std::size_t row_values);
+  static double preparation(std::size_t window_rows, std::size_t row_values, std::size_t count);
+
+ private:
+  void transform(const double* z, std::size_t rows, std::size_t first, std::size_t last);
+  void filter(std::size_t frequency);
+  void transform_back(double* image, std::size_t rows, std::size_t first, std::size_t last);
+
+  std::size_t row_values_;   // V
+  std::size_t reach_;        // W - 1: rows to each side that a row of the image depends on
+  std::size_t block_rows_;   // odd, so that a block has a middle and only frequency 0 is real
+  std::size_t frequencies_;  // (block_rows + 1) / 2
+  std::size_t fresh_rows_;   // of the image that a block gives, odd
+  std::size_t blocks_ = 0;
+  // Cosines and -sines at the frequencies and at times 0, 1, ... from the middle of a block.
+  std::vector<double> cosines_, sines_;
+  std::vector<double> cosines_back_, sines_back_;  // times x frequencies
+  std::vector<nn::PackedMatrix> matrices_;         // of each frequency [Re Im], V x 2 V
+  std::vector<double> spectrum_;                   // frequencies x (real, imaginary) x blocks x V
+};
+
+}  // namespace kinemend
