@@ -15,7 +15,7 @@ namespace {
 
 // Below so many products, threads cost more than they bring.
 constexpr std::size_t least_parallel_products = std::size_t{1} << 21;
-constexpr std::size_t rows_per_task = 64;
+constexpr std::size_t rows_per_task = 32;
 
 std::size_t packed_columns(std::size_t columns) {
   const std::size_t panel = gemm_panel_columns();
@@ -31,8 +31,11 @@ void multiply_packed(const MatrixView& a, std::size_t first, std::size_t depth,
   if (c.rows <= rows_per_task || c.rows * c.columns * depth < least_parallel_products) {
     rows(0, c.rows);
   } else {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, c.rows, rows_per_task),
-                      [&](const auto& range) { rows(range.begin(), range.end()); });
+    // Whole blocks, so that only the last task meets a remainder of rows.
+    const std::size_t blocks = (c.rows + rows_per_task - 1) / rows_per_task;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks), [&](const auto& range) {
+      rows(range.begin() * rows_per_task, std::min(range.end() * rows_per_task, c.rows));
+    });
   }
 }
 

@@ -122,7 +122,15 @@ void rows_of_product(const MatrixView& a, std::size_t first, std::size_t depth,
       place();
       multiply_tile_of<tile_rows>(tile);
     }
-    for (; row < last_row; ++row) {
+    for (; row + 4 <= last_row; row += 4) {
+      place();
+      multiply_tile_of<4>(tile);
+    }
+    for (; row + 2 <= last_row; row += 2) {
+      place();
+      multiply_tile_of<2>(tile);
+    }
+    if (row < last_row) {
       place();
       multiply_tile_of<1>(tile);
     }
