@@ -1,6 +1,7 @@
 #include "priors/pattern_convolution.hpp"
 
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -48,41 +49,47 @@ PatternConvolution::PatternConvolution(const std::vector<double>& patterns, std:
   }
 
   const std::size_t v = row_values_, row_patterns = v * count;
-  std::vector<double> transposed(patterns.size());  // W x K x V
-  for (std::size_t row = 0; row < window_rows * v; ++row) {
+  std::vector<double> transposed(window_rows * row_patterns);  // W x K x V
+  for (std::size_t row = 0; row < patterns.size() / count; ++row) {
     for (std::size_t k = 0; k < count; ++k) {
       transposed[row / v * row_patterns + k * v + row % v] = patterns[row * count + k];
     }
   }
   const tbb::blocked_range<std::size_t> all(0, frequencies_, frequencies_at_once);
-  tbb::parallel_for(all, [&](const auto& range) {
-    // Transforms of G's rows, P + iQ, transposed: for each frequency P^T and Q^T.
-    std::vector<double> waves(2 * range.size() * window_rows);
-    for (std::size_t f = range.begin(); f < range.end(); ++f) {
-      double* wave = &waves[2 * (f - range.begin()) * window_rows];
-      for (std::size_t u = 0; u < window_rows; ++u) {
-        wave[u] = std::cos(angle(f, u));
-        wave[window_rows + u] = -std::sin(angle(f, u));
-      }
-    }
-    std::vector<double> parts(2 * range.size() * row_patterns), mixed(v * v), matrix(2 * v * v);
-    nn::multiply({waves.data(), 2 * range.size(), window_rows, window_rows},
-                 {transposed.data(), window_rows, row_patterns, row_patterns},
-                 {parts.data(), 2 * range.size(), row_patterns, row_patterns});
-    for (std::size_t f = range.begin(); f < range.end(); ++f) {
-      // (P + iQ)(P + iQ)^H = P P^T + Q Q^T + i (Q P^T - (Q P^T)^T)
-      const double* pq = &parts[2 * (f - range.begin()) * row_patterns];
-      const nn::MatrixView both{pq, 2 * count, v, v}, p{pq, count, v, v},
-          q{pq + row_patterns, count, v, v};
-      nn::multiply(both.transposed(), both, {matrix.data(), v, v, 2 * v});
-      nn::multiply(q.transposed(), p, {mixed.data(), v, v, v});
-      for (std::size_t r = 0; r < v; ++r) {
-        for (std::size_t c = 0; c < v; ++c)
-          matrix[r * 2 * v + v + c] = mixed[r * v + c] - mixed[c * v + r];
-      }
-      matrices_[f] = nn::PackedMatrix({matrix.data(), v, 2 * v, 2 * v});
-    }
-  });
+  // Memory that was never touched costs more than the products.
+  tbb::enumerable_thread_specific<std::vector<double>> scratch;
+  tbb::parallel_for(
+      all,
+      [&](const auto& range) {
+        // Transforms of G's rows, P + iQ, transposed: for each frequency P^T and Q^T.
+        std::vector<double> waves(2 * range.size() * window_rows), mixed(v * v), matrix(2 * v * v);
+        std::vector<double>& parts = scratch.local();
+        parts.resize(2 * frequencies_at_once * row_patterns);
+        for (std::size_t f = range.begin(); f < range.end(); ++f) {
+          double* wave = &waves[2 * (f - range.begin()) * window_rows];
+          for (std::size_t u = 0; u < window_rows; ++u) {
+            wave[u] = std::cos(angle(f, u));
+            wave[window_rows + u] = -std::sin(angle(f, u));
+          }
+        }
+        nn::multiply({waves.data(), 2 * range.size(), window_rows, window_rows},
+                     {transposed.data(), window_rows, row_patterns, row_patterns},
+                     {parts.data(), 2 * range.size(), row_patterns, row_patterns});
+        for (std::size_t f = range.begin(); f < range.end(); ++f) {
+          // (P + iQ)(P + iQ)^H = P P^T + Q Q^T + i (Q P^T - (Q P^T)^T)
+          const double* pq = &parts[2 * (f - range.begin()) * row_patterns];
+          const nn::MatrixView both{pq, 2 * count, v, v}, p{pq, count, v, v},
+              q{pq + row_patterns, count, v, v};
+          nn::multiply(both.transposed(), both, {matrix.data(), v, v, 2 * v});
+          nn::multiply(q.transposed(), p, {mixed.data(), v, v, v});
+          for (std::size_t r = 0; r < v; ++r) {
+            for (std::size_t c = 0; c < v; ++c)
+              matrix[r * 2 * v + v + c] = mixed[r * v + c] - mixed[c * v + r];
+          }
+          matrices_[f] = nn::PackedMatrix({matrix.data(), v, 2 * v, 2 * v});
+        }
+      },
+      tbb::simple_partitioner());
 }
 
 void PatternConvolution::multiply(const double* z, std::size_t rows, double* image) {

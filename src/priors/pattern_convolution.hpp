@@ -18,7 +18,7 @@ namespace kinemend {
 /// even about the middle of the block and one of what is odd.
 class PatternConvolution {
  public:
-  /// `patterns`: G, W V x K, row-major.
+  /// `patterns`: G, row-major, K columns; W V rows, of which the last may be missing: zeros.
   PatternConvolution(const std::vector<double>& patterns, std::size_t window_rows,
                      std::size_t row_values, std::size_t count);
 

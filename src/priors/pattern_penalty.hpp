@@ -47,18 +47,23 @@ class PatternPenalty {
 
  private:
   bool frequencies_are_quicker(std::size_t products) const;
-  // Adds nothing to what is there: image = sum over so many windows from the first row of z on.
-  void multiply_windows(const double* z, std::size_t windows, double* image);
+  void prepare_windows();
+  void multiply_windows(const PoseMatrix& z, PoseMatrix& image);
+  void multiply_ends(const PoseMatrix& z);
+  void take_off_ends(PoseMatrix& image) const;
 
   std::size_t hop_, channels_, count_;
   std::size_t row_values_;  // M' L
   std::size_t overlap_;     // hops that a window reaches over
   std::size_t windows_, groups_;
-  nn::PackedMatrix analysis_;         // G: M' L x K
-  nn::PackedMatrix synthesis_;        // overlap K x hop L
-  std::vector<double> coefficients_;  // of the windows, with overlap - 1 rows of zeros at each end
+  std::vector<double> factor_;        // G: M' L x K
+  std::vector<double> coefficients_;  // of all windows, with overlap - 1 rows of zeros at each
+                                      // end; or of those over the end, K x (overlap - 1)
+  // By windows: G and, for each hop, overlap K x hop L.
+  nn::PackedMatrix analysis_, synthesis_;
+  // By frequencies.
   std::optional<PatternConvolution> convolution_;
-  std::vector<double> ends_, ends_image_;  // the last and the first overlap - 1 hops
+  std::vector<double> ends_, windows_over_end_;
   PoseMatrix diagonal_;
 };
 
