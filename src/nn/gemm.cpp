@@ -16,6 +16,9 @@ namespace {
 // Below so many products, threads cost more than they bring.
 constexpr std::size_t least_parallel_products = std::size_t{1} << 21;
 constexpr std::size_t rows_per_task = 32;
+// Of a symmetric product so many columns at once are made from the diagonal down: two panels of the
+// widest vectors.
+constexpr std::size_t symmetric_columns = 48;
 
 std::size_t packed_columns(std::size_t columns) {
   const std::size_t panel = gemm_panel_columns();
@@ -65,6 +68,21 @@ void multiply(const MatrixView& a, const MatrixView& b, const MutableMatrixView&
     pack_panels(b, first, depth, packed.data());
     return packed.data();
   });
+}
+
+void multiply_symmetric(const MatrixView& a, const MatrixView& b, const MutableMatrixView& c,
+                        Product product) {
+  assert(c.rows == c.columns);
+  const std::size_t n = c.rows;
+  for (std::size_t first = 0; first < n; first += symmetric_columns) {
+    const std::size_t width = std::min(symmetric_columns, n - first);
+    multiply(a.block(first, 0, n - first, a.columns), b.block(0, first, b.rows, width),
+             c.block(first, first, n - first, width), product);
+  }
+  for (std::size_t row = 0; row < n; ++row) {
+    for (std::size_t column = 0; column < row; ++column)
+      c.values[column * c.row_stride + row] = c.values[row * c.row_stride + column];
+  }
 }
 
 PackedMatrix::PackedMatrix(const MatrixView& b)

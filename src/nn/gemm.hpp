@@ -15,6 +15,12 @@ struct MatrixView {
   std::size_t row_stride = 0;
   std::size_t column_stride = 1;
 
+  /// The part from a row or column on, as large as it is said to be.
+  MatrixView block(std::size_t row, std::size_t column, std::size_t row_count,
+                   std::size_t column_count) const {
+    return {values + row * row_stride + column * column_stride, row_count, column_count, row_stride,
+            column_stride};
+  }
   MatrixView transposed() const { return {values, columns, rows, column_stride, row_stride}; }
 };
 
@@ -24,6 +30,11 @@ struct MutableMatrixView {
   std::size_t rows = 0;
   std::size_t columns = 0;
   std::size_t row_stride = 0;
+
+  MutableMatrixView block(std::size_t row, std::size_t column, std::size_t row_count,
+                          std::size_t column_count) const {
+    return {values + row * row_stride + column, row_count, column_count, row_stride};
+  }
 };
 
 enum class Product { overwrite, add };
@@ -33,6 +44,11 @@ enum class Product { overwrite, add };
 /// the same order on every processor and with any number of threads, without fused multiply-add.
 void multiply(const MatrixView& a, const MatrixView& b, const MutableMatrixView& c,
               Product product = Product::overwrite);
+
+/// The same where a b is symmetric, with about half of the work: what is above the diagonal of c
+/// becomes what is below it.
+void multiply_symmetric(const MatrixView& a, const MatrixView& b, const MutableMatrixView& c,
+                        Product product = Product::overwrite);
 
 /// A right factor of many products, copied once into the order in which they read it.
 class PackedMatrix {

@@ -80,7 +80,7 @@ PatternConvolution::PatternConvolution(const std::vector<double>& patterns, std:
           const double* pq = &parts[2 * (f - range.begin()) * row_patterns];
           const nn::MatrixView both{pq, 2 * count, v, v}, p{pq, count, v, v},
               q{pq + row_patterns, count, v, v};
-          nn::multiply(both.transposed(), both, {matrix.data(), v, v, 2 * v});
+          nn::multiply_symmetric(both.transposed(), both, {matrix.data(), v, v, 2 * v});
           nn::multiply(q.transposed(), p, {mixed.data(), v, v, v});
           for (std::size_t r = 0; r < v; ++r) {
             for (std::size_t c = 0; c < v; ++c)

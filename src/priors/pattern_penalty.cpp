@@ -15,6 +15,8 @@ using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 
 // As many rows of E are weighted at once.
 constexpr std::size_t gram_rows = 192;
+// As many columns of the inverse of a triangle are multiplied with at once.
+constexpr std::size_t triangle_columns = 48;
 
 // E^T D^2 E + V
 RowMatrix penalty_gram(const WindowBases& bases, std::span<const double> weights,
@@ -51,8 +53,15 @@ std::vector<double> penalty_factor(const WindowBases& bases, std::span<const dou
   const Eigen::LLT<Eigen::MatrixXd> cholesky(penalty_gram(bases, weights, ridge));
   const RowMatrix inverse = cholesky.matrixU().solve(Eigen::MatrixXd::Identity(size, size));
   std::vector<double> factor(rows * count);
-  nn::multiply({bases.values.data(), rows, count, count}, {inverse.data(), count, count, count},
-               {factor.data(), rows, count, count});
+  const nn::MatrixView left{bases.values.data(), rows, count, count};
+  const nn::MatrixView right{inverse.data(), count, count, count};
+  const nn::MutableMatrixView product{factor.data(), rows, count, count};
+  // The inverse of an upper triangle is one.
+  for (std::size_t first = 0; first < count; first += triangle_columns) {
+    const std::size_t width = std::min(triangle_columns, count - first), depth = first + width;
+    nn::multiply(left.block(0, 0, rows, depth), right.block(0, first, depth, width),
+                 product.block(0, first, rows, width));
+  }
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t k = 0; k < count; ++k)
       factor[row * count + k] *= weights[row % bases.channels];

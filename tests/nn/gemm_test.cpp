@@ -65,6 +65,44 @@ TEST(Gemm, ReadsTransposedMatricesInPlace) {
   expect_product(a_view, b_view, c_view);
 }
 
+TEST(Gemm, MakesHalfOfASymmetricProduct) {
+  for (const std::size_t size : {1UL, 7UL, 48UL, 49UL, 130UL}) {
+    const std::size_t depth = 201;
+    const auto a = random_values(depth * size, 8);
+    std::vector<double> b = a, c(size * size, 0.5);
+    for (double& value : b) value *= 3;
+    const MatrixView left = MatrixView{a.data(), depth, size, size}.transposed();
+    const MatrixView right{b.data(), depth, size, size};
+    const MutableMatrixView product{c.data(), size, size, size};
+    multiply_symmetric(left, right, product, Product::add);
+    for (double& value : c) value -= 0.5;
+    for (std::size_t r = 0; r < size; ++r) {
+      for (std::size_t k = 0; k < size; ++k) EXPECT_EQ(c[r * size + k], c[k * size + r]);
+    }
+    multiply_symmetric(left, right, product);
+    expect_product(left, right, product);
+  }
+}
+
+TEST(Gemm, MultipliesWithAPackedMatrixToTheSameBits) {
+  for (const std::size_t depth : {1UL, 191UL, 192UL, 400UL}) {
+    for (const std::size_t columns : {1UL, 24UL, 31UL}) {
+      const auto a = random_values(11 * depth, 1), b = random_values(depth * columns, 2);
+      std::vector<double> expected(11 * columns, 7), found(11 * columns, 7);
+      const MatrixView left{a.data(), 11, depth, depth};
+      const MatrixView right{b.data(), depth, columns, columns};
+      const PackedMatrix packed(right);
+      EXPECT_EQ(packed.rows(), depth);
+      EXPECT_EQ(packed.columns(), columns);
+      for (const Product product : {Product::overwrite, Product::add}) {
+        multiply(left, right, {expected.data(), 11, columns, columns}, product);
+        multiply(left, packed, {found.data(), 11, columns, columns}, product);
+        EXPECT_EQ(found, expected);
+      }
+    }
+  }
+}
+
 TEST(Gemm, TakesASequenceForItsTrajectoryMatrix) {
   const std::size_t channels = 5, frames = 40, window = 12;
   const auto sequence = random_values(frames * channels, 5);
