@@ -31,6 +31,8 @@ constexpr double rest_memory_frames = 3;
 // Where spikes are about, p is narrower against what the bases leave.
 constexpr double many_suspects = 0.005;
 constexpr double rejected_weight = 0.01;
+// What is missing settles last, and weighs little in the objective.
+constexpr double tolerance_of_gaps = 0.3;
 
 const OptionTable<ExampleOptions>& table() {
   static const auto options =
@@ -47,8 +49,9 @@ const OptionTable<ExampleOptions>& table() {
           .integer(&ExampleOptions::bases, "bases", "", 0, 1e5,
                    "filter bases; 0: all that the model has")
           .integer(&ExampleOptions::iterations, "iterations", "", 1, 10000, "at most")
-          .number(&ExampleOptions::tolerance, "tolerance", "", 0, 1,
-                  "stops where the objective falls by less than this share")
+          .number(
+              &ExampleOptions::tolerance, "tolerance", "", 0, 1,
+              "stops where the objective falls by less than this share; a third of it with gaps")
           .number(&ExampleOptions::limits, "limits", "", 0, 1000,
                   "weight of the joint limits; 0: none")
           .flag(&ExampleOptions::fill, "fill_gaps", "fills gaps of what the model knows");
@@ -108,6 +111,8 @@ class ExampleCleaning {
     ExampleSettings settings;
     settings.iterations = static_cast<std::size_t>(options_.iterations);
     settings.tolerance = options_.tolerance;
+    if (std::find(channels.observed.begin(), channels.observed.end(), 0) != channels.observed.end())
+      settings.tolerance *= tolerance_of_gaps;
     const ExampleWeights weights = weights_for(noise, rest, suspects, bases);
     hold_to_limits(work, limits, weights, bases, settings);
     const ExampleTrace trace =

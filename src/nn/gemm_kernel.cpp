@@ -23,16 +23,24 @@ constexpr std::size_t tile_rows = 8;
 constexpr std::size_t tile_rows = 4;
 #endif
 
+constexpr std::size_t pack_rows = 8;
+
 std::size_t panel_columns() { return panel_vectors * hn::Lanes(Tag()); }
 
 void pack(const MatrixView& b, std::size_t first, std::size_t depth, double* packed) {
   const std::size_t width = panel_columns();
   for (std::size_t begin = 0; begin < b.columns; begin += width) {
     const std::size_t count = std::min(width, b.columns - begin);
-    for (std::size_t k = 0; k < depth; ++k, packed += width) {
-      const double* row = b.values + (first + k) * b.row_stride + begin * b.column_stride;
-      for (std::size_t c = 0; c < count; ++c) packed[c] = row[c * b.column_stride];
-      std::fill(packed + count, packed + width, 0.0);
+    const double* from = b.values + first * b.row_stride + begin * b.column_stride;
+    for (std::size_t k = 0; k < depth; k += pack_rows) {
+      // Of some rows column by column: where columns lie contiguous, cache lines are used whole.
+      const std::size_t rows = std::min(pack_rows, depth - k);
+      for (std::size_t c = 0; c < count; ++c) {
+        const double* column = from + k * b.row_stride + c * b.column_stride;
+        for (std::size_t r = 0; r < rows; ++r) packed[r * width + c] = column[r * b.row_stride];
+      }
+      for (std::size_t r = 0; r < rows; ++r, packed += width)
+        std::fill(packed + count, packed + width, 0.0);
     }
   }
 }

@@ -49,19 +49,21 @@ PatternConvolution::PatternConvolution(const std::vector<double>& patterns, std:
   }
 
   const std::size_t v = row_values_, row_patterns = v * count;
-  std::vector<double> transposed(window_rows * row_patterns);  // W x K x V
-  for (std::size_t row = 0; row < patterns.size() / count; ++row) {
-    for (std::size_t k = 0; k < count; ++k) {
-      transposed[row / v * row_patterns + k * v + row % v] = patterns[row * count + k];
-    }
+  std::vector<double> padded;
+  const double* rows = patterns.data();
+  if (patterns.size() < window_rows * row_patterns) {
+    padded = patterns;
+    padded.resize(window_rows * row_patterns);
+    rows = padded.data();
   }
+  const nn::PackedMatrix packed({rows, window_rows, row_patterns, row_patterns});
   const tbb::blocked_range<std::size_t> all(0, frequencies_, frequencies_at_once);
   // Memory that was never touched costs more than the products.
   tbb::enumerable_thread_specific<std::vector<double>> scratch;
   tbb::parallel_for(
       all,
       [&](const auto& range) {
-        // Transforms of G's rows, P + iQ, transposed: for each frequency P^T and Q^T.
+        // Transforms P + iQ of G's rows: for each frequency P and Q, V x K.
         std::vector<double> waves(2 * range.size() * window_rows), mixed(v * v), matrix(2 * v * v);
         std::vector<double>& parts = scratch.local();
         parts.resize(2 * frequencies_at_once * row_patterns);
@@ -72,16 +74,16 @@ PatternConvolution::PatternConvolution(const std::vector<double>& patterns, std:
             wave[window_rows + u] = -std::sin(angle(f, u));
           }
         }
-        nn::multiply({waves.data(), 2 * range.size(), window_rows, window_rows},
-                     {transposed.data(), window_rows, row_patterns, row_patterns},
+        nn::multiply({waves.data(), 2 * range.size(), window_rows, window_rows}, packed,
                      {parts.data(), 2 * range.size(), row_patterns, row_patterns});
         for (std::size_t f = range.begin(); f < range.end(); ++f) {
           // (P + iQ)(P + iQ)^H = P P^T + Q Q^T + i (Q P^T - (Q P^T)^T)
-          const double* pq = &parts[2 * (f - range.begin()) * row_patterns];
-          const nn::MatrixView both{pq, 2 * count, v, v}, p{pq, count, v, v},
-              q{pq + row_patterns, count, v, v};
-          nn::multiply_symmetric(both.transposed(), both, {matrix.data(), v, v, 2 * v});
-          nn::multiply(q.transposed(), p, {mixed.data(), v, v, v});
+          const double* first = &parts[2 * (f - range.begin()) * row_patterns];
+          const nn::MatrixView p{first, v, count, count}, q{first + row_patterns, v, count, count};
+          const nn::MutableMatrixView real{matrix.data(), v, v, 2 * v};
+          nn::multiply_symmetric(p, p.transposed(), real);
+          nn::multiply_symmetric(q, q.transposed(), real, nn::Product::add);
+          nn::multiply(q, p.transposed(), {mixed.data(), v, v, v});
           for (std::size_t r = 0; r < v; ++r) {
             for (std::size_t c = 0; c < v; ++c)
               matrix[r * 2 * v + v + c] = mixed[r * v + c] - mixed[c * v + r];

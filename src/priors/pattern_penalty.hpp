@@ -40,6 +40,7 @@ class PatternPenalty {
   /// windows cover all frames of the clip; what is behind belongs to nothing.
   std::size_t padded_frames() const noexcept { return groups_ * hop_; }
   std::size_t windows() const noexcept { return windows_; }
+  bool goes_by_frequencies() const noexcept { return convolution_.has_value(); }
   /// D: padded_frames x L.
   const PoseMatrix& diagonal() const noexcept { return diagonal_; }
   /// image = A z; both padded_frames x L.

@@ -3,12 +3,15 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "nn/gemm.hpp"
 
 namespace kinemend {
 
 namespace {
+
+constexpr double same_rate = 1e-9;  // relative
 
 // Second derivatives of the spline through M equally spaced values, as a matrix. The third
 // derivative is continuous next to the ends ("not a knot"), so that cubics come back as they are.
@@ -63,16 +66,21 @@ WindowBases bases_at_rate(const FilterBases& bases, double model_rate_hz, double
   result.hop = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(ratio)));
   result.channels = bases.channels;
   result.count = count == 0 ? bases.count : std::min(count, bases.count);
+  const std::size_t patterns = bases.channels * result.count;
+  std::vector<double> kept;
+  kept.reserve(bases.window_frames * patterns);
+  for (std::size_t row = 0; row < bases.window_frames * bases.channels; ++row) {
+    const auto from = bases.bases.begin() + static_cast<std::ptrdiff_t>(row * bases.count);
+    kept.insert(kept.end(), from, from + static_cast<std::ptrdiff_t>(result.count));
+  }
+  result.orthonormal = std::abs(ratio - 1) < same_rate && result.frames == bases.window_frames;
+  if (result.orthonormal) {
+    result.values = std::move(kept);
+    return result;
+  }
   const double spare = static_cast<double>(whole - result.frames) / 2;
   const std::vector<double> weights =
       spline_weights(bases.window_frames, spare / ratio, 1 / ratio, result.frames);
-
-  const std::size_t patterns = bases.channels * result.count;
-  std::vector<double> kept(bases.window_frames * patterns);
-  for (std::size_t row = 0; row < bases.window_frames * bases.channels; ++row) {
-    const auto from = bases.bases.begin() + static_cast<std::ptrdiff_t>(row * bases.count);
-    std::copy_n(from, result.count, kept.begin() + static_cast<std::ptrdiff_t>(row * result.count));
-  }
   result.values.resize(result.frames * patterns);
   nn::multiply({weights.data(), result.frames, bases.window_frames, bases.window_frames},
                {kept.data(), bases.window_frames, patterns, patterns},

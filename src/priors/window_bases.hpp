@@ -13,7 +13,10 @@ struct WindowBases {
   std::size_t hop = 1;       ///< frames from one sliding window to the next: one frame of the model
   std::size_t channels = 0;  ///< L
   std::size_t count = 0;     ///< K
-  std::vector<double> values;  ///< M' L x K, row-major; orthonormal at the model's own rate only
+  std::vector<double> values;  ///< M' L x K, row-major
+  /// The columns of `values` are, as far as the model's file stores them: whole windows at the
+  /// model's own rate.
+  bool orthonormal = false;
 };
 
 /// The bases at the rate of a clip of `clip_frames` frames (1 or more), by a cubic spline through

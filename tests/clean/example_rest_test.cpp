@@ -128,7 +128,8 @@ TEST(SmoothRest, KeepsSmoothMotionThatTheBasesDoNotKnow) {
   // A rejected sample does not count.
   work.channels.poses(50, 1) += 1000;
   weights(50, 1) = 0;
-  smooth_rest(work, weights, bases, mean, noise, cleaned);
+  LinearExampleFilter expressible(bases, mean, frames);
+  smooth_rest(work, weights, expressible, noise, cleaned);
   EXPECT_LT(mean_square(cleaned, work.fallback), 0.3);
   EXPECT_NEAR(cleaned(50, 1), work.fallback(50, 1), 2);
 }
@@ -149,7 +150,8 @@ TEST(SmoothRest, LeavesLongGapsAsTheFilterFilledThem) {
     work.channels.observed[f * channels + 1] = 0;
     cleaned(f, 1) = 0;
   }
-  smooth_rest(work, weights, bases, mean, noise, cleaned);
+  LinearExampleFilter expressible(bases, mean, frames);
+  smooth_rest(work, weights, expressible, noise, cleaned);
   for (std::size_t f = 130; f < 150; ++f) EXPECT_NEAR(cleaned(f, 1), 0, 1.5) << f;
 }
 

@@ -11,6 +11,7 @@
 
 #include "kinemend/random.hpp"
 #include "priors/pattern_penalty.hpp"
+#include "priors/window_support.hpp"
 
 namespace kinemend {
 namespace {
@@ -66,67 +67,6 @@ double rms(const PoseMatrix& a, const PoseMatrix& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.values.size(); ++i) sum += std::pow(a.values[i] - b.values[i], 2);
   return std::sqrt(sum / static_cast<double>(a.values.size()));
-}
-
-Eigen::MatrixXd matrix_of(const WindowBases& bases) {
-  return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-      bases.values.data(), bases.frames * bases.channels, bases.count);
-}
-
-WindowBases random_bases(std::size_t frames, std::size_t hop, std::size_t channels,
-                         std::size_t count, std::uint64_t seed) {
-  Random random(seed);
-  WindowBases bases{frames, hop, channels, count, {}};
-  bases.values.resize(frames * channels * count);
-  for (double& value : bases.values) value = random.normal();
-  return bases;
-}
-
-// sum_s min_c, by least squares for each window.
-double brute_penalty(const WindowBases& bases, const std::vector<double>& weights,
-                     const std::vector<double>& ridge, const PoseMatrix& z, std::size_t windows) {
-  const Eigen::MatrixXd E = matrix_of(bases);
-  const auto rows = E.rows(), count = E.cols();
-  double total = 0;
-  for (std::size_t s = 0; s < windows; ++s) {
-    Eigen::MatrixXd system = Eigen::MatrixXd::Zero(rows + count, count);
-    Eigen::VectorXd target = Eigen::VectorXd::Zero(rows + count);
-    for (Eigen::Index r = 0; r < rows; ++r) {
-      const double d = std::sqrt(weights[r % bases.channels]);
-      system.row(r) = d * E.row(r);
-      target[r] = d * z.values[s * bases.hop * bases.channels + r];
-    }
-    for (Eigen::Index k = 0; k < count; ++k) system(rows + k, k) = std::sqrt(ridge[k]);
-    const Eigen::VectorXd c = system.colPivHouseholderQr().solve(target);
-    total += (target - system * c).squaredNorm();
-  }
-  return total;
-}
-
-TEST(PatternPenalty, IsWhatTheBestCoefficientsOfAllWindowsLeave) {
-  for (const std::size_t hop : {1, 2, 3}) {
-    const WindowBases bases = random_bases(8, hop, 3, 5, 1);
-    const std::vector<double> weights = {1.0, 0.3, 4.0}, ridge = {0.0, 1.0, 0.1, 3.0, 0.5};
-    const std::size_t frames = 8 + 5 * hop;
-    PatternPenalty penalty(bases, weights, ridge, frames);
-    EXPECT_EQ(penalty.windows(), 6u);
-    PoseMatrix z = with_noise(PoseMatrix(penalty.padded_frames(), 3), 1, 2), image = z;
-    penalty.multiply(z, image);
-    double found = 0;
-    for (std::size_t i = 0; i < z.values.size(); ++i) {
-      found += z.values[i] * (penalty.diagonal().values[i] * z.values[i] - image.values[i]);
-    }
-    EXPECT_NEAR(found, brute_penalty(bases, weights, ridge, z, 6), 1e-7 * found) << "hop " << hop;
-  }
-}
-
-TEST(PatternPenalty, CoversClipsThatAreNoWholeNumberOfHops) {
-  const WindowBases bases = random_bases(7, 3, 2, 3, 1);
-  for (std::size_t frames = 7; frames < 20; ++frames) {
-    const PatternPenalty penalty(bases, std::vector<double>{1, 1}, {}, frames);
-    ASSERT_GE(penalty.padded_frames(), frames);
-    for (std::size_t f = 0; f < frames; ++f) EXPECT_GT(penalty.diagonal()(f, 0), 0) << f;
-  }
 }
 
 TEST(WindowBases, AreTheModelsOwnAtItsRate) {

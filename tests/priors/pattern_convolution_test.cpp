@@ -1,0 +1,75 @@
+#include "priors/pattern_convolution.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "kinemend/random.hpp"
+
+namespace kinemend {
+namespace {
+
+std::vector<double> random_values(std::size_t count, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<double> values(count);
+  for (double& value : values) value = random.normal();
+  return values;
+}
+
+// Window by window, of a sequence that repeats itself.
+std::vector<double> brute_product(const std::vector<double>& patterns, std::size_t window,
+                                  std::size_t values, std::size_t count,
+                                  const std::vector<double>& z) {
+  const std::size_t rows = z.size() / values;
+  std::vector<double> image(z.size());
+  for (std::size_t s = 0; s < rows; ++s) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto place = [&](std::size_t i) {
+        return (s + i / values) % rows * values + i % values;
+      };
+      double coefficient = 0;
+      for (std::size_t i = 0; i < window * values; ++i)
+        coefficient += patterns[i * count + k] * z[place(i)];
+      for (std::size_t i = 0; i < window * values; ++i)
+        image[place(i)] += patterns[i * count + k] * coefficient;
+    }
+  }
+  return image;
+}
+
+TEST(PatternConvolution, IsTheSumOverAllWindowsOfARepeatingSequence) {
+  for (const std::size_t window : {1UL, 2UL, 7UL, 12UL}) {
+    for (const std::size_t values : {1UL, 3UL, 17UL}) {
+      for (const std::size_t count : {1UL, 5UL}) {
+        const std::vector<double> patterns = random_values(window * values * count, window);
+        PatternConvolution convolution(patterns, window, values, count);
+        // One object serves sequences of any length, longer ones and shorter ones than before.
+        for (const std::size_t rows : {window, window + 1, 200UL, 41UL}) {
+          const std::vector<double> z = random_values(rows * values, rows);
+          const std::vector<double> expected = brute_product(patterns, window, values, count, z);
+          std::vector<double> found(z.size());
+          convolution.multiply(z.data(), rows, found.data());
+          for (std::size_t i = 0; i < found.size(); ++i)
+            ASSERT_NEAR(found[i], expected[i], 1e-10) << window << ", " << values << ", " << rows;
+        }
+      }
+    }
+  }
+}
+
+TEST(PatternConvolution, TakesRowsThatPatternsLackForZeros) {
+  std::vector<double> patterns = random_values(4 * 3 * 2, 1);
+  std::fill(patterns.end() - 4, patterns.end(), 0.0);
+  PatternConvolution whole(patterns, 4, 3, 2);
+  patterns.resize(patterns.size() - 4);
+  PatternConvolution cut(patterns, 4, 3, 2);
+  const std::vector<double> z = random_values(30 * 3, 2);
+  std::vector<double> expected(z.size()), found(z.size());
+  whole.multiply(z.data(), 30, expected.data());
+  cut.multiply(z.data(), 30, found.data());
+  EXPECT_EQ(found, expected);
+}
+
+}  // namespace
+}  // namespace kinemend

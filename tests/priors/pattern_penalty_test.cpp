@@ -1,0 +1,134 @@
+#include "priors/pattern_penalty.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "kinemend/random.hpp"
+#include "priors/window_support.hpp"
+
+namespace kinemend {
+namespace {
+
+using Product = PatternPenalty::Product;
+
+PoseMatrix random_poses(std::size_t frames, std::size_t channels, std::uint64_t seed) {
+  Random random(seed);
+  PoseMatrix poses(frames, channels);
+  for (double& value : poses.values) value = random.normal();
+  return poses;
+}
+
+// sum_s min_c, by least squares for each window.
+double brute_penalty(const WindowBases& bases, const std::vector<double>& weights,
+                     const std::vector<double>& ridge, const PoseMatrix& z, std::size_t windows) {
+  const Eigen::MatrixXd E = matrix_of(bases);
+  const auto rows = E.rows(), count = E.cols();
+  double total = 0;
+  for (std::size_t s = 0; s < windows; ++s) {
+    Eigen::MatrixXd system = Eigen::MatrixXd::Zero(rows + count, count);
+    Eigen::VectorXd target = Eigen::VectorXd::Zero(rows + count);
+    for (Eigen::Index r = 0; r < rows; ++r) {
+      const double d = std::sqrt(weights[r % bases.channels]);
+      system.row(r) = d * E.row(r);
+      target[r] = d * z.values[s * bases.hop * bases.channels + r];
+    }
+    for (Eigen::Index k = 0; k < count; ++k) system(rows + k, k) = std::sqrt(ridge[k]);
+    const Eigen::VectorXd c = system.colPivHouseholderQr().solve(target);
+    total += (target - system * c).squaredNorm();
+  }
+  return total;
+}
+
+TEST(PatternPenalty, IsWhatTheBestCoefficientsOfAllWindowsLeave) {
+  for (const Product product : {Product::windows, Product::frequencies}) {
+    for (const std::size_t hop : {1, 2, 3}) {
+      const WindowBases bases = random_bases(8, hop, 3, 5, 1);
+      const std::vector<double> weights = {1.0, 0.3, 4.0}, ridge = {0.0, 1.0, 0.1, 3.0, 0.5};
+      const std::size_t frames = 8 + 5 * hop;
+      PatternPenalty penalty(bases, weights, ridge, frames, 1, product);
+      EXPECT_EQ(penalty.windows(), 6u);
+      const PoseMatrix z = random_poses(penalty.padded_frames(), 3, 2);
+      PoseMatrix image = z;
+      penalty.multiply(z, image);
+      double found = 0;
+      for (std::size_t i = 0; i < z.values.size(); ++i) {
+        found += z.values[i] * (penalty.diagonal().values[i] * z.values[i] - image.values[i]);
+      }
+      EXPECT_NEAR(found, brute_penalty(bases, weights, ridge, z, 6), 1e-7 * found) << "hop " << hop;
+    }
+  }
+}
+
+TEST(PatternPenalty, IsTheSameByWindowsAndByFrequencies) {
+  for (const std::size_t window : {1UL, 2UL, 5UL, 20UL}) {
+    for (const std::size_t hop : {1UL, 3UL}) {
+      for (const std::size_t channels : {4UL, 26UL}) {
+        for (const std::size_t more : {0UL, 1UL, 7UL, 50UL, 300UL}) {
+          const std::size_t frames = window + more;
+          const WindowBases bases = random_bases(window, hop, channels, 4, window + hop);
+          const std::vector<double> weights(channels, 1.5);
+          PatternPenalty windows(bases, weights, {}, frames, 1, Product::windows);
+          PatternPenalty frequencies(bases, weights, {}, frames, 1, Product::frequencies);
+          const PoseMatrix z = random_poses(windows.padded_frames(), channels, 3);
+          PoseMatrix expected = z, found = z;
+          windows.multiply(z, expected);
+          frequencies.multiply(z, found);
+          double size = 0;
+          for (const double value : expected.values) size = std::max(size, std::abs(value));
+          for (std::size_t i = 0; i < found.values.size(); ++i) {
+            ASSERT_NEAR(found.values[i], expected.values[i], 1e-13 * size)
+                << window << " frames, hop " << hop << ", " << frames << " in all";
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(PatternPenalty, GoesByFrequenciesWhereThereAreManyBasesAndManyProducts) {
+  const std::vector<double> weights(12, 1.0);
+  const auto by_frequencies = [&](std::size_t bases, std::size_t frames, std::size_t products) {
+    return PatternPenalty(random_bases(20, 1, 12, bases, 1), weights, {}, frames, products)
+        .goes_by_frequencies();
+  };
+  EXPECT_TRUE(by_frequencies(60, 300, 15));
+  EXPECT_FALSE(by_frequencies(60, 50, 1));
+  EXPECT_FALSE(by_frequencies(60, 20, 15));
+  EXPECT_FALSE(by_frequencies(2, 300, 15));
+}
+
+TEST(PatternPenalty, TakesOrthonormalBasesAsTheyAre) {
+  WindowBases bases = random_bases(6, 1, 3, 4, 7);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(matrix_of(bases));
+  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(18, 4);
+  for (std::size_t i = 0; i < bases.values.size(); ++i) bases.values[i] = q(i / 4, i % 4);
+  const std::vector<double> ones(3, 1.0), others(3, 2.0);
+  for (const std::vector<double>& weights : {ones, others}) {
+    bases.orthonormal = false;
+    PatternPenalty any(bases, weights, {}, 20);
+    bases.orthonormal = true;
+    PatternPenalty known(bases, weights, {}, 20);
+    const PoseMatrix z = random_poses(20, 3, 8);
+    PoseMatrix expected = z, found = z;
+    any.multiply(z, expected);
+    known.multiply(z, found);
+    for (std::size_t i = 0; i < found.values.size(); ++i)
+      EXPECT_NEAR(found.values[i], expected.values[i], 1e-9);
+  }
+}
+
+TEST(PatternPenalty, CoversClipsThatAreNoWholeNumberOfHops) {
+  const WindowBases bases = random_bases(7, 3, 2, 3, 1);
+  for (std::size_t frames = 7; frames < 20; ++frames) {
+    const PatternPenalty penalty(bases, std::vector<double>{1, 1}, {}, frames);
+    ASSERT_GE(penalty.padded_frames(), frames);
+    for (std::size_t f = 0; f < frames; ++f) EXPECT_GT(penalty.diagonal()(f, 0), 0) << f;
+  }
+}
+
+}  // namespace
+}  // namespace kinemend
