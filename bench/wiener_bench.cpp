@@ -6,34 +6,18 @@
 #include <vector>
 
 #include "kinemend/cleaner.hpp"
-#include "kinemend/corrupt.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/model.hpp"
-#include "kinemend/random.hpp"
-#include "kinemend/synth.hpp"
 #include "kinemend/train.hpp"
+#include "noisy_walk.hpp"
 
 // The method `wiener`: takes cleaned with the model that ships, as a whole and without what `auto`
 // does beforehand, and training.
 namespace {
 
 using kinemend::Clip;
-
-Clip walk(std::uint64_t seed, double rate_hz, double duration_s) {
-  kinemend::SynthOptions options{
-      .motion = "walk", .duration_s = duration_s, .frame_rate_hz = rate_hz};
-  options.seed = seed;
-  return kinemend::synthesize(options);
-}
-
-Clip noisy_walk(double rate_hz, double duration_s, double outlier_share) {
-  Clip clip = walk(3, rate_hz, duration_s);
-  kinemend::Random random(4);
-  kinemend::apply_damage(clip, "gaussian", {{"std_deg", 3.0}}, random);
-  if (outlier_share > 0)
-    kinemend::apply_damage(clip, "outliers", {{"share", outlier_share}}, random);
-  return clip;
-}
+using kinemend::bench::noisy_walk;
+using kinemend::bench::walk;
 
 void clean(benchmark::State& state, const kinemend::Cleaner& cleaner, const Clip& take) {
   for (auto _ : state) {
