@@ -166,7 +166,7 @@ void clean_take(benchmark::State& state) {
     PoseMatrix cleaned = take;
     const auto trace = kinemend::example_filter(
         cleaned, take, {}, kinemend::bases_at_rate(bases, 30, rate_hz, frames), bases.mean, weights,
-        {.tolerance = 1e-3, .first_welsch = 8});
+        {.tolerance = 2e-3, .first_welsch = 8});
     iterations = trace.objective.size() - 1;
     benchmark::DoNotOptimize(cleaned.values.data());
   }

@@ -32,7 +32,7 @@ constexpr double rest_memory_frames = 3;
 constexpr double many_suspects = 0.005;
 constexpr double rejected_weight = 0.01;
 // What is missing settles last, and weighs little in the objective.
-constexpr double tolerance_of_gaps = 0.3;
+constexpr double tolerance_of_gaps = 0.1;
 
 const OptionTable<ExampleOptions>& table() {
   static const auto options =
@@ -51,7 +51,7 @@ const OptionTable<ExampleOptions>& table() {
           .integer(&ExampleOptions::iterations, "iterations", "", 1, 10000, "at most")
           .number(
               &ExampleOptions::tolerance, "tolerance", "", 0, 1,
-              "stops where the objective falls by less than this share; a third of it with gaps")
+              "stops where the objective falls by less than this share; a tenth of it with gaps")
           .number(&ExampleOptions::limits, "limits", "", 0, 1000,
                   "weight of the joint limits; 0: none")
           .flag(&ExampleOptions::fill, "fill_gaps", "fills gaps of what the model knows");
