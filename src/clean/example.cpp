@@ -32,7 +32,7 @@ constexpr double rest_memory_frames = 3;
 constexpr double many_suspects = 0.005;
 constexpr double rejected_weight = 0.01;
 // What is missing settles last, and weighs little in the objective.
-constexpr double tolerance_of_gaps = 0.1;
+constexpr double tolerance_of_gaps = 0.02;
 
 const OptionTable<ExampleOptions>& table() {
   static const auto options =
@@ -51,7 +51,7 @@ const OptionTable<ExampleOptions>& table() {
           .integer(&ExampleOptions::iterations, "iterations", "", 1, 10000, "at most")
           .number(
               &ExampleOptions::tolerance, "tolerance", "", 0, 1,
-              "stops where the objective falls by less than this share; a tenth of it with gaps")
+              "stops where the objective falls by less than this share; a fiftieth of it with gaps")
           .number(&ExampleOptions::limits, "limits", "", 0, 1000,
                   "weight of the joint limits; 0: none")
           .flag(&ExampleOptions::fill, "fill_gaps", "fills gaps of what the model knows");
@@ -74,6 +74,17 @@ PoseMatrix first_guess(const PriorWork& work, const std::vector<double>& mean) {
     for (std::size_t f = 0; f < guess.frames && !seen; ++f) guess(f, c) = mean[c];
   }
   return guess;
+}
+
+// Whether anything is missing of what the take has; parts that it lacks are nobody's.
+bool has_gaps(const PriorWork& work) {
+  const std::size_t parts = work.match->parts.size();
+  for (std::size_t i = 0; i < work.channels.observed.size(); ++i) {
+    const std::size_t part = i % work.channels.poses.channels / 3;
+    const bool lacking = part < parts && work.match->parts[part] < 0;
+    if (!lacking && work.channels.observed[i] == 0) return true;
+  }
+  return false;
 }
 
 class ExampleCleaning {
@@ -111,8 +122,7 @@ class ExampleCleaning {
     ExampleSettings settings;
     settings.iterations = static_cast<std::size_t>(options_.iterations);
     settings.tolerance = options_.tolerance;
-    if (std::find(channels.observed.begin(), channels.observed.end(), 0) != channels.observed.end())
-      settings.tolerance *= tolerance_of_gaps;
+    if (has_gaps(work)) settings.tolerance *= tolerance_of_gaps;
     const ExampleWeights weights = weights_for(noise, rest, suspects, bases);
     hold_to_limits(work, limits, weights, bases, settings);
     const ExampleTrace trace =
