@@ -177,7 +177,8 @@ void PatternConvolution::transform_back(double* image, std::size_t rows, std::si
 
 double PatternConvolution::work(std::size_t rows, std::size_t window_rows, std::size_t row_values) {
   const std::size_t block = rows_of_block(window_rows), fresh = block - 2 * (window_rows - 1);
-  const auto blocks = static_cast<double>((rows + fresh - 1) / fresh);
+  const std::size_t whole_blocks = (rows + fresh - 1) / fresh;
+  const auto blocks = static_cast<double>(whole_blocks);
   const auto v = static_cast<double>(row_values), length = static_cast<double>(block);
   return blocks * v * length * (2 * v + (length + static_cast<double>(fresh)) / 2);
 }
