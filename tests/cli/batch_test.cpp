@@ -238,8 +238,9 @@ TEST_F(Batch, KilledAtAnyMomentItLeavesWholeFilesOnlyAndGoesOn) {
       const int errors = open((folder / "errors").c_str(), O_WRONLY | O_CREAT | O_APPEND, 0666);
       dup2(errors, STDERR_FILENO);
       // The search for leaks would complain of being killed, too.
-      execute({"batch", "raw", "-o", "clean", "--jobs", "2"},
-              {.environment = {{"ASAN_OPTIONS", "detect_leaks=0"}}});
+      Setting setting;
+      setting.environment = {{"ASAN_OPTIONS", "detect_leaks=0"}};
+      execute({"batch", "raw", "-o", "clean", "--jobs", "2"}, setting);
     }
     // At any moment of the run, however fast this machine and this build are.
     std::uniform_int_distribution<long> moment(0, whole_run.count());
