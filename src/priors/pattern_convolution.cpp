@@ -3,6 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,10 +31,36 @@ PatternConvolution::PatternConvolution(const std::vector<double>& patterns, std:
       frequencies_((block_rows_ + 1) / 2),
       fresh_rows_(block_rows_ - 2 * reach_),
       matrices_(frequencies_) {
-  const double step = 2 * std::numbers::pi / static_cast<double>(block_rows_);
-  const auto angle = [&](std::size_t f, std::size_t t) {
-    return step * static_cast<double>(f * t % block_rows_);
-  };
+  const std::size_t row_patterns = row_values_ * count;
+  std::vector<double> padded;
+  const double* rows = patterns.data();
+  if (patterns.size() < window_rows * row_patterns) {
+    padded = patterns;
+    padded.resize(window_rows * row_patterns);
+    rows = padded.data();
+  }
+  prepare_transforms();
+  const nn::PackedMatrix packed({rows, window_rows, row_patterns, row_patterns});
+  const tbb::blocked_range<std::size_t> all(0, frequencies_, frequencies_at_once);
+  // Memory that was never touched costs more than the products. While a thread waits for its part
+  // of a product it may not begin with other frequencies, which would overwrite what it holds.
+  tbb::enumerable_thread_specific<std::vector<double>> scratch;
+  tbb::parallel_for(
+      all,
+      [&](const auto& range) {
+        tbb::this_task_arena::isolate(
+            [&] { prepare_matrices(packed, range.begin(), range.end(), scratch.local()); });
+      },
+      tbb::simple_partitioner());
+}
+
+double PatternConvolution::angle(std::size_t frequency, std::size_t time) const {
+  const double turns =
+      static_cast<double>(frequency * time % block_rows_) / static_cast<double>(block_rows_);
+  return 2 * std::numbers::pi * turns;
+}
+
+void PatternConvolution::prepare_transforms() {
   for (std::size_t f = 0; f < frequencies_; ++f) {
     for (std::size_t t = 0; t < frequencies_; ++t) {
       cosines_.push_back(std::cos(angle(f, t)));
@@ -47,51 +74,39 @@ PatternConvolution::PatternConvolution(const std::vector<double>& patterns, std:
       sines_back_.push_back(-share * std::sin(angle(f, t)));
     }
   }
+}
 
-  const std::size_t v = row_values_, row_patterns = v * count;
-  std::vector<double> padded;
-  const double* rows = patterns.data();
-  if (patterns.size() < window_rows * row_patterns) {
-    padded = patterns;
-    padded.resize(window_rows * row_patterns);
-    rows = padded.data();
+void PatternConvolution::prepare_matrices(const nn::PackedMatrix& patterns, std::size_t first,
+                                          std::size_t last, std::vector<double>& parts) {
+  const std::size_t v = row_values_, window_rows = reach_ + 1, row_patterns = patterns.columns();
+  const std::size_t count = row_patterns / v, waves_count = 2 * (last - first);
+  // Transforms P + iQ of G's rows: for each frequency P and Q, V x K.
+  std::vector<double> waves(waves_count * window_rows);
+  for (std::size_t f = first; f < last; ++f) {
+    double* wave = &waves[2 * (f - first) * window_rows];
+    for (std::size_t u = 0; u < window_rows; ++u) {
+      wave[u] = std::cos(angle(f, u));
+      wave[window_rows + u] = -std::sin(angle(f, u));
+    }
   }
-  const nn::PackedMatrix packed({rows, window_rows, row_patterns, row_patterns});
-  const tbb::blocked_range<std::size_t> all(0, frequencies_, frequencies_at_once);
-  // Memory that was never touched costs more than the products.
-  tbb::enumerable_thread_specific<std::vector<double>> scratch;
-  tbb::parallel_for(
-      all,
-      [&](const auto& range) {
-        // Transforms P + iQ of G's rows: for each frequency P and Q, V x K.
-        std::vector<double> waves(2 * range.size() * window_rows), mixed(v * v), matrix(2 * v * v);
-        std::vector<double>& parts = scratch.local();
-        parts.resize(2 * frequencies_at_once * row_patterns);
-        for (std::size_t f = range.begin(); f < range.end(); ++f) {
-          double* wave = &waves[2 * (f - range.begin()) * window_rows];
-          for (std::size_t u = 0; u < window_rows; ++u) {
-            wave[u] = std::cos(angle(f, u));
-            wave[window_rows + u] = -std::sin(angle(f, u));
-          }
-        }
-        nn::multiply({waves.data(), 2 * range.size(), window_rows, window_rows}, packed,
-                     {parts.data(), 2 * range.size(), row_patterns, row_patterns});
-        for (std::size_t f = range.begin(); f < range.end(); ++f) {
-          // (P + iQ)(P + iQ)^H = P P^T + Q Q^T + i (Q P^T - (Q P^T)^T)
-          const double* first = &parts[2 * (f - range.begin()) * row_patterns];
-          const nn::MatrixView p{first, v, count, count}, q{first + row_patterns, v, count, count};
-          const nn::MutableMatrixView real{matrix.data(), v, v, 2 * v};
-          nn::multiply_symmetric(p, p.transposed(), real);
-          nn::multiply_symmetric(q, q.transposed(), real, nn::Product::add);
-          nn::multiply(q, p.transposed(), {mixed.data(), v, v, v});
-          for (std::size_t r = 0; r < v; ++r) {
-            for (std::size_t c = 0; c < v; ++c)
-              matrix[r * 2 * v + v + c] = mixed[r * v + c] - mixed[c * v + r];
-          }
-          matrices_[f] = nn::PackedMatrix({matrix.data(), v, 2 * v, 2 * v});
-        }
-      },
-      tbb::simple_partitioner());
+  parts.resize(waves_count * row_patterns);
+  nn::multiply({waves.data(), waves_count, window_rows, window_rows}, patterns,
+               {parts.data(), waves_count, row_patterns, row_patterns});
+  std::vector<double> mixed(v * v), matrix(2 * v * v);
+  for (std::size_t f = first; f < last; ++f) {
+    // (P + iQ)(P + iQ)^H = P P^T + Q Q^T + i (Q P^T - (Q P^T)^T)
+    const double* of_f = &parts[2 * (f - first) * row_patterns];
+    const nn::MatrixView p{of_f, v, count, count}, q{of_f + row_patterns, v, count, count};
+    const nn::MutableMatrixView real{matrix.data(), v, v, 2 * v};
+    nn::multiply_symmetric(p, p.transposed(), real);
+    nn::multiply_symmetric(q, q.transposed(), real, nn::Product::add);
+    nn::multiply(q, p.transposed(), {mixed.data(), v, v, v});
+    for (std::size_t r = 0; r < v; ++r) {
+      for (std::size_t c = 0; c < v; ++c)
+        matrix[r * 2 * v + v + c] = mixed[r * v + c] - mixed[c * v + r];
+    }
+    matrices_[f] = nn::PackedMatrix({matrix.data(), v, 2 * v, 2 * v});
+  }
 }
 
 void PatternConvolution::multiply(const double* z, std::size_t rows, double* image) {

@@ -1,6 +1,8 @@
 #include "priors/pattern_convolution.hpp"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <vector>
@@ -56,6 +58,25 @@ TEST(PatternConvolution, IsTheSumOverAllWindowsOfARepeatingSequence) {
       }
     }
   }
+}
+
+// Products of this size are themselves shared among threads.
+TEST(PatternConvolution, IsTheSameWithAnyNumberOfThreads) {
+  const std::size_t window = 12, values = 320, count = 200, rows = 40;
+  const std::vector<double> patterns = random_values(window * values * count, 1);
+  const std::vector<double> z = random_values(rows * values, 2);
+  const auto product_with = [&](int threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+    std::vector<double> image(z.size());
+    tbb::task_arena(threads).execute([&] {
+      PatternConvolution convolution(patterns, window, values, count);
+      convolution.multiply(z.data(), rows, image.data());
+    });
+    return image;
+  };
+  const std::vector<double> expected = product_with(1);
+  for (int attempt = 0; attempt < 8; ++attempt) EXPECT_EQ(product_with(4), expected);
 }
 
 TEST(PatternConvolution, TakesRowsThatPatternsLackForZeros) {
