@@ -7,17 +7,12 @@
 #include <cmath>
 #include <vector>
 
-#include "kinemend/random.hpp"
+#include "random_values.hpp"
 
 namespace kinemend::nn {
 namespace {
 
-std::vector<double> random_values(std::size_t count, std::uint64_t seed) {
-  Random random(seed);
-  std::vector<double> values(count);
-  for (double& value : values) value = random.normal();
-  return values;
-}
+using test::random_values;
 
 double at(const MatrixView& m, std::size_t r, std::size_t c) {
   return m.values[r * m.row_stride + c * m.column_stride];

@@ -7,17 +7,12 @@
 #include <algorithm>
 #include <vector>
 
-#include "kinemend/random.hpp"
+#include "random_values.hpp"
 
 namespace kinemend {
 namespace {
 
-std::vector<double> random_values(std::size_t count, std::uint64_t seed) {
-  Random random(seed);
-  std::vector<double> values(count);
-  for (double& value : values) value = random.normal();
-  return values;
-}
+using test::random_values;
 
 // Window by window, of a sequence that repeats itself.
 std::vector<double> brute_product(const std::vector<double>& patterns, std::size_t window,

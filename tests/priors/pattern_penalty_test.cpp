@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "kinemend/random.hpp"
 #include "priors/window_support.hpp"
+#include "random_values.hpp"
 
 namespace kinemend {
 namespace {
@@ -16,9 +16,8 @@ namespace {
 using Product = PatternPenalty::Product;
 
 PoseMatrix random_poses(std::size_t frames, std::size_t channels, std::uint64_t seed) {
-  Random random(seed);
   PoseMatrix poses(frames, channels);
-  for (double& value : poses.values) value = random.normal();
+  poses.values = test::random_values(frames * channels, seed);
   return poses;
 }
 

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "kinemend/random.hpp"
 #include "priors/window_bases.hpp"
+#include "random_values.hpp"
 
 namespace kinemend {
 
@@ -18,11 +18,8 @@ inline Eigen::MatrixXd matrix_of(const WindowBases& bases) {
 // Independent, of no length in particular.
 inline WindowBases random_bases(std::size_t frames, std::size_t hop, std::size_t channels,
                                 std::size_t count, std::uint64_t seed) {
-  Random random(seed);
-  WindowBases bases{frames, hop, channels, count, {}, false};
-  bases.values.resize(frames * channels * count);
-  for (double& value : bases.values) value = random.normal();
-  return bases;
+  return {frames, hop, channels, count, test::random_values(frames * channels * count, seed),
+          false};
 }
 
 }  // namespace kinemend

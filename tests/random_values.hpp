@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "kinemend/random.hpp"
+
+namespace kinemend::test {
+
+/// Normal, of deviation 1.
+inline std::vector<double> random_values(std::size_t count, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<double> values(count);
+  for (double& value : values) value = random.normal();
+  return values;
+}
+
+}  // namespace kinemend::test
