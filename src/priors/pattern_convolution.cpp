@@ -54,13 +54,12 @@ PatternConvolution::PatternConvolution(const std::vector<double>& patterns, std:
       tbb::simple_partitioner());
 }
 
-double PatternConvolution::angle(std::size_t frequency, std::size_t time) const {
-  const double turns =
-      static_cast<double>(frequency * time % block_rows_) / static_cast<double>(block_rows_);
-  return 2 * std::numbers::pi * turns;
-}
-
 void PatternConvolution::prepare_transforms() {
+  const auto angle = [&](std::size_t frequency, std::size_t time) {
+    const double turns =
+        static_cast<double>(frequency * time % block_rows_) / static_cast<double>(block_rows_);
+    return 2 * std::numbers::pi * turns;
+  };
   for (std::size_t f = 0; f < frequencies_; ++f) {
     for (std::size_t t = 0; t < frequencies_; ++t) {
       cosines_.push_back(std::cos(angle(f, t)));
@@ -79,19 +78,13 @@ void PatternConvolution::prepare_transforms() {
 void PatternConvolution::prepare_matrices(const nn::PackedMatrix& patterns, std::size_t first,
                                           std::size_t last, std::vector<double>& parts) {
   const std::size_t v = row_values_, window_rows = reach_ + 1, row_patterns = patterns.columns();
-  const std::size_t count = row_patterns / v, waves_count = 2 * (last - first);
+  const std::size_t count = row_patterns / v, found = last - first;
   // Transforms P + iQ of G's rows: for each frequency P and Q, V x K.
-  std::vector<double> waves(waves_count * window_rows);
-  for (std::size_t f = first; f < last; ++f) {
-    double* wave = &waves[2 * (f - first) * window_rows];
-    for (std::size_t u = 0; u < window_rows; ++u) {
-      wave[u] = std::cos(angle(f, u));
-      wave[window_rows + u] = -std::sin(angle(f, u));
-    }
-  }
-  parts.resize(waves_count * row_patterns);
-  nn::multiply({waves.data(), waves_count, window_rows, window_rows}, patterns,
-               {parts.data(), waves_count, row_patterns, row_patterns});
+  parts.resize(2 * found * row_patterns);
+  nn::multiply({&cosines_[first * frequencies_], found, window_rows, frequencies_}, patterns,
+               {parts.data(), found, row_patterns, 2 * row_patterns});
+  nn::multiply({&sines_[first * frequencies_], found, window_rows, frequencies_}, patterns,
+               {&parts[row_patterns], found, row_patterns, 2 * row_patterns});
   std::vector<double> mixed(v * v), matrix(2 * v * v);
   for (std::size_t f = first; f < last; ++f) {
     // (P + iQ)(P + iQ)^H = P P^T + Q Q^T + i (Q P^T - (Q P^T)^T)

@@ -30,7 +30,6 @@ class PatternConvolution {
   static double preparation(std::size_t window_rows, std::size_t row_values, std::size_t count);
 
  private:
-  double angle(std::size_t frequency, std::size_t time) const;
   void prepare_transforms();
   // Of frequencies [first, last); `parts` is scratch.
   void prepare_matrices(const nn::PackedMatrix& patterns, std::size_t first, std::size_t last,
