@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <utility>
 
 #include "nn/gemm.hpp"
 
@@ -92,25 +93,26 @@ PatternPenalty::PatternPenalty(const WindowBases& bases, std::span<const double>
       for (std::size_t c = 0; c < channels_; ++c) diagonal_(f, c) += weights[c];
     }
   }
-  factor_ = penalty_factor(bases, weights, ridge);
+  std::vector<double> factor = penalty_factor(bases, weights, ridge);
   if (product == Product::frequencies ||
       (product == Product::quicker && frequencies_are_quicker(products))) {
-    convolution_.emplace(factor_, overlap_, hop_ * channels_, count_);
+    convolution_.emplace(factor, overlap_, hop_ * channels_, count_);
+    factor_ = std::move(factor);
   } else {
-    prepare_windows();
+    prepare_windows(factor);
   }
 }
 
-void PatternPenalty::prepare_windows() {
+void PatternPenalty::prepare_windows(const std::vector<double>& factor) {
   const std::size_t hop_values = hop_ * channels_;
-  analysis_ = nn::PackedMatrix({factor_.data(), row_values_, count_, count_});
+  analysis_ = nn::PackedMatrix({factor.data(), row_values_, count_, count_});
   // A hop's frames are sums over the windows that reach over it, the latest window last.
   std::vector<double> synthesis(overlap_ * count_ * hop_values);
   for (std::size_t b = 0; b < overlap_; ++b) {
     const std::size_t first = (overlap_ - 1 - b) * hop_values;
     for (std::size_t i = 0; i < hop_values && first + i < row_values_; ++i) {
       for (std::size_t k = 0; k < count_; ++k) {
-        synthesis[(b * count_ + k) * hop_values + i] = factor_[(first + i) * count_ + k];
+        synthesis[(b * count_ + k) * hop_values + i] = factor[(first + i) * count_ + k];
       }
     }
   }

@@ -48,7 +48,7 @@ class PatternPenalty {
 
  private:
   bool frequencies_are_quicker(std::size_t products) const;
-  void prepare_windows();
+  void prepare_windows(const std::vector<double>& factor);
   void multiply_windows(const PoseMatrix& z, PoseMatrix& image);
   void multiply_ends(const PoseMatrix& z);
   void take_off_ends(PoseMatrix& image) const;
@@ -57,13 +57,14 @@ class PatternPenalty {
   std::size_t row_values_;  // M' L
   std::size_t overlap_;     // hops that a window reaches over
   std::size_t windows_, groups_;
-  std::vector<double> factor_;        // G: M' L x K
   std::vector<double> coefficients_;  // of all windows, with overlap - 1 rows of zeros at each
                                       // end; or of those over the end, K x (overlap - 1)
   // By windows: G and, for each hop, overlap K x hop L.
   nn::PackedMatrix analysis_, synthesis_;
-  // By frequencies.
+  // By frequencies: all windows of the take as if it repeated itself, and G, M' L x K, for those of
+  // them that reach over the end.
   std::optional<PatternConvolution> convolution_;
+  std::vector<double> factor_;
   std::vector<double> ends_, windows_over_end_;
   PoseMatrix diagonal_;
 };
