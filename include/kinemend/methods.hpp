@@ -128,8 +128,9 @@ struct ExampleOptions {
   double lambda = 0;             ///< of eq. 10 (the paper: 0.1); 0: from the noise and the model
   std::int64_t bases = 0;        ///< of those the model has; 0: from the noise, at most all
   std::int64_t iterations = 50;  ///< at most
-  double tolerance = 2e-3;  ///< stop where the objective falls by less than this share of itself
-  double limits = 1;        ///< weight of the joint limits, a soft term; 0: none
+  /// Stop where the objective falls by less than this share of itself; a fiftieth of it with gaps.
+  double tolerance = 2e-3;
+  double limits = 1;  ///< weight of the joint limits, a soft term; 0: none
   bool fill = true;
 };
 std::unique_ptr<Cleaner> make_example(const ExampleOptions& options = {},

@@ -17,10 +17,11 @@ constexpr std::size_t usual_iterations = 12, usual_linear_products = 2;
 // Less of a plane's area than this, relative to its sides, and it is a line.
 constexpr double least_area = 1e-12;
 
+constexpr std::size_t frames_at_once = 64;
+
 // The sum over all frames of part(first, last), in an order that does not depend on threads.
 template <typename Sum, typename Part>
 Sum sum_over_frames(std::size_t frames, const Part& part) {
-  constexpr std::size_t frames_at_once = 64;
   const tbb::blocked_range<std::size_t> all(0, frames, frames_at_once);
   return tbb::parallel_deterministic_reduce(
       all, Sum{},
@@ -216,11 +217,12 @@ class Minimisation {
   // Each sample by itself.
   template <typename Action>
   void for_frames(const Action& action) const {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, z_.frames, 64), [&](const auto& range) {
-      for (std::size_t f = range.begin(); f < range.end(); ++f) {
-        for (std::size_t c = 0; c < channels_; ++c) action(f, c);
-      }
-    });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, z_.frames, frames_at_once),
+                      [&](const auto& range) {
+                        for (std::size_t f = range.begin(); f < range.end(); ++f) {
+                          for (std::size_t c = 0; c < channels_; ++c) action(f, c);
+                        }
+                      });
   }
 
   std::size_t frames_, channels_;
