@@ -24,7 +24,7 @@ constexpr int rounds = 5;
 // fit.
 struct LeaveOneOutGrid {
   std::vector<signal::SharedFactor> factors;
-  std::vector<std::vector<double>> own_shares;  // 1 - leverage
+  std::vector<std::vector<double>> own_shares;  // weights of all others
 
   LeaveOneOutGrid(std::size_t frames, double frame_rate_hz) {
     constexpr std::size_t order = 2, cutoffs = 10;
@@ -37,8 +37,8 @@ struct LeaveOneOutGrid {
           signal::strength_of_cutoff(std::min(cutoff / frame_rate_hz, 0.49), order);
       if (strength > largest_strength) continue;
       factors.push_back(signal::factor_shared(frames, order, strength));
-      own_shares.push_back(signal::leverages(factors.back()));
-      for (double& share : own_shares.back()) share = std::max(1 - share, 1e-3);
+      own_shares.push_back(signal::weights_of_others(factors.back()));
+      for (double& share : own_shares.back()) share = std::max(share, 1e-3);
     }
   }
 };

@@ -40,9 +40,9 @@ void for_each_block(const std::vector<Channels>& blocks, const auto& work) {
 // -2 log p(y), but for what is the same for all models: y^T (I - A^-1) y / s + log |A| - (F - d)
 // log strength - d log s.
 double misfit(const SmoothingModel& model, const SharedFactor& factor, std::size_t frames,
-              double explained, double variance) {
+              double residual, double variance) {
   const auto order = static_cast<double>(model.order);
-  return -explained / variance + factor.log_determinant -
+  return residual / variance + factor.log_determinant -
          (static_cast<double>(frames) - order) * std::log(model.strength) -
          order * std::log(variance);
 }
@@ -55,11 +55,11 @@ std::vector<std::size_t> most_likely_models(const ChannelBlock& y, const Channel
   std::vector<double> least(block.size(), std::numeric_limits<double>::infinity());
   std::vector<std::size_t> best(block.size(), 0);
   for (std::size_t m = 0; m < grid.models().size(); ++m) {
-    const BlockRow explained = solve_shared(grid.factor(m), y, x);
+    const BlockRow residuals = solve_shared(grid.factor(m), y, x);
     for (std::size_t first = 0; first < block.size(); first += group) {
       double value = 0;
       for (std::size_t i = first; i < first + group; ++i) {
-        value += misfit(grid.models()[m], grid.factor(m), y.frames, explained[i],
+        value += misfit(grid.models()[m], grid.factor(m), y.frames, residuals[i],
                         noise_variance[block[i]]);
       }
       if (value < least[first]) {
@@ -104,14 +104,14 @@ ChannelBlock smooth_block(const AdaptiveBlock& block, std::size_t half_window,
                           const AdaptiveSettings& settings) {
   const std::size_t frames = block.y.frames, differences = frames - block.order;
   const auto c = difference_coefficients(block.order);
-  ChannelBlock x(frames), penalty(differences), variances(differences);
+  ChannelBlock x = block.y, penalty(differences), variances(differences);
   for (std::size_t t = 0; t < differences; ++t) {
     for (std::size_t i = 0; i < block_channels; ++i) penalty(t, i) = 1 / block.variance[i];
   }
   WeightedSystem system(frames, block.order);
   for (int iteration = 0;; ++iteration) {
     system.factor(block.weight, penalty);
-    system.solve(block.weight, block.y, x);
+    system.refine(block.weight, penalty, block.y, x);
     if (iteration == settings.iterations) return x;
     system.difference_variances(variances);
     for (std::size_t t = 0; t < differences; ++t) {

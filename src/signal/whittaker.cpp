@@ -12,14 +12,25 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// A[t, t - k] of (D^d)^T D^d for F frames.
-double penalty_entry(const std::array<double, largest_order + 1>& c, std::size_t order,
-                     std::size_t frames, std::size_t t, std::size_t k) {
+// Entry [t, t - k] of D^d (D^d)^T.
+double product_entry(const std::array<double, largest_order + 1>& c, std::size_t order,
+                     std::size_t k) {
   double sum = 0;
-  for (std::size_t u = 0; u + k <= order; ++u) {
-    if (t >= k + u && t - k - u < frames - order) sum += c[u] * c[u + k];
-  }
+  for (std::size_t u = 0; u + k <= order; ++u) sum += c[u] * c[u + k];
   return sum;
+}
+
+// Whether the last row of a factor is the one before it, but for rounding, which goes by the
+// matrix's entries.
+bool has_settled(const SharedFactor& factor, double largest_entry, double pivot,
+                 double pivot_before) {
+  const double rounding = 1e-14 * largest_entry;
+  if (!(std::fabs(pivot - pivot_before) <= rounding)) return false;
+  const double* last = factor.lower.data() + factor.lower.size() - factor.order;
+  for (std::size_t k = 0; k < factor.order; ++k) {
+    if (!(std::fabs(last[k] - *(last + k - factor.order)) * pivot <= rounding)) return false;
+  }
+  return true;
 }
 
 WeightedRows rows_of(std::size_t frames, std::vector<double>& diagonal,
@@ -51,65 +62,82 @@ double strength_of_cutoff(double cutoff, std::size_t order) {
 SharedFactor factor_shared(std::size_t frames, std::size_t order, double strength) {
   assert(order >= 1 && order <= largest_order && order < frames);
   const auto c = difference_coefficients(order);
-  SharedFactor factor;
-  factor.order = order;
-  factor.lower.assign(frames * order, 0);
-  factor.inverse_diagonal.resize(frames);
-  std::vector<double> diagonal(frames);
-  const auto lower = [&](std::size_t t, std::size_t k) -> double& {
-    return factor.lower[t * order + k - 1];
-  };
-  for (std::size_t t = 0; t < frames; ++t) {
-    diagonal[t] = 1 + strength * penalty_entry(c, order, frames, t, 0);
+  SharedFactor factor{frames, order, strength, {}, {}, 0};
+  std::vector<double> pivots;
+  const auto lower = [&](std::size_t t, std::size_t k) { return factor.lower[t * order + k - 1]; };
+  const std::size_t differences = frames - order;
+  const double diagonal = 1 + strength * product_entry(c, order, 0);
+  for (std::size_t t = 0; t < differences; ++t) {
+    factor.lower.resize((t + 1) * order);
+    double pivot = diagonal;
     for (std::size_t k = std::min(order, t); k >= 1; --k) {
-      double entry = strength * penalty_entry(c, order, frames, t, k);
-      for (std::size_t m = k + 1; m <= std::min(order, t); ++m) {
-        entry -= lower(t, m) * diagonal[t - m] * lower(t - k, m - k);
-      }
-      lower(t, k) = entry / diagonal[t - k];
-      diagonal[t] -= lower(t, k) * lower(t, k) * diagonal[t - k];
+      double entry = strength * product_entry(c, order, k);
+      for (std::size_t m = k + 1; m <= std::min(order, t); ++m)
+        entry -= lower(t, m) * pivots[t - m] * lower(t - k, m - k);
+      factor.lower[t * order + k - 1] = entry / pivots[t - k];
+      pivot -= lower(t, k) * lower(t, k) * pivots[t - k];
     }
-    factor.inverse_diagonal[t] = 1 / diagonal[t];
-    factor.log_determinant += std::log(diagonal[t]);
+    pivots.push_back(pivot);
+    factor.inverse_diagonal.push_back(1 / pivot);
+    factor.log_determinant += std::log(pivot);
+    if (t > order && has_settled(factor, diagonal, pivot, pivots[t - 1])) {
+      factor.log_determinant += static_cast<double>(differences - 1 - t) * std::log(pivot);
+      break;
+    }
   }
   return factor;
 }
 
 BlockRow solve_shared(const SharedFactor& factor, const ChannelBlock& y, ChannelBlock& x) {
-  assert(factor.inverse_diagonal.size() == y.frames && x.frames == y.frames);
+  assert(factor.frames == y.frames && x.frames == y.frames);
   BlockRow sums{};
-  solve_shared_rows(factor.lower.data(), factor.inverse_diagonal.data(), factor.order, y.frames,
+  solve_shared_rows({factor.frames, factor.order, factor.strength, factor.lower.data(),
+                     factor.inverse_diagonal.data(), factor.inverse_diagonal.size()},
                     y.values.data(), x.values.data(), sums.data());
   return sums;
 }
 
-std::vector<double> leverages(const SharedFactor& factor) {
-  const std::size_t frames = factor.inverse_diagonal.size(), order = factor.order;
-  // Takahashi's recursion: band[t][k] = A^-1[t, t + k].
-  std::vector<std::array<double, largest_order + 1>> band(frames);
-  std::vector<double> diagonal(frames);
-  for (std::size_t t = frames; t-- > 0;) {
-    const std::size_t width = std::min(order, frames - 1 - t);
-    const auto lower = [&](std::size_t m) { return factor.lower[(t + m) * order + m - 1]; };
+std::vector<double> weights_of_others(const SharedFactor& factor) {
+  const std::size_t order = factor.order, differences = factor.frames - order;
+  const auto c = difference_coefficients(order);
+  const std::size_t last = factor.inverse_diagonal.size() - 1;
+  std::vector<double> weights(factor.frames);
+  // Takahashi's recursion: band[t][k] = (L D L^T)^-1[t, t + k].
+  std::vector<std::array<double, largest_order + 1>> band(differences);
+  for (std::size_t t = differences; t-- > 0;) {
+    const std::size_t width = std::min(order, differences - 1 - t);
+    const auto lower = [&](std::size_t m) {
+      return factor.lower[std::min(t + m, last) * order + m - 1];
+    };
     for (std::size_t k = width; k >= 1; --k) {
       double sum = 0;
-      for (std::size_t m = 1; m <= width; ++m) {
+      for (std::size_t m = 1; m <= width; ++m)
         sum -= lower(m) * band[t + std::min(m, k)][m > k ? m - k : k - m];
-      }
       band[t][k] = sum;
     }
-    band[t][0] = factor.inverse_diagonal[t];
+    band[t][0] = factor.inverse_diagonal[std::min(t, last)];
     for (std::size_t m = 1; m <= width; ++m) band[t][0] -= lower(m) * band[t][m];
-    diagonal[t] = band[t][0];
   }
-  return diagonal;
+  // strength (D^d)^T (L D L^T)^-1 D^d.
+  for (std::size_t t = 0; t < factor.frames; ++t) {
+    double sum = 0;
+    for (std::size_t a = 0; a <= std::min(order, t); ++a) {
+      for (std::size_t b = a; b <= std::min(order, t); ++b) {
+        if (t - a >= differences) continue;
+        sum += (a == b ? 1.0 : 2.0) * c[a] * c[b] * band[t - b][b - a];
+      }
+    }
+    weights[t] = factor.strength * sum;
+  }
+  return weights;
 }
 
 WeightedSystem::WeightedSystem(std::size_t frames, std::size_t order)
     : frames_(frames),
       diagonal_(frames * block_channels),
       lower_(order, std::vector<double>(frames * block_channels)),
-      inverse_(order + 1, std::vector<double>(frames * block_channels)) {
+      inverse_(order + 1, std::vector<double>(frames * block_channels)),
+      step_(frames * block_channels) {
   assert(order >= 1 && order <= largest_order && order < frames);
 }
 
@@ -118,9 +146,10 @@ void WeightedSystem::factor(const ChannelBlock& weight, const ChannelBlock& pena
                        penalty.values.data());
 }
 
-void WeightedSystem::solve(const ChannelBlock& weight, const ChannelBlock& y, ChannelBlock& x) {
-  solve_weighted_rows(rows_of(frames_, diagonal_, lower_, inverse_), weight.values.data(),
-                      y.values.data(), x.values.data());
+void WeightedSystem::refine(const ChannelBlock& weight, const ChannelBlock& penalty,
+                            const ChannelBlock& y, ChannelBlock& x) {
+  refine_weighted_rows(rows_of(frames_, diagonal_, lower_, inverse_), weight.values.data(),
+                       penalty.values.data(), y.values.data(), x.values.data(), step_.data());
 }
 
 void WeightedSystem::difference_variances(ChannelBlock& variances) {

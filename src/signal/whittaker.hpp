@@ -38,20 +38,24 @@ std::array<double, largest_order + 1> difference_coefficients(std::size_t order)
 /// (up to 1/2): (2 sin(pi cutoff))^(-2 order).
 double strength_of_cutoff(double cutoff, std::size_t order);
 
-/// I + strength (D^d)^T D^d = L D L^T for F frames, shared by all channels whose samples weigh the
-/// same.
+/// I + strength D^d (D^d)^T = L D L^T over the F - d differences of F frames, shared by all
+/// channels whose samples weigh the same. Solving for the differences keeps the digits of the noise
+/// however far a channel goes: a slow trend, however large, hardly has any. The matrix is the same
+/// along its diagonals, so the rows of the factor settle, and those that follow are not stored.
 struct SharedFactor {
+  std::size_t frames = 0;
   std::size_t order = 1;
-  std::vector<double> lower;             ///< F x order: L[t, t - k] at t * order + k - 1
-  std::vector<double> inverse_diagonal;  ///< F
-  double log_determinant = 0;
+  double strength = 0;
+  std::vector<double> lower;             ///< R x order: L[t, t - k] at t * order + k - 1
+  std::vector<double> inverse_diagonal;  ///< R rows; differences behind them have the last one's
+  double log_determinant = 0;            ///< also that of I + strength (D^d)^T D^d
 };
 /// `order` is 1 to 3 and less than `frames`; `strength` is positive.
 SharedFactor factor_shared(std::size_t frames, std::size_t order, double strength);
-/// x = A^-1 y; returns sum_t y[t] x[t] of each channel.
+/// x = A^-1 y with A = I + strength (D^d)^T D^d; returns y^T (I - A^-1) y of each channel.
 BlockRow solve_shared(const SharedFactor& factor, const ChannelBlock& y, ChannelBlock& x);
-/// The diagonal of A^-1: the weight of each sample in its own fit.
-std::vector<double> leverages(const SharedFactor& factor);
+/// The diagonal of I - A^-1, F values: the weight of all other samples in the fit of each.
+std::vector<double> weights_of_others(const SharedFactor& factor);
 
 /// diag(weight) + (D^d)^T diag(penalty) D^d for each channel by itself, with room for its solution
 /// and its inverse's band.
@@ -63,8 +67,10 @@ class WeightedSystem {
   /// `weight`: F rows, not negative, at least `order` of them positive; `penalty`: F - order rows,
   /// positive.
   void factor(const ChannelBlock& weight, const ChannelBlock& penalty);
-  /// x = A^-1 (weight y).
-  void solve(const ChannelBlock& weight, const ChannelBlock& y, ChannelBlock& x);
+  /// Brings `x` to A^-1 (weight y) from any values, of the same weights and penalties: it adds
+  /// A^-1 (weight (y - x) - (D^d)^T penalty D^d x), which rounds as little as `x` is wrong.
+  void refine(const ChannelBlock& weight, const ChannelBlock& penalty, const ChannelBlock& y,
+              ChannelBlock& x);
   /// The posterior variance of each difference, diag(D^d A^-1 (D^d)^T): F - order rows.
   void difference_variances(ChannelBlock& variances);
 
@@ -73,6 +79,7 @@ class WeightedSystem {
   std::vector<double> diagonal_;              // F x 8
   std::vector<std::vector<double>> lower_;    // order of F x 8: L[t, t - k]
   std::vector<std::vector<double>> inverse_;  // order + 1 of F x 8: A^-1[t, t + k]
+  std::vector<double> step_;                  // F x 8
 };
 
 }  // namespace kinemend::signal

@@ -19,44 +19,65 @@ HWY_INLINE void for_columns(const Work& work) {
   for (std::size_t c = 0; c < block_channels; c += hn::Lanes(Tag())) work(c);
 }
 
+// (D^d x)[t] of one vector of columns.
 template <std::size_t order>
-HWY_INLINE void solve_shared_column(const double* lower, const double* inverse_diagonal,
-                                    std::size_t frames, const double* y, double* x,
-                                    double* product_sums) {
+HWY_INLINE auto difference_at(const double* x, std::size_t t) {
   const Tag d;
-  const auto row = [](auto* data, std::size_t t) { return data + t * block_channels; };
-  for (std::size_t t = 0; t < frames; ++t) {
-    auto value = hn::LoadU(d, row(y, t));
-    for (std::size_t k = order; k >= 1; --k) {
-      if (k > t) continue;
-      value = hn::Sub(value,
-                      hn::Mul(hn::Set(d, lower[t * order + k - 1]), hn::LoadU(d, row(x, t - k))));
-    }
-    hn::StoreU(value, d, row(x, t));
-  }
-  auto sums = hn::Zero(d);
-  for (std::size_t t = frames; t-- > 0;) {
-    auto value = hn::Mul(hn::LoadU(d, row(x, t)), hn::Set(d, inverse_diagonal[t]));
-    for (std::size_t k = order; k >= 1; --k) {
-      if (t + k >= frames) continue;
-      value = hn::Sub(
-          value, hn::Mul(hn::Set(d, lower[(t + k) * order + k - 1]), hn::LoadU(d, row(x, t + k))));
-    }
-    hn::StoreU(value, d, row(x, t));
-    sums = hn::Add(sums, hn::Mul(value, hn::LoadU(d, row(y, t))));
-  }
-  hn::StoreU(sums, d, product_sums);
+  const auto c = difference_coefficients(order);
+  auto sum = hn::Zero(d);
+  for (std::size_t k = 0; k <= order; ++k)
+    sum = hn::Add(sum, hn::Mul(hn::Set(d, c[k]), hn::LoadU(d, x + (t + k) * block_channels)));
+  return sum;
 }
 
-void solve_shared_rows(const double* lower, const double* inverse_diagonal, std::size_t order,
-                       std::size_t frames, const double* y, double* x, double* product_sums) {
+template <std::size_t order>
+HWY_INLINE void solve_shared_column(const SharedRows& factor, const double* y, double* x,
+                                    double* residuals) {
+  const Tag d;
+  const auto c = difference_coefficients(order);
+  const std::size_t differences = factor.frames - order, last = factor.stored - 1;
+  const auto at = [](double* data, std::size_t t) { return data + t * block_channels; };
+  const auto stored = [last](std::size_t t) { return t < last ? t : last; };
+  const auto lower = [&](std::size_t t, std::size_t k) {
+    return hn::Set(d, factor.lower[stored(t) * order + k - 1]);
+  };
+  auto sums = hn::Zero(d);
+  for (std::size_t t = 0; t < differences; ++t) {
+    auto value = difference_at<order>(y, t);
+    for (std::size_t k = order; k >= 1; --k) {
+      if (k > t) continue;
+      value = hn::Sub(value, hn::Mul(lower(t, k), hn::LoadU(d, at(x, t - k))));
+    }
+    hn::StoreU(value, d, at(x, t));
+    const auto scaled = hn::Mul(value, hn::Set(d, factor.inverse_diagonal[stored(t)]));
+    sums = hn::Add(sums, hn::Mul(scaled, value));
+  }
+  for (std::size_t t = differences; t-- > 0;) {
+    auto value = hn::Mul(hn::LoadU(d, at(x, t)), hn::Set(d, factor.inverse_diagonal[stored(t)]));
+    for (std::size_t k = order; k >= 1; --k) {
+      if (t + k >= differences) continue;
+      value = hn::Sub(value, hn::Mul(lower(t + k, k), hn::LoadU(d, at(x, t + k))));
+    }
+    hn::StoreU(value, d, at(x, t));
+  }
+  // From the solution for the differences to y less what they weigh, from the last frame down.
+  const auto strength = hn::Set(d, factor.strength);
+  for (std::size_t t = factor.frames; t-- > 0;) {
+    auto sum = hn::Zero(d);
+    for (std::size_t k = 0; k <= order; ++k) {
+      if (k > t || t - k >= differences) continue;
+      sum = hn::Add(sum, hn::Mul(hn::Set(d, c[k]), hn::LoadU(d, at(x, t - k))));
+    }
+    hn::StoreU(hn::Sub(hn::LoadU(d, y + t * block_channels), hn::Mul(strength, sum)), d, at(x, t));
+  }
+  hn::StoreU(hn::Mul(strength, sums), d, residuals);
+}
+
+void solve_shared_rows(const SharedRows& factor, const double* y, double* x, double* residuals) {
   for_columns([&](std::size_t c) {
-    if (order == 1)
-      solve_shared_column<1>(lower, inverse_diagonal, frames, y + c, x + c, product_sums + c);
-    if (order == 2)
-      solve_shared_column<2>(lower, inverse_diagonal, frames, y + c, x + c, product_sums + c);
-    if (order == 3)
-      solve_shared_column<3>(lower, inverse_diagonal, frames, y + c, x + c, product_sums + c);
+    if (factor.order == 1) solve_shared_column<1>(factor, y + c, x + c, residuals + c);
+    if (factor.order == 2) solve_shared_column<2>(factor, y + c, x + c, residuals + c);
+    if (factor.order == 3) solve_shared_column<3>(factor, y + c, x + c, residuals + c);
   });
 }
 
@@ -110,35 +131,46 @@ void factor_weighted_rows(const WeightedRows& rows, const double* weight, const 
 }
 
 template <std::size_t order>
-HWY_INLINE void solve_column(const WeightedRows& rows, const double* weight, const double* y,
-                             double* x, std::size_t column) {
+HWY_INLINE void refine_column(const WeightedRows& rows, const double* weight, const double* penalty,
+                              const double* y, double* x, double* step, std::size_t column) {
   const Tag d;
+  const auto c = difference_coefficients(order);
   const auto at = [column](const double* data, std::size_t t) {
     return hn::LoadU(Tag(), data + t * block_channels + column);
   };
+  const std::size_t differences = rows.frames - order;
+  // penalty D x, for the frames that the next row of (D^d)^T meets; the newest first.
+  decltype(hn::Zero(d)) recent[order + 1];
+  for (auto& value : recent) value = hn::Zero(d);
   for (std::size_t t = 0; t < rows.frames; ++t) {
-    auto value = hn::Mul(at(weight, t), at(y, t));
+    for (std::size_t k = order; k >= 1; --k) recent[k] = recent[k - 1];
+    recent[0] = t < differences ? hn::Mul(at(penalty, t), difference_at<order>(x + column, t))
+                                : hn::Zero(d);
+    auto value = hn::Mul(at(weight, t), hn::Sub(at(y, t), at(x, t)));
+    for (std::size_t k = 0; k <= order; ++k)
+      value = hn::Sub(value, hn::Mul(hn::Set(d, c[k]), recent[k]));
     for (std::size_t k = order; k >= 1; --k) {
-      if (k <= t) value = hn::Sub(value, hn::Mul(at(rows.lower[k - 1], t), at(x, t - k)));
+      if (k <= t) value = hn::Sub(value, hn::Mul(at(rows.lower[k - 1], t), at(step, t - k)));
     }
-    hn::StoreU(value, d, x + t * block_channels + column);
+    hn::StoreU(value, d, step + t * block_channels + column);
   }
   for (std::size_t t = rows.frames; t-- > 0;) {
-    auto value = hn::Div(at(x, t), at(rows.diagonal, t));
+    auto value = hn::Div(at(step, t), at(rows.diagonal, t));
     for (std::size_t k = order; k >= 1; --k) {
       if (t + k < rows.frames)
-        value = hn::Sub(value, hn::Mul(at(rows.lower[k - 1], t + k), at(x, t + k)));
+        value = hn::Sub(value, hn::Mul(at(rows.lower[k - 1], t + k), at(step, t + k)));
     }
-    hn::StoreU(value, d, x + t * block_channels + column);
+    hn::StoreU(value, d, step + t * block_channels + column);
+    hn::StoreU(hn::Add(at(x, t), value), d, x + t * block_channels + column);
   }
 }
 
-void solve_weighted_rows(const WeightedRows& rows, const double* weight, const double* y,
-                         double* x) {
+void refine_weighted_rows(const WeightedRows& rows, const double* weight, const double* penalty,
+                          const double* y, double* x, double* step) {
   for_columns([&](std::size_t c) {
-    if (rows.order == 1) solve_column<1>(rows, weight, y, x, c);
-    if (rows.order == 2) solve_column<2>(rows, weight, y, x, c);
-    if (rows.order == 3) solve_column<3>(rows, weight, y, x, c);
+    if (rows.order == 1) refine_column<1>(rows, weight, penalty, y, x, step, c);
+    if (rows.order == 2) refine_column<2>(rows, weight, penalty, y, x, step, c);
+    if (rows.order == 3) refine_column<3>(rows, weight, penalty, y, x, step, c);
   });
 }
 
@@ -203,21 +235,19 @@ namespace kinemend::signal {
 
 HWY_EXPORT(solve_shared_rows);
 HWY_EXPORT(factor_weighted_rows);
-HWY_EXPORT(solve_weighted_rows);
+HWY_EXPORT(refine_weighted_rows);
 HWY_EXPORT(invert_weighted_rows);
 HWY_EXPORT(difference_variance_rows);
 
-void solve_shared_rows(const double* lower, const double* inverse_diagonal, std::size_t order,
-                       std::size_t frames, const double* y, double* x, double* product_sums) {
-  HWY_DYNAMIC_DISPATCH(solve_shared_rows)
-  (lower, inverse_diagonal, order, frames, y, x, product_sums);
+void solve_shared_rows(const SharedRows& factor, const double* y, double* x, double* residuals) {
+  HWY_DYNAMIC_DISPATCH(solve_shared_rows)(factor, y, x, residuals);
 }
 void factor_weighted_rows(const WeightedRows& rows, const double* weight, const double* penalty) {
   HWY_DYNAMIC_DISPATCH(factor_weighted_rows)(rows, weight, penalty);
 }
-void solve_weighted_rows(const WeightedRows& rows, const double* weight, const double* y,
-                         double* x) {
-  HWY_DYNAMIC_DISPATCH(solve_weighted_rows)(rows, weight, y, x);
+void refine_weighted_rows(const WeightedRows& rows, const double* weight, const double* penalty,
+                          const double* y, double* x, double* step) {
+  HWY_DYNAMIC_DISPATCH(refine_weighted_rows)(rows, weight, penalty, y, x, step);
 }
 void invert_weighted_rows(const WeightedRows& rows) {
   HWY_DYNAMIC_DISPATCH(invert_weighted_rows)(rows);

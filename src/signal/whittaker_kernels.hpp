@@ -7,8 +7,15 @@
 /// same bits.
 namespace kinemend::signal {
 
-void solve_shared_rows(const double* lower, const double* inverse_diagonal, std::size_t order,
-                       std::size_t frames, const double* y, double* x, double* product_sums);
+struct SharedRows {
+  std::size_t frames;
+  std::size_t order;
+  double strength;
+  const double* lower;             ///< R x order
+  const double* inverse_diagonal;  ///< R
+  std::size_t stored;              ///< R: the last row serves all that follow
+};
+void solve_shared_rows(const SharedRows& factor, const double* y, double* x, double* residuals);
 
 struct WeightedRows {
   std::size_t frames;
@@ -18,8 +25,8 @@ struct WeightedRows {
   double* inverse[4];  ///< order + 1 of F x 8
 };
 void factor_weighted_rows(const WeightedRows& rows, const double* weight, const double* penalty);
-void solve_weighted_rows(const WeightedRows& rows, const double* weight, const double* y,
-                         double* x);
+void refine_weighted_rows(const WeightedRows& rows, const double* weight, const double* penalty,
+                          const double* y, double* x, double* step);
 void invert_weighted_rows(const WeightedRows& rows);
 void difference_variance_rows(const WeightedRows& rows, double* variances);
 

@@ -51,15 +51,15 @@ TEST_P(WhittakerOrder, SharedSolutionIsThatOfTheDenseSystem) {
       const Eigen::MatrixXd inverse = a.inverse();
       EXPECT_NEAR(factor.log_determinant, std::log(a.determinant()),
                   1e-9 * std::fabs(std::log(a.determinant())) + 1e-9);
-      const std::vector<double> diagonal = leverages(factor);
+      const std::vector<double> others = weights_of_others(factor);
       for (std::size_t t = 0; t < frames; ++t) {
-        EXPECT_NEAR(diagonal[t],
-                    inverse(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(t)), 1e-10);
+        EXPECT_NEAR(others[t],
+                    1 - inverse(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(t)), 1e-10);
       }
       for (std::size_t c = 0; c < block_channels; ++c) {
         const Eigen::VectorXd expected = inverse * column(y, c);
         EXPECT_LT((column(x, c) - expected).norm(), 1e-9);
-        EXPECT_NEAR(sums[c], column(y, c).dot(expected), 1e-9);
+        EXPECT_NEAR(sums[c], column(y, c).dot(column(y, c) - expected), 1e-9);
       }
     }
   }
@@ -73,10 +73,10 @@ TEST_P(WhittakerOrder, WeightedSolutionAndVariancesAreThoseOfTheDenseSystem) {
     if (frames > 8) weight(4, 3) = weight(5, 3) = 0;  // missing samples
     const ChannelBlock penalty = random_block(frames - order, random, 0.1, 50);
     const ChannelBlock y = random_block(frames, random, -2, 2);
-    ChannelBlock x(frames), variances(frames - order);
+    ChannelBlock x = random_block(frames, random, -2, 2), variances(frames - order);
     WeightedSystem system(frames, order);
     system.factor(weight, penalty);
-    system.solve(weight, y, x);
+    system.refine(weight, penalty, y, x);
     system.difference_variances(variances);
     const Eigen::MatrixXd d = difference_matrix(frames, order);
     for (std::size_t c = 0; c < block_channels; ++c) {
@@ -97,6 +97,68 @@ TEST_P(WhittakerOrder, PassesHalfTheAmplitudeAtTheCutoff) {
     y(t, 2) = std::cos(2 * 3.14159265358979 * cutoff * static_cast<double>(t));
   solve_shared(factor_shared(frames, order, strength_of_cutoff(cutoff, order)), y, x);
   for (std::size_t t = 500; t < 520; ++t) EXPECT_NEAR(x(t, 2), 0.5 * y(t, 2), 1e-6);
+}
+
+// y plus a polynomial that the differences of this order do not see.
+ChannelBlock with_trend(ChannelBlock y, std::size_t order) {
+  for (std::size_t t = 0; t < y.frames; ++t) {
+    double trend = 1e5;
+    if (order > 1) trend += 20 * static_cast<double>(t);
+    for (std::size_t c = 0; c < block_channels; ++c) y(t, c) += trend;
+  }
+  return y;
+}
+
+double largest_difference(const ChannelBlock& a, const ChannelBlock& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.values.size(); ++i)
+    largest = std::max(largest, std::fabs(a.values[i] - b.values[i]));
+  return largest;
+}
+
+TEST_P(WhittakerOrder, LargeTrendsCostTheStrongestSmootherNoDigits) {
+  const std::size_t order = GetParam(), frames = 4000;
+  const double strength = 1e10;
+  Random random(3);
+  const ChannelBlock noise = random_block(frames, random, -1, 1), y = with_trend(noise, order);
+  const SharedFactor factor = factor_shared(frames, order, strength);
+  ChannelBlock alone(frames), shared(frames);
+  const BlockRow expected = solve_shared(factor, noise, alone),
+                 sums = solve_shared(factor, y, shared);
+  EXPECT_LT(largest_difference(shared, with_trend(alone, order)), 1e-5);
+  for (std::size_t c = 0; c < block_channels; ++c)
+    EXPECT_NEAR(sums[c] / expected[c], 1, 1e-8) << "channel " << c;
+
+  const ChannelBlock weight(frames, 1), penalty(frames - order, strength);
+  ChannelBlock weighted = y;
+  WeightedSystem system(frames, order);
+  system.factor(weight, penalty);
+  for (int round = 0; round < 2; ++round) system.refine(weight, penalty, y, weighted);
+  EXPECT_LT(largest_difference(weighted, shared), 1e-4);
+}
+
+// The rows of a factor are stored until they settle.
+TEST_P(WhittakerOrder, FactorOfALongTakeIsThatOfAShortOneContinued) {
+  const std::size_t order = GetParam();
+  const double strength = strength_of_cutoff(0.02, order);
+  const SharedFactor factor = factor_shared(200000, order, strength);
+  EXPECT_LT(factor.inverse_diagonal.size(), 2000U);
+  Random random(4);
+  const ChannelBlock y = random_block(6000, random, -1, 1);
+  ChannelBlock x(6000);
+  const SharedFactor shorter = factor_shared(6000, order, strength);
+  solve_shared(shorter, y, x);
+  // What the equations leave: y - x - strength D^T D x.
+  const auto c = difference_coefficients(order);
+  for (std::size_t t = 3000; t < 3100; ++t) {
+    double left = y(t, 0) - x(t, 0);
+    for (std::size_t k = 0; k <= order; ++k) {
+      double difference = 0;
+      for (std::size_t m = 0; m <= order; ++m) difference += c[m] * x(t - k + m, 0);
+      left -= strength * c[k] * difference;
+    }
+    EXPECT_NEAR(left, 0, 1e-11 * strength + 1e-9) << "frame " << t;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Orders, WhittakerOrder, testing::Values(1, 2, 3));
