@@ -136,6 +136,7 @@ class ExampleCleaning {
       smooth_rest(work, trace.weights, expressible, noise, cleaned);
       if (options_.welsch_deg == 0) {
         fall_back_where_rejected(work, trace.weights, cleaned);
+        fall_back_where_far(work, noise, cleaned);
         if (suspects <= many_suspects) fall_back(work, rest, cleaned);
       }
     }

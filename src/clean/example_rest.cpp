@@ -17,6 +17,10 @@ constexpr double least_strangeness = 1;
 constexpr double rejected_weight = 0.01;
 constexpr double known_motion = 1.5, unknown_motion = 5;  // strangeness
 constexpr double believable_rejected = 0.2, unbelievable_rejected = 0.35;
+// The filter's distance from `auto` within this time, in deviations of the noise. `auto` itself is
+// within half of one.
+constexpr double window_s = 0.2;
+constexpr double believable_distance = 1.5, unbelievable_distance = 3;
 constexpr std::size_t part_channels = 3;
 // A measurement is far from what the bases express beyond so many medians of its channel's
 // distances, and beyond so much.
@@ -50,10 +54,14 @@ double trimmed_mean(std::vector<double>& squares) {
   return sum / static_cast<double>(kept);
 }
 
-// Where a part was measured, so much of what `auto` makes of it takes the place of what is there.
-void blend_part(const PriorWork& work, std::size_t part, double share, PoseMatrix& cleaned) {
-  for (std::size_t f = 0; f < cleaned.frames && share > 0; ++f) {
-    for (std::size_t c = part_channels * part; c < part_channels * (part + 1); ++c) {
+// Where a part was measured, `share_at(frame)` of what `auto` makes of it takes the place of what
+// is there.
+template <class Shares>
+void blend_part(const PriorWork& work, std::size_t part, const Shares& share_at,
+                PoseMatrix& cleaned) {
+  for (std::size_t f = 0; f < cleaned.frames; ++f) {
+    const double share = share_at(f);
+    for (std::size_t c = part_channels * part; c < part_channels * (part + 1) && share > 0; ++c) {
       if (work.channels.observed[f * cleaned.channels + c] != 0)
         cleaned(f, c) += share * (work.fallback(f, c) - cleaned(f, c));
     }
@@ -160,7 +168,8 @@ void fall_back(const PriorWork& work, double strangeness, PoseMatrix& cleaned) {
   const double share =
       ramp(std::log(strangeness), std::log(known_motion), std::log(unknown_motion));
   for (std::size_t part = 0; part_channels * part < cleaned.channels; ++part)
-    blend_part(work, part, share, cleaned);
+    blend_part(
+        work, part, [share](std::size_t) { return share; }, cleaned);
 }
 
 void fall_back_where_rejected(const PriorWork& work, const PoseMatrix& weights,
@@ -177,7 +186,36 @@ void fall_back_where_rejected(const PriorWork& work, const PoseMatrix& weights,
     }
     if (count == 0) continue;
     const double share = ramp(rejected / count, believable_rejected, unbelievable_rejected);
-    blend_part(work, first / part_channels, share, cleaned);
+    blend_part(
+        work, first / part_channels, [share](std::size_t) { return share; }, cleaned);
+  }
+}
+
+void fall_back_where_far(const PriorWork& work, const std::vector<double>& noise,
+                         PoseMatrix& cleaned) {
+  const std::size_t frames = cleaned.frames;
+  const auto half = static_cast<std::size_t>(std::min(
+      static_cast<double>(frames), std::ceil(0.5 * window_s * work.channels.frame_rate_hz)));
+  for (std::size_t part = 0; part_channels * (part + 1) <= cleaned.channels; ++part) {
+    // Sums from the first frame to before each one, of squares in units of the noise.
+    std::vector<double> squares{0}, count{0};
+    for (std::size_t f = 0; f < frames; ++f) {
+      squares.push_back(squares.back());
+      count.push_back(count.back());
+      for (std::size_t c = part_channels * part; c < part_channels * (part + 1); ++c) {
+        if (work.channels.observed[f * cleaned.channels + c] == 0) continue;
+        const double distance = (cleaned(f, c) - work.fallback(f, c)) / noise[c];
+        squares.back() += distance * distance;
+        count.back() += 1;
+      }
+    }
+    const auto share_at = [&](std::size_t f) {
+      const std::size_t first = f < half ? 0 : f - half, last = std::min(frames, f + half + 1);
+      const double samples = std::max(count[last] - count[first], 1.0);
+      return ramp(std::sqrt((squares[last] - squares[first]) / samples), believable_distance,
+                  unbelievable_distance);
+    };
+    blend_part(work, part, share_at, cleaned);
   }
 }
 

@@ -39,4 +39,11 @@ void fall_back(const PriorWork& work, double strangeness, PoseMatrix& cleaned);
 void fall_back_where_rejected(const PriorWork& work, const PoseMatrix& weights,
                               PoseMatrix& cleaned);
 
+/// `auto` stays within the noise of what was measured, and what stays farther from it than that for
+/// a fifth of a second is the bases' motion, not the take's: from 1.5 deviations of the noise on a
+/// part is what `auto` made of it there, wholly at 3. Outliers that `auto` takes for noise count as
+/// such here, too.
+void fall_back_where_far(const PriorWork& work, const std::vector<double>& noise,
+                         PoseMatrix& cleaned);
+
 }  // namespace kinemend
