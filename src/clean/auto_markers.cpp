@@ -93,7 +93,6 @@ std::vector<std::vector<std::size_t>> rigid_neighbours(const MarkerClip& clip,
 
 MarkerTrace clean_markers_by_evidence(MarkerClip& clip, const MarkerSelection& selection,
                                       const AutoOptions& options) {
-  constexpr double degrees_per_height = 1150;
   const double degrees_per_unit = degrees_per_height / selection.body_height;
   const std::size_t frames = clip.frame_count();
   MarkerTrace trace;

@@ -9,8 +9,11 @@
 
 namespace kinemend {
 
-/// The method `auto` on markers. A degree stands for a 1150th of the stature (1.5 mm): optical
-/// systems see finer than angles are measured.
+/// A degree stands for a 1150th of the stature (1.5 mm): optical systems see finer than angles are
+/// measured.
+inline constexpr double degrees_per_height = 1150;
+
+/// The method `auto` on markers.
 MarkerTrace clean_markers_by_evidence(MarkerClip& clip, const MarkerSelection& selection,
                                       const AutoOptions& options);
 

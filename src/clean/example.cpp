@@ -94,6 +94,8 @@ class ExampleCleaning {
 
   void filter(PriorWork& work) const {
     if (work.channels.poses.frames == 0) return;
+    if (!options_.robust || options_.lambda > 0 || options_.welsch_deg > 0)
+      std::fill(work.needs.begin(), work.needs.end(), 1.0);
     JointLimits limits = learned_joint_limits(*model_);
     if (work.skeleton != nullptr && !work.skeleton->limits.empty())
       limits.joints = skeleton_joint_limits(*work.skeleton, model_->layout, *work.match).joints;
@@ -136,7 +138,7 @@ class ExampleCleaning {
       smooth_rest(work, trace.weights, expressible, noise, cleaned);
       if (options_.welsch_deg == 0) {
         fall_back_where_rejected(work, trace.weights, cleaned);
-        fall_back_where_far(work, noise, cleaned);
+        fall_back_where_biased(work, noise, cleaned);
         if (suspects <= many_suspects) fall_back(work, rest, cleaned);
       }
     }

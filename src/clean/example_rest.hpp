@@ -39,11 +39,10 @@ void fall_back(const PriorWork& work, double strangeness, PoseMatrix& cleaned);
 void fall_back_where_rejected(const PriorWork& work, const PoseMatrix& weights,
                               PoseMatrix& cleaned);
 
-/// `auto` stays within the noise of what was measured, and what stays farther from it than that for
-/// a fifth of a second is the bases' motion, not the take's: from 1.5 deviations of the noise on a
-/// part is what `auto` made of it there, wholly at 3. Outliers that `auto` takes for noise count as
-/// such here, too.
-void fall_back_where_far(const PriorWork& work, const std::vector<double>& noise,
-                         PoseMatrix& cleaned);
+/// What is measured scatters about the motion: where the median of what the filter leaves of a part
+/// within a fifth of a second (15 frames at least) is far from zero, the motion is the bases', not
+/// the take's. From a deviation of the noise on it becomes what `auto` made of it, wholly at two.
+void fall_back_where_biased(const PriorWork& work, const std::vector<double>& noise,
+                            PoseMatrix& cleaned);
 
 }  // namespace kinemend

@@ -48,7 +48,10 @@ std::vector<double> noise_with_spikes(const PriorWork& work) {
 void filter(PriorWork& work, const KalmanLearnedOptions& options, const LinearDynamics& learned) {
   BodyChannels& channels = work.channels;
   std::vector<double> noise = noise_with_spikes(work);
-  if (options.noise_deg > 0) std::fill(noise.begin(), noise.end(), options.noise_deg);
+  if (options.noise_deg > 0) {
+    std::fill(noise.begin(), noise.end(), options.noise_deg);
+    std::fill(work.needs.begin(), work.needs.end(), 1.0);
+  }
   const LinearDynamics dynamics = at_rate(learned, channels.frame_rate_hz);
   const MeasurementFacts facts{channels.observed, noise};
   if (options.smoother) {

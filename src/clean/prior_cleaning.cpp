@@ -9,7 +9,10 @@
 
 #include "base/file_bytes.hpp"
 #include "base/quantiles.hpp"
+#include "clean/auto_markers.hpp"
+#include "clean/prior_hold.hpp"
 #include "clean/tracks.hpp"
+#include "clean/vector_tracks.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/representation.hpp"
 #include "kinemend/signal.hpp"
@@ -35,27 +38,41 @@ void mark_part(std::vector<std::uint8_t>& marks, std::size_t channels, std::size
   for (std::size_t axis = 0; axis < 3; ++axis) marks[frame * channels + 3 * part + axis] = 1;
 }
 
+// What `auto` says of each joint or marker.
+struct AutoOpinion {
+  std::vector<double> noise;  // degrees
+  std::vector<double> needs;  // as `PriorWork::needs`
+};
+
 // The take's channels in the frame of what `auto` made of it, with what `auto` says of each part's
-// samples; `noise` and `actions` are by joint or marker.
+// samples; `actions` is by joint or marker.
 PriorWork work_of(BodyChannels channels, PoseMatrix fallback, const BodyMatch& match,
-                  const std::vector<double>& noise, const std::vector<Action>& actions) {
+                  const AutoOpinion& opinion, const std::vector<Action>& actions) {
   PriorWork work;
   work.match = &match;
   work.channels = std::move(channels);
   work.fallback = std::move(fallback);
   const std::size_t frames = work.fallback.frames, width = work.fallback.channels;
   work.noise.assign(width, 0);
+  work.needs.assign(width / 3, 1);
   work.suspect.assign(frames * width, 0);
   for (std::size_t part = 0; part < match.parts.size(); ++part) {
     if (match.parts[part] < 0) continue;
     const auto index = static_cast<std::size_t>(match.parts[part]);
-    for (std::size_t axis = 0; axis < 3; ++axis) work.noise[3 * part + axis] = noise[index];
+    for (std::size_t axis = 0; axis < 3; ++axis) work.noise[3 * part + axis] = opinion.noise[index];
+    work.needs[part] = opinion.needs[index];
     for (std::size_t f = 0; f < frames; ++f) {
-      if (actions[f * noise.size() + index] == Action::despiked)
+      if (actions[f * opinion.noise.size() + index] == Action::despiked)
         mark_part(work.suspect, width, f, part);
     }
   }
   return work;
+}
+
+void leave_alone(const PriorWork& work, bool fill, std::vector<std::uint8_t>& chosen) {
+  for (std::size_t part = 0; part < chosen.size(); ++part) {
+    if (chosen[part] != 0 && is_left_alone(work, part, fill)) chosen[part] = 0;
+  }
 }
 
 bool is_rejected(const PriorWork& work, std::size_t frame, std::size_t part) {
@@ -92,17 +109,32 @@ JointRun run_auto(const Clip& clip, const BodyLayout& layout, const BodyMatch& m
   return run;
 }
 
+// As `auto` decides how far to smooth each joint.
+std::vector<double> joint_needs(const Clip& clip, const CleanTrace& trace) {
+  const std::vector<std::size_t> joints = selected_joints(clip, Selection::all(clip));
+  std::vector<double> noise, needs(clip.joint_count(), 0);
+  for (const std::size_t joint : joints) noise.push_back(trace.noise_deg[joint]);
+  const std::vector<double> shares = cleaning_shares(noise, clip.frame_rate_hz);
+  for (std::size_t n = 0; n < joints.size(); ++n) needs[joints[n]] = shares[n];
+  return needs;
+}
+
+double root_need(const Clip& clip, double noise) {
+  const double degrees = degrees_per_radian / typical_bone_length(clip.skeleton) * noise;
+  return cleaning_shares({degrees}, clip.frame_rate_hz).front();
+}
+
 PriorWork work_of(const Clip& clip, const JointRun& run) {
   BodyChannels guide = encode_body(run.fallback, run.layout, run.match);
   BodyChannels channels = encode_body(clip, run.layout, run.match, guide);
   PriorWork work = work_of(std::move(channels), std::move(guide.poses), run.match,
-                           run.trace.noise_deg, run.trace.actions);
+                           {run.trace.noise_deg, joint_needs(clip, run.trace)}, run.trace.actions);
   work.skeleton = &clip.skeleton;
   if (!run.layout.with_place) return work;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    work.noise[3 * run.place_part() + axis] =
-        run.trace.root_noise.value_or(0) * work.channels.degrees_per_unit;
-  }
+  const double noise = run.trace.root_noise.value_or(0);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    work.noise[3 * run.place_part() + axis] = noise * work.channels.degrees_per_unit;
+  work.needs[run.place_part()] = root_need(clip, noise);
   for (std::size_t f = 0; f < run.trace.root_actions.size(); ++f) {
     if (run.trace.root_actions[f] == Action::despiked)
       mark_part(work.suspect, work.fallback.channels, f, run.place_part());
@@ -153,7 +185,8 @@ void leave_far_turns_to_auto(PriorWork& work, const JointRun& run,
   }
 }
 
-// What `auto` made of the joints and positions that the model does not know.
+// What `auto` made of the joints and positions that the model does not know, or that are clean;
+// `chosen` includes the place.
 void take_fallback(Clip& clip, const JointRun& run, const std::vector<std::uint8_t>& chosen) {
   std::vector<std::uint8_t> known(clip.joint_count(), 0);
   for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
@@ -164,7 +197,7 @@ void take_fallback(Clip& clip, const JointRun& run, const std::vector<std::uint8
     for (std::size_t f = 0; f < clip.frame_count(); ++f)
       clip.rotation(f, joint) = run.fallback.rotation(f, joint);
   }
-  if (!run.layout.with_place && run.selection.root_position)
+  if (chosen[run.place_part()] == 0 && run.selection.root_position)
     clip.root_positions = run.fallback.root_positions;
   const std::size_t width = clip.translated_joints.size();
   for (std::size_t i = 0; i < width; ++i) {
@@ -207,7 +240,7 @@ CleanTrace trace_of(const Clip& clip, const JointRun& run, const PriorWork& work
     }
   }
   if (!run.selection.root_position) trace.root_actions.clear();
-  if (run.is_chosen_place() && !work.rejected.empty()) {
+  if (chosen[run.place_part()] != 0 && !work.rejected.empty()) {
     trace.root_actions.assign(frames, Action::kept);
     for (std::size_t f = 0; f < frames; ++f) {
       if (is_rejected(work, f, run.place_part())) trace.root_actions[f] = Action::despiked;
@@ -238,12 +271,27 @@ MarkerRun run_auto(const MarkerClip& clip, const BodyLayout& layout, const BodyM
   return run;
 }
 
-PriorWork work_of(const MarkerClip& clip, const MarkerRun& run) {
+std::vector<double> marker_needs(const MarkerClip& clip, const MarkerTrace& trace,
+                                 double body_height) {
+  std::vector<double> noise, needs(clip.marker_count(), 0);
+  std::vector<std::size_t> markers;
+  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+    if (trace.noise[m] <= 0) continue;
+    markers.push_back(m);
+    noise.push_back(degrees_per_height / body_height * trace.noise[m]);
+  }
+  const std::vector<double> shares = cleaning_shares(noise, clip.frame_rate_hz);
+  for (std::size_t n = 0; n < markers.size(); ++n) needs[markers[n]] = shares[n];
+  return needs;
+}
+
+PriorWork work_of(const MarkerClip& clip, const MarkerRun& run, double body_height) {
   BodyChannels guide = encode_body(run.fallback, run.layout, run.match);
   BodyChannels channels = encode_body(clip, run.layout, run.match, guide);
   std::vector<double> noise = run.trace.noise;
   for (double& level : noise) level *= channels.degrees_per_unit;
-  return work_of(std::move(channels), std::move(guide.poses), run.match, noise, run.trace.actions);
+  return work_of(std::move(channels), std::move(guide.poses), run.match,
+                 {std::move(noise), marker_needs(clip, run.trace, body_height)}, run.trace.actions);
 }
 
 MarkerTrace trace_of(const MarkerClip& clip, const MarkerSelection& selection, const MarkerRun& run,
@@ -299,10 +347,12 @@ CleanTrace clean_with_prior(Clip& clip, const Selection& selection, const BodyLa
   PriorWork work = work_of(clip, run);
   leave_far_turns_to_auto(work, run, chosen);
   filter(work);
+  hold_to_needs(work);
+  chosen.push_back(run.is_chosen_place() ? 1 : 0);
+  leave_alone(work, fill, chosen);
 
   Clip result = clip;
   take_fallback(result, run, chosen);
-  chosen.push_back(run.is_chosen_place() ? 1 : 0);
   decode_body(work.channels, layout, match, result, chosen);
   if (!fill) keep_bridges(result, run, chosen);
   CleanTrace trace = trace_of(clip, run, work, chosen);
@@ -315,10 +365,12 @@ MarkerTrace clean_with_prior(MarkerClip& clip, const MarkerSelection& selection,
                              const PriorFilter& filter) {
   const BodyMatch match = match_body(layout, clip, names);
   if (clip.frame_count() == 0) return {};
-  const std::vector<std::uint8_t> chosen = chosen_parts(match, selection.markers);
+  std::vector<std::uint8_t> chosen = chosen_parts(match, selection.markers);
   const MarkerRun run = run_auto(clip, layout, match, selection.body_height);
-  PriorWork work = work_of(clip, run);
+  PriorWork work = work_of(clip, run, selection.body_height);
   filter(work);
+  hold_to_needs(work);
+  leave_alone(work, fill, chosen);
 
   MarkerClip result = clip;
   for (std::size_t i = 0; i < clip.positions.size(); ++i) {

@@ -22,6 +22,9 @@ struct PriorWork {
   BodyChannels channels;
   std::vector<double> noise;          ///< D, degrees per channel, as `auto` measures it; 0: none
   std::vector<std::uint8_t> suspect;  ///< F x D, 1 where `auto` takes the sample for a spike
+  /// D / 3: how much of the filter's result each part wants, by its noise: 0 where `auto` finds it
+  /// clean, to 1. A filter that is told the noise by hand sets them to 1.
+  std::vector<double> needs;
   /// F x D, what `auto` makes of the take, for what the model cannot explain; gaps are bridged.
   PoseMatrix fallback;
   /// Set by the filter, F x D: 1 where a measurement counted for next to nothing. Empty: none.
@@ -32,10 +35,10 @@ struct PriorWork {
 /// Cleans `work.channels.poses` in place.
 using PriorFilter = std::function<void(PriorWork& work)>;
 
-/// Runs the filter on the parts that layout and take share, and `auto` on all others and on joints
-/// that turn farther from the model's mean than their channels can say (`tangent_limit_rad`) or
-/// flip by more than 60 degrees in a frame; fills gaps of the shared parts where `fill` is set.
-/// Errors: `ErrorKind::usage` as of `match_body`.
+/// Runs the filter on the parts that layout and take share, and `auto` on all others, on parts that
+/// it finds clean and on joints that turn farther from the model's mean than their channels can say
+/// (`tangent_limit_rad`) or flip by more than 60 degrees in a frame; fills gaps of the shared parts
+/// where `fill` is set. Errors: `ErrorKind::usage` as of `match_body`.
 CleanTrace clean_with_prior(Clip& clip, const Selection& selection, const BodyLayout& layout,
                             const NameMap& names, bool fill, const PriorFilter& filter);
 MarkerTrace clean_with_prior(MarkerClip& clip, const MarkerSelection& selection,

@@ -129,6 +129,7 @@ void turn_channels(PoseMatrix& poses, std::span<const Eigen::Matrix3d> turns) {
 }
 
 void filter(PriorWork& work, const WienerOptions& options, const WienerPrior& known) {
+  if (options.noise_deg > 0) std::fill(work.needs.begin(), work.needs.end(), 1.0);
   PoseMatrix& poses = work.channels.poses;
   std::vector<Eigen::Matrix3d> axes = noise_axes(work);
   const WienerPrior prior = with_turned_channels(known, axes);

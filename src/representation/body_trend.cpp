@@ -84,7 +84,7 @@ std::vector<Value> despiked(std::vector<Value> track, std::span<const double> we
 }
 
 // Parabolas fitted with Gaussian weights; towards the ends of the track they become straight lines,
-// which steps and noise bend less there, but where the track clearly turns.
+// which noise bends less there.
 class LocalFit {
  public:
   LocalFit(const std::vector<double>& track, const std::vector<double>& weights,
@@ -104,44 +104,24 @@ class LocalFit {
     const double line = sums.line();
     const auto to_end = static_cast<double>(std::min(frame, track_.size() - 1 - frame));
     const double u = std::min(1.0, to_end / end_frames_);
-    const double inner = u * u * (3 - 2 * u);
-    const Parabola parabola = sums.parabola(line);
-    const double bend = parabola.value - line;
-    const double doubt = end_doubt * end_doubt * parabola.scatter;
-    const double clear = bend * bend / (bend * bend + doubt + least_doubt);
-    return track_[frame] + line + (inner + (1 - inner) * clear) * bend;
+    return line + u * u * (3 - 2 * u) * (sums.parabola(line) - line);
   }
 
  private:
-  // At an end the track turns where the parabola leaves the line by more than this many deviations
-  // of what it leaves over: sway and steps bend a one-sided fit by about one.
-  static constexpr double end_doubt = 2;
-  static constexpr double least_doubt = 1e-18;  // of a track without any, rounding
-
-  struct Parabola {
-    double value = 0;    // at the middle
-    double scatter = 0;  // mean square of what it leaves over
-  };
-
-  // Of w k^i, w k^i y and w y^2; k the frames from the middle, y from the sample there.
+  // Of w k^i and w k^i y, k the frames from the middle.
   struct Sums {
-    double s0 = 0, s1 = 0, s2 = 0, s3 = 0, s4 = 0, t0 = 0, t1 = 0, t2 = 0, squares = 0;
+    double s0 = 0, s1 = 0, s2 = 0, s3 = 0, s4 = 0, t0 = 0, t1 = 0, t2 = 0;
 
     double line() const {
       const double determinant = s0 * s2 - s1 * s1;
       return determinant > 1e-9 * s0 * s2 ? (s2 * t0 - s1 * t1) / determinant : t0 / s0;
     }
     // `instead`: where the samples tell no parabola.
-    Parabola parabola(double instead) const {
+    double parabola(double instead) const {
       const double a = s2 * s4 - s3 * s3, b = s2 * s3 - s1 * s4, c = s1 * s3 - s2 * s2;
       const double determinant = s0 * a + s1 * b + s2 * c;
-      if (!(determinant > 1e-6 * s0 * s2 * s4)) return {instead, 0};
-      const double value = (a * t0 + b * t1 + c * t2) / determinant;
-      const double d = s0 * s4 - s2 * s2, e = s1 * s2 - s0 * s3, f = s0 * s2 - s1 * s1;
-      const double slope = (b * t0 + d * t1 + e * t2) / determinant;
-      const double half_curvature = (c * t0 + e * t1 + f * t2) / determinant;
-      const double left = squares - value * t0 - slope * t1 - half_curvature * t2;
-      return {value, std::max(0.0, left / s0)};
+      if (!(determinant > 1e-6 * s0 * s2 * s4)) return instead;
+      return (a * t0 + b * t1 + c * t2) / determinant;
     }
   };
 
@@ -152,7 +132,7 @@ class LocalFit {
     for (std::size_t g = frame > reach ? frame - reach : 0; g <= last; ++g) {
       const double k = static_cast<double>(g) - static_cast<double>(frame);
       const double w = weights_[g] * kernel_[g > frame ? g - frame : frame - g];
-      const double wk = w * k, wkk = wk * k, y = track_[g] - track_[frame];
+      const double wk = w * k, wkk = wk * k, y = track_[g];
       sums.s0 += w;
       sums.s1 += wk;
       sums.s2 += wkk;
@@ -161,7 +141,6 @@ class LocalFit {
       sums.t0 += w * y;
       sums.t1 += wk * y;
       sums.t2 += wkk * y;
-      sums.squares += w * y * y;
     }
     return sums;
   }

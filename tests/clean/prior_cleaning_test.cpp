@@ -12,6 +12,7 @@
 #include "kinemend/clean.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/methods.hpp"
+#include "kinemend/metrics.hpp"
 #include "kinemend/synth.hpp"
 
 // The way of a take through the methods with a learned model, with filters whose effect is known.
@@ -82,7 +83,7 @@ TEST(PriorCleaning, BringsATakeBackThatTheFilterLeftAlone) {
 }
 
 TEST(PriorCleaning, PutsTheMeanPoseWhereTheFilterAnswersZero) {
-  const Clip before = walk();
+  const Clip before = walk(2);
   Clip after = before;
   const BodyLayout layout = layout_of(before);
   clean_with_prior(after, Selection::all(before), layout, {}, true, flatten);
@@ -90,6 +91,53 @@ TEST(PriorCleaning, PutsTheMeanPoseWhereTheFilterAnswersZero) {
   for (std::size_t f = 1; f < after.frame_count(); ++f)
     EXPECT_LT(angle_between(after.rotation(f, arm), after.rotation(0, arm)), 1e-9);
   EXPECT_GT(angle_between(before.rotation(0, arm), before.rotation(30, arm)), 0.01);
+}
+
+TEST(PriorCleaning, KeepsItsHandsOffACleanTakeToTheLastDigit) {
+  const Clip before = walk();
+  Clip after = before;
+  const CleanTrace trace =
+      clean_with_prior(after, Selection::all(before), layout_of(before), {}, true, flatten);
+  EXPECT_EQ(after.local_rotations, before.local_rotations);
+  EXPECT_EQ(after.root_positions, before.root_positions);
+  EXPECT_EQ(std::count(trace.actions.begin(), trace.actions.end(), Action::kept),
+            static_cast<std::ptrdiff_t>(trace.actions.size()));
+
+  const MarkerClip markers = marker_take("walk", 2, 60);
+  MarkerClip kept = markers;
+  clean_with_prior(kept, MarkerSelection::all(kept), layout_of(markers), {}, true, flatten);
+  EXPECT_EQ(kept.positions, markers.positions);
+}
+
+TEST(PriorCleaning, GoesAsFarAsTheNoiseAsksFor) {
+  const Clip truth = walk();
+  const auto arm = static_cast<std::size_t>(truth.skeleton.find("LeftArm"));
+  double before = 0;
+  for (const double noise_deg : {0.3, 0.5, 0.6, 0.7, 0.9}) {
+    const Clip noisy = walk(noise_deg);
+    Clip after = noisy;
+    clean_with_prior(after, Selection::all(noisy), layout_of(truth), {}, true, flatten);
+    const double change = geodesic_rms_deg_per_joint(noisy, after)[arm];
+    EXPECT_GE(change, before - 0.1) << noise_deg;
+    before = change;
+  }
+  EXPECT_GT(before, 5);
+}
+
+// What the filter puts into a gap joins the samples beside it, which it may not change.
+TEST(PriorCleaning, WhatIsFilledInACleanTakeMeetsTheSamplesBesideIt) {
+  const Clip truth = walk();
+  const auto arm = static_cast<std::size_t>(truth.skeleton.find("LeftArm"));
+  Clip clip = truth;
+  clip.observed.assign(clip.local_rotations.size(), 1);
+  for (std::size_t f = 40; f < 60; ++f) clip.observed[f * clip.joint_count() + arm] = 0;
+  Clip after = clip;
+  clean_with_prior(after, Selection::all(clip), layout_of(truth), {}, true, flatten);
+  double usual = 0;
+  for (std::size_t f = 1; f < truth.frame_count(); ++f)
+    usual = std::max(usual, angle_between(truth.rotation(f, arm), truth.rotation(f - 1, arm)));
+  for (std::size_t f = 38; f < 63; ++f)
+    EXPECT_LT(angle_between(after.rotation(f, arm), after.rotation(f - 1, arm)), 1.5 * usual) << f;
 }
 
 TEST(PriorCleaning, ChangesWhatIsSelectedOnly) {

@@ -1,0 +1,74 @@
+#include "clean/prior_hold.hpp"
+
+#include <algorithm>
+
+namespace kinemend {
+
+namespace {
+
+constexpr std::size_t part_channels = 3;
+constexpr double mostly_own = 0.5;  // need
+
+// What is to be added to a channel: at held samples as given, between them on the straight line,
+// and nothing where none is held.
+void bridge_offsets(std::vector<double>& offsets, const std::vector<std::uint8_t>& held) {
+  const std::size_t frames = offsets.size();
+  std::size_t last = frames, next = 0;  // held frames before and at or behind f; `frames`: none
+  for (std::size_t f = 0; f < frames; ++f) {
+    if (held[f] != 0) {
+      last = f;
+      continue;
+    }
+    next = std::max(next, f);
+    while (next < frames && held[next] == 0) ++next;
+    if (last == frames || next == frames) {
+      offsets[f] = last < frames ? offsets[last] : next < frames ? offsets[next] : 0;
+    } else {
+      const double u = static_cast<double>(f - last) / static_cast<double>(next - last);
+      offsets[f] = offsets[last] + u * (offsets[next] - offsets[last]);
+    }
+  }
+}
+
+// Spikes this dense are more than `auto` repairs well: it finds some, and the filter others.
+bool has_dense_spikes(const PriorWork& work) {
+  constexpr double dense = 0.02;
+  const auto count = [](const std::vector<std::uint8_t>& marks) {
+    return static_cast<double>(
+        std::count_if(marks.begin(), marks.end(), [](std::uint8_t mark) { return mark != 0; }));
+  };
+  return count(work.suspect) > dense * count(work.channels.observed);
+}
+
+}  // namespace
+
+void hold_to_needs(PriorWork& work) {
+  PoseMatrix& poses = work.channels.poses;
+  const std::size_t frames = poses.frames;
+  if (has_dense_spikes(work)) std::fill(work.needs.begin(), work.needs.end(), 1.0);
+  std::vector<double> offsets(frames);
+  std::vector<std::uint8_t> held(frames);
+  for (std::size_t c = 0; c < poses.channels; ++c) {
+    const double need = work.needs[c / part_channels];
+    if (need >= 1) continue;
+    for (std::size_t f = 0; f < frames; ++f) {
+      const std::size_t i = f * poses.channels + c;
+      if (need < mostly_own && !work.rejected.empty()) work.rejected[i] = work.suspect[i];
+      held[f] = work.channels.observed[i];
+      offsets[f] = (1 - need) * (work.fallback(f, c) - poses(f, c));
+    }
+    bridge_offsets(offsets, held);
+    for (std::size_t f = 0; f < frames; ++f) poses(f, c) += offsets[f];
+  }
+}
+
+bool is_left_alone(const PriorWork& work, std::size_t part, bool fill) {
+  if (work.needs[part] > 0) return false;
+  const std::size_t channels = work.channels.poses.channels;
+  for (std::size_t f = 0; f < work.channels.poses.frames; ++f) {
+    if (fill && work.channels.observed[f * channels + part_channels * part] == 0) return false;
+  }
+  return true;
+}
+
+}  // namespace kinemend

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "clean/prior_cleaning.hpp"
+
+// Hands off what is clean: a learned model changes a part no further than its noise asks for.
+namespace kinemend {
+
+/// Puts what `auto` makes of the take in the place of what the filter made of it, by 1 - need for
+/// each part (`work.needs`): a part in which `auto` finds nothing stays as it is. What the filter
+/// put into gaps moves with the samples beside them. Where one sample in fifty is a spike to
+/// `auto`, every part needs the filter.
+void hold_to_needs(PriorWork& work);
+
+/// Whether the filter has no say in a part: no need, and nothing that it may fill.
+bool is_left_alone(const PriorWork& work, std::size_t part, bool fill);
+
+}  // namespace kinemend
