@@ -31,32 +31,6 @@ SampleMarks beside_gaps(const SampleMarks& missing) {
   return marks;
 }
 
-// The straight line of least squares through a marker's way: travel is no part of what is smoothed,
-// and its size would cost the strongest smoothers their digits.
-struct Travel {
-  Vec3 middle, velocity;  // of the middle frame, and per frame
-  double middle_frame = 0;
-
-  Vec3 at(std::size_t frame) const {
-    return middle + (static_cast<double>(frame) - middle_frame) * velocity;
-  }
-};
-
-Travel travel_of(const std::vector<Vec3>& positions) {
-  const double count = static_cast<double>(positions.size());
-  Travel travel{{}, {}, (count - 1) / 2};
-  for (const Vec3 p : positions) travel.middle += (1 / count) * (p - positions[0]);
-  double squares = 0;
-  for (std::size_t f = 0; f < positions.size(); ++f) {
-    const double t = static_cast<double>(f) - travel.middle_frame;
-    travel.velocity += t * (positions[f] - positions[0]);
-    squares += t * t;
-  }
-  travel.middle += positions[0];
-  travel.velocity = (1 / squares) * travel.velocity;
-  return travel;
-}
-
 }  // namespace
 
 std::vector<std::vector<std::size_t>> rigid_neighbours(const MarkerClip& clip,
@@ -101,15 +75,13 @@ MarkerTrace clean_markers_by_evidence(MarkerClip& clip, const MarkerSelection& s
   const std::size_t count = wholes.size();
   if (count == 0) return trace;
   std::vector<std::size_t> markers(count);
-  std::vector<Travel> travels(count);
   VectorTracks tracks(frames, count);
   SampleMarks missing(frames, count);
   for (std::size_t n = 0; n < count; ++n) {
     markers[n] = wholes[n].marker;
     for (std::size_t t = 0; t < frames; ++t) missing(t, n) = !clip.is_observed(t, markers[n]);
-    travels[n] = travel_of(wholes[n].positions);
     for (std::size_t t = 0; t < frames; ++t)
-      tracks.set(t, n, degrees_per_unit * (wholes[n].positions[t] - travels[n].at(t)));
+      tracks.set(t, n, degrees_per_unit * wholes[n].positions[t]);
   }
   const CleanedTracks verdicts = clean_tracks(
       tracks, beside_gaps(missing), missing, rigid_neighbours(clip, markers, selection.body_height),
@@ -122,7 +94,7 @@ MarkerTrace clean_markers_by_evidence(MarkerClip& clip, const MarkerSelection& s
     for (std::size_t t = 0; t < frames; ++t) {
       const bool spike = verdicts.marked(t, n) != 0;
       if (missing(t, n) != 0 || (verdicts.shares[n] == 0 && !spike)) continue;
-      clip.position(t, markers[n]) = travels[n].at(t) + (1 / degrees_per_unit) * tracks.at(t, n);
+      clip.position(t, markers[n]) = (1 / degrees_per_unit) * tracks.at(t, n);
       if (spike) trace.actions[t * clip.marker_count() + markers[n]] = Action::despiked;
     }
   }

@@ -108,8 +108,11 @@ class Averager {
     }
     for (std::size_t p = 0; p < positions_.size(); ++p) {
       moves.shifts.emplace_back(count);
-      mean_move(positions_[p], first + pad_, count, travels[p] ? near : weights.neighbours,
-                moves.shifts.back());
+      if (travels[p] != 0) {
+        travel_move(positions_[p], first + pad_, count, near, moves.shifts.back());
+      } else {
+        mean_move(positions_[p], first + pad_, count, weights.neighbours, moves.shifts.back());
+      }
     }
     add_point_moves_of(first, count, weights.neighbours, near, moves);
     return moves;
@@ -132,6 +135,45 @@ class Averager {
     Weights& operator=(Weights&&) = default;
     ~Weights() = default;
   };
+
+  // Where the body itself travels, to the weighted straight line through its moves: poses before
+  // and behind a frame hardly ever weigh the same, and their mean would lag or lead.
+  class LineOfMoves {
+   public:
+    void add(double weight, std::ptrdiff_t offset, Vec3 move) {
+      const auto o = static_cast<double>(offset);
+      weights_ += weight;
+      offsets_ += weight * o;
+      squares_ += weight * o * o;
+      moves_ += weight * move;
+      products_ += weight * o * move;
+    }
+    Vec3 at_own_frame() const {
+      const Vec3 mean = (1 / weights_) * moves_;
+      const double spread = squares_ - offsets_ * offsets_ / weights_;
+      if (!(spread > least_spread * weights_)) return mean;
+      const Vec3 speed = (1 / spread) * (products_ - offsets_ * mean);
+      return mean - (offsets_ / weights_) * speed;
+    }
+
+   private:
+    static constexpr double least_spread = 0.5;  // square frames: less tells no speed
+    double weights_ = 1, offsets_ = 0, squares_ = 0;
+    Vec3 moves_, products_;
+  };
+
+  void travel_move(const VectorTrack& track, std::size_t first, std::size_t count,
+                   const std::vector<Neighbour>& near, VectorTrack& out) const {
+    for (std::size_t i = 0; i < count; ++i) {
+      LineOfMoves line;
+      for (const Neighbour& n : near) {
+        if (n.weights[i] <= 0) continue;
+        const auto there = static_cast<std::ptrdiff_t>(first + i) + n.offset;
+        line.add(n.weights[i], n.offset, track[static_cast<std::size_t>(there)] - track[first + i]);
+      }
+      out.set(i, line.at_own_frame());
+    }
+  }
 
   const double* point_weights(std::size_t point) const {
     return points_observed_[point].empty() ? nullptr : points_observed_[point].data();
@@ -188,15 +230,13 @@ class Averager {
     const std::vector<VectorTrack> travels = body_travels(first, count, neighbours);
     VectorTrack centre(count);
     for (std::size_t i = 0; i < count; ++i) {
-      Vec3 sum;
-      double total = 1;
+      LineOfMoves line;
       for (std::size_t n = 0, k = 0; n < neighbours.size() && k < near.size(); ++n) {
         if (neighbours[n].offset != near[k].offset) continue;
-        sum += near[k].weights[i] * travels[n][i];
-        total += near[k].weights[i];
+        line.add(near[k].weights[i], near[k].offset, travels[n][i]);
         ++k;
       }
-      centre.set(i, (1 / total) * sum);
+      centre.set(i, line.at_own_frame());
     }
     for (std::size_t p = 0; p < points_.size(); ++p) {
       VectorTrack move(count);

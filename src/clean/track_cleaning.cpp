@@ -5,13 +5,64 @@
 #include "clean/noise_shape.hpp"
 #include "clean/spikes.hpp"
 #include "clean/track_smoother.hpp"
+#include "clean/tracks.hpp"
 
 namespace kinemend {
+
+namespace {
+
+// The straight line of least squares through a track: travel and steady turning are no part of what
+// is smoothed, or a take that turns would be smoothed otherwise than one that does not.
+struct Travel {
+  Vec3 middle, velocity;  // of the middle frame, and per frame
+  double middle_frame = 0;
+
+  Vec3 at(std::size_t frame) const {
+    return middle + (static_cast<double>(frame) - middle_frame) * velocity;
+  }
+};
+
+Travel travel_of(const VectorTracks& tracks, std::size_t track) {
+  const auto count = static_cast<double>(tracks.frames());
+  const Vec3 origin = tracks.at(0, track);
+  Travel travel{{}, {}, (count - 1) / 2};
+  double squares = 0;
+  for (std::size_t f = 0; f < tracks.frames(); ++f) {
+    const double t = static_cast<double>(f) - travel.middle_frame;
+    const Vec3 way = tracks.at(f, track) - origin;
+    travel.middle += (1 / count) * way;
+    travel.velocity += t * way;
+    squares += t * t;
+  }
+  travel.middle += origin;
+  travel.velocity = (1 / squares) * travel.velocity;
+  return travel;
+}
+
+std::vector<Travel> take_travel(VectorTracks& tracks) {
+  std::vector<Travel> travels(tracks.tracks());
+  for_each_parallel(tracks.tracks(), tracks.values.values.size(), [&](std::size_t n) {
+    travels[n] = travel_of(tracks, n);
+    for (std::size_t t = 0; t < tracks.frames(); ++t)
+      tracks.set(t, n, tracks.at(t, n) - travels[n].at(t));
+  });
+  return travels;
+}
+
+void give_travel_back(VectorTracks& tracks, const std::vector<Travel>& travels) {
+  for_each_parallel(tracks.tracks(), tracks.values.values.size(), [&](std::size_t n) {
+    for (std::size_t t = 0; t < tracks.frames(); ++t)
+      tracks.set(t, n, tracks.at(t, n) + travels[n].at(t));
+  });
+}
+
+}  // namespace
 
 CleanedTracks clean_tracks(VectorTracks& tracks, const SampleMarks& suspects,
                            const SampleMarks& always_missing,
                            const std::vector<std::vector<std::size_t>>& nearby,
                            double frame_rate_hz, const AutoOptions& options) {
+  const std::vector<Travel> travels = take_travel(tracks);
   const std::vector<NoiseShape> shapes = noise_shapes(tracks, always_missing, frame_rate_hz);
   make_round(tracks, shapes);
   CleanedTracks verdicts{SampleMarks(tracks.frames(), tracks.tracks()), {}, {}};
@@ -33,6 +84,7 @@ CleanedTracks clean_tracks(VectorTracks& tracks, const SampleMarks& suspects,
   }
   smooth_tracks(tracks, missing, verdicts.noise, verdicts.shares, frame_rate_hz);
   undo_round(tracks, shapes);
+  give_travel_back(tracks, travels);
   return verdicts;
 }
 

@@ -124,14 +124,18 @@ struct Direct {
         }
         if (total > 0) result.rotation(f, j) = clip.rotation(f, j) * exp((1 / total) * sum);
       }
-      Vec3 sum;
-      double total = 0;
+      // The normal equations of a straight line through the weighted positions, at frame t.
+      double s0 = 0, s1 = 0, s2 = 0;
+      Vec3 t0, t1;
       for (const Weighted& w : weights) {
         if (std::abs(w.frame - t) > travel) continue;
-        sum += w.weight * root(w.frame);
-        total += w.weight;
+        const double o = w.frame - t;
+        s0 += w.weight, s1 += w.weight * o, s2 += w.weight * o * o;
+        t0 += w.weight * root(w.frame), t1 += w.weight * o * root(w.frame);
       }
-      result.root_positions[f] = (1 / total) * sum;
+      const double determinant = s0 * s2 - s1 * s1;
+      const bool is_line = determinant > 0.5 * s0 * s0;
+      result.root_positions[f] = is_line ? (1 / determinant) * (s2 * t0 - s1 * t1) : (1 / s0) * t0;
     }
     return result;
   }

@@ -1,0 +1,211 @@
+// Takes that turn on and on, stand far from the origin or go on for long: what a method makes of a
+// motion does not depend on these.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kinemend/convert.hpp"
+#include "kinemend/methods.hpp"
+#include "kinemend/synth.hpp"
+#include "quality/quality.hpp"
+
+namespace kinemend::quality {
+namespace {
+
+constexpr double rate_hz = 60, noise_deg = 1.5, noise_cm = 0.3;
+
+Clip take(const char* motion, double duration_s) {
+  return synthesize({.motion = motion, .duration_s = duration_s, .frame_rate_hz = rate_hz});
+}
+
+Vec3 random_step(Random& random, double size) {
+  const double x = random.normal(), y = random.normal(), z = random.normal();
+  return {size * x, size * y, size * z};
+}
+
+Clip noisy(const Clip& truth, std::uint64_t seed = 7) {
+  Clip clip = damaged(truth, noise_deg, 0, seed);
+  Random random(seed + 1);
+  for (Vec3& p : clip.root_positions) p += random_step(random, noise_cm);
+  return clip;
+}
+
+// The whole take turns about the origin, or stands elsewhere.
+Vec3 turned(Vec3 p, Vec3 speed_deg_s, double time_s) {
+  return rotate(exp(radians_per_degree * time_s * speed_deg_s), p);
+}
+Clip turned(Clip clip, Vec3 speed_deg_s) {
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    const double time_s = static_cast<double>(f) / clip.frame_rate_hz;
+    clip.rotation(f, 0) = exp(radians_per_degree * time_s * speed_deg_s) * clip.rotation(f, 0);
+    clip.root_positions[f] = turned(clip.root_positions[f], speed_deg_s, time_s);
+  }
+  return clip;
+}
+Clip moved(Clip clip, Vec3 by) {
+  for (Vec3& p : clip.root_positions) p += by;
+  return clip;
+}
+Clip about_its_middle(const Clip& clip) {
+  Vec3 sum;
+  for (const Vec3 p : clip.root_positions) sum += p;
+  return moved(clip, (-1 / static_cast<double>(clip.frame_count())) * sum);
+}
+
+struct Squares {
+  double rotations = 0, positions = 0;  // sums over frames
+
+  void add(const Clip& a, const Clip& b) {
+    for (std::size_t i = 0; i < a.local_rotations.size(); ++i)
+      rotations += std::pow(angle_between(a.local_rotations[i], b.local_rotations[i]), 2);
+    for (std::size_t f = 0; f < a.frame_count(); ++f) {
+      const Vec3 d = a.root_positions[f] - b.root_positions[f];
+      positions += dot(d, d);
+    }
+  }
+};
+double growth(double after, double before) { return std::sqrt(after / before); }
+
+class OfAnyMethod : public testing::TestWithParam<std::string> {
+ protected:
+  std::unique_ptr<Cleaner> cleaner_ = make_cleaner(GetParam());
+
+  Clip cleaned(const Clip& clip) const { return clean_clip(clip, *cleaner_).clip; }
+  // Follows travel late by nature, the later the faster.
+  bool is_causal() const {
+    return cleaner_->live_support(rate_hz).kind == LiveSupport::Kind::causal;
+  }
+  // A filter of fixed weights turns with the take; others measure, compare or choose anew.
+  bool has_fixed_weights() const {
+    for (const char* name : {"gaussian", "butterworth", "weighted-mean", "kalman"})
+      if (GetParam() == name) return true;
+    return false;
+  }
+  bool is_learned() const { return find_method(GetParam()).learned; }  // and takes longer
+  std::vector<Vec3> speeds() const {
+    if (is_learned()) return {{0, 60, 0}, {-20, 30, 20}};
+    return {{0, 20, 0}, {0, 60, 0}, {60, 0, 0}, {-20, 30, 20}};
+  }
+  // What the error of the root position may grow by.
+  double position_limit() const {
+    for (const char* name : {"butterworth", "hampel", "kalman"})
+      if (GetParam() == name) return 1.02;
+    return GetParam() == "weighted-mean" ? 1.6 : 1.25;
+  }
+};
+
+// About an axis through the take, as a person turns who walks in a circle. A position that goes
+// round is on a curve, which an average over a window cuts, and which strengths chosen by evidence
+// follow: the walk is up to two metres from the axis.
+TEST_P(OfAnyMethod, TheErrorDoesNotDependOnHowTheTakeTurns) {
+  Squares still, change;
+  std::vector<Clip> truths = {about_its_middle(take("walk", 3)), about_its_middle(take("wave", 2)),
+                              about_its_middle(take("run", 2))};
+  std::vector<Clip> inputs, results;
+  for (const Clip& truth : truths) {
+    inputs.push_back(noisy(truth));
+    results.push_back(cleaned(inputs.back()));
+    still.add(truth, results.back());
+  }
+  for (const Vec3 speed : speeds()) {
+    Squares error, difference;
+    for (std::size_t i = 0; i < truths.size(); ++i) {
+      const Clip result = cleaned(turned(inputs[i], speed));
+      error.add(turned(truths[i], speed), result);
+      difference.add(turned(results[i], speed), result);
+    }
+    const std::string text = fmt::format("{} {} {} degrees a second", speed.x, speed.y, speed.z);
+    EXPECT_LT(growth(error.rotations, still.rotations), 1.02) << text;
+    if (!is_causal()) {
+      EXPECT_LT(growth(error.positions, still.positions), position_limit()) << text;
+    }
+    if (has_fixed_weights()) {
+      EXPECT_LT(growth(difference.rotations, still.rotations), 0.02) << text;
+    }
+    RecordProperty(text, fmt::format("error {:.3f} {:.3f}, difference {:.3f} {:.3f}",
+                                     growth(error.rotations, still.rotations),
+                                     growth(error.positions, still.positions),
+                                     growth(difference.rotations, still.rotations),
+                                     growth(difference.positions, still.positions)));
+  }
+}
+
+TEST_P(OfAnyMethod, TheErrorDoesNotDependOnWhereTheTakeStands) {
+  const Clip truth = about_its_middle(take("walk", 3)), input = noisy(truth);
+  const Vec3 far{1e6, -2e5, 5e5};  // ten kilometres away
+  const Clip near_result = cleaned(input), far_result = cleaned(moved(input, far));
+  Squares error, difference;
+  error.add(truth, near_result);
+  difference.add(moved(near_result, far), far_result);
+  EXPECT_LT(growth(difference.positions, error.positions), 0.01);
+  EXPECT_LT(growth(difference.rotations, error.rotations), 0.001);
+}
+
+TEST_P(OfAnyMethod, TheErrorDoesNotGrowWithTheLengthOfTheTake) {
+  for (const char* motion : {"turn", "stroll"}) {
+    const Clip once = take(motion, 10), often = take(motion, 50);
+    Squares error_once, error_often;
+    error_once.add(once, cleaned(noisy(once)));
+    error_often.add(often, cleaned(noisy(often)));
+    const double frames =
+        static_cast<double>(often.frame_count()) / static_cast<double>(once.frame_count());
+    EXPECT_LT(growth(error_often.rotations / frames, error_once.rotations), 1.05) << motion;
+    if (!is_causal()) {
+      EXPECT_LT(growth(error_often.positions / frames, error_once.positions), 1.05) << motion;
+    }
+  }
+}
+
+TEST_P(OfAnyMethod, MarkersTurnAndStandAnywhere) {
+  if (is_causal() || find_method(GetParam()).learned) return;  // the models that ship know joints
+  const MarkerClip truth = joint_markers(about_its_middle(take("walk", 3)));
+  MarkerClip input = truth;
+  Random random(9);
+  for (Vec3& p : input.positions) p += random_step(random, noise_cm);
+  const auto clean = [&](const MarkerClip& clip) { return clean_markers(clip, *cleaner_).clip; };
+  const auto map = [&](MarkerClip clip, Vec3 speed, Vec3 shift) {
+    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+      for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+        clip.position(f, m) =
+            turned(clip.position(f, m), speed, static_cast<double>(f) / rate_hz) + shift;
+      }
+    }
+    return clip;
+  };
+  const auto squares = [](const MarkerClip& a, const MarkerClip& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.positions.size(); ++i) {
+      const Vec3 d = a.positions[i] - b.positions[i];
+      sum += dot(d, d);
+    }
+    return sum;
+  };
+  const MarkerClip result = clean(input);
+  const double still = squares(truth, result);
+  const Vec3 far{1e6, -2e5, 5e5};
+  EXPECT_LT(growth(squares(map(result, {}, far), clean(map(input, {}, far))), still), 0.01);
+  const bool cuts_curves = GetParam() == "median" || GetParam() == "weighted-mean";
+  for (const Vec3 speed : {Vec3{0, 20, 0}, Vec3{0, 60, 0}, Vec3{40, 0, 0}}) {
+    const double error = squares(map(truth, speed, {}), clean(map(input, speed, {})));
+    EXPECT_LT(growth(error, still), cuts_curves ? 1.2 : 1.06) << speed.x << " " << speed.y;
+  }
+}
+
+std::vector<std::string> with_models_that_ship() {
+  std::vector<std::string> names;
+  for (const Method& method : methods())
+    if (method.name != "kalman-learned") names.push_back(method.name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Turning, OfAnyMethod, testing::ValuesIn(with_models_that_ship()),
+                         [](const auto& method) {
+                           std::string name;
+                           for (const char c : method.param)
+                             if (c != '-') name += c;
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace kinemend::quality
