@@ -27,6 +27,7 @@ struct Checked {
   std::string name;
   CheckReport report;
   Diagnostics diagnostics;
+  std::string contents;  ///< of a file without markers
 };
 
 /// One figure, defined once for table, JSON and limit.
@@ -192,6 +193,10 @@ std::string tracks_text(const CheckReport& report) {
 
 std::string take_text(const Checked& take, bool verbose) {
   const CheckReport& report = take.report;
+  if (!take.contents.empty()) {
+    return fmt::format("{}: {}: nothing to check\n",
+                       Colours::of_out().paint(Paint::bold, printable(take.name)), take.contents);
+  }
   std::string text = fmt::format(
       "{}: {}\n  {}, {}\n\n", Colours::of_out().paint(Paint::bold, printable(take.name)),
       summary_text(report), length_text(report.frames, report.frame_rate_hz),
@@ -293,7 +298,8 @@ Checked check_file(const std::string& input, const Arguments& arguments) {
   const CheckSettings settings = check_settings(arguments);
   CheckReport report =
       std::visit([&](const auto& take) { return check_take(take, settings); }, read.take);
-  return {input_name(input), std::move(report), std::move(read.diagnostics)};
+  return {input_name(input), std::move(report), std::move(read.diagnostics),
+          pointless_text(read.take)};
 }
 
 int run(const Arguments& arguments) {

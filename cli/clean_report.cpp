@@ -201,6 +201,7 @@ Json swaps_json(const ReportView& report) {
 }  // namespace
 
 std::string verdict(const ReportView& report) {
+  if (!report.contents.empty()) return report.contents + ": nothing to clean";
   const std::size_t changed = count_changed(report);
   const std::size_t spikes = count_spans(report, Action::despiked);
   const std::size_t gaps = count_spans(report, Action::filled);
@@ -241,6 +242,7 @@ std::string headline(const CleanJob& job, const ReportView& report, const CleanP
 }
 
 std::string report_text(const ReportView& report, bool all_rows) {
+  if (!report.contents.empty()) return "";
   std::string text = fmt::format("  {}, method {}",
                                  length_text(report.frames, report.frame_rate_hz), report.method);
   if (report.calibration_frames > 0) {

@@ -86,10 +86,14 @@ void clean_take(const CleanJob& job, const CleanPlan& plan, Outcome& outcome) {
   TakeResult read = read_take(fs::path(job.input), plan.reading);
   for (const Diagnostic& entry : read.diagnostics.entries())
     outcome.warnings.push_back(diagnostic_line(name, entry));
-  const ReportView report = clean_in_place(read.take, plan);
+  ReportView report = clean_in_place(read.take, plan);
+  report.contents = pointless_text(read.take);
   if (plan.strict) refuse_warnings(name, report.warnings);
   for (const std::string& warning : report.warnings)
     outcome.warnings.push_back(fmt::format("{}: {}", name, warning));
+  const std::string format = format_for(job.output, source_of(read.take));
+  for (std::string& line : loss_lines(name, read.take, format, plan.strict))
+    outcome.warnings.push_back(std::move(line));
   if (!plan.dry_run) write_result(job, read.take, plan);
   const bool is_only = plan.jobs.size() == 1;
   outcome.text = headline(job, report, plan, Colours::of_out());

@@ -46,6 +46,8 @@ std::string_view axis_name(Axis axis) {
 }
 
 Take resampled(const Take& take, double frame_rate_hz) {
+  if (const std::string contents = pointless_text(take); !contents.empty())
+    say(fmt::format("{}: {}: --fps changes nothing", source_of(take).name, contents));
   return std::visit([&](const auto& clip) { return Take(resample(clip, frame_rate_hz)); }, take);
 }
 
@@ -105,6 +107,11 @@ Take fitted(Take take, const Format& format, const Arguments& arguments) {
   if (joints && (format.write == nullptr || arguments.flag("positions"))) {
     return as_markers(take, arguments);
   }
+  if (const std::string contents = pointless_text(take);
+      !contents.empty() && format.name != source_of(take).format) {
+    throw Error(ErrorKind::usage, fmt::format("{}: {}; {} files hold nothing else",
+                                              source_of(take).name, contents, format.name));
+  }
   if (!joints && format.write_markers == nullptr) {
     throw Error(
         ErrorKind::usage,
@@ -143,13 +150,16 @@ int run(const Arguments& arguments) {
   warn_of_repairs(input_name(input), read.diagnostics);
   Take take = std::move(read.take);
   const Format& format = output_format(arguments, take);
-  if (arguments.flag("plain")) source_of(take).document.reset();
+  if (arguments.flag("plain")) drop_layout(source_of(take));
   if (arguments.given("fps")) take = resampled(take, arguments.number("fps"));
   if (arguments.given("up")) take = turned(take, arguments);
   if (arguments.given("unit")) take = in_unit(take, arguments.text("unit"));
   const auto skeleton = skeleton_output(take, format, output);
   take = fitted(std::move(take), format, arguments);
   if (skeleton) check_free(*skeleton, force);
+  for (const std::string& line :
+       loss_lines(input_name(input), take, format.name, arguments.flag("strict")))
+    say_warning(line);
   const std::string bytes = write_take(take, format.name);
   if (skeleton) write_output(*skeleton, write_take(take, "asf"), force);
   write_output(output, bytes, force);
@@ -187,7 +197,9 @@ Command convert_command() {
   }
   command.description +=
       ". Within one format the source's layout and digits stay, unless --plain asks for the "
-      "program's own. Rate, axes and units stay unless they are asked for.\n\n"
+      "program's own. Rate, axes and units stay unless they are asked for. What a file holds beside "
+      "its motion (analog channels, force plates, events) goes along where the format has a place "
+      "for it; what stays behind is said, and an error under --strict.\n\n"
       "Joints that go to a format of markers (c3d, trc) become the joints' positions. An AMC file "
       "gets its skeleton beside it, as an ASF file of the same name.";
   command.positionals = {{"IN", "take to read; - is standard input", 1, 1, {}}};
@@ -199,9 +211,11 @@ Command convert_command() {
   command.flags.push_back(
       switch_flag("end_sites", "Change", "with the positions of joints, those of end sites too"));
   command.flags.push_back(
-      switch_flag("plain", "Output", "drop the source's layout and write anew"));
+      switch_flag("plain", "Output", "drop the source's layout and write anew",
+                  "What the file holds stays: a C3D file keeps analog channels and parameters."));
   command.flags.push_back(force_flag());
-  append(command.flags, reading_flags("what needs a repair becomes an error"));
+  append(command.flags,
+         reading_flags("what needs a repair, or would be lost, becomes an error"));
   command.examples = {
       {"kinemend convert odd.bvh --plain -o plain.bvh",
        "a file that other programs cannot read, in its plainest form"},

@@ -26,15 +26,16 @@ struct TakeFacts {
   std::size_t frames = 0;
   double frame_rate_hz = 0;
   bool joints = false;
-  std::string unit;  // of lengths; empty where it is not known
+  std::string unit;      // of lengths; empty where it is not known
+  std::string contents;  // of a file without markers
 };
 
 TakeFacts facts_of(const Clip& clip) {
-  return {"", "", clip.skeleton.names, clip.frame_count(), clip.frame_rate_hz, true, ""};
+  return {"", "", clip.skeleton.names, clip.frame_count(), clip.frame_rate_hz, true, "", ""};
 }
 
 TakeFacts facts_of(const MarkerClip& clip) {
-  return {"", "", clip.names, clip.frame_count(), clip.frame_rate_hz, false, clip.unit};
+  return {"", "", clip.names, clip.frame_count(), clip.frame_rate_hz, false, clip.unit, ""};
 }
 
 std::string_view kind_of(const TakeFacts& take, const GapOutcome& gap) {
@@ -78,6 +79,7 @@ std::string report_text(const TakeFacts& take, const FillReport& report) {
                               : take.output == "-" ? ""
                                                    : "; written to " + printable(take.output);
   std::string text = Colours::of_out().paint(Paint::bold, printable(take.input)) + ": ";
+  if (!take.contents.empty()) return text + take.contents + ": nothing to fill" + written + "\n";
   if (report.gaps.empty()) return text + "no gaps" + written + "\n";
   text += fmt::format("{}: {} filled, {} refused{}\n", counted(report.gaps.size(), "gap"),
                       report.filled(), report.refused(), written);
@@ -154,13 +156,18 @@ int run(const Arguments& arguments) {
   TakeFacts take = std::visit([](const auto& clip) { return facts_of(clip); }, read.take);
   take.input = input_name(input);
   take.output = output;
+  take.contents = pointless_text(read.take);
   for (const std::string& warning : report.warnings) say_warning(warning);
 
   const bool failed = arguments.flag("strict") && report.refused() > 0;
   if (failed) take.output.clear();
-  if (!dry_run && !failed) {
-    write_output(output, write_take(read.take, format_for(output, source_of(read.take))), force);
+  const std::string format = format_for(output, source_of(read.take));
+  if (!failed) {
+    for (const std::string& line :
+         loss_lines(take.input, read.take, format, arguments.flag("strict")))
+      say_warning(line);
   }
+  if (!dry_run && !failed) write_output(output, write_take(read.take, format), force);
   if (report_path == "-" || (!report_path.empty() && !dry_run && !failed)) {
     write_output(report_path, json_text(report_json(take, report)), force);
   }

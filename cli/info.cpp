@@ -96,8 +96,9 @@ std::string unit_text(const Clip& clip) {
 }
 
 void add_facts(const Subject& subject, const SourceInfo& source, Table& table) {
-  for (const SourceFact& fact : source.facts)
-    table.add({printable(fact.name), printable(fact.text)});
+  for (const SourceFact& fact : source.facts) {
+    if (fact.name != "analog frames") table.add({printable(fact.name), printable(fact.text)});
+  }
   for (const Diagnostic& entry : subject.read.diagnostics.entries())
     table.add({"repaired", printable(diagnostic_line(entry.first_line > 0 ? "line" : "", entry))});
 }
@@ -170,11 +171,12 @@ std::string markers_text(const Subject& subject, const MarkerClip& clip, bool wi
                            counted(clip.marker_count() - positions, "point"));
   }
   table.add({"markers", markers});
+  const std::string contents = pointless_text(subject.read.take);
   std::string length = length_text(clip.frame_count(), clip.frame_rate_hz);
   if (clip.first_frame != 1) length += fmt::format(", from frame {}", clip.first_frame);
-  table.add({"length", length});
+  table.add({"length", contents.empty() ? length : contents});
   table.add({"unit", clip.unit.empty() ? "not stated" : printable(clip.unit)});
-  table.add({"missing", missing_text(missing, clip.frame_rate_hz)});
+  if (contents.empty()) table.add({"missing", missing_text(missing, clip.frame_rate_hz)});
   add_facts(subject, clip.source, table);
   std::string text = table.text();
   if (!subject.noise.empty()) text += noise_text(subject, "marker", clip.unit);

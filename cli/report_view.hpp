@@ -27,6 +27,7 @@ struct ReportView {
   };
 
   bool is_markers = false;
+  std::string contents;         ///< of a file without markers: "4,564 analog frames, no points"
   std::string unit;             ///< "deg", "mm"; "units" where a marker file does not say
   double noticeable_noise = 0;  ///< below this much jitter a take is not called noisy
   std::string method;

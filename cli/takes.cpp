@@ -69,6 +69,28 @@ void warn_of_repairs(const std::string& name, const Diagnostics& diagnostics) {
     say_warning(diagnostic_line(name, diagnostic));
 }
 
+std::vector<std::string> loss_lines(const std::string& name, const Take& take,
+                                    std::string_view format, bool strict) {
+  std::vector<std::string> lines;
+  const Diagnostics losses = lost_in_writing(take, format);
+  for (const Diagnostic& loss : losses.entries()) lines.push_back(diagnostic_line(name, loss));
+  if (strict && !lines.empty()) {
+    throw Error(ErrorKind::quality_limit, lines.front() + " (an error under --strict)");
+  }
+  return lines;
+}
+
+std::string pointless_text(const Take& take) {
+  const auto* const markers = std::get_if<MarkerClip>(&take);
+  if (markers == nullptr || markers->marker_count() > 0) return "";
+  for (const SourceFact& fact : markers->source.facts) {
+    if (fact.name == "analog frames")
+      return counted(std::stoul(fact.text), "analog frame") + ", no points";
+    if (fact.name == "rotations") return "rotations of " + fact.text + ", no points";
+  }
+  return "no points";
+}
+
 std::string grouped(std::size_t count) {
   const std::string digits = fmt::format("{}", count);
   std::string result;

@@ -31,6 +31,15 @@ int for_each_input(const std::vector<std::string>& inputs, nlohmann::ordered_jso
 std::string diagnostic_line(const std::string& name, const Diagnostic& diagnostic);
 void warn_of_repairs(const std::string& name, const Diagnostics& diagnostics);
 
+/// What a file of this format will not hold of the take, a line each. Errors: `quality_limit` with
+/// the first of them when `strict`.
+std::vector<std::string> loss_lines(const std::string& name, const Take& take,
+                                    std::string_view format, bool strict);
+
+/// "4,564 analog frames, no points": what a marker file without markers holds; empty for any other
+/// take.
+std::string pointless_text(const Take& take);
+
 /// "1 frame", "2 frames", "2,404 frames".
 std::string counted(std::size_t count, std::string_view noun);
 /// Digits in groups of three.

@@ -5,16 +5,19 @@
 #include "kinemend/clip.hpp"
 #include "kinemend/marker_clip.hpp"
 
-// Takes brought to another rate, axis, unit or kind. What comes out has no source document: it is
-// written anew.
+// Takes brought to another rate, axis, unit or kind. What comes out is written anew, not in its
+// source's layout; what a C3D file holds beside its points (analog samples, force plates,
+// parameters) goes along all the same, and follows the points. What already has the rate, axis or
+// unit asked for comes back as it is.
 namespace kinemend {
 
 /// The same motion at another rate, from its first frame to its last or just before. A frame that
 /// falls on one of the old frames is that frame, so that 120 Hz to 60 Hz drops every second one;
 /// any other is interpolated (cubic through four frames; rotations in the tangent space of one of
 /// them) and is observed where both of its neighbours are. Nothing is averaged: what is faster than
-/// half the new rate is folded, as in a camera. Errors: `ErrorKind::usage` for a rate that is not
-/// finite and positive, or that would make more than 100 million samples.
+/// half the new rate is folded, as in a camera. A rate that agrees with the take's own to six digits
+/// is its own. Events stay at their moment of the motion. Errors: `ErrorKind::usage` for a rate that
+/// is not finite and positive, or that would make more than 100 million samples.
 Clip resample(const Clip& clip, double frame_rate_hz);
 MarkerClip resample(const MarkerClip& clip, double frame_rate_hz);
 
@@ -33,6 +36,9 @@ MarkerClip turn_axes(const MarkerClip& clip, Axis from, Axis to);
 Clip scale_lengths(const Clip& clip, double factor);
 /// The same for markers; `unit` is the name of the new one.
 MarkerClip scale_lengths(const MarkerClip& clip, double factor, std::string_view unit);
+
+/// Makes the take one to be written anew, in its format's plain layout.
+void drop_layout(SourceInfo& source);
 
 /// Global joint positions as markers under the joints' names, then those of the end sites where
 /// asked for (under their own names, else `<joint>_end`). A sample is observed where every rotation

@@ -67,6 +67,10 @@ std::string write_clip(const Clip& clip, std::string_view format = "bvh");
 /// The same for markers. A missing sample is written the way the format has for it.
 std::string write_markers(const MarkerClip& clip, std::string_view format);
 std::string write_take(const Take& take, std::string_view format);
+/// What a file that `write_take` makes of the take will not hold of what its source holds: analog
+/// samples, force plates, events, subjects, parameters, rotations; nothing where all comes through.
+/// Names are stable (`analog_lost`). Errors: `usage` for an unknown format.
+Diagnostics lost_in_writing(const Take& take, std::string_view format);
 
 /// Writes `bytes` to a temporary file beside `path`, flushes it to the disk and renames it: `path`
 /// holds its old content or all of the new one, never half. A file that is replaced keeps its

@@ -2,7 +2,9 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "kinemend/diagnostics.hpp"
 #include "kinemend/io.hpp"
 
 namespace kinemend {
@@ -17,5 +19,9 @@ TakeResult read_c3d(std::string bytes, std::string_view name, const ReadOptions&
 /// or with samples too large for the source's integers, as a new file of Intel floats that keeps
 /// the source's parameters. Errors: `usage` when the format cannot hold the clip.
 std::string write_c3d(const MarkerClip& clip);
+/// What `write_c3d` leaves out of the clip's source.
+Diagnostics lost_in_c3d(const MarkerClip& clip);
+/// What of a C3D file has no place in another format, in words: "2 force plates".
+std::vector<std::string> c3d_beside_points(const SourceInfo& source);
 
 }  // namespace kinemend

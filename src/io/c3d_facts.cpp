@@ -75,6 +75,8 @@ std::vector<SourceFact> c3d_facts(const C3dDocument& document, const C3dPointCou
   if (layout.analog_count > 0 && layout.analog_values > 0) {
     add("analog", fmt::format("{} at {:g} Hz", counted(layout.analog_count, "channel"),
                               layout.rate_hz * static_cast<double>(layout.analog_instants())));
+    if (layout.point_count == 0)
+      add("analog frames", std::to_string(layout.frame_count * layout.analog_instants()));
   }
   if (!document.events.empty()) add("events", std::to_string(document.events.size()));
   if (const std::size_t plates = parameters.count("FORCE_PLATFORM", "USED").value_or(0); plates > 0)

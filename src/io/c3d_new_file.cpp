@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "io/c3d_analog.hpp"
+#include "io/c3d_carry.hpp"
 #include "io/c3d_events.hpp"
 #include "io/c3d_new_parameters.hpp"
 #include "io/c3d_parameter_writer.hpp"
@@ -23,34 +25,28 @@ constexpr std::size_t most_in_a_word = 65535;
 // Integers made of the file shall not use all of their range.
 constexpr double scale_steps = 32000;
 constexpr double scale_when_still = 0.01;
+// Of the header: the longest gap that was interpolated.
+constexpr std::size_t interpolated_gap_word = 6;
 
 class NewFile {
  public:
-  NewFile(const MarkerClip& clip, const C3dDocument* source) : clip_(clip), source_(source) {
+  NewFile(const MarkerClip& clip, const C3dOrigin& origin)
+      : clip_(clip),
+        origin_(origin),
+        source_(origin.document),
+        carried_(c3d_carried(clip, origin)) {
     if (clip.marker_count() > most_in_a_word) {
       throw Error(ErrorKind::usage,
                   fmt::format("{} markers; C3D files have room for 65,535", clip.marker_count()));
     }
-    file_.frame_count = clip.frame_count();
-    // A file of analog samples alone has frames, a clip without markers has none.
-    if (source != nullptr && clip.marker_count() + source->layout.point_count == 0)
-      file_.frame_count = source->layout.frame_count;
-    const bool keeps_frames = source != nullptr && frames() == source->layout.frame_count;
-    keeps_words_ = keeps_frames && clip.names == source->names;
-    // Values that a damaged source does not tell the channels of mean nothing.
-    if (keeps_frames && source->layout.analog_count * source->layout.analog_instants() ==
-                            source->layout.analog_values) {
-      analog_values_ = source->layout.analog_values;
-    }
+    file_.frame_count = c3d_frame_count(clip, origin);
     file_.scale = scale();
-    if (analog_values_ > 0) {
-      file_.analog_count = source->layout.analog_count;
-      file_.analog_instants = source->layout.analog_instants();
-    }
+    file_.analog_count = carried_.analog_count;
+    file_.analog_instants = carried_.analog_instants;
   }
 
   std::string write() {
-    C3dParameters parameters = new_c3d_parameters(clip_, source_, file_);
+    C3dParameters parameters = new_c3d_parameters(clip_, origin_, file_);
     // Its length does not depend on the number that it holds.
     data_block_ = 2 + c3d_parameter_section(parameters).size() / c3d_block_bytes;
     set_parameter(parameters, "POINT", c3d_integer("DATA_START", static_cast<double>(data_block_)));
@@ -73,11 +69,15 @@ class NewFile {
     }
     if (largest > largest_c3d_real)
       throw Error(ErrorKind::usage, fmt::format("{:g} is too large for a C3D file", largest));
-    const double least = largest / scale_steps;
-    // A source's own scale keeps its residuals exact.
-    const double given = source_ == nullptr ? 0 : source_->layout.scale;
-    const double chosen = given > 0 && given * 32767 >= largest ? given : least;
-    return static_cast<float>(chosen) > 0 ? chosen : scale_when_still;
+    // A source's own scale keeps its residuals exact. In a file of reals it need not be one that
+    // integers could do with.
+    double chosen = largest / scale_steps;
+    if (source_ != nullptr) {
+      const double given = source_->layout.scale * origin_.change.length_factor;
+      if (source_->layout.is_float || given * 32767 >= largest) chosen = given;
+    }
+    const bool usable = static_cast<float>(chosen) > 0 && std::isfinite(static_cast<float>(chosen));
+    return usable ? chosen : scale_when_still;
   }
 
   std::string header() const {
@@ -91,10 +91,10 @@ class NewFile {
     block[0] = 2;
     block[1] = 0x50;
     put(2, clip_.marker_count());
-    put(3, analog_values_);
+    put(3, analog_values());
     put(4, first);
     put(5, first + frames() - (first + frames() > 0 ? 1 : 0));
-    put(6, 10);  // longest gap that was interpolated
+    put(interpolated_gap_word, source_ != nullptr ? source_word(interpolated_gap_word) : 10);
     Words::put_real(place(7), static_cast<float>(-file_.scale));
     put(9, data_block_);
     put(10, file_.analog_instants);
@@ -104,39 +104,57 @@ class NewFile {
     return block;
   }
 
+  // Of the source's header.
+  const char* source_place(std::size_t number) const {
+    return source_->bytes.data() + source_->layout.header_begin + 2 * (number - 1);
+  }
+  std::size_t source_word(std::size_t number) const {
+    return with_words(source_->processor, [&](auto words) -> std::size_t {
+      return words.word(source_place(number));
+    });
+  }
+
   // As many as there is room for; the parameters have them all.
   void put_events(std::string& block) const {
     const auto place = [&](std::size_t word) { return block.data() + 2 * (word - 1); };
     const std::size_t count = std::min(clip_.events.size(), c3d_most_header_events);
     Words::put_word(place(c3d_event_count_word), static_cast<std::uint16_t>(count));
+    const bool has_flags = source_ != nullptr && clip_.events.size() == source_->events.size() &&
+                           source_word(c3d_event_key_word) == c3d_event_key &&
+                           source_word(c3d_event_count_word) == count;
     for (std::size_t i = 0; i < count; ++i) {
       const MarkerEvent& event = clip_.events[i];
       Words::put_real(place(c3d_event_times_word) + 4 * i, static_cast<float>(event.time_s));
-      place(c3d_event_flags_word)[i] = 1;
+      place(c3d_event_flags_word)[i] = has_flags ? source_place(c3d_event_flags_word)[i] : 1;
       std::string label = event.label.substr(0, 4);
       label.resize(4, ' ');
       label.copy(place(c3d_event_labels_word) + 4 * i, 4);
     }
   }
 
+  std::size_t analog_values() const { return file_.analog_count * file_.analog_instants; }
+
   void write_frames() {
     const std::size_t points = clip_.marker_count();
-    const std::size_t frame_bytes = 4 * (4 * points + analog_values_);
+    const std::size_t frame_bytes = 4 * (4 * points + analog_values());
     std::size_t at = out_.size();
     out_.resize(at + frames() * frame_bytes);
-    std::optional<C3dSourceFrames> source;
-    if (keeps_words_) source.emplace(*source_);
-    if (analog_values_ > 0) analog_.emplace(*source_);
-    std::size_t block_end = 0;
+    if (carried_.keeps_words && points > 0) words_.emplace(*source_);
+    if (file_.analog_count > 0) analog_.emplace(*source_);
     for (std::size_t f = 0; f < frames(); ++f, at += frame_bytes) {
-      if (source && f == block_end && source->next()) block_end = source->first() + source->count();
-      for (std::size_t m = 0; m < points; ++m) {
-        const std::int32_t before =
-            source ? source->word(f - source->first(), m) : missing_point_word;
-        write_sample(out_.data() + at + 16 * m, f * points + m, before);
-      }
-      if (analog_values_ > 0) write_analog(out_.data() + at + 16 * points, f);
+      for (std::size_t m = 0; m < points; ++m)
+        write_sample(out_.data() + at + 16 * m, f * points + m, word_before(f, m));
+      if (analog_) write_analog(out_.data() + at + 16 * points, f);
     }
+  }
+
+  // The fourth word that a sample had in the source; frames are asked for in order.
+  std::int32_t word_before(std::size_t frame, std::size_t marker) {
+    if (!words_) return missing_point_word;
+    const std::size_t from = carried_.source_frame(frame, source_->layout.frame_count);
+    while (from >= words_->first() + words_->count() && words_->next()) {
+    }
+    return words_->word(from - words_->first(), marker);
   }
 
   void write_sample(char* place, std::size_t sample, std::int32_t before) const {
@@ -155,30 +173,41 @@ class NewFile {
     Words::put_real(place + 12, static_cast<float>(word));
   }
 
-  // Values as they were stored; offset and scale stay with the parameters.
+  // Values as they were stored; offset and scale stay with the parameters. They go on evenly from
+  // frame to frame, however many the source has in one of its own.
   void write_analog(char* place, std::size_t frame) {
-    analog_->stored(frame, analog_row_);
-    for (const double value : analog_row_) {
-      Words::put_real(place, static_cast<float>(value));
-      place += 4;
+    const std::size_t instants = source_->layout.analog_instants();
+    const std::size_t last = source_->layout.frame_count * instants - 1;
+    for (std::size_t i = 0; i < file_.analog_instants; ++i) {
+      const std::size_t instant = std::min(frame * file_.analog_instants + i, last);
+      if (const std::size_t from = instant / instants; from != analog_frame_) {
+        analog_->stored(from, analog_row_);
+        analog_frame_ = from;
+      }
+      for (std::size_t c = 0; c < file_.analog_count; ++c, place += 4) {
+        const double value = analog_row_[instant % instants * file_.analog_count + c];
+        Words::put_real(place, static_cast<float>(value));
+      }
     }
   }
 
   const MarkerClip& clip_;
+  const C3dOrigin& origin_;
   const C3dDocument* source_;
-  bool keeps_words_ = false;
-  std::size_t analog_values_ = 0;
+  C3dCarried carried_;
   std::size_t data_block_ = 0;
+  std::optional<C3dSourceFrames> words_;
   std::optional<C3dAnalogDecoder> analog_;
   std::vector<double> analog_row_;
+  std::size_t analog_frame_ = std::numeric_limits<std::size_t>::max();  // that the row is of
   C3dNewFile file_;
   std::string out_;
 };
 
 }  // namespace
 
-std::string new_c3d(const MarkerClip& clip, const C3dDocument* source) {
-  return NewFile(clip, source).write();
+std::string new_c3d(const MarkerClip& clip, const C3dOrigin& origin) {
+  return NewFile(clip, origin).write();
 }
 
 }  // namespace kinemend

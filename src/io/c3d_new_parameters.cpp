@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "io/c3d_parameter_writer.hpp"
@@ -43,9 +44,9 @@ std::array<double, 2> extents(const MarkerClip& clip) {
 
 class ParameterMaker {
  public:
-  ParameterMaker(const MarkerClip& clip, const C3dDocument* source, const C3dNewFile& file)
-      : clip_(clip), source_(source), file_(file) {
-    if (source != nullptr) all_ = source->parameters;
+  ParameterMaker(const MarkerClip& clip, const C3dOrigin& origin, const C3dNewFile& file)
+      : clip_(clip), source_(origin.document), change_(origin.change), file_(file) {
+    if (source_ != nullptr) all_ = source_->parameters;
     part_groups();
   }
 
@@ -55,6 +56,7 @@ class ParameterMaker {
     describe_screen();
     describe_trial();
     describe_analog();
+    describe_plates();
     describe_events();
     // Their data is not carried over.
     remove_group(all_, "ROTATION");
@@ -81,12 +83,13 @@ class ParameterMaker {
     set("POINT", c3d_integer("DATA_START", 0));
     set("POINT", c3d_real("SCALE", -file_.scale));
     set("POINT", c3d_real("RATE", clip_.frame_rate_hz));
-    if (!clip_.unit.empty()) set("POINT", c3d_text("UNITS", clip_.unit));
-    if (clip_.unit.empty()) remove_parameter(all_, "POINT", "UNITS");
-    set_texts(all_, "POINT", "LABELS", clip_.names);
-    if (!has_source_names()) {
-      set_texts(all_, "POINT", "DESCRIPTIONS", std::vector<std::string>(clip_.marker_count()));
+    if (source_ == nullptr || source_->unit != clip_.unit) {
+      if (!clip_.unit.empty()) set("POINT", c3d_text("UNITS", clip_.unit));
+      if (clip_.unit.empty()) remove_parameter(all_, "POINT", "UNITS");
     }
+    if (has_source_names()) return;
+    set_texts(all_, "POINT", "LABELS", clip_.names);
+    set_texts(all_, "POINT", "DESCRIPTIONS", std::vector<std::string>(clip_.marker_count()));
   }
 
   // A source's lists (ANGLES, FORCES, ...) hold as long as the names are the same.
@@ -103,10 +106,28 @@ class ParameterMaker {
     if (!others.empty()) set_texts(all_, "POINT", "SCALARS", others);
   }
 
+  // "+X": an axis with its sign, "X" where it is positive.
+  std::string turned_axis(std::string_view axis) const {
+    const bool negative = axis.substr(0, 1) == "-";
+    const bool has_sign = negative || axis.substr(0, 1) == "+";
+    const std::size_t index = std::string_view("XYZ").find(axis.substr(has_sign ? 1 : 0));
+    if (axis.size() != (has_sign ? 2 : 1) || index > 2) return std::string(axis);
+    const Vec3 v = negative ? -change_.axes[index] : change_.axes[index];
+    const char letter = v.x != 0 ? 'X' : v.y != 0 ? 'Y' : 'Z';
+    const bool is_negative = v.x + v.y + v.z < 0;
+    return (is_negative ? "-" : has_sign || negative ? "+" : "") + std::string(1, letter);
+  }
+
   // Which way is up on a screen. Only a source knows; a person is higher than wide.
   void describe_screen() {
-    if (all_.find("POINT", "X_SCREEN") != nullptr || all_.find("POINT", "Y_SCREEN") != nullptr)
+    if (all_.find("POINT", "X_SCREEN") != nullptr || all_.find("POINT", "Y_SCREEN") != nullptr) {
+      for (const char* const name : {"X_SCREEN", "Y_SCREEN"}) {
+        const std::string axis = all_.text("POINT", name);
+        if (const std::string turned = turned_axis(axis); turned != axis)
+          set("POINT", c3d_text(name, turned));
+      }
       return;
+    }
     const auto [along_y, along_z] = extents(clip_);
     set("POINT", c3d_text("X_SCREEN", "+X"));
     set("POINT", c3d_text("Y_SCREEN", along_y > along_z ? "+Y" : "+Z"));
@@ -117,7 +138,12 @@ class ParameterMaker {
     const auto frames = static_cast<std::int64_t>(file_.frame_count);
     set("TRIAL", frame_field("ACTUAL_START_FIELD", first));
     set("TRIAL", frame_field("ACTUAL_END_FIELD", first + frames - 1));
-    if (source_ == nullptr) set("TRIAL", c3d_real("CAMERA_RATE", clip_.frame_rate_hz));
+    // The cameras' own rate stays what it was, unless it is but another word for that of the points.
+    const auto cameras = all_.number("TRIAL", "CAMERA_RATE");
+    if (source_ == nullptr || (cameras && *cameras == source_->layout.rate_hz &&
+                               clip_.frame_rate_hz != source_->frame_rate_hz)) {
+      set("TRIAL", c3d_real("CAMERA_RATE", clip_.frame_rate_hz));
+    }
   }
 
   void describe_analog() {
@@ -135,16 +161,55 @@ class ParameterMaker {
     set("FORCE_PLATFORM", c3d_integer("USED", 0));
   }
 
+  // Calls `action` with the values of NAME, NAME2, ...
+  template <class Action>
+  void change_numbers(std::string_view group, const std::string& name,
+                      std::optional<C3dType> type, Action action) {
+    std::string part = name;
+    for (int number = 2; const C3dParameter* const found = all_.find(group, part); ++number) {
+      C3dParameter& parameter =
+          all_.entries[static_cast<std::size_t>(found - all_.entries.data())];
+      action(parameter.numbers);
+      if (type) parameter.type = *type;
+      part = name + std::to_string(number);
+    }
+  }
+
+  // Corners lie in the room; ORIGIN is measured along the plate's own axes. Both are in the unit of
+  // the points. What the plates measure, moments too, has the units of the analog channels.
+  void describe_plates() {
+    const double factor = change_.length_factor;
+    if (factor != 1 || change_.turns()) {
+      change_numbers("FORCE_PLATFORM", "CORNERS", C3dType::real, [&](std::vector<double>& values) {
+        for (std::size_t i = 0; i + 2 < values.size(); i += 3) {
+          const Vec3 corner = factor * change_.turned({values[i], values[i + 1], values[i + 2]});
+          values[i] = corner.x;
+          values[i + 1] = corner.y;
+          values[i + 2] = corner.z;
+        }
+      });
+    }
+    if (factor != 1) {
+      change_numbers("FORCE_PLATFORM", "ORIGIN", C3dType::real, [&](std::vector<double>& values) {
+        for (double& value : values) value *= factor;
+      });
+    }
+    if (!change_.resampled) return;
+    // Frames in which the plates carry nothing, from 1.
+    const double frames = clip_.frame_rate_hz / source_->frame_rate_hz;
+    change_numbers("FORCE_PLATFORM", "ZERO", std::nullopt, [&](std::vector<double>& values) {
+      for (double& value : values) value = value > 0 ? std::round(1 + (value - 1) * frames) : value;
+    });
+  }
+
   void describe_events() {
     if (source_ != nullptr && same_c3d_events(clip_.events, source_->events)) return;
+    if (has_only_other_times()) return set_times();
     remove_group(all_, "EVENTS");
     std::vector<std::string> labels, contexts;
-    std::vector<double> times;
     for (const MarkerEvent& event : clip_.events) {
-      const double minutes = std::floor(event.time_s / 60);
       labels.push_back(event.label);
       contexts.push_back(event.context);
-      times.insert(times.end(), {minutes, event.time_s - 60 * minutes});
     }
     for (const char* const list :
          {"CONTEXTS", "LABELS", "TIMES", "SUBJECTS", "DESCRIPTIONS", "ICON_IDS", "GENERIC_FLAGS"}) {
@@ -154,10 +219,34 @@ class ParameterMaker {
     if (clip_.events.empty()) return;
     set_texts(all_, "EVENT", "CONTEXTS", contexts);
     set_texts(all_, "EVENT", "LABELS", labels);
+    set_times();
+  }
+
+  // The same events, at other times.
+  bool has_only_other_times() const {
+    if (source_ == nullptr || clip_.events.empty() ||
+        clip_.events.size() != source_->events.size() ||
+        all_.count("EVENT", "USED").value_or(0) != clip_.events.size()) {
+      return false;
+    }
+    return std::equal(clip_.events.begin(), clip_.events.end(), source_->events.begin(),
+                      [](const MarkerEvent& a, const MarkerEvent& b) {
+                        return a.label == b.label && a.context == b.context;
+                      });
+  }
+
+  void set_times() {
+    std::vector<double> times;
+    for (const MarkerEvent& event : clip_.events) {
+      const double minutes = std::floor(event.time_s / 60);
+      times.insert(times.end(), {minutes, event.time_s - 60 * minutes});
+    }
+    remove_parameter(all_, "EVENT", "TIMES");
     constexpr std::size_t most = 255;
-    for (std::size_t first = 0, part = 1; first < labels.size(); first += most, ++part) {
+    for (std::size_t first = 0, part = 1; first < clip_.events.size(); first += most, ++part) {
       const auto begin = times.begin() + static_cast<std::ptrdiff_t>(2 * first);
-      const auto count = static_cast<std::ptrdiff_t>(2 * std::min(most, labels.size() - first));
+      const auto count =
+          static_cast<std::ptrdiff_t>(2 * std::min(most, clip_.events.size() - first));
       set("EVENT", c3d_reals(part == 1 ? "TIMES" : "TIMES" + std::to_string(part),
                              {begin, begin + count}, 2));
     }
@@ -169,15 +258,16 @@ class ParameterMaker {
 
   const MarkerClip& clip_;
   const C3dDocument* source_;
+  const TakeChange& change_;
   const C3dNewFile& file_;
   C3dParameters all_;
 };
 
 }  // namespace
 
-C3dParameters new_c3d_parameters(const MarkerClip& clip, const C3dDocument* source,
+C3dParameters new_c3d_parameters(const MarkerClip& clip, const C3dOrigin& origin,
                                  const C3dNewFile& file) {
-  return ParameterMaker(clip, source, file).make();
+  return ParameterMaker(clip, origin, file).make();
 }
 
 }  // namespace kinemend

@@ -116,6 +116,20 @@ class C3dReader {
     clip_.source.facts = c3d_facts(document_, decoder.counts());
   }
 
+  // Samples whose fourth word has a residual or a camera: what was not seen has neither.
+  std::vector<std::uint8_t> samples_with_a_measure() const {
+    std::vector<std::uint8_t> measured(clip_.positions.size());
+    const std::size_t bytes = layout().value_bytes();
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+      if (clip_.observed[i] == 0 || !(clip_.positions[i] == Vec3{})) continue;
+      const std::size_t frame = i / layout().point_count, point = i % layout().point_count;
+      const std::size_t place =
+          layout().data_begin + frame * layout().frame_bytes() + (4 * point + 3) * bytes;
+      measured[i] = layout().is_float ? source_.real(place) >= 1 : source_.word(place) > 0;
+    }
+    return measured;
+  }
+
   void repair_points(const C3dPointCounts& counts) {
     if (counts.not_finite > 0) {
       source_.note("value_not_finite", layout().data_begin,
@@ -123,7 +137,8 @@ class C3dReader {
                    counts.not_finite);
     }
     if (counts.zeros == 0) return;
-    document_.zero_gaps = find_zero_gaps(clip_, layout().is_float ? 0 : layout().scale);
+    document_.zero_gaps =
+        find_zero_gaps(clip_, layout().is_float ? 0 : layout().scale, samples_with_a_measure());
     if (document_.zero_gaps.empty()) return;
     mark_missing(document_.zero_gaps, clip_);
     source_.note("zero_is_missing", layout().data_begin,

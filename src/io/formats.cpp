@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
@@ -52,6 +53,27 @@ const Format& format_of(std::string_view bytes, std::string_view name) {
   if (bytes.empty()) throw Error::at_line(name, 1, "the file is empty");
   throw Error::at_line(
       name, 1, fmt::format("not a motion file of a known format ({})", known_formats(true)));
+}
+
+// Of what a C3D file can hold, in a format that has a place for points only.
+Diagnostics lost_beside_points(const MarkerClip& clip, std::string_view format) {
+  std::vector<std::string> parts = c3d_beside_points(clip.source);
+  if (!clip.events.empty()) {
+    parts.push_back(
+        fmt::format("{} event{}", clip.events.size(), clip.events.size() == 1 ? "" : "s"));
+  }
+  std::size_t others = 0;
+  for (std::size_t m = 0; m < clip.marker_count(); ++m) others += clip.holds_positions(m) ? 0 : 1;
+  if (others > 0) {
+    parts.push_back(others == 1 ? "that a point is no position"
+                                : fmt::format("that {} points are no positions", others));
+  }
+  Diagnostics losses;
+  if (!parts.empty()) {
+    losses.add("not_kept",
+               fmt::format("{} files cannot hold {}", format, fmt::join(parts, "; ")));
+  }
+  return losses;
 }
 
 ReadResult clip_of(TakeResult result) {
@@ -151,6 +173,13 @@ std::string write_markers(const MarkerClip& clip, std::string_view format) {
 std::string write_take(const Take& take, std::string_view format) {
   if (const Clip* clip = std::get_if<Clip>(&take)) return write_clip(*clip, format);
   return write_markers(std::get<MarkerClip>(take), format);
+}
+
+Diagnostics lost_in_writing(const Take& take, std::string_view format) {
+  const Format& found = format_called(format);
+  const auto* const clip = std::get_if<MarkerClip>(&take);
+  if (clip == nullptr) return {};
+  return found.name == "c3d" ? lost_in_c3d(*clip) : lost_beside_points(*clip, found.name);
 }
 
 }  // namespace kinemend

@@ -29,7 +29,10 @@ class TableRewriter {
       : clip_(clip),
         bytes_(bytes),
         table_(table),
-        patch_(bytes, table.begin, table.style, table.width()) {}
+        patch_(bytes, table.begin, table.style, table.width()) {
+    for (std::size_t i = 0; i < table.observed.size(); ++i)
+      empties_cells_ = empties_cells_ || (table.observed[i] != 0 && clip.observed[i] == 0);
+  }
 
   std::string rewrite() {
     for (std::size_t f = 0; f < table_.frames && patch_.next();) {
@@ -55,6 +58,10 @@ class TableRewriter {
     if (!known && !was_known) {
       const bool was_cut = !std::isnan(before.x + before.y + before.z) && !(before == Vec3{});
       if (was_cut) cut_.insert(cut_.end(), columns.begin(), columns.end());
+      // In a file that has empty cells, zeros no longer go without saying.
+      if (before == Vec3{} && empties_cells_) {
+        for (const std::size_t column : columns) patch_.replace(column, not_a_number, 0);
+      }
     } else if (!known) {
       for (const std::size_t column : columns) patch_.replace(column, not_a_number, 0);
     } else if (!(was_known && now == before)) {
@@ -74,6 +81,7 @@ class TableRewriter {
   std::string_view bytes_;
   const MarkerTable& table_;
   CellPatch patch_;
+  bool empties_cells_ = false;    // a sample that was there is missing now
   std::vector<std::size_t> cut_;  // columns of a sample that the end of the file cut
   std::optional<unsigned> decimals_;
 };

@@ -17,13 +17,15 @@ constexpr double longest_jump_m = 0.05;
 // One marker's path.
 class MarkerPath {
  public:
-  MarkerPath(const MarkerClip& clip, std::size_t marker) : clip_(clip), marker_(marker) {}
+  MarkerPath(const MarkerClip& clip, std::size_t marker,
+             const std::vector<std::uint8_t>& is_measured)
+      : clip_(clip), marker_(marker), is_measured_(is_measured) {}
 
   std::size_t frames() const { return clip_.frame_count(); }
   bool is_seen(std::size_t frame) const { return clip_.is_observed(frame, marker_); }
   double distance(std::size_t frame) const { return norm(clip_.position(frame, marker_)); }
   bool is_zero(std::size_t frame) const {
-    return is_seen(frame) && clip_.position(frame, marker_) == Vec3{};
+    return is_seen(frame) && clip_.position(frame, marker_) == Vec3{} && !is_measured(frame);
   }
   bool is_elsewhere(std::size_t frame) const { return is_seen(frame) && !is_zero(frame); }
 
@@ -41,8 +43,13 @@ class MarkerPath {
   }
 
  private:
+  bool is_measured(std::size_t frame) const {
+    return !is_measured_.empty() && is_measured_[frame * clip_.marker_count() + marker_] != 0;
+  }
+
   const MarkerClip& clip_;
   std::size_t marker_;
+  const std::vector<std::uint8_t>& is_measured_;
 };
 
 // What is longer cannot be a step of the marker.
@@ -66,16 +73,34 @@ void find_in_path(const MarkerPath& path, std::size_t marker, double resolution,
     while (next < path.frames() && !path.is_elsewhere(next)) ++next;
     const double after = next < path.frames() ? path.distance(next) : -1;
     if (jump < 0) jump = longest_step(path, resolution, metre);
-    const bool never_elsewhere = before < 0 && after < 0;
-    if (never_elsewhere ? path.frames() > 1 : std::max(before, after) > jump)
-      gaps.push_back({marker, f, last});
+    // One that is never elsewhere has no jump to tell it by.
+    if (std::max(before, after) > jump) gaps.push_back({marker, f, last});
     f = last - 1;
   }
 }
 
+// Markers that are at the origin in every frame; none in a clip that has another way to say what is
+// missing.
+std::vector<std::size_t> never_elsewhere(const MarkerClip& clip,
+                                         const std::vector<std::uint8_t>& is_measured) {
+  std::vector<std::size_t> markers;
+  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+    if (!clip.holds_positions(m)) continue;
+    const MarkerPath path(clip, m, is_measured);
+    bool always_zero = true;
+    for (std::size_t f = 0; f < path.frames(); ++f) {
+      if (!path.is_seen(f)) return {};
+      always_zero = always_zero && path.is_zero(f);
+    }
+    if (always_zero) markers.push_back(m);
+  }
+  return markers;
+}
+
 }  // namespace
 
-std::vector<ZeroGap> find_zero_gaps(const MarkerClip& clip, double resolution) {
+std::vector<ZeroGap> find_zero_gaps(const MarkerClip& clip, double resolution,
+                                    const std::vector<std::uint8_t>& is_measured) {
   std::vector<ZeroGap> gaps;
   // Few takes have any.
   if (std::find(clip.positions.begin(), clip.positions.end(), Vec3{}) == clip.positions.end())
@@ -83,8 +108,13 @@ std::vector<ZeroGap> find_zero_gaps(const MarkerClip& clip, double resolution) {
   const double unit_m = metres_per_unit(clip.unit);
   const double metre = 1 / (unit_m > 0 ? unit_m : metres_of_unknown_unit);
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
-    if (clip.holds_positions(m)) find_in_path({clip, m}, m, resolution, metre, gaps);
+    if (clip.holds_positions(m)) find_in_path({clip, m, is_measured}, m, resolution, metre, gaps);
   }
+  // Alone it may be there by right, unless zeros stand for what is missing elsewhere in the clip;
+  // several cannot be in one place.
+  const std::vector<std::size_t> still = never_elsewhere(clip, is_measured);
+  if (clip.frame_count() < 2 || (still.size() < 2 && gaps.empty())) return gaps;
+  for (const std::size_t m : still) gaps.push_back({m, 0, clip.frame_count()});
   return gaps;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "kinemend/marker_clip.hpp"
@@ -17,10 +18,13 @@ struct ZeroGap {
 /// Many programs write 0 0 0 where a marker was not seen. Finds the samples at exactly the origin
 /// that no marker can have been at: it would have to jump there, or back, from farther away than 20
 /// times the step that it usually makes from frame to frame (5 cm where that is not known), than 20
-/// `resolution` (file units), and than 2 mm; or it is there in every frame of several. Millimetres
-/// are taken where the clip names no unit that is known. A marker that rests at the origin or
-/// passes through it keeps its samples; so do points that are no positions.
-std::vector<ZeroGap> find_zero_gaps(const MarkerClip& clip, double resolution = 0);
+/// `resolution` (file units), and than 2 mm; or it is there in every frame of several, and so is
+/// another marker (no two can be in one place) or such zeros stand elsewhere, in a clip where no
+/// sample is missing otherwise. Millimetres are taken where the clip names no unit that is known. A marker that rests at the origin or passes through
+/// it keeps its samples; so do points that are no positions, and a sample of which `is_measured`
+/// (one for each sample, or empty) says so.
+std::vector<ZeroGap> find_zero_gaps(const MarkerClip& clip, double resolution = 0,
+                                    const std::vector<std::uint8_t>& is_measured = {});
 
 /// How many samples the gaps hold.
 std::size_t sample_count(const std::vector<ZeroGap>& gaps);

@@ -5,6 +5,7 @@
 
 #include "kinemend/convert.hpp"
 #include "kinemend/kinematics.hpp"
+#include "motion/take_change.hpp"
 
 namespace kinemend {
 
@@ -135,8 +136,10 @@ Clip turn_axes(const Clip& clip, Axis from, Axis to) {
 MarkerClip turn_axes(const MarkerClip& clip, Axis from, Axis to) {
   if (from == to) return clip;
   const QuarterTurn turn(from, to);
+  TakeChange change;
+  change.axes = {turn.axis_after(Axis::x), turn.axis_after(Axis::y), turn.axis_after(Axis::z)};
   MarkerClip result = clip;
-  result.source.document.reset();
+  result.source.document = document_after(clip.source, change);
   for (std::size_t i = 0; i < result.positions.size(); ++i) {
     if (clip.holds_positions(i % clip.marker_count()))
       result.positions[i] = turn(result.positions[i]);

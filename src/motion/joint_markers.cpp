@@ -4,6 +4,7 @@
 
 #include "kinemend/convert.hpp"
 #include "kinemend/kinematics.hpp"
+#include "motion/take_change.hpp"
 
 namespace kinemend {
 
@@ -96,6 +97,7 @@ Clip without_rest_rotations(const Clip& clip) {
 }
 
 Clip scale_lengths(const Clip& clip, double factor) {
+  if (factor == 1) return clip;
   Clip result = clip;
   result.source.document.reset();
   const auto scale = [factor](Vec3& v) { v = factor * v; };
@@ -115,8 +117,11 @@ Clip scale_lengths(const Clip& clip, double factor) {
 }
 
 MarkerClip scale_lengths(const MarkerClip& clip, double factor, std::string_view unit) {
+  if (factor == 1) return clip;
+  TakeChange change;
+  change.length_factor = factor;
   MarkerClip result = clip;
-  result.source.document.reset();
+  result.source.document = document_after(clip.source, change);
   result.unit = unit;
   for (std::size_t i = 0; i < result.positions.size(); ++i) {
     if (!clip.holds_positions(i % clip.marker_count())) continue;

@@ -6,6 +6,7 @@
 
 #include "kinemend/convert.hpp"
 #include "kinemend/error.hpp"
+#include "motion/take_change.hpp"
 
 namespace kinemend {
 
@@ -85,6 +86,21 @@ Quat interpolate_rotation(const Neighbours& n, double u, At at) {
 
 bool always(std::size_t) { return true; }
 
+// As it is shown: with six digits.
+bool is_own_rate(double own, double rate) { return std::fabs(rate - own) <= 5e-6 * own; }
+
+// The number that the new first frame has in a trial whose frame 1 stays where it is, as nearly as
+// whole numbers can say; events are timed from there, and keep their moment of the motion.
+void renumber(const MarkerClip& clip, MarkerClip& result) {
+  const double before_s = static_cast<double>(clip.first_frame - 1) / clip.frame_rate_hz;
+  result.first_frame = clip.first_frame;
+  if (clip.first_frame > 1) result.first_frame = 1 + std::llround(before_s * result.frame_rate_hz);
+  const double after_s = static_cast<double>(result.first_frame - 1) / result.frame_rate_hz;
+  constexpr double rounding_s = 1e-9;
+  if (std::fabs(after_s - before_s) < rounding_s) return;
+  for (MarkerEvent& event : result.events) event.time_s += after_s - before_s;
+}
+
 void resample_rotations(const Clip& clip, const std::vector<Place>& at, Clip& result) {
   const std::size_t joints = clip.joint_count(), frames = clip.frame_count();
   result.local_rotations.resize(at.size() * joints);
@@ -126,6 +142,7 @@ std::vector<Vec3> resample_positions(const std::vector<Vec3>& values, std::size_
 Clip resample(const Clip& clip, double frame_rate_hz) {
   const std::vector<Place> at =
       places(clip.frame_count(), clip.joint_count(), clip.frame_rate_hz, frame_rate_hz);
+  if (is_own_rate(clip.frame_rate_hz, frame_rate_hz)) return clip;
   Clip result = slice(clip, 0, 0);
   result.frame_rate_hz = frame_rate_hz;
   resample_rotations(clip, at, result);
@@ -138,11 +155,16 @@ Clip resample(const Clip& clip, double frame_rate_hz) {
 MarkerClip resample(const MarkerClip& clip, double frame_rate_hz) {
   const std::size_t markers = clip.marker_count(), frames = clip.frame_count();
   const std::vector<Place> at = places(frames, markers, clip.frame_rate_hz, frame_rate_hz);
+  // A file of analog samples alone has no motion to bring to another rate.
+  if (markers == 0 || is_own_rate(clip.frame_rate_hz, frame_rate_hz)) return clip;
   MarkerClip result = make_marker_clip(clip.names, at.size(), frame_rate_hz);
   result.is_position = clip.is_position;
   result.unit = clip.unit;
   result.events = clip.events;
-  result.source.name = clip.source.name;
+  TakeChange change;
+  change.resampled = true;
+  result.source = {clip.source.name, clip.source.format, document_after(clip.source, change)};
+  renumber(clip, result);
   if (!clip.residuals.empty()) result.residuals.assign(at.size() * markers, -1.0F);
   for (std::size_t i = 0; i < at.size(); ++i) {
     const auto [before, share] = at[i];
