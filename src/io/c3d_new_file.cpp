@@ -25,6 +25,8 @@ constexpr std::size_t most_in_a_word = 65535;
 // Integers made of the file shall not use all of their range.
 constexpr double scale_steps = 32000;
 constexpr double scale_when_still = 0.01;
+// That an integer can tell, and a little for rounding.
+constexpr double most_steps = 32768.01;
 // Of the header: the longest gap that was interpolated.
 constexpr std::size_t interpolated_gap_word = 6;
 
@@ -61,11 +63,13 @@ class NewFile {
   std::size_t frames() const { return file_.frame_count; }
 
   double scale() const {
-    double largest = 0;
+    double largest = 0, farthest = 0;  // of all values, and of positions
     for (std::size_t i = 0; i < clip_.positions.size(); ++i) {
       if (clip_.observed[i] == 0) continue;
       const Vec3 p = clip_.positions[i];
-      largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+      const double most = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+      largest = std::max(largest, most);
+      if (clip_.holds_positions(i % clip_.marker_count())) farthest = std::max(farthest, most);
     }
     if (largest > largest_c3d_real)
       throw Error(ErrorKind::usage, fmt::format("{:g} is too large for a C3D file", largest));
@@ -74,7 +78,7 @@ class NewFile {
     double chosen = largest / scale_steps;
     if (source_ != nullptr) {
       const double given = source_->layout.scale * origin_.change.length_factor;
-      if (source_->layout.is_float || given * 32767 >= largest) chosen = given;
+      if (source_->layout.is_float || given * most_steps >= farthest) chosen = given;
     }
     const bool usable = static_cast<float>(chosen) > 0 && std::isfinite(static_cast<float>(chosen));
     return usable ? chosen : scale_when_still;

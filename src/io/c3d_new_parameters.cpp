@@ -153,12 +153,18 @@ class ParameterMaker {
           c3d_real("RATE", clip_.frame_rate_hz * static_cast<double>(file_.analog_instants)));
       return;
     }
-    remove_group(all_, "ANALOG");
-    remove_group(all_, "FORCE_PLATFORM");
+    const bool left_out = source_ != nullptr && source_->layout.analog_values > 0;
+    if (left_out) {
+      remove_group(all_, "ANALOG");
+      remove_group(all_, "FORCE_PLATFORM");
+    }
     set("ANALOG", c3d_integer("USED", 0));
     set("ANALOG", c3d_real("RATE", clip_.frame_rate_hz));
-    set("ANALOG", c3d_real("GEN_SCALE", 1));
-    set("FORCE_PLATFORM", c3d_integer("USED", 0));
+    const auto set_if_missing = [&](const char* group, C3dParameter parameter) {
+      if (all_.find(group, parameter.name) == nullptr) set(group, std::move(parameter));
+    };
+    set_if_missing("ANALOG", c3d_real("GEN_SCALE", 1));
+    set_if_missing("FORCE_PLATFORM", c3d_integer("USED", 0));
   }
 
   // Calls `action` with the values of NAME, NAME2, ...

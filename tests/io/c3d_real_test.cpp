@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "c3d_support.hpp"
+#include "c3d_law.hpp"
 
 namespace kinemend {
 namespace {
@@ -220,6 +220,18 @@ TEST(RealC3d, ChangedTakesReadBack) {
     clip.source.document.reset();
     expect_same_samples(clip, read_c3d_bytes(write_markers(clip, "c3d")).clip, 1e-2);
   }
+}
+
+// Rate, unit and axes of every file, and each written plainly.
+TEST(RealC3d, ConversionsBringAllThroughThatTheyDoNotConcern) {
+  std::size_t files = 0;
+  for (const fs::path& path : real_files()) {
+    if (path.filename() == "Empty.c3d") continue;
+    SCOPED_TRACE(path);
+    ASSERT_NO_FATAL_FAILURE(expect_lawful_conversions(read_file(path)));
+    ++files;
+  }
+  EXPECT_GE(files, 90u);
 }
 
 }  // namespace
