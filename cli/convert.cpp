@@ -197,7 +197,8 @@ Command convert_command() {
   }
   command.description +=
       ". Within one format the source's layout and digits stay, unless --plain asks for the "
-      "program's own. Rate, axes and units stay unless they are asked for. What a file holds beside "
+      "program's own. Rate, axes and units stay unless they are asked for. What a file holds "
+      "beside "
       "its motion (analog channels, force plates, events) goes along where the format has a place "
       "for it; what stays behind is said, and an error under --strict.\n\n"
       "Joints that go to a format of markers (c3d, trc) become the joints' positions. An AMC file "
@@ -214,8 +215,7 @@ Command convert_command() {
       switch_flag("plain", "Output", "drop the source's layout and write anew",
                   "What the file holds stays: a C3D file keeps analog channels and parameters."));
   command.flags.push_back(force_flag());
-  append(command.flags,
-         reading_flags("what needs a repair, or would be lost, becomes an error"));
+  append(command.flags, reading_flags("what needs a repair, or would be lost, becomes an error"));
   command.examples = {
       {"kinemend convert odd.bvh --plain -o plain.bvh",
        "a file that other programs cannot read, in its plainest form"},

@@ -43,9 +43,9 @@ std::size_t bytes_behind(const C3dDocument& source) {
   const std::string_view bytes = source.bytes;
   const std::size_t end = std::min(source.layout.data_end(), bytes.size());
   const std::size_t last = bytes.find_last_not_of('\0');
-  const std::size_t block_end = source.layout.header_begin +
-                                (end - source.layout.header_begin + c3d_block_bytes - 1) /
-                                    c3d_block_bytes * c3d_block_bytes;
+  const std::size_t block_end =
+      source.layout.header_begin +
+      (end - source.layout.header_begin + c3d_block_bytes - 1) / c3d_block_bytes * c3d_block_bytes;
   return last == bytes.npos || last < block_end ? 0 : last + 1 - block_end;
 }
 
@@ -109,8 +109,8 @@ std::size_t C3dCarried::source_frame(std::size_t frame, std::size_t source_count
 
 std::size_t c3d_frame_count(const MarkerClip& clip, const C3dOrigin& origin) {
   // A file of analog samples alone has frames, a clip without markers has none.
-  const bool no_points = origin.document != nullptr &&
-                         clip.marker_count() + origin.document->layout.point_count == 0;
+  const bool no_points =
+      origin.document != nullptr && clip.marker_count() + origin.document->layout.point_count == 0;
   return no_points ? origin.document->layout.frame_count : clip.frame_count();
 }
 
@@ -125,8 +125,8 @@ C3dCarried c3d_carried(const MarkerClip& clip, const C3dOrigin& origin) {
   carried.keeps_words = clip.names == source.names;
   if (origin.change.resampled) carried.source_frames = source.frame_rate_hz / clip.frame_rate_hz;
   if (!has_analog(layout) || !knows_channels(layout)) return carried;
-  carried.analog_instants = origin.change.resampled ? instants_at(clip.frame_rate_hz, source)
-                                                    : layout.analog_instants();
+  carried.analog_instants =
+      origin.change.resampled ? instants_at(clip.frame_rate_hz, source) : layout.analog_instants();
   carried.analog_count = carried.analog_instants > 0 ? layout.analog_count : 0;
   return carried;
 }
@@ -144,9 +144,8 @@ Diagnostics c3d_losses(const MarkerClip& clip, const C3dOrigin& origin) {
   add_analog_losses(clip, origin, losses);
   const C3dParameters& parameters = origin.document->parameters;
   if (parameters.has_group("ROTATION")) {
-    losses.add("rotations_lost",
-               fmt::format("rotations of {} segments are left out",
-                           parameters.count("ROTATION", "USED").value_or(0)));
+    losses.add("rotations_lost", fmt::format("rotations of {} segments are left out",
+                                             parameters.count("ROTATION", "USED").value_or(0)));
   } else if (parameters.has_group("DATA_BLOCKS")) {
     losses.add("data_blocks_lost", "data that the group DATA_BLOCKS tells of are left out");
   } else if (const std::size_t bytes = bytes_behind(*origin.document); bytes > 0) {

@@ -113,9 +113,8 @@ class NewFile {
     return source_->bytes.data() + source_->layout.header_begin + 2 * (number - 1);
   }
   std::size_t source_word(std::size_t number) const {
-    return with_words(source_->processor, [&](auto words) -> std::size_t {
-      return words.word(source_place(number));
-    });
+    return with_words(source_->processor,
+                      [&](auto words) -> std::size_t { return words.word(source_place(number)); });
   }
 
   // As many as there is room for; the parameters have them all.

@@ -138,7 +138,8 @@ class ParameterMaker {
     const auto frames = static_cast<std::int64_t>(file_.frame_count);
     set("TRIAL", frame_field("ACTUAL_START_FIELD", first));
     set("TRIAL", frame_field("ACTUAL_END_FIELD", first + frames - 1));
-    // The cameras' own rate stays what it was, unless it is but another word for that of the points.
+    // The cameras' own rate stays what it was, unless it is but another word for that of the
+    // points.
     const auto cameras = all_.number("TRIAL", "CAMERA_RATE");
     if (source_ == nullptr || (cameras && *cameras == source_->layout.rate_hz &&
                                clip_.frame_rate_hz != source_->frame_rate_hz)) {
@@ -169,12 +170,11 @@ class ParameterMaker {
 
   // Calls `action` with the values of NAME, NAME2, ...
   template <class Action>
-  void change_numbers(std::string_view group, const std::string& name,
-                      std::optional<C3dType> type, Action action) {
+  void change_numbers(std::string_view group, const std::string& name, std::optional<C3dType> type,
+                      Action action) {
     std::string part = name;
     for (int number = 2; const C3dParameter* const found = all_.find(group, part); ++number) {
-      C3dParameter& parameter =
-          all_.entries[static_cast<std::size_t>(found - all_.entries.data())];
+      C3dParameter& parameter = all_.entries[static_cast<std::size_t>(found - all_.entries.data())];
       action(parameter.numbers);
       if (type) parameter.type = *type;
       part = name + std::to_string(number);

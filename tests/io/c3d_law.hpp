@@ -17,7 +17,7 @@ namespace kinemend::test {
 struct C3dConversion {
   const char* title;
   std::function<MarkerClip(const MarkerClip&)> convert;
-  double factor = 1;               ///< of lengths
+  double factor = 1;                                                      ///< of lengths
   std::array<Vec3, 3> axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  ///< where they went
   bool resamples = false;
   bool same_bytes = false;
@@ -64,12 +64,21 @@ inline std::vector<C3dConversion> c3d_conversions(const MarkerClip& clip) {
 /// Parameters that any new file says anew, and those that a conversion of the kind concerns.
 inline bool may_differ(const std::string& group, const std::string& name,
                        const C3dConversion& conversion) {
-  static const std::set<std::string> written{
-      "POINT:FRAMES",         "POINT:LONG_FRAMES",        "POINT:DATA_START",
-      "POINT:SCALE",          "POINT:USED",               "POINT:RATE",
-      "POINT:UNITS",          "TRIAL:ACTUAL_START_FIELD", "TRIAL:ACTUAL_END_FIELD",
-      "ANALOG:USED",          "ANALOG:RATE",              "POINT:X_SCREEN",
-      "POINT:Y_SCREEN",       "FORCE_PLATFORM:CORNERS",   "FORCE_PLATFORM:ORIGIN"};
+  static const std::set<std::string> written{"POINT:FRAMES",
+                                             "POINT:LONG_FRAMES",
+                                             "POINT:DATA_START",
+                                             "POINT:SCALE",
+                                             "POINT:USED",
+                                             "POINT:RATE",
+                                             "POINT:UNITS",
+                                             "TRIAL:ACTUAL_START_FIELD",
+                                             "TRIAL:ACTUAL_END_FIELD",
+                                             "ANALOG:USED",
+                                             "ANALOG:RATE",
+                                             "POINT:X_SCREEN",
+                                             "POINT:Y_SCREEN",
+                                             "FORCE_PLATFORM:CORNERS",
+                                             "FORCE_PLATFORM:ORIGIN"};
   static const std::set<std::string> timed{"TRIAL:CAMERA_RATE", "FORCE_PLATFORM:ZERO",
                                            "EVENT:TIMES"};
   std::string whole = group + ":" + name;
@@ -148,8 +157,8 @@ inline void expect_same_analog(const MarkerClip& before, const MarkerClip& after
   EXPECT_EQ(losses.count("analog_cut") > 0, is.values.size() < was.values.size());
   EXPECT_EQ(losses.count("analog_held") > 0, is.values.size() > was.values.size());
   for (std::size_t i = 0; i < is.values.size(); ++i) {
-    const double wanted = i < was.values.size() ? was.values[i]
-                                                : was.values[was.values.size() - width + i % width];
+    const double wanted =
+        i < was.values.size() ? was.values[i] : was.values[was.values.size() - width + i % width];
     // To the last bit, but for a VAX real below all that others have.
     ASSERT_NEAR(is.values[i], wanted, 1e-36) << "analog value " << i;
   }
