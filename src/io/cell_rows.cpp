@@ -143,7 +143,8 @@ CellRows::Cell CellRows::find_cell(const char* p) const {
   return {trimmed({p, end}, style_.separator), end};
 }
 
-double CellRows::value_of(TokenSpan token, CellRow& row) {
+double CellRows::value_of(TokenSpan token, std::size_t column, CellRow& row) {
+  if (style_.is_text(column)) return not_a_number;
   const char* const place = token.begin;
   if (is_quoted(token)) token = trimmed({token.begin + 1, token.end - 1}, style_.separator);
   if (token.begin == token.end) return not_a_number;
@@ -185,7 +186,7 @@ CellRow CellRows::read_separated(const Output& out) {
       const Cell cell = find_cell(p);
       next = cell.next;
       if (cell.token.begin != cell.token.end) row.used = i + 1;
-      if (i < out.count) out.put(i, value_of(cell.token, row), cell.token);
+      if (i < out.count) out.put(i, value_of(cell.token, i, row), cell.token);
     }
     if (next == end_ || *next != separator) {
       p = next;
@@ -207,7 +208,7 @@ CellRow CellRows::read_words(const Output& out) {
     const char* const word = p;
     while (p != end_ && !is_space(*p)) ++p;
     row.cells = row.used = i + 1;
-    if (i < out.count) out.put(i, value_of({word, p}, row), {word, p});
+    if (i < out.count) out.put(i, value_of({word, p}, i, row), {word, p});
   }
   out.leave_out(row.cells);
   row.end = p;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +17,13 @@ struct CellStyle {
   char separator = '\t';  ///< of cells: a tab, comma or semicolon; ' ' stands for runs of blanks,
                           ///< which leave no cell empty
   CommaStyle commas = CommaStyle::none;  ///< none or decimal
+  std::vector<std::uint8_t> texts;       ///< by column: 1 where cells are no numbers; may be short
+
+  void mark_text(std::size_t column) {
+    texts.resize(std::max(texts.size(), column + 1));
+    texts[column] = 1;
+  }
+  bool is_text(std::size_t column) const { return column < texts.size() && texts[column] != 0; }
 };
 
 /// The line at `begin`, without its end.
@@ -65,7 +74,7 @@ class CellRows {
   CellRow read_separated(const Output& out);
   CellRow read_words(const Output& out);
   Cell find_cell(const char* p) const;
-  double value_of(TokenSpan token, CellRow& row);
+  double value_of(TokenSpan token, std::size_t column, CellRow& row);
 
   bool may_be_plain(const char* p) const {
     return static_cast<std::size_t>(p - begin_ - plain_number_lead) <

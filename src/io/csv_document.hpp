@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "io/marker_table.hpp"
 #include "io/text.hpp"
 #include "kinemend/clip.hpp"
+#include "motion/take_change.hpp"
 
 namespace kinemend {
 
@@ -45,6 +47,11 @@ struct CsvHeader {
   std::string unit;
   std::size_t labels_line = 0;
   std::size_t data_begin = 0;
+  std::size_t data_end = 0;       ///< behind the last row there can be
+  std::size_t foreign_lines = 0;  ///< above the labels, not understood
+  std::size_t foreign_place = 0;  ///< of the first of them
+  bool unit_is_custom = false;    ///< the file names none; its program has no other
+  std::string beside;             ///< what else the file holds, in words; empty for nothing
 
   bool has_rotations() const;
 };
@@ -55,8 +62,9 @@ CsvHeader read_csv_header(const SourceText& text);
 bool has_csv_header(std::string_view head);
 
 /// A CSV file as it was read: the bytes hold every digit, so beside them only landmarks are kept.
-struct CsvDocument : SourceDocument {
+struct CsvDocument : FollowingDocument {
   std::string bytes;
+  std::string beside;  ///< what else it holds, in words; empty for nothing
   double frame_rate_hz = 0;
   MarkerTable table;  ///< of joints: without markers
 
@@ -69,6 +77,15 @@ struct CsvDocument : SourceDocument {
   double metres_per_unit = 0;
   std::vector<Vec3> root_positions;      ///< as repaired; empty where all are in the file
   std::vector<Vec3> joint_translations;  ///< the same
+
+  std::shared_ptr<const SourceDocument> after(const TakeChange& change) const override;
+};
+
+/// What a table held beside its markers, once the take is to be written anew.
+struct TableRest : FollowingDocument {
+  std::string beside;
+
+  std::shared_ptr<const SourceDocument> after(const TakeChange& change) const override;
 };
 
 }  // namespace kinemend

@@ -5,58 +5,19 @@
 #include <cmath>
 #include <optional>
 
-#include "io/csv_document.hpp"
+#include "io/csv_head.hpp"
 
 namespace kinemend {
 
 namespace {
 
 constexpr std::size_t most_head_lines = 32;
-constexpr std::size_t most_columns = 4 * most_markers;
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return text;
-}
-
-// NaN where the text is no number.
-double number_of(std::string_view text) {
-  if (!text.empty()) {
-    const NumberToken token =
-        read_number(text.data(), text.data() + text.size(), CommaStyle::decimal);
-    const bool whole = token.end == text.data() + text.size();
-    if (whole && token.kind == TokenKind::number) return token.value;
-  }
-  return std::nan("");
-}
-
-char separator_of(std::string_view line) {
-  constexpr std::string_view separators = ",;\t";
-  std::array<std::size_t, 3> counts{};
-  bool quoted = false;
-  for (const char c : line) {
-    quoted = quoted != (c == '"');
-    const std::size_t at = separators.find(c);
-    if (!quoted && at != separators.npos) ++counts[at];
-  }
-  return separators[static_cast<std::size_t>(std::max_element(counts.begin(), counts.end()) -
-                                             counts.begin())];
-}
 
 enum class Part : std::uint8_t { w, x, y, z, tx, ty, tz, none };
 
 Part part_of(std::string_view text) {
   constexpr std::array<std::string_view, 7> names{"w", "x", "y", "z", "tx", "ty", "tz"};
-  const std::string name = lower(text);
+  const std::string name = lower_case(text);
   const auto* const found = std::find(names.begin(), names.end(), name);
   return static_cast<Part>(found - names.begin());
 }
@@ -82,24 +43,22 @@ std::optional<double> seconds_of(const std::string& name) {
   return name.find("ms") != name.npos || name.find("milli") != name.npos ? 0.001 : 1.0;
 }
 
-using Cells = std::vector<std::string>;
-
 class HeaderReader {
  public:
   explicit HeaderReader(const SourceText& text) : text_(text) {}
 
   CsvHeader read() {
-    if (text_.bytes.substr(0, byte_order_mark.size()) == byte_order_mark) {
-      next_ = byte_order_mark.size();
-    }
-    if (trimmed(text_.bytes.substr(next_)).empty()) {
+    next_ = after_byte_order_mark(text_.bytes);
+    if (without_spaces_around(text_.bytes.substr(next_)).empty()) {
       throw Error::at_line(text_.name, 1, "the file is empty");
     }
     while (header_.groups.empty()) read_line();
     header_.data_begin = next_;
+    header_.data_end = text_.bytes.size();
     read_units_below();
     read_notes();
-    choose_commas();
+    header_.style.commas =
+        commas_of(text_.bytes.substr(header_.data_begin), header_.style.separator);
     return std::move(header_);
   }
 
@@ -118,7 +77,7 @@ class HeaderReader {
 
   void read_line() {
     if (next_ == text_.bytes.size() || above_.size() == most_head_lines) fail();
-    const std::string_view line = take_line(), bare = trimmed(line);
+    const std::string_view line = take_line(), bare = without_spaces_around(line);
     if (bare.empty()) return;
     if (bare[0] == '#') return read_note(bare);
     if (!first_row_) first_row_ = place_;
@@ -132,41 +91,31 @@ class HeaderReader {
     std::vector<Column> columns;
     for (const std::string& cell : cells) columns.push_back(column_of(cell));
     group(columns);
-    if (header_.groups.empty()) group(columns_below(cells));
-    if (!header_.groups.empty()) return find_leading_columns(cells);
+    const bool names_in_line = !header_.groups.empty();
+    if (!names_in_line) group(columns_below(cells));
+    if (!header_.groups.empty()) {
+      header_.foreign_lines = above_.size() - (names_in_line || above_.empty() ? 0 : 1);
+      header_.foreign_place = *first_row_;
+      return find_leading_columns(cells);
+    }
     above_.push_back(std::move(cells));
   }
 
   void read_note(std::string_view line) {
-    line = trimmed(line.substr(1));
+    line = without_spaces_around(line.substr(1));
     const std::size_t colon = line.find(':');
     if (colon == line.npos) return;
-    header_.notes.push_back({lower(trimmed(line.substr(0, colon))),
-                             std::string(trimmed(line.substr(colon + 1))), place_});
+    header_.notes.push_back({lower_case(without_spaces_around(line.substr(0, colon))),
+                             std::string(without_spaces_around(line.substr(colon + 1))), place_});
   }
 
-  // Columns of a row of axes (X, Y, Z, X, ...), whose names stand in a row above, as Vicon Nexus
-  // and OptiTrack Motive export them.
+  // Columns of a row of axes (X, Y, Z, X, ...), whose names stand in the row above.
   std::vector<Column> columns_below(const Cells& axes) const {
     std::vector<Column> columns(axes.size());
-    const Cells* names = above_.empty() ? nullptr : &above_.back();
-    const Cells *kinds = nullptr, *types = nullptr;
-    for (const Cells& row : above_) {
-      const auto begins_with = [&](std::string_view word) {
-        return std::find(row.begin(), row.begin() + std::min<std::ptrdiff_t>(2, std::ssize(row)),
-                         word) != row.begin() + std::min<std::ptrdiff_t>(2, std::ssize(row));
-      };
-      if (begins_with("Name")) names = &row;
-      if (begins_with("Type")) types = &row;
-      if (std::find(row.begin(), row.end(), "Position") != row.end()) kinds = &row;
-    }
-    const auto differs = [](const Cells* row, std::size_t i, std::string_view wanted) {
-      return row != nullptr && (i >= row->size() || (*row)[i] != wanted);
-    };
+    const Cells* const names = above_.empty() ? nullptr : &above_.back();
     std::string name;
     for (std::size_t i = 0; i < axes.size(); ++i) {
       if (names != nullptr && i < names->size() && !(*names)[i].empty()) name = (*names)[i];
-      if (differs(kinds, i, "Position") || differs(types, i, "Marker")) continue;
       columns[i] = {name, part_of(axes[i])};
     }
     return columns;
@@ -209,7 +158,7 @@ class HeaderReader {
     }
     for (std::size_t i = 0; i < cells.size(); ++i) {
       if (grouped[i]) continue;
-      const std::string name = lower(cells[i]);
+      const std::string name = lower_case(cells[i]);
       const auto seconds = seconds_of(name);
       if (seconds && header_.time_column < 0) {
         header_.time_column = static_cast<std::int32_t>(i);
@@ -218,23 +167,12 @@ class HeaderReader {
         header_.frame_column = static_cast<std::int32_t>(i);
       } else if (!name.empty() && name != "sub frame") {
         header_.ignored.push_back(cells[i]);
+        header_.style.mark_text(i);
       }
     }
-    for (const Cells& row : above_) read_facts(row);
   }
 
-  // A lone number above the names is the rate (Vicon); others stand behind their name (OptiTrack).
-  void read_facts(const Cells& row) {
-    const auto filled =
-        std::count_if(row.begin(), row.end(), [](const auto& c) { return !c.empty(); });
-    if (filled == 1 && number_of(row[0]) > 0) header_.frame_rate_hz = number_of(row[0]);
-    for (std::size_t i = 0; i + 1 < row.size(); ++i) {
-      if (row[i] == "Export Frame Rate") header_.frame_rate_hz = number_of(row[i + 1]);
-      if (row[i] == "Length Units") header_.unit = row[i + 1];
-    }
-  }
-
-  // Vicon has a row of units below the axes.
+  // A row of units below the axes.
   void read_units_below() {
     const std::string_view line = line_from(text_.bytes, next_);
     for (const std::string& cell : split_cells(line, header_.style.separator)) {
@@ -242,7 +180,7 @@ class HeaderReader {
       if (metres_per_unit(cell) == 0) return;
       header_.unit = cell;
     }
-    if (!header_.unit.empty() && !trimmed(line).empty() &&
+    if (!header_.unit.empty() && !without_spaces_around(line).empty() &&
         line.find_first_of("0123456789") == line.npos) {
       header_.data_begin = next_line(text_.bytes, next_);
     }
@@ -262,16 +200,6 @@ class HeaderReader {
     }
   }
 
-  void choose_commas() {
-    const std::string_view rows = text_.bytes.substr(header_.data_begin);
-    const Cells cells = split_cells(line_from(rows, 0), header_.style.separator);
-    const bool decimal = header_.style.separator == ','
-                             ? std::any_of(cells.begin(), cells.end(),
-                                           [](const auto& c) { return c.find(',') != c.npos; })
-                             : rows.find(',') != rows.npos;
-    if (decimal) header_.style.commas = CommaStyle::decimal;
-  }
-
   const SourceText& text_;
   CsvHeader header_;
   std::vector<Cells> above_;
@@ -287,9 +215,15 @@ bool CsvHeader::has_rotations() const {
                      [](const CsvGroup& group) { return group.kind == CsvGroup::Kind::rotation; });
 }
 
-CsvHeader read_csv_header(const SourceText& text) { return HeaderReader(text).read(); }
+CsvHeader read_csv_header(const SourceText& text) {
+  if (starts_as_motive_export(text.bytes)) return read_motive_header(text);
+  if (starts_with_vicon_section(text.bytes)) return read_vicon_header(text);
+  return HeaderReader(text).read();
+}
 
 bool has_csv_header(std::string_view head) {
+  // Their heads may be longer than what is seen of the file here.
+  if (starts_as_motive_export(head) || starts_with_vicon_section(head)) return true;
   try {
     const CsvHeader header = read_csv_header({"", head});
     return header.frame_column >= 0 || header.time_column >= 0 || header.frame_rate_hz > 0;

@@ -23,6 +23,8 @@ class CsvReader {
 
   TakeResult read() {
     header_ = read_csv_header(text_);
+    text_.bytes = text_.bytes.substr(0, header_.data_end);
+    document_.beside = header_.beside;
     MarkerTable& table = document_.table;
     table.begin = header_.data_begin;
     table.style = header_.style;
@@ -47,6 +49,8 @@ class CsvReader {
     if (header_.style.commas == CommaStyle::decimal) {
       note("decimal_comma", header_.data_begin, "numbers have decimal commas");
     }
+    note("head_unknown", header_.foreign_place,
+         "a line above the labels says what is not understood", header_.foreign_lines);
     if (!header_.ignored.empty()) {
       note("column_ignored", header_.labels_line,
            fmt::format("column {} is neither frame, time nor part of a marker or joint",
@@ -70,6 +74,10 @@ class CsvReader {
     note("marker_unnamed", header_.labels_line,
          "a marker has no name: called *1, *2, ... by its place", unnamed);
     clip.unit = header_.unit;
+    if (header_.unit_is_custom) {
+      note("unit_assumed", header_.labels_line,
+           fmt::format("the export names no unit: {} taken, as its program has it", clip.unit));
+    }
     constexpr std::size_t no_count = std::numeric_limits<std::size_t>::max();
     TableFinding rows = read_marker_table(text_, diagnostics_, no_count, document_.table, clip);
     if (rows.widest > 0) {

@@ -110,6 +110,16 @@ std::string write_plain(const Clip& clip) {
   return std::move(table).take();
 }
 
+// The document whose layout holds the clip; null where there is none.
+const CsvDocument* kept_layout(const MarkerClip& clip) {
+  const auto* const document = dynamic_cast<const CsvDocument*>(clip.source.document.get());
+  const bool same =
+      document != nullptr && !document->names.empty() && clip.names == document->names &&
+      clip.unit == document->unit && clip.frame_count() == document->table.frames &&
+      clip.frame_rate_hz == document->frame_rate_hz && clip.first_frame == document->first_frame;
+  return same ? document : nullptr;
+}
+
 std::string write_plain(const MarkerClip& clip) {
   Table table(60 * clip.positions.size() + 4096);
   table.line("# rate_hz: " + number_text(clip.frame_rate_hz));
@@ -153,14 +163,18 @@ std::string write_csv(const Clip& clip) {
 
 std::string write_csv_markers(const MarkerClip& clip) {
   clip.validate();
-  const auto* document = dynamic_cast<const CsvDocument*>(clip.source.document.get());
-  const bool same_layout =
-      document != nullptr && !document->names.empty() && clip.names == document->names &&
-      clip.unit == document->unit && clip.frame_count() == document->table.frames &&
-      clip.frame_rate_hz == document->frame_rate_hz && clip.first_frame == document->first_frame;
-  if (same_layout) return rewrite_marker_table(clip, document->bytes, document->table);
+  if (const auto* const document = kept_layout(clip))
+    return rewrite_marker_table(clip, document->bytes, document->table);
   if (clip.names.empty()) throw Error(ErrorKind::usage, "CSV cannot hold a clip without markers");
   return write_plain(clip);
+}
+
+std::string csv_beside_markers(const MarkerClip& clip, bool as_csv) {
+  if (as_csv && kept_layout(clip) != nullptr) return "";
+  const SourceDocument* const document = clip.source.document.get();
+  if (const auto* const table = dynamic_cast<const CsvDocument*>(document)) return table->beside;
+  const auto* const rest = dynamic_cast<const TableRest*>(document);
+  return rest == nullptr ? "" : rest->beside;
 }
 
 }  // namespace kinemend

@@ -70,8 +70,7 @@ Diagnostics lost_beside_points(const MarkerClip& clip, std::string_view format) 
   }
   Diagnostics losses;
   if (!parts.empty()) {
-    losses.add("not_kept",
-               fmt::format("{} files cannot hold {}", format, fmt::join(parts, "; ")));
+    losses.add("not_kept", fmt::format("{} files cannot hold {}", format, fmt::join(parts, "; ")));
   }
   return losses;
 }
@@ -179,7 +178,11 @@ Diagnostics lost_in_writing(const Take& take, std::string_view format) {
   const Format& found = format_called(format);
   const auto* const clip = std::get_if<MarkerClip>(&take);
   if (clip == nullptr) return {};
-  return found.name == "c3d" ? lost_in_c3d(*clip) : lost_beside_points(*clip, found.name);
+  Diagnostics losses =
+      found.name == "c3d" ? lost_in_c3d(*clip) : lost_beside_points(*clip, found.name);
+  const std::string rest = csv_beside_markers(*clip, found.name == "csv");
+  if (!rest.empty()) losses.add("rest_lost", rest + " are left out");
+  return losses;
 }
 
 }  // namespace kinemend

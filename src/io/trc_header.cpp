@@ -13,12 +13,19 @@ bool begins_with(std::string_view text, std::string_view word) {
   return equal_ignoring_case(text.substr(0, word.size()), word);
 }
 
-bool is_empty(std::string_view line) {
-  return std::all_of(line.begin(), line.end(), [](char c) { return is_space(c); });
-}
+// Of a line that may hold nothing but separators and quotes.
+bool is_filler(char c) { return is_space(c) || c == ',' || c == ';' || c == '"'; }
 
-// Cells stand between tabs; some files have only spaces.
-char separator_of(std::string_view line) { return line.find('\t') != line.npos ? '\t' : ' '; }
+bool is_empty(std::string_view line) { return std::all_of(line.begin(), line.end(), is_filler); }
+
+// Cells stand between tabs; some files have only spaces, and spreadsheets write commas, or
+// semicolons where commas are decimal.
+char separator_of(std::string_view line) {
+  for (const char separator : {'\t', ';', ','}) {
+    if (line.find(separator) != line.npos) return separator;
+  }
+  return ' ';
+}
 
 std::vector<std::string> without_empty(std::vector<std::string> cells) {
   cells.erase(std::remove(cells.begin(), cells.end(), std::string()), cells.end());
@@ -39,10 +46,17 @@ class HeaderReader {
     while (header_.labels_line == 0) read_line();
     read_below_labels();
     choose_style();
+    note_separator();
     return std::move(header_);
   }
 
  private:
+  // In a head of commas the values have commas too, but in one of spaces they may be decimal.
+  char separator_in(std::string_view line) const {
+    if (line.find('\t') != line.npos) return '\t';
+    return head_separator_ == '\t' ? ' ' : head_separator_;
+  }
+
   std::string_view take_line() {
     place_ = next_;
     next_ = next_line(text_.bytes, next_);
@@ -57,11 +71,12 @@ class HeaderReader {
     }
     const std::string_view line = take_line();
     if (is_empty(line)) return;
-    if (static_cast<std::size_t>(std::count_if(line.begin(), line.end(), is_space)) >
-        3 * most_markers) {
+    if (static_cast<std::size_t>(std::count_if(line.begin(), line.end(), is_filler)) >
+        6 * most_markers) {
       throw text_.error_at(place_, fmt::format("no more than {} markers are read", most_markers));
     }
-    const std::vector<std::string> cells = split_cells(line, separator_of(line));
+    if (head_separator_ == 0) head_separator_ = separator_of(line);
+    const std::vector<std::string> cells = split_cells(line, separator_in(line));
     const auto key = std::find_if(cells.begin(), cells.end(), [](const std::string& cell) {
       return equal_ignoring_case(cell, "DataRate");
     });
@@ -71,10 +86,11 @@ class HeaderReader {
     } else if (key != cells.end()) {
       header_.keys = without_empty(cells);
       const std::string_view values = take_line();
-      header_.values = without_empty(split_cells(values, separator_of(values)));
+      header_.values = without_empty(split_cells(values, separator_in(values)));
       header_.values_line = place_;
     } else if (begins_with(cells[0], "Frame")) {
-      read_labels(cells, separator_of(line));
+      labels_separator_ = separator_in(line);
+      read_labels(cells, labels_separator_);
     } else {
       throw text_.error_at(
           place_, fmt::format("expected {}, found {}",
@@ -125,7 +141,7 @@ class HeaderReader {
     header_.data_begin = next_;
     while (next_ != text_.bytes.size()) {
       const std::string_view line = take_line();
-      const std::size_t first = line.find_first_not_of(" \t\v\f\"");
+      const std::size_t first = line.find_first_not_of(" \t\v\f\",;");
       if (first == line.npos) {
         has_blank = true;
       } else if (std::string_view("XYZxyz").find(line[first]) != std::string_view::npos &&
@@ -149,21 +165,52 @@ class HeaderReader {
 
   void choose_style() {
     const std::string_view rows = text_.bytes.substr(header_.data_begin);
-    if (rows.find(',') != rows.npos) {
-      header_.style.commas = CommaStyle::decimal;
-      note_repair(text_, diagnostics_, "decimal_comma", header_.data_begin,
-                  "numbers have decimal commas");
-    }
     const std::string_view line = line_from(rows, 0);
-    if (line.find('\t') != line.npos || split_cells(line, ' ').size() < 2) return;
-    header_.style.separator = ' ';
-    note_repair(text_, diagnostics_, "space_separator", header_.data_begin,
-                "spaces stand between cells where tabs should");
+    // The labels' separator is the rows' own where the rows have it, tabs before all others.
+    char separator = '\t';
+    if (line.find('\t') == line.npos) {
+      const bool as_labels = labels_separator_ != ' ' && line.find(labels_separator_) != line.npos;
+      separator = as_labels                            ? labels_separator_
+                  : line.find(';') != line.npos        ? ';'
+                  : split_cells(line, ' ').size() >= 2 ? ' '
+                                                       : '\t';
+    }
+    header_.style.separator = separator;
+    const std::vector<std::string> cells = split_cells(line, separator);
+    refuse_commas_of_two_kinds(rows);
+    const bool decimal = separator == ','
+                             ? std::any_of(cells.begin(), cells.end(),
+                                           [](const auto& c) { return c.find(',') != c.npos; })
+                             : rows.find(',') != rows.npos;
+    if (!decimal) return;
+    header_.style.commas = CommaStyle::decimal;
+    note_repair(text_, diagnostics_, "decimal_comma", header_.data_begin,
+                "numbers have decimal commas");
+  }
+
+  // Commas between cells, and not one point: digits behind decimal commas would pass for cells.
+  void refuse_commas_of_two_kinds(std::string_view rows) const {
+    if (header_.style.separator != ',' || rows.find_first_of(".\"") != rows.npos) return;
+    throw text_.error_at(header_.data_begin,
+                         "decimal commas and commas between cells cannot be told apart");
+  }
+
+  void note_separator() {
+    const char separator = header_.style.separator;
+    if (separator == '\t') return;
+    const bool spaces = separator == ' ';
+    note_repair(
+        text_, diagnostics_, spaces ? "space_separator" : "comma_separator", header_.data_begin,
+        fmt::format("{} stand between cells where tabs should", spaces             ? "spaces"
+                                                                : separator == ',' ? "commas"
+                                                                                   : "semicolons"));
   }
 
   const SourceText& text_;
   Diagnostics& diagnostics_;
   TrcHeader header_;
+  char head_separator_ = 0;  // of its first line
+  char labels_separator_ = '\t';
   std::size_t place_ = 0;
   std::size_t next_ = 0;
 };

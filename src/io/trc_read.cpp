@@ -50,6 +50,13 @@ class TrcReader {
     const auto declared = whole(header_.number("NumFrames"));
     TableFinding rows = read_marker_table(text_, diagnostics_, declared, document_.table, clip_);
     if (rows.widest == 0) return rows;
+    // Commas may stand for two things at once.
+    if (document_.table.style.separator == ',') {
+      throw text_.error_at(rows.wide_row,
+                           fmt::format("expected {} cells between commas as in the row of labels, "
+                                       "found {}",
+                                       document_.table.width(), rows.widest));
+    }
     // Coordinates beyond the labels: markers without a name.
     const std::size_t markers = (rows.widest - leading_columns() + 2) / 3;
     check_marker_count(markers);
@@ -172,7 +179,13 @@ class TrcReader {
 
 int sniff_trc(std::string_view head) {
   if (head.substr(0, 3) == "\xEF\xBB\xBF") head.remove_prefix(3);
-  return equal_ignoring_case(TextScanner(head, 0).next(), "PathFileType") ? 100 : 0;
+  if (head.substr(0, 1) == "\"") head.remove_prefix(1);
+  constexpr std::string_view word = "PathFileType";
+  const std::string_view start = TextScanner(head, 0).next().substr(0, word.size());
+  const std::size_t end = head.find(start) + start.size();
+  const bool ends = end == head.size() ||
+                    std::string_view(" \t,;\"\r\n").find(head[end]) != std::string_view::npos;
+  return equal_ignoring_case(start, word) && ends ? 100 : 0;
 }
 
 TakeResult read_trc(std::string bytes, std::string_view name, const ReadOptions& options) {

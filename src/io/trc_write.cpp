@@ -25,7 +25,11 @@ struct PlainStyle {
 PlainStyle style_of(const MarkerClip& clip, const TrcDocument* document) {
   PlainStyle style;
   if (document != nullptr) {
-    style.first_line = document->first_line;
+    // One of commas does not go with tabs.
+    if (document->first_line.find('\t') != std::string::npos ||
+        document->first_line.find_first_of(",;") == std::string::npos) {
+      style.first_line = document->first_line;
+    }
     const std::size_t end = document->bytes.find_first_of("\r\n");
     if (end != std::string::npos) {
       style.line_end = document->bytes.substr(end, 2) == "\r\n" ? "\r\n" : "\n";

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "hostile.hpp"
+#include "kinemend/convert.hpp"
 #include "kinemend/random.hpp"
 #include "support.hpp"
 
@@ -130,6 +131,70 @@ TEST(CsvReader, MarkersOfOptiTrackExportsAreRead) {
   EXPECT_EQ(clip.position(2, 0), (Vec3{-0.2005, 0.7215, 0.117}));
 }
 
+// Of each program's exports: markers, rate, unit and frames are right, whatever else is in them.
+TEST(CsvReader, LaboratoriesTablesAreReadRight) {
+  struct Table {
+    const char* name;
+    std::vector<std::string> markers;
+    double rate_hz;
+    const char* unit;
+    std::int64_t first_frame;
+    std::vector<std::uint8_t> observed;
+    Vec3 last;  // the last sample that there is
+  };
+  const std::vector<Table> tables{
+      {"nexus",
+       {"Ann:LASI", "Ann:RASI"},
+       100,
+       "mm",
+       1,
+       {1, 1, 1, 0, 1, 1},
+       {129, -187.75, 724.375}},
+      {"vicon_old",
+       {"LFHD", "RFHD", "*3"},
+       240,
+       "mm",
+       1,
+       {1, 1, 1, 1, 0, 1, 1, 1, 0},
+       {-1022.25, -47.17, 1519.66}},
+      {"nexus_semicolons", {"Ann:LASI"}, 50, "mm", 7, {1, 1}, {-200.75, -116.75, 721.5}},
+      {"nexus_tabs", {"Ann:LASI"}, 100, "m", 1, {1, 1}, {-0.25, -0.5, 0.75}},
+      {"motive_125",
+       {"Ann:LASI", "Unlabeled 1189"},
+       120,
+       "Millimeters",
+       0,
+       {1, 0, 0, 1, 1, 1, 1, 1},
+       {1, 2, 3.5}},
+      {"motive_unlabelled_rows", {"Shank:Marker1"}, 100, "Meters", 0, {1, 1}, {0.25, 0.5, 0.875}},
+      {"head_unknown", {"LASI"}, 120, "", 1, {1, 1}, {-200.75, -116.75, 721.5}}};
+  for (const Table& table : tables) {
+    SCOPED_TRACE(table.name);
+    const std::string bytes = csv_fixture(std::string("good/") + table.name + ".csv");
+    // By its content, under any name.
+    const Take take = read_take(bytes, "take.txt").take;
+    const auto& clip = std::get<MarkerClip>(take);
+    EXPECT_EQ(clip.names, table.markers);
+    EXPECT_EQ(clip.frame_rate_hz, table.rate_hz);
+    EXPECT_EQ(clip.unit, table.unit);
+    EXPECT_EQ(clip.first_frame, table.first_frame);
+    ASSERT_EQ(clip.observed, table.observed);
+    std::size_t last = clip.observed.size() - 1;
+    while (clip.observed[last] == 0) --last;
+    EXPECT_EQ(clip.positions[last], table.last);
+  }
+}
+
+TEST(CsvReader, WhatIsTakenForGrantedOfATableIsSaid) {
+  using Counts = std::map<std::string, std::size_t>;
+  EXPECT_EQ(repairs_of("good/nexus.csv"), Counts{});
+  EXPECT_EQ(repairs_of("good/vicon_old.csv"), (Counts{{"marker_unnamed", 1}, {"unit_assumed", 1}}));
+  EXPECT_EQ(repairs_of("good/nexus_semicolons.csv"), (Counts{{"decimal_comma", 1}}));
+  EXPECT_EQ(repairs_of("good/motive_125.csv"), (Counts{{"column_ignored", 15}}));
+  EXPECT_EQ(repairs_of("good/head_unknown.csv"),
+            (Counts{{"head_unknown", 3}, {"frame_rate_assumed", 1}, {"unit_unknown", 1}}));
+}
+
 TEST(CsvReader, TheRateMayBeGiven) {
   ReadOptions options;
   options.frame_rate_hz = 250;
@@ -185,7 +250,17 @@ TEST(CsvReader, FaultsNameTheLine) {
       {"joint_count", "take.csv:5: expected rotations of the 2 joints stated above, found 3"},
       {"parent_below", "take.csv:4: expected the number of a joint above as parent, found \"2\""},
       {"channel", "take.csv:5: expected a channel such as Xrotation, found \"Qposition\""},
-      {"offset", "take.csv:4: expected 3 numbers behind \"offset\""}};
+      {"offset", "take.csv:4: expected 3 numbers behind \"offset\""},
+      {"nexus_without_trajectories",
+       "take.csv:2: a Vicon export of \"Devices, Model Outputs\", without Trajectories: no markers "
+       "to clean"},
+      {"nexus_rows_behind", "take.csv:8: expected another section behind the blank line"},
+      {"nexus_two_units",
+       "take.csv:5: expected one unit for all trajectories, found \"mm\" and \"m\""},
+      {"motive_rigid_bodies",
+       "take.csv:1: a Motive export of \"Rigid Body, Rigid Body Marker\", without measured "
+       "markers: "
+       "no markers to clean"}};
   for (const auto& [name, message] : expected) {
     const std::string table = csv_fixture(std::string("bad/") + name + ".csv");
     EXPECT_EQ(message_of([&] { read_table(table); }, ErrorKind::unreadable_input), message);
@@ -249,6 +324,34 @@ TEST(CsvWriter, OnlyChangedJointsGetNewDigits) {
   clip.rotation(2, 1) = {0.6, 0, 0, 0.8};
   clip.observed[2 * 3 + 1] = 1;
   EXPECT_EQ(write_clip(clip, "csv"), with(expected, "0.8,0,,,,,", "0.8,0,0.6,0,0,0.8,"));
+}
+
+// Only the trajectories of an export change; what stands above and below them stays.
+TEST(CsvWriter, SectionsAndColumnsOfOtherThingsStay) {
+  const std::string nexus = csv_fixture("good/nexus.csv");
+  MarkerClip clip = read_markers(nexus);
+  clip.position(2, 1) = {129, -187.5, 724.375};
+  EXPECT_EQ(write_markers(clip, "csv"), with(nexus, "-187.75", "-187.500"));
+  EXPECT_TRUE(lost_in_writing(clip, "csv").empty());
+  const std::string motive = csv_fixture("good/motive_125.csv");
+  clip = read_markers(motive);
+  clip.observed[2] = 1;
+  clip.position(1, 0) = {1, 2, 3};
+  EXPECT_EQ(write_markers(clip, "csv"), with(motive, "1.0,,,,1,2,3", "1.0,1.00,2.00,3.00,1,2,3"));
+}
+
+TEST(CsvWriter, WhatATableLosesInANewLayoutIsNamed) {
+  const auto lost = [](const MarkerClip& clip, const char* format) {
+    const Diagnostics losses = lost_in_writing(clip, format);
+    return losses.empty() ? "" : losses.entries()[0].message;
+  };
+  const MarkerClip nexus = read_markers(csv_fixture("good/nexus.csv"));
+  const std::string sections = "the sections Devices, Model Outputs, Events are left out";
+  EXPECT_EQ(lost(nexus, "c3d"), sections);
+  EXPECT_EQ(lost(scale_lengths(nexus, 0.001, "m"), "csv"), sections);
+  EXPECT_EQ(lost(read_markers(csv_fixture("good/motive_125.csv")), "trc"),
+            "the columns of Bone, Bone Marker, Rigid Body Marker are left out");
+  EXPECT_EQ(lost(read_markers(csv_fixture("good/plain.csv")), "trc"), "");
 }
 
 TEST(CsvWriter, BvhComesBackFromCsvToTheDigit) {

@@ -78,12 +78,28 @@ TEST(TrcReader, ReadsNamesPositionsRateAndUnit) {
 }
 
 TEST(TrcReader, LayoutsOfTheSameTakeReadTheSame) {
-  for (const char* name :
-       {"good/crlf.trc", "good/cr.trc", "good/no_last_line_end.trc", "good/trailing_tabs.trc",
-        "good/no_blank_row.trc", "good/no_axis_row.trc", "good/spaces.trc",
-        "good/decimal_comma.trc", "good/wrong_counts.trc", "good/names_without_gaps.trc",
-        "good/names_thrice.trc", "good/no_first_line.trc", "good/no_rate.trc", "good/no_unit.trc",
-        "good/exponents.trc", "good/bom.trc", "good/trailing_text.trc", "good/no_time.trc"}) {
+  for (const char* name : {"good/crlf.trc",
+                           "good/cr.trc",
+                           "good/no_last_line_end.trc",
+                           "good/trailing_tabs.trc",
+                           "good/no_blank_row.trc",
+                           "good/no_axis_row.trc",
+                           "good/spaces.trc",
+                           "good/decimal_comma.trc",
+                           "good/wrong_counts.trc",
+                           "good/names_without_gaps.trc",
+                           "good/names_thrice.trc",
+                           "good/no_first_line.trc",
+                           "good/no_rate.trc",
+                           "good/no_unit.trc",
+                           "good/exponents.trc",
+                           "good/bom.trc",
+                           "good/trailing_text.trc",
+                           "good/no_time.trc",
+                           "good/commas.trc",
+                           "good/commas_filled.trc",
+                           "good/commas_quoted_decimal.trc",
+                           "good/semicolons_decimal.trc"}) {
     expect_like_plain(name);
   }
 }
@@ -98,6 +114,10 @@ TEST(TrcReader, RepairsHaveNamesAndCounts) {
       {"no_last_line_end.trc", {}},
       {"metres.trc", {}},
       {"gaps.trc", {}},
+      {"commas.trc", {{"comma_separator", 1}}},
+      {"commas_filled.trc", {{"comma_separator", 1}}},
+      {"commas_quoted_decimal.trc", {{"comma_separator", 1}, {"decimal_comma", 1}}},
+      {"semicolons_decimal.trc", {{"comma_separator", 1}, {"decimal_comma", 1}}},
       {"nan.trc", {{"value_not_finite", 4}, {"marker_incomplete", 1}}},
       {"zeros.trc", {{"zero_is_missing", 1}}},
       {"through_origin.trc", {}},
