@@ -12,6 +12,7 @@
 #include "io/gltf.hpp"
 #include "io/text.hpp"
 #include "io/trc.hpp"
+#include "io/tsv.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
 
@@ -58,7 +59,7 @@ const Format& format_of(std::string_view bytes, std::string_view name) {
 // Of what a C3D file can hold, in a format that has a place for points only.
 Diagnostics lost_beside_points(const MarkerClip& clip, std::string_view format) {
   std::vector<std::string> parts = c3d_beside_points(clip.source);
-  if (!clip.events.empty()) {
+  if (!clip.events.empty() && format != "tsv") {
     parts.push_back(
         fmt::format("{} event{}", clip.events.size(), clip.events.size() == 1 ? "" : "s"));
   }
@@ -98,6 +99,13 @@ std::span<const Format> formats() {
       {"asf", "Acclaim skeleton", {".asf"}, &sniff_asf, &read_asf, &write_asf, nullptr},
       {"c3d", "C3D motion capture", {".c3d"}, &sniff_c3d, &read_c3d, nullptr, &write_c3d},
       {"trc", "Track Row Column", {".trc"}, &sniff_trc, &read_trc, nullptr, &write_trc},
+      {"tsv",
+       "Table of markers of Qualisys Track Manager",
+       {".tsv"},
+       &sniff_tsv,
+       &read_tsv,
+       nullptr,
+       &write_tsv},
       {"csv",
        "Table of markers or joints",
        {".csv"},

@@ -147,12 +147,21 @@ class TableReader {
                   static_cast<std::size_t>(rows_.first_not_finite() - text_.bytes.data()),
                   "a coordinate is no finite number: missing", rows_.not_finite());
     }
+    if (table_.zeros_are_missing) hide_zeros();
     const MissingZeros zeros = mark_zeros_missing(clip_);
     if (zeros.samples > 0) {
       note_repair(text_, diagnostics_, "zero_is_missing", place_of_frame(zeros.first_frame),
                   "a marker is at 0 0 0 but was not near: missing", zeros.samples);
     }
     table_.observed = clip_.observed;
+  }
+
+  // Unless empty cells say what is missing.
+  void hide_zeros() {
+    if (std::find(clip_.observed.begin(), clip_.observed.end(), 0) != clip_.observed.end()) return;
+    for (std::size_t i = 0; i < clip_.positions.size(); ++i) {
+      if (clip_.positions[i] == Vec3{}) clip_.observed[i] = 0;
+    }
   }
 
   void note(const CountedRepair& repair, std::string_view kind, std::string_view message) {

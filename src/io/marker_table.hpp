@@ -25,6 +25,7 @@ struct MarkerTable {
   std::int32_t frame_column = -1;  ///< -1 where there is none
   std::int32_t time_column = -1;
   std::vector<std::array<std::size_t, 3>> columns;  ///< of x, y, z, one a marker
+  bool zeros_are_missing = false;  ///< by custom of the format, where no cell is empty
   std::size_t frames = 0;
   std::vector<std::uint8_t> observed;  ///< F x M
 

@@ -221,6 +221,8 @@ TEST(TrcReader, FaultsNameTheLine) {
        "\"1.0.000.-201.20056.-116.39728"
        ".721.44098....\""},
       {"bad/text_in_row.trc", "take.trc:8: expected a number, found \"7x1.52441\""},
+      {"bad/commas_of_two_kinds.trc",
+       "take.trc:7: decimal commas and commas between cells cannot be told apart"},
       {"bad/no_markers.trc", "take.trc:4: the file has no markers"},
       {"bad/other_text.trc", "take.trc:1: expected PathFileType, found \"time,force\""}};
   for (const auto& [name, message] : expected) EXPECT_EQ(trc_error(trc_fixture(name)), message);
