@@ -69,6 +69,11 @@ Diagnostics lost_beside_points(const MarkerClip& clip, std::string_view format) 
     parts.push_back(others == 1 ? "that a point is no position"
                                 : fmt::format("that {} points are no positions", others));
   }
+  const bool has_gaps =
+      std::find(clip.observed.begin(), clip.observed.end(), 0) != clip.observed.end();
+  const auto zeros = std::count(clip.positions.begin(), clip.positions.end(), Vec3{});
+  if (format == "tsv" && clip.source.format != "tsv" && !has_gaps && zeros > 0)
+    parts.push_back(fmt::format("that samples at 0 0 0 were measured ({})", zeros));
   Diagnostics losses;
   if (!parts.empty()) {
     losses.add("not_kept", fmt::format("{} files cannot hold {}", format, fmt::join(parts, "; ")));
