@@ -124,7 +124,8 @@ std::vector<Flag> cleaning_flags() {
       {method_flag(),
        configurable(number_flag("strength", "", 1, 0, 1, "Cleaning",
                                 "how far to go from the input (0) to the cleaned motion (1)",
-                                "Typical: 0.5 to 1.")),
+                                "Typical: 0.5 to 1. Spikes and gaps are repaired whole at any "
+                                "strength above 0.")),
        configurable(number_flag("max_change_deg", "deg", 180, 0, 180, "Cleaning",
                                 "no rotation goes further than this from its input",
                                 "Typical: 5 to 30 against jitter alone; spikes need more.")),

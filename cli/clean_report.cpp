@@ -16,9 +16,7 @@ namespace {
 
 constexpr std::size_t short_list = 8;
 
-bool is_repair(Action action) {
-  return action == Action::despiked || action == Action::filled || action == Action::foot_adjusted;
-}
+bool is_repair(Action action) { return action == Action::despiked || action == Action::filled; }
 
 std::size_t count_spans(const ReportView& report, Action action) {
   return static_cast<std::size_t>(

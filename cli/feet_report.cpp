@@ -36,6 +36,19 @@ std::string left_alone_text(const FeetReport& report, bool all_rows) {
   return text;
 }
 
+// Frames in which a leg turned or the body was lowered.
+std::size_t frames_adjusted(const FeetReport& report) {
+  const std::size_t frames = report.root_changed.size();
+  const std::size_t joints = frames > 0 ? report.changed.size() / frames : 0;
+  std::size_t adjusted = 0;
+  for (std::size_t f = 0; f < frames; ++f) {
+    const auto row = report.changed.begin() + static_cast<std::ptrdiff_t>(f * joints);
+    const auto end = row + static_cast<std::ptrdiff_t>(joints);
+    adjusted += report.root_changed[f] != 0 || std::find(row, end, 1) != end ? 1 : 0;
+  }
+  return adjusted;
+}
+
 Json figures_json(const FeetFigures& figures) {
   return {{"slide", figures.slide},
           {"most_slide", figures.most_slide},
@@ -58,6 +71,7 @@ std::string feet_text(const FeetReport& report, bool all_rows) {
     constexpr double least = 1e-5;
     return figure(scale * units < least ? 0 : scale * units);
   };
+  if (held > 0) text += fmt::format(", {} adjusted", counted(frames_adjusted(report), "frame"));
   if (!report.contacts.empty()) {
     text += fmt::format(
         "; slide {} to {} {} a frame, {} to {} {} at most, sink {} to {} {}, knee pop {} to {} deg",
@@ -81,6 +95,7 @@ Json feet_json(const FeetReport& report) {
   }
   return {{"metres_per_unit", report.metres_per_unit > 0 ? Json(report.metres_per_unit) : Json()},
           {"held", std::count(report.held.begin(), report.held.end(), 1)},
+          {"frames_adjusted", frames_adjusted(report)},
           {"before", figures_json(report.before)},
           {"after", figures_json(report.after)},
           {"contacts", std::move(contacts)}};

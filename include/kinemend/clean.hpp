@@ -17,7 +17,10 @@ namespace kinemend {
 
 /// What the user asks for beside the method.
 struct CleanSettings {
-  double strength = 1.0;  ///< 0..1: geodesic blend from the input (0) to the cleaned rotation (1)
+  /// 0..1: geodesic blend from the input (0) to the cleaned rotation (1). Smoothing, and what feet
+  /// are moved by, goes so far; a spike is no motion to go halfway from, and is repaired whole as
+  /// soon as this is above 0, as gaps are filled. 0 changes nothing at all.
+  double strength = 1.0;
   /// No observed rotation turns further than this from its input (0..180).
   double max_change_deg = 180;
   /// No observed marker moves further than this from its input, file units (>= 0). Positions of
@@ -59,7 +62,7 @@ struct JointSummary {
   double rms_change_deg = 0;
   double max_change_deg = 0;
   std::size_t frames_changed = 0;
-  std::size_t frames_repaired = 0;  ///< despiked, filled or foot-adjusted
+  std::size_t frames_repaired = 0;  ///< despiked or filled
   /// Largest angular speed, repaired samples left out: the turn within `peak_frames` frames, which
   /// is the shortest time (one frame to 50 ms) in which the noise adds less than a tenth.
   double peak_speed_before_deg_s = 0;

@@ -35,6 +35,8 @@ struct CleanTrace {
   std::vector<Action>
       actions;  ///< F x J where the cleaner tells samples apart (spikes, fills); else empty
   std::vector<Action> root_actions;  ///< F, the same for the root position; else empty
+  /// F x translated joints, the same for their positions; else empty.
+  std::vector<Action> translation_actions;
   std::vector<double>
       noise_deg;  ///< J: estimated noise per axis before cleaning, degrees; else empty
   std::optional<double> root_noise;  ///< the same for the root position, file units

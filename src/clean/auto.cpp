@@ -95,16 +95,13 @@ class Auto final : public Cleaner {
         clean_tracks(tracks, none, none, std::vector<std::vector<std::size_t>>(count),
                      clip.frame_rate_hz, options_);
     for (std::size_t n = 0; n < count; ++n) {
-      const bool root = positions[n].values == clip.root_positions.data();
-      if (root) {
-        trace.root_noise = verdicts.noise[n] / degrees_per_unit;
-        trace.root_actions.assign(frames, Action::kept);
-      }
+      const ActionTrack actions = position_actions(clip, positions[n], trace);
+      if (is_root(clip, positions[n])) trace.root_noise = verdicts.noise[n] / degrees_per_unit;
       for (std::size_t t = 0; t < frames; ++t) {
         const bool spike = verdicts.marked(t, n) != 0;
         if (verdicts.shares[n] == 0 && !spike) continue;
         positions[n].values[t * positions[n].stride] = (1 / degrees_per_unit) * tracks.at(t, n);
-        if (root && spike) trace.root_actions[t] = Action::despiked;
+        if (spike) actions.values[t * actions.stride] = Action::despiked;
       }
     }
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "clean/repairs.hpp"
 #include "clean/tracks.hpp"
 
 namespace kinemend {
@@ -91,6 +92,43 @@ double blend_position(Vec3 from, Vec3& to, double weight, std::array<bool, 3> ax
 
 double smooth_step(double x) { return x * x * (3 - 2 * x); }
 
+// Whether some sample goes part of the way only.
+bool goes_part_way(const std::vector<double>& weights) {
+  return std::any_of(weights.begin(), weights.end(), [](double w) { return w > 0 && w < 1; });
+}
+
+// Puts a sample where a blend of weight `weight` would, had its input been like its neighbours': a
+// repair is never blended with what it repaired.
+struct RepairBlend {
+  std::vector<Evidence> evidence;
+  std::vector<Vec3> residuals;
+
+  // What is left of the residual of a repaired sample; none of any other.
+  const Vec3* residual(std::size_t frame, double weight) const {
+    const bool repaired =
+        weight > 0 && weight < 1 && !residuals.empty() && evidence[frame] == Evidence::repaired;
+    return repaired ? &residuals[frame] : nullptr;
+  }
+};
+
+RepairBlend repair_blend(const std::vector<double>& weights,
+                         const std::vector<std::uint8_t>& observed,
+                         const std::vector<Action>& stated,
+                         const std::function<Vec3(std::size_t)>& residual) {
+  if (!goes_part_way(weights)) return {};
+  RepairBlend blend{evidence_of(weights.size(), observed, stated), {}};
+  blend.residuals = residuals_of_repaired(blend.evidence, residual);
+  return blend;
+}
+
+RepairBlend repair_blend(const std::vector<double>& weights,
+                         const std::vector<std::uint8_t>& observed,
+                         const std::vector<Action>& stated, std::span<const Vec3> before,
+                         std::span<const Vec3> after) {
+  return repair_blend(weights, observed, stated,
+                      [&](std::size_t f) { return before[f] - after[f]; });
+}
+
 }  // namespace
 
 std::vector<double> frame_weights(const CleanSettings& settings, std::size_t frames,
@@ -118,6 +156,9 @@ TrackChanges blend_rotations(JointTracks& tracks, RotationOrder order,
   const std::size_t frames = weights.size();
   const double most_change = settings.max_change_deg * radians_per_degree;
   TrackChanges changes{std::vector<double>(frames), std::vector<Action>(frames, Action::kept)};
+  const RepairBlend repairs = repair_blend(
+      weights, tracks.observed, tracks.stated,
+      [&](std::size_t f) { return log(conjugate(tracks.after[f]) * tracks.before[f]); });
   std::array<double, 3> angles{};
   for (std::size_t f = 0; f < frames; ++f) {
     const Quat from = tracks.before[f];
@@ -127,7 +168,11 @@ TrackChanges blend_rotations(JointTracks& tracks, RotationOrder order,
       const bool seen = tracks.observed.empty() || tracks.observed[f] != 0;
       const double limit = seen ? most_change : 2 * pi;
       // What stands in a gap is no motion to go halfway from.
-      const double weight = seen ? weights[f] : 1;
+      double weight = seen ? weights[f] : 1;
+      if (const Vec3* residual = repairs.residual(f, weight)) {
+        result = normalized(result * exp((1 - weight) * *residual));
+        weight = 1;
+      }
       angle = turn_between(from, result);
       if (order.count < 3) {
         result = turned_within_axes(from, result, weight, limit, order, angles);
@@ -145,14 +190,20 @@ TrackChanges blend_rotations(JointTracks& tracks, RotationOrder order,
 }
 
 TrackChanges blend_positions(std::span<const Vec3> before, std::span<Vec3> after,
-                             const std::vector<Channel>& channels,
-                             const std::vector<double>& weights, const std::vector<Action>& stated,
-                             double least) {
+                             const PositionMarks& marks, const std::vector<Channel>& channels,
+                             const std::vector<double>& weights, double least) {
   const auto axes = position_axes(channels);
   TrackChanges changes{std::vector<double>(weights.size()), std::vector<Action>(weights.size())};
+  const RepairBlend repairs = repair_blend(weights, marks.observed, marks.stated, before, after);
   for (std::size_t f = 0; f < weights.size(); ++f) {
-    changes.amounts[f] = blend_position(before[f], after[f], weights[f], axes, least);
-    changes.actions[f] = action_of(stated, f, changes.amounts[f] > 0);
+    const bool seen = marks.observed.empty() || marks.observed[f] != 0;
+    double weight = seen || weights[f] <= 0 ? weights[f] : 1;
+    if (const Vec3* residual = repairs.residual(f, weight)) {
+      after[f] += (1 - weight) * *residual;
+      weight = 1;
+    }
+    changes.amounts[f] = blend_position(before[f], after[f], weight, axes, least);
+    changes.actions[f] = action_of(marks.stated, f, changes.amounts[f] > 0);
   }
   return changes;
 }
@@ -162,13 +213,20 @@ TrackChanges blend_marker(MarkerTrack& track, const std::vector<double>& weights
   constexpr std::array<bool, 3> all_axes{true, true, true};
   TrackChanges changes{std::vector<double>(weights.size()),
                        std::vector<Action>(weights.size(), Action::kept)};
+  const RepairBlend repairs =
+      repair_blend(weights, track.observed, track.stated, track.before, track.after);
   for (std::size_t f = 0; f < weights.size(); ++f) {
     if (!track.observed[f]) {
       if (track.observed_after[f]) changes.actions[f] = Action::filled;
       continue;
     }
+    double weight = weights[f];
+    if (const Vec3* residual = repairs.residual(f, weight)) {
+      track.after[f] += (1 - weight) * *residual;
+      weight = 1;
+    }
     const double way = norm(track.after[f] - track.before[f]);
-    const double weight = way * weights[f] > max_change ? max_change / way : weights[f];
+    if (way * weight > max_change) weight = max_change / way;
     changes.amounts[f] = blend_position(track.before[f], track.after[f], weight, all_axes, least);
     changes.actions[f] = action_of(track.stated, f, changes.amounts[f] > 0);
   }

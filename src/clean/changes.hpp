@@ -31,17 +31,23 @@ struct JointTracks {
   std::vector<Action> stated;  ///< what the cleaner says it did; empty: nothing in particular
 };
 
-/// Blends `after` with `before` in place and says what changed. Samples that hardly changed get
-/// their input value back. Joints of one or two axes are turned about these only.
+/// Blends `after` with `before` in place and says what changed. What was missing or repaired is not
+/// blended with its input, which says nothing. Samples that hardly changed get their input value
+/// back. Joints of one or two axes are turned about these only.
 TrackChanges blend_rotations(JointTracks& tracks, RotationOrder order,
                              const CleanSettings& settings, const std::vector<double>& weights);
+
+/// What is known of the samples of a track of positions.
+struct PositionMarks {
+  std::vector<std::uint8_t> observed;  ///< empty means all
+  std::vector<Action> stated;  ///< what the cleaner says it did; empty: nothing in particular
+};
 
 /// The same of the positions of one joint; axes without a channel stay. Changes below `least` are
 /// none.
 TrackChanges blend_positions(std::span<const Vec3> before, std::span<Vec3> after,
-                             const std::vector<Channel>& channels,
-                             const std::vector<double>& weights, const std::vector<Action>& stated,
-                             double least);
+                             const PositionMarks& marks, const std::vector<Channel>& channels,
+                             const std::vector<double>& weights, double least);
 
 /// What the report says of one joint.
 struct JointReport {

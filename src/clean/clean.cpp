@@ -87,12 +87,23 @@ void finish_rotations(const Work& work, Clip& motion, CleanReport& report) {
   }
 }
 
+// Of position track `track` of the take, as `Clip::is_position_observed` counts them.
+std::vector<std::uint8_t> observed_positions(const Work& work, std::size_t track,
+                                             std::size_t frames) {
+  std::vector<std::uint8_t> observed;
+  if (work.clip.observed_positions.empty()) return observed;
+  for (std::size_t f = 0; f < frames; ++f)
+    observed.push_back(work.clip.is_position_observed(work.first + f, track));
+  return observed;
+}
+
 void finish_root(const Work& work, Clip& motion, CleanReport& report) {
   const auto before = std::span(work.clip.root_positions).subspan(work.first);
-  const TrackChanges changes =
-      blend_positions(before, motion.root_positions, motion.skeleton.channels[0],
-                      work.selection.root_position ? work.weights : work.nothing,
-                      work.trace.root_actions, work.least_shift());
+  const TrackChanges changes = blend_positions(
+      before, motion.root_positions,
+      {observed_positions(work, 0, motion.frame_count()), work.trace.root_actions},
+      motion.skeleton.channels[0], work.selection.root_position ? work.weights : work.nothing,
+      work.least_shift());
   double squares = 0;
   for (const double change : changes.amounts) {
     squares += change * change;
@@ -112,10 +123,13 @@ void finish_translations(const Work& work, Clip& motion) {
     }
     const PositionTrack track{motion.joint_translations.data() + i, width};
     std::vector<Vec3> after = position_track(track, frames);
+    PositionMarks marks{observed_positions(work, i + 1, frames), {}};
+    for (std::size_t f = 0; f < frames && !work.trace.translation_actions.empty(); ++f)
+      marks.stated.push_back(work.trace.translation_actions[f * width + i]);
     const bool selected = translation_selected(motion, work.selection, i);
     const auto joint = static_cast<std::size_t>(motion.translated_joints[i]);
-    blend_positions(before, after, motion.skeleton.channels[joint],
-                    selected ? work.weights : work.nothing, {}, work.least_shift());
+    blend_positions(before, after, marks, motion.skeleton.channels[joint],
+                    selected ? work.weights : work.nothing, work.least_shift());
     set_position_track(track, after);
   }
 }

@@ -100,15 +100,15 @@ class Hampel final : public Cleaner {
     bridge_gaps(clip, joints, trace);
     const std::size_t frames = clip.frame_count();
     if (trace.actions.empty()) trace.actions.assign(clip.local_rotations.size(), Action::kept);
-    trace.root_actions.assign(frames, Action::kept);
+    std::vector<ActionTrack> actions;
+    for (const PositionTrack& track : positions)
+      actions.push_back(position_actions(clip, track, trace));
     const Rule turn = rotation_rule(clip), shift = position_rule(clip);
     for_each_parallel(joints.size() + positions.size(), joints.size() * frames, [&](std::size_t i) {
       if (i < joints.size()) {
         despike_joint(clip, joints[i], turn, trace);
       } else {
-        const PositionTrack& track = positions[i - joints.size()];
-        const bool root = track.values == clip.root_positions.data();
-        despike_positions(track, frames, shift, root ? &trace.root_actions : nullptr);
+        despike_positions(positions[i - joints.size()], frames, shift, actions[i - joints.size()]);
       }
     });
     return trace;
@@ -181,14 +181,12 @@ class Hampel final : public Cleaner {
   }
 
   static void despike_positions(const PositionTrack& positions, std::size_t frames,
-                                const Rule& rule, std::vector<Action>* actions) {
+                                const Rule& rule, ActionTrack actions) {
     const std::vector<Vec3> track = position_track(positions, frames);
     Despiker<Vec3> despiker(track, rule);
     for (std::size_t t = 0; t < frames; ++t) {
       Vec3& value = positions.values[t * positions.stride];
-      if (despiker.despike(t, value) && actions) {
-        (*actions)[t] = Action::despiked;
-      }
+      if (despiker.despike(t, value)) actions.values[t * actions.stride] = Action::despiked;
     }
   }
 

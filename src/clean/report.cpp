@@ -18,9 +18,8 @@ constexpr std::size_t noise_samples = 1024;
 constexpr double slow_deg_s = 60;
 constexpr double slow_heights_s = 0.25;  // of markers, statures a second
 
-bool repaired(Action action) {
-  return action == Action::despiked || action == Action::filled || action == Action::foot_adjusted;
-}
+// A foot that is held is moved, not repaired: how fast it goes counts.
+bool repaired(Action action) { return action == Action::despiked || action == Action::filled; }
 
 // `scale` and `unit`: of speeds as they are shown. Peaks below `slow` are no events.
 std::string peak_warning(const std::string& name, const Peaks& peaks, double scale,

@@ -116,6 +116,20 @@ std::vector<PositionTrack> selected_positions(Clip& clip, const Selection& selec
   return tracks;
 }
 
+bool is_root(const Clip& clip, const PositionTrack& track) {
+  return track.values == clip.root_positions.data();
+}
+
+ActionTrack position_actions(const Clip& clip, const PositionTrack& track, CleanTrace& trace) {
+  std::vector<Action>& actions =
+      is_root(clip, track) ? trace.root_actions : trace.translation_actions;
+  const std::size_t frames = clip.frame_count();
+  if (actions.empty()) actions.assign(frames * track.stride, Action::kept);
+  const std::ptrdiff_t at =
+      is_root(clip, track) ? 0 : track.values - clip.joint_translations.data();
+  return {actions.data() + at, track.stride};
+}
+
 std::vector<Quat> joint_track(const Clip& clip, std::size_t joint) {
   std::vector<Quat> track(clip.frame_count());
   for (std::size_t f = 0; f < track.size(); ++f) track[f] = clip.rotation(f, joint);

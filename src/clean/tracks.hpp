@@ -25,6 +25,16 @@ struct PositionTrack {
 /// The selected position tracks: the root's, then the translated joints'.
 std::vector<PositionTrack> selected_positions(Clip& clip, const Selection& selection);
 
+bool is_root(const Clip& clip, const PositionTrack& track);
+
+/// What was done to the positions of one joint: that of frame f is `values[f * stride]`.
+struct ActionTrack {
+  Action* values = nullptr;
+  std::size_t stride = 1;
+};
+/// Where `trace` states what is done to one of `selected_positions`; makes room for it, all kept.
+ActionTrack position_actions(const Clip& clip, const PositionTrack& track, CleanTrace& trace);
+
 /// One joint's rotations in all frames.
 std::vector<Quat> joint_track(const Clip& clip, std::size_t joint);
 void set_joint_track(Clip& clip, std::size_t joint, std::span<const Quat> track);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "kinemend/clean.hpp"
 #include "kinemend/corrupt.hpp"
@@ -123,6 +124,33 @@ TEST(FeetStep, StaysWithinTheRangeAndGoesAsFarAsTheStrength) {
   EXPECT_GT(feet.after.slide, 0.3 * feet.before.slide);
   EXPECT_LT(feet.after.slide, 0.7 * feet.before.slide);
   EXPECT_EQ(half.clip.rotation(0, 2), clip.rotation(0, 2));
+}
+
+// What is said of a leg does not depend on whether feet are held, but for how far it was moved.
+TEST(FeetStep, LeavesTheReportOfTheLegsTrue) {
+  const Clip clip = sliding_walk();
+  const auto strong = make_butterworth({.cutoff_hz = 1});
+  const CleanResult plain = clean_clip(clip, *strong),
+                    held = clean_clip(clip, *strong, with_feet());
+  for (const char* name : {"LeftUpLeg", "LeftLeg", "LeftFoot", "RightUpLeg", "RightLeg"}) {
+    const auto j = static_cast<std::size_t>(clip.skeleton.find(name));
+    const JointSummary &without = plain.report.joints[j], &with = held.report.joints[j];
+    EXPECT_EQ(with.frames_repaired, 0u) << name;
+    EXPECT_EQ(with.peak_speed_before_deg_s, without.peak_speed_before_deg_s) << name;
+    EXPECT_GT(with.peak_speed_after_deg_s, 0.3 * without.peak_speed_after_deg_s) << name;
+    const auto warned = [&](const CleanReport& report) {
+      return std::any_of(report.warnings.begin(), report.warnings.end(),
+                         [&](const std::string& warning) {
+                           return warning.starts_with(std::string(name) + ": peak speed falls");
+                         });
+    };
+    EXPECT_TRUE(warned(plain.report)) << name;
+    const bool lost = with.peak_speed_after_deg_s < 0.9 * with.peak_speed_before_deg_s;
+    EXPECT_EQ(warned(held.report), lost) << name;
+  }
+  const auto foot = static_cast<std::size_t>(clip.skeleton.find("LeftFoot"));
+  EXPECT_LT(held.report.joints[foot].peak_speed_after_deg_s,
+            0.9 * held.report.joints[foot].peak_speed_before_deg_s);
 }
 
 TEST(FeetStep, CountsContactsByTheTakesFrames) {

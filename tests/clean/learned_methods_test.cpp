@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "clean/marker_takes.hpp"
+#include "clean/repair_checks.hpp"
 #include "clean/takes.hpp"
 #include "kinemend/clean.hpp"
 #include "kinemend/convert.hpp"
@@ -87,6 +88,12 @@ TEST_P(Learned, TakesDenseSpikesOut) {
     const Clip input = noisy(truth, 0.3, share);
     EXPECT_LT(error(truth, input, cleaner()), 0.2 * rms_deg(truth, input)) << share;
   }
+}
+
+TEST_P(Learned, RepairsWholeAtEveryStrength) {
+  Clip input = noisy(walk(4), 1, 0);
+  const std::vector<Thrown> thrown = throw_spikes(input, {2, 3, 8, 20}, 25, 3);
+  EXPECT_GT(expect_whole_repairs(input, thrown, cleaner()), thrown.size() / 3);
 }
 
 TEST_P(Learned, KeepsTheRateOfTheTake) {

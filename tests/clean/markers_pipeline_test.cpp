@@ -16,11 +16,11 @@ using testing::SizeIs;
 // Moves every selected marker, missing ones too.
 class Mover final : public Cleaner {
  public:
-  explicit Mover(Vec3 shift) : shift_(shift) {}
+  explicit Mover(Vec3 shift, Action stated = Action::denoised) : shift_(shift), stated_(stated) {}
   CleanTrace clean(Clip&, const Selection&) const override { return {}; }
   MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
     MarkerTrace trace;
-    trace.actions.assign(clip.positions.size(), Action::despiked);
+    trace.actions.assign(clip.positions.size(), stated_);
     trace.noise.assign(clip.marker_count(), 0.25);
     for (std::size_t i = 0; i < clip.positions.size(); ++i) {
       if (selection.markers[i % clip.marker_count()]) clip.positions[i] += shift_;
@@ -30,6 +30,7 @@ class Mover final : public Cleaner {
 
  private:
   Vec3 shift_;
+  Action stated_;
 };
 
 class OnlyJoints final : public Cleaner {
@@ -115,7 +116,8 @@ TEST(MarkerPipeline, LeavesMissingSamplesAndResidualsAsTheyAre) {
 }
 
 TEST(MarkerPipeline, ReportsInFileUnits) {
-  const MarkerResult result = clean_markers(small_take(), Mover({3, 4, 0}), {}, "mover");
+  const MarkerResult result =
+      clean_markers(small_take(), Mover({3, 4, 0}, Action::despiked), {}, "mover");
   const MarkerReport& report = result.report;
   EXPECT_EQ(report.method, "mover");
   EXPECT_EQ(report.unit, "mm");

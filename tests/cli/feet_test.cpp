@@ -17,7 +17,10 @@ TEST_F(Feet, AreHeldWhenAskedFor) {
       run({"clean", "walk.bvh", "-o", "held.bvh", "--method", "gaussian", "--feet", "force"});
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("  feet: "));
-  EXPECT_THAT(ran.out, HasSubstr(" contacts held; slide "));
+  EXPECT_THAT(ran.out, testing::ContainsRegex(" contacts held, [0-9]+ frames adjusted; slide "));
+  // The report of the legs is that of any joint: nothing was repaired, and they move.
+  EXPECT_THAT(ran.out, HasSubstr("changed, 0 frames repaired"));
+  EXPECT_THAT(ran.out, Not(testing::ContainsRegex("Leg.* 0 +0\n")));
   EXPECT_THAT(ran.out, HasSubstr("knee pop "));
 }
 
@@ -26,8 +29,11 @@ TEST_F(Feet, AreToldToPrograms) {
   const Ran ran = run({"clean", "walk.bvh", "-o", "out.bvh", "--method", "gaussian", "--feet",
                        "force", "--report", "report.json", "--json"});
   EXPECT_EQ(ran.code, 0) << ran.err;
-  const Json feet = Json::parse(ran.out)["takes"][0]["feet"];
+  const Json take = Json::parse(ran.out)["takes"][0];
+  const Json feet = take["feet"];
   EXPECT_GT(feet["held"], 4);
+  EXPECT_GT(feet["frames_adjusted"], 100);
+  EXPECT_EQ(take["frames_repaired"], 0);
   EXPECT_LT(feet["after"]["most_slide"], 0.1);
   EXPECT_EQ(feet["contacts"][0]["side"], "left");
   EXPECT_EQ(feet["contacts"][0]["held"], true);

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "kinemend/clean.hpp"
+#include "kinemend/cleaner.hpp"
+#include "kinemend/clip.hpp"
+#include "kinemend/random.hpp"
+#include "kinemend/rotation.hpp"
+
+// The law that a repair is not blended with what it repaired.
+namespace kinemend::test {
+
+inline constexpr double spike_deg = 60;
+
+/// Where a sample was thrown off.
+struct Thrown {
+  std::size_t frame, joint;
+};
+
+/// Throws single samples of the given joints off, each about its own axis, no two within `apart`
+/// frames of one joint.
+inline std::vector<Thrown> throw_spikes(Clip& clip, const std::vector<std::size_t>& joints,
+                                        std::size_t apart, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Thrown> thrown;
+  for (const std::size_t joint : joints) {
+    for (std::size_t f = 10 + 7 * (joint % 4); f + 10 < clip.frame_count(); f += apart) {
+      const Vec3 axis{random.normal(), random.normal(), random.normal()};
+      const double angle = spike_deg * radians_per_degree;
+      clip.rotation(f, joint) = clip.rotation(f, joint) * exp((angle / norm(axis)) * axis);
+      thrown.push_back({f, joint});
+    }
+  }
+  return thrown;
+}
+
+inline bool is_stated(const std::vector<ReportSpan>& spans, std::size_t frame, std::size_t track,
+                      Action action) {
+  for (const ReportSpan& span : spans) {
+    if (span.joint == static_cast<std::int32_t>(track) && span.action == action &&
+        span.first_frame <= frame && frame <= span.last_frame)
+      return true;
+  }
+  return false;
+}
+
+/// At every strength above 0 what the method says it repaired is off by less than a tenth of what
+/// it was thrown off by. Returns how many of `thrown` it repaired.
+inline std::size_t expect_whole_repairs(const Clip& input, const std::vector<Thrown>& thrown,
+                                        const Cleaner& cleaner) {
+  const CleanResult whole = clean_clip(input, cleaner);
+  std::size_t repaired = 0;
+  for (const double strength : {0.1, 0.5, 0.9}) {
+    CleanSettings settings;
+    settings.strength = strength;
+    const CleanResult part = clean_clip(input, cleaner, settings);
+    repaired = 0;
+    for (const Thrown& at : thrown) {
+      if (!is_stated(whole.report.spans, at.frame, at.joint, Action::despiked)) continue;
+      ++repaired;
+      EXPECT_TRUE(is_stated(part.report.spans, at.frame, at.joint, Action::despiked));
+      const double left = angle_between(part.clip.rotation(at.frame, at.joint),
+                                        whole.clip.rotation(at.frame, at.joint));
+      EXPECT_LT(left * degrees_per_radian, 0.1 * spike_deg)
+          << "strength " << strength << ", frame " << at.frame << ", joint " << at.joint;
+    }
+  }
+  return repaired;
+}
+
+}  // namespace kinemend::test
