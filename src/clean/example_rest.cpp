@@ -155,9 +155,8 @@ void smooth_rest(const PriorWork& work, const PoseMatrix& weights, LinearExample
   variances.reserve(noise.size());
   for (const double n : noise) variances.push_back(n * n);
   const signal::ModelGrid grid(rest.frames, work.channels.frame_rate_hz);
-  PoseMatrix by_evidence = rest;
   const std::vector<std::size_t> chosen =
-      signal::smooth_by_evidence(by_evidence, variances, grid, part_channels);
+      signal::most_likely_models(rest, variances, grid, part_channels);
   if (chosen.empty()) return;
   std::vector<signal::SmoothingModel> models;
   models.reserve(chosen.size());

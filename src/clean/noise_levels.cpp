@@ -25,21 +25,23 @@ constexpr double fifth_difference[] = {-1, 5, -10, 10, -5, 1};
 
 // The difference of some order at each frame where no sample of it is marked, divided by what white
 // noise of deviation 1 would give.
-std::vector<Vec3> differences(const VectorTracks& tracks, const SampleMarks& marked,
-                              std::size_t track, std::span<const double> coefficients) {
-  const std::size_t order = coefficients.size() - 1;
+template <std::size_t count>
+std::vector<Vec3> differences(std::span<const Vec3> track, std::span<const std::uint8_t> marked,
+                              const double (&coefficients)[count]) {
+  constexpr std::size_t order = count - 1;
   double gain = 0;
   for (const double c : coefficients) gain += c * c;
+  const double scale = 1 / std::sqrt(gain);
   std::vector<Vec3> result;
-  result.reserve(tracks.frames());
-  for (std::size_t t = 0; t + order < tracks.frames(); ++t) {
+  result.reserve(track.size());
+  for (std::size_t t = 0; t + order < track.size(); ++t) {
     Vec3 difference;
     bool whole = true;
     for (std::size_t k = 0; k <= order; ++k) {
-      difference += coefficients[k] * tracks.at(t + k, track);
-      whole = whole && marked(t + k, track) == 0;
+      difference += coefficients[k] * track[t + k];
+      whole = whole && marked[t + k] == 0;
     }
-    if (whole) result.push_back((1 / std::sqrt(gain)) * difference);
+    if (whole) result.push_back(scale * difference);
   }
   return result;
 }
@@ -70,16 +72,15 @@ double quiet_quarter(const std::vector<double>& squares) {
   return std::sqrt(quantile(averages, 0.25)) / quartile_bias;
 }
 
-double noise_level(const VectorTracks& tracks, const SampleMarks& marked, std::size_t track) {
-  const std::size_t frames = tracks.frames();
+double round_level(std::span<const Vec3> track, std::span<const std::uint8_t> marked) {
   double least = std::numeric_limits<double>::infinity();
-  std::vector<double> squares = mean_squares(differences(tracks, marked, track, third_difference));
+  std::vector<double> squares = mean_squares(differences(track, marked, third_difference));
   if (squares.size() >= 3) {
     if (squares.size() >= 30) least = quiet_quarter(squares);
     least = std::min(least, std::sqrt(3 * quantile(squares, 0.5)) / median_of_chi3);
   }
-  if (frames >= 20) {
-    squares = mean_squares(differences(tracks, marked, track, fifth_difference));
+  if (track.size() >= 20) {
+    squares = mean_squares(differences(track, marked, fifth_difference));
     if (squares.size() >= 3)
       least = std::min(least, std::sqrt(3 * quantile(squares, 0.5)) / median_of_chi3);
   }
@@ -104,9 +105,9 @@ double robust_deviation(std::vector<double> numbers) {
 }
 
 // Mean over the axes that have the track's noise.
-double loud_level(const VectorTracks& tracks, const SampleMarks& marked, std::size_t track) {
-  const Vec3 levels = noise_along(fifth_differences(tracks, marked, track),
-                                  {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}});
+double loud_level(std::span<const Vec3> track, std::span<const std::uint8_t> marked) {
+  const Vec3 levels =
+      noise_along(fifth_differences(track, marked), {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}});
   const double loudest = std::max({levels.x, levels.y, levels.z});
   double sum = 0, count = 0;
   for (const double level : {levels.x, levels.y, levels.z}) {
@@ -119,9 +120,9 @@ double loud_level(const VectorTracks& tracks, const SampleMarks& marked, std::si
 
 }  // namespace
 
-std::vector<Vec3> fifth_differences(const VectorTracks& tracks, const SampleMarks& marked,
-                                    std::size_t track) {
-  return differences(tracks, marked, track, fifth_difference);
+std::vector<Vec3> fifth_differences(std::span<const Vec3> track,
+                                    std::span<const std::uint8_t> marked) {
+  return differences(track, marked, fifth_difference);
 }
 
 Vec3 noise_along(std::span<const Vec3> differences, const std::array<Vec3, 3>& directions) {
@@ -140,38 +141,40 @@ SampleMarks either(const SampleMarks& a, const SampleMarks& b) {
   return result;
 }
 
-void fill_marked(VectorTracks& tracks, const SampleMarks& marked) {
-  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
-    std::ptrdiff_t before = -1;
-    const auto frames = static_cast<std::ptrdiff_t>(tracks.frames());
-    for (std::ptrdiff_t t = 0; t < frames; ++t) {
-      if (marked(static_cast<std::size_t>(t), n) == 0) {
-        before = t;
-        continue;
-      }
-      std::ptrdiff_t after = t;
-      while (after < frames && marked(static_cast<std::size_t>(after), n) != 0) ++after;
-      if (before < 0 && after == frames) break;
-      for (; t < after; ++t) {
-        const std::ptrdiff_t from = before < 0 ? after : before,
-                             to = after == frames ? before : after;
-        const Vec3 start = tracks.at(static_cast<std::size_t>(from), n),
-                   end = tracks.at(static_cast<std::size_t>(to), n);
-        const double share =
-            to > from ? static_cast<double>(t - from) / static_cast<double>(to - from) : 0;
-        tracks.set(static_cast<std::size_t>(t), n, start + share * (end - start));
-      }
-      before = after;
+void fill_marked(std::span<Vec3> track, std::span<const std::uint8_t> marked) {
+  const auto frames = static_cast<std::ptrdiff_t>(track.size());
+  const auto value = [&](std::ptrdiff_t t) -> Vec3& { return track[static_cast<std::size_t>(t)]; };
+  const auto is_marked = [&](std::ptrdiff_t t) { return marked[static_cast<std::size_t>(t)] != 0; };
+  std::ptrdiff_t before = -1;
+  for (std::ptrdiff_t t = 0; t < frames; ++t) {
+    if (!is_marked(t)) {
+      before = t;
+      continue;
     }
+    std::ptrdiff_t after = t;
+    while (after < frames && is_marked(after)) ++after;
+    if (before < 0 && after == frames) break;
+    const std::ptrdiff_t from = before < 0 ? after : before, to = after == frames ? before : after;
+    const Vec3 start = value(from), end = value(to);
+    for (; t < after; ++t) {
+      const double share =
+          to > from ? static_cast<double>(t - from) / static_cast<double>(to - from) : 0;
+      value(t) = start + share * (end - start);
+    }
+    before = after;
   }
+}
+
+double noise_level(std::span<const Vec3> track, std::span<const std::uint8_t> marked,
+                   bool has_quiet_axes) {
+  if (track.size() < 6) return 0;
+  return has_quiet_axes ? loud_level(track, marked) : round_level(track, marked);
 }
 
 std::vector<double> noise_levels(const VectorTracks& tracks, const SampleMarks& marked) {
   std::vector<double> levels(tracks.tracks(), 0);
-  if (tracks.frames() < 6) return levels;
-  for_each_parallel(tracks.tracks(), tracks.values.values.size(), [&](std::size_t n) {
-    levels[n] = tracks.has_quiet_axes[n] != 0 ? loud_level(tracks, marked, n)
-                                              : noise_level(tracks, marked, n);
+  for_each_parallel(tracks.tracks(), tracks.values.size(), [&](std::size_t n) {
+    levels[n] = noise_level(tracks.track(n), marked.track(n), tracks.has_quiet_axes[n] != 0);
   });
   return levels;
 }

@@ -42,7 +42,8 @@ Eigen::Matrix3d scatter_of(const std::vector<Vec3>& differences) {
 }
 
 NoiseShape shape_of(const VectorTracks& tracks, const SampleMarks& missing, std::size_t track) {
-  const std::vector<Vec3> differences = fifth_differences(tracks, missing, track);
+  const std::vector<Vec3> differences =
+      fifth_differences(tracks.track(track), missing.track(track));
   if (differences.size() < fewest_differences) return {};
   const Eigen::Matrix3d axes =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter_of(differences)).eigenvectors();
@@ -60,7 +61,7 @@ NoiseShape shape_of(const VectorTracks& tracks, const SampleMarks& missing, std:
 
 void map_tracks(VectorTracks& tracks, std::span<const NoiseShape> shapes,
                 Eigen::Matrix3d NoiseShape::*map) {
-  for_each_parallel(tracks.tracks(), tracks.values.values.size(), [&](std::size_t n) {
+  for_each_parallel(tracks.tracks(), tracks.values.size(), [&](std::size_t n) {
     if (shapes[n].is_round) return;
     const Eigen::Matrix3d matrix = shapes[n].*map;
     for (std::size_t t = 0; t < tracks.frames(); ++t) {
@@ -78,7 +79,7 @@ std::vector<NoiseShape> noise_shapes(const VectorTracks& tracks, const SampleMar
   std::vector<NoiseShape> shapes(tracks.tracks());
   const std::vector<double> levels = noise_levels(tracks, missing);
   const double least = least_level * std::max(1.0, 120 / frame_rate_hz);
-  for_each_parallel(shapes.size(), tracks.values.values.size(), [&](std::size_t n) {
+  for_each_parallel(shapes.size(), tracks.values.size(), [&](std::size_t n) {
     if (levels[n] >= least) shapes[n] = shape_of(tracks, missing, n);
   });
   return shapes;

@@ -151,7 +151,7 @@ std::vector<std::uint8_t> find_habits(const SpikeTrial& trial, const SampleMarks
   std::vector<std::size_t> verdicts(guilty.tracks);
   std::size_t total = 0;
   for (std::size_t i = 0; i < guilty.marks.size(); ++i) {
-    verdicts[i % guilty.tracks] += guilty.marks[i];
+    verdicts[i / guilty.frames] += guilty.marks[i];
     total += guilty.marks[i];
   }
   for (std::size_t others = guilty.tracks - 1; others > 0; --others) {

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "clean/vector_tracks.hpp"
-#include "kinemend/pose_matrix.hpp"
 
 namespace kinemend {
 
@@ -15,8 +15,16 @@ inline constexpr double median_of_chi3 = 1.54;  // of the length of a standard n
 
 /// How far each sample is from where the others of its track put it.
 struct Predictions {
-  PoseMatrix errors;      ///< F x N, degrees
-  PoseMatrix own_shares;  ///< F x N: variance of a sample over that of its prediction error
+  std::size_t frames;
+  std::vector<double> distances;       ///< N x F, degrees
+  std::vector<std::size_t> smoothers;  ///< N: which one of `LeaveOneOut` predicts the track
+
+  Predictions(std::size_t frame_count, std::size_t tracks)
+      : frames(frame_count), distances(frame_count * tracks), smoothers(tracks) {}
+  double& errors(std::size_t frame, std::size_t track) { return distances[track * frames + frame]; }
+  double errors(std::size_t frame, std::size_t track) const {
+    return distances[track * frames + frame];
+  }
 };
 
 /// What is known of the accused samples.

@@ -1,172 +1,213 @@
 #include "clean/spikes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
+#include <numeric>
 #include <utility>
 
 #include "clean/spike_trial.hpp"
 #include "clean/tracks.hpp"
-#include "signal/whittaker.hpp"
+#include "signal/leave_one_out.hpp"
 
 namespace kinemend {
 
 namespace {
 
-constexpr double least_noise =
-    0.25;  // degrees: what a spike is measured against on a noiseless track
 constexpr double accused_ratio = 6.5;  // prediction error over its standard deviation
 constexpr double robust_cap = 6;  // errors count for no more than this many standard deviations
 constexpr int rounds = 5;
 
-// Second-order smoothers over a coarse grid of cutoffs, and the weight of each sample in its own
-// fit.
-struct LeaveOneOutGrid {
-  std::vector<signal::SharedFactor> factors;
-  std::vector<std::vector<double>> own_shares;  // weights of all others
+// What is known of the samples while rounds of accusation go on, each track for itself.
+struct Inquest {
+  const VectorTracks& measured;
+  double frame_rate_hz;
+  const SampleMarks* missing;
+  const signal::LeaveOneOut& others;
+  SampleMarks accused;
+  std::vector<double> noise;  // without the accused
+  Predictions predictions;
 
-  LeaveOneOutGrid(std::size_t frames, double frame_rate_hz) {
-    constexpr std::size_t order = 2, cutoffs = 10;
-    constexpr double lowest_hz = 0.3, highest_hz = 30, largest_strength = 1e10;
-    if (frames <= order + 1) return;
-    for (std::size_t i = 0; i < cutoffs; ++i) {
-      const double cutoff =
-          lowest_hz * std::pow(highest_hz / lowest_hz, static_cast<double>(i) / (cutoffs - 1));
-      const double strength =
-          signal::strength_of_cutoff(std::min(cutoff / frame_rate_hz, 0.49), order);
-      if (strength > largest_strength) continue;
-      factors.push_back(signal::factor_shared(frames, order, strength));
-      own_shares.push_back(signal::weights_of_others(factors.back()));
-      for (double& share : own_shares.back()) share = std::max(share, 1e-3);
-    }
+  std::vector<std::uint8_t> left_out(std::size_t track) const {
+    const auto marks = accused.track(track);
+    std::vector<std::uint8_t> result(marks.begin(), marks.end());
+    for (std::size_t t = 0; missing && t < result.size(); ++t) result[t] |= (*missing)(t, track);
+    return result;
   }
 };
 
-constexpr std::size_t tracks_in_block = signal::block_channels / 3;
+// The accused, and the gaps whose bridges rest on one of them.
+std::vector<std::uint8_t> with_bridges_beside(std::span<const std::uint8_t> accused,
+                                              std::span<const std::uint8_t> missing) {
+  std::vector<std::uint8_t> result(accused.begin(), accused.end());
+  const std::size_t frames = accused.size();
+  for (std::size_t t = 0; t < frames;) {
+    if (missing[t] == 0) {
+      ++t;
+      continue;
+    }
+    const std::size_t first = t;
+    while (t < frames && missing[t] != 0) ++t;
+    const bool rests_on_accused =
+        (first > 0 && accused[first - 1] != 0) || (t < frames && accused[t] != 0);
+    for (std::size_t f = first; rests_on_accused && f < t; ++f) result[f] = 1;
+  }
+  return result;
+}
 
-signal::ChannelBlock gather_tracks(const VectorTracks& tracks, std::size_t first,
-                                   std::size_t count) {
-  signal::ChannelBlock block(tracks.frames());
-  for (std::size_t t = 0; t < tracks.frames(); ++t) {
-    const double* row = tracks.values.values.data() + t * tracks.values.channels + 3 * first;
-    for (std::size_t i = 0; i < 3 * count; ++i) block(t, i) = row[i];
+// Puts lines through the accused of a track, and through bridges that rest on one.
+void refill(const Inquest& inquest, std::size_t track, std::span<Vec3> filled) {
+  const auto accused = inquest.accused.track(track);
+  if (inquest.missing) {
+    fill_marked(filled, with_bridges_beside(accused, inquest.missing->track(track)));
+  } else {
+    fill_marked(filled, accused);
+  }
+}
+
+void measure_noise(Inquest& inquest, std::size_t track) {
+  inquest.noise[track] = noise_level(inquest.measured.track(track), inquest.left_out(track),
+                                     inquest.measured.has_quiet_axes[track] != 0);
+}
+
+double error_scale(const Inquest& inquest, std::size_t track) {
+  return std::max(inquest.noise[track], least_noise);
+}
+
+// The tracks, the accused interpolated.
+signal::LaneBlock gather_tracks(const Inquest& inquest, std::span<const std::size_t> tracks) {
+  signal::LaneBlock block(inquest.measured.frames());
+  std::vector<Vec3> filled;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const auto measured = inquest.measured.track(tracks[i]);
+    filled.assign(measured.begin(), measured.end());
+    refill(inquest, tracks[i], filled);
+    for (std::size_t t = 0; t < filled.size(); ++t) {
+      double* row = block.row(t) + i;
+      row[0] = filled[t].x;
+      row[signal::lane_tracks] = filled[t].y;
+      row[2 * signal::lane_tracks] = filled[t].z;
+    }
   }
   return block;
 }
 
-Vec3 block_vector(const signal::ChannelBlock& block, std::size_t frame, std::size_t track) {
-  return {block(frame, 3 * track), block(frame, 3 * track + 1), block(frame, 3 * track + 2)};
+Vec3 lane_vector(const double* row, std::size_t lane) {
+  return {row[lane], row[signal::lane_tracks + lane], row[2 * signal::lane_tracks + lane]};
 }
 
-// `filled` is the measured tracks with marked samples interpolated: a marked sample's fit is its
+// Predicts up to eight tracks by the smoother that suits each. A marked sample's fit is its
 // prediction.
-Predictions predict(const VectorTracks& measured, const VectorTracks& filled,
-                    const SampleMarks& marked, const std::vector<double>& noise,
-                    const LeaveOneOutGrid& grid) {
-  const std::size_t frames = measured.frames(), tracks = measured.tracks();
-  Predictions result{PoseMatrix(frames, tracks), PoseMatrix(frames, tracks, 1.0)};
-  const std::size_t blocks = (tracks + tracks_in_block - 1) / tracks_in_block;
-  for_each_parallel(blocks, measured.values.values.size(), [&](std::size_t b) {
-    const std::size_t first = b * tracks_in_block,
-                      count = std::min(tracks_in_block, tracks - first);
-    const signal::ChannelBlock y = gather_tracks(filled, first, count);
-    signal::ChannelBlock x(frames);
-    std::array<double, tracks_in_block> least;
-    least.fill(std::numeric_limits<double>::infinity());
-    for (std::size_t g = 0; g < grid.factors.size(); ++g) {
-      signal::solve_shared(grid.factors[g], y, x);
-      const std::vector<double>& own = grid.own_shares[g];
-      for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t n = first + i;
-        const double scale = std::max(noise[n], least_noise);
-        const double cap = robust_cap * scale * robust_cap * scale;
-        double score = 0;
-        for (std::size_t t = 0; t < frames; ++t) {
-          const Vec3 error = (1 / own[t]) * (block_vector(y, t, i) - block_vector(x, t, i));
-          score += std::min(dot(error, error), cap);
-        }
-        if (score >= least[i]) continue;
-        least[i] = score;
-        for (std::size_t t = 0; t < frames; ++t) {
-          const Vec3 fit = block_vector(x, t, i), given = block_vector(y, t, i);
-          const Vec3 predicted = marked(t, n) != 0 ? fit : given - (1 / own[t]) * (given - fit);
-          result.errors(t, n) = norm(measured.at(t, n) - predicted);
-          result.own_shares(t, n) = own[t];
+void predict(Inquest& inquest, std::span<const std::size_t> tracks) {
+  const signal::LaneBlock y = gather_tracks(inquest, tracks);
+  signal::BlockRow caps{};
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const double cap = robust_cap * error_scale(inquest, tracks[i]);
+    caps[i] = cap * cap;
+  }
+  const auto best = inquest.others.best_smoothers(y, caps);
+  for (std::size_t i = 0; i < tracks.size(); ++i)
+    inquest.predictions.smoothers[tracks[i]] = best[i];
+  for (std::size_t smoother = 0; smoother < inquest.others.smoothers(); ++smoother) {
+    const auto last = best.begin() + static_cast<std::ptrdiff_t>(tracks.size());
+    if (std::find(best.begin(), last, smoother) == last) continue;
+    const std::vector<double>& weight = inquest.others.weights_of_others(smoother);
+    inquest.others.fit(smoother, y, [&](std::size_t first, std::size_t count, const double* x) {
+      for (std::size_t i = 0; i < tracks.size(); ++i) {
+        if (best[i] != smoother) continue;
+        const std::size_t n = tracks[i];
+        for (std::size_t k = 0; k < count; ++k) {
+          const std::size_t t = first + k;
+          const Vec3 fit = lane_vector(x + k * signal::lane_row, i);
+          const Vec3 given = lane_vector(y.row(t), i);
+          const Vec3 predicted =
+              inquest.accused(t, n) != 0 ? fit : given - (1 / weight[t]) * (given - fit);
+          inquest.predictions.errors(t, n) = norm(inquest.measured.at(t, n) - predicted);
         }
       }
-    }
-  });
-  return result;
+    });
+  }
 }
 
-// Median of a track of values about each frame, the take mirrored at its ends.
-std::vector<double> running_median(const std::vector<double>& values, std::size_t half) {
+// Median of values about frame t, the take mirrored at its ends.
+double median_about(const std::vector<double>& values, std::size_t t, std::size_t half,
+                    std::vector<double>& window) {
   const auto frames = static_cast<std::ptrdiff_t>(values.size());
   const auto reach = std::min(static_cast<std::ptrdiff_t>(half), (frames - 1) / 2);
-  const auto mirrored = [&](std::ptrdiff_t t) {
-    if (t < 0) t = -t;
-    if (t >= frames) t = 2 * (frames - 1) - t;
-    return values[static_cast<std::size_t>(t)];
-  };
-  std::vector<double> window, result(values.size());
-  for (std::ptrdiff_t t = -reach; t <= reach; ++t) window.push_back(mirrored(t));
-  std::sort(window.begin(), window.end());
-  for (std::ptrdiff_t t = 0; t < frames; ++t) {
-    result[static_cast<std::size_t>(t)] = window[static_cast<std::size_t>(reach)];
-    if (t + 1 == frames) break;
-    window.erase(std::lower_bound(window.begin(), window.end(), mirrored(t - reach)));
-    const double next = mirrored(t + 1 + reach);
-    window.insert(std::lower_bound(window.begin(), window.end(), next), next);
+  window.clear();
+  for (std::ptrdiff_t k = -reach; k <= reach; ++k) {
+    std::ptrdiff_t at = static_cast<std::ptrdiff_t>(t) + k;
+    if (at < 0) at = -at;
+    if (at >= frames) at = 2 * (frames - 1) - at;
+    window.push_back(values[static_cast<std::size_t>(at)]);
   }
-  return result;
+  std::nth_element(window.begin(), window.begin() + reach, window.end());
+  return window[static_cast<std::size_t>(reach)];
 }
 
-// The next round's suspects: of those accused before, whoever still does not fit; of the others,
-// the worst within two frames.
-SampleMarks accuse(const Predictions& predictions, const SampleMarks& accused,
-                   const std::vector<double>& noise, double frame_rate_hz) {
-  SampleMarks next(accused.frames, accused.tracks);
-  const auto half = static_cast<std::size_t>(std::lround(0.08 * frame_rate_hz));
-  for_each_parallel(accused.tracks, accused.marks.size(), [&](std::size_t n) {
-    const double scale = std::max(noise[n], least_noise);
-    std::vector<double> ratio(accused.frames), unaccused(accused.frames);
-    for (std::size_t t = 0; t < accused.frames; ++t) {
-      ratio[t] = predictions.errors(t, n) * std::sqrt(predictions.own_shares(t, n)) / scale;
-      unaccused[t] = accused(t, n) != 0 ? 0 : ratio[t];
-    }
-    const std::vector<double> usual = running_median(unaccused, half);
-    for (std::size_t t = 0; t < accused.frames; ++t) {
-      const bool stands_out = ratio[t] > accused_ratio * std::max(1.0, usual[t] / median_of_chi3) &&
-                              predictions.errors(t, n) > least_deviation;
-      if (!stands_out) continue;
-      const std::size_t first = t < 2 ? 0 : t - 2, last = std::min(t + 3, accused.frames);
-      const auto from = unaccused.begin();
-      const double worst = *std::max_element(from + static_cast<std::ptrdiff_t>(first),
-                                             from + static_cast<std::ptrdiff_t>(last));
-      next(t, n) = accused(t, n) != 0 || unaccused[t] >= worst;
-    }
+// A track's next suspects: of those accused before, whoever still does not fit; of the others, the
+// worst within two frames. Whether they are others than before.
+bool accuse(Inquest& inquest, std::size_t n) {
+  const std::size_t frames = inquest.accused.frames;
+  const std::span<std::uint8_t> accused = inquest.accused.track(n);
+  if (inquest.others.smoothers() == 0) {
+    const bool any = std::find(accused.begin(), accused.end(), 1) != accused.end();
+    std::fill(accused.begin(), accused.end(), std::uint8_t{0});
+    return any;
+  }
+  const auto half = static_cast<std::size_t>(std::lround(0.08 * inquest.frame_rate_hz));
+  const double scale = error_scale(inquest, n);
+  const std::vector<double>& weight =
+      inquest.others.weights_of_others(inquest.predictions.smoothers[n]);
+  std::vector<double> ratio(frames), unaccused(frames), window;
+  for (std::size_t t = 0; t < frames; ++t) {
+    ratio[t] = inquest.predictions.errors(t, n) * std::sqrt(weight[t]) / scale;
+    unaccused[t] = accused[t] != 0 ? 0 : ratio[t];
+  }
+  std::vector<std::uint8_t> next(frames);
+  for (std::size_t t = 0; t < frames; ++t) {
+    if (ratio[t] <= accused_ratio || inquest.predictions.errors(t, n) <= least_deviation) continue;
+    if (inquest.missing && (*inquest.missing)(t, n) != 0) continue;
+    const double usual = median_about(unaccused, t, half, window);
+    if (ratio[t] <= accused_ratio * std::max(1.0, usual / median_of_chi3)) continue;
+    const std::size_t first = t < 2 ? 0 : t - 2, last = std::min(t + 3, frames);
+    const auto from = unaccused.begin();
+    const double worst = *std::max_element(from + static_cast<std::ptrdiff_t>(first),
+                                           from + static_cast<std::ptrdiff_t>(last));
+    next[t] = accused[t] != 0 || unaccused[t] >= worst;
+  }
+  if (std::equal(next.begin(), next.end(), accused.begin())) return false;
+  std::copy(next.begin(), next.end(), accused.begin());
+  return true;
+}
+
+// Measures and predicts these tracks, eight at a time.
+void examine(Inquest& inquest, std::span<const std::size_t> tracks) {
+  const std::size_t blocks = (tracks.size() + signal::lane_tracks - 1) / signal::lane_tracks;
+  for_each_parallel(blocks, tracks.size() * inquest.measured.frames(), [&](std::size_t b) {
+    const std::size_t first = b * signal::lane_tracks;
+    const auto some = tracks.subspan(first, std::min(signal::lane_tracks, tracks.size() - first));
+    for (const std::size_t track : some) measure_noise(inquest, track);
+    if (inquest.others.smoothers() > 0) predict(inquest, some);
   });
-  return next;
 }
 
-// The accused, and the gaps whose bridges rest on one of them.
-SampleMarks with_bridges_beside(const SampleMarks& accused, const SampleMarks& missing) {
-  SampleMarks result = accused;
-  for (std::size_t n = 0; n < accused.tracks; ++n) {
-    for (std::size_t t = 0; t < accused.frames;) {
-      if (missing(t, n) == 0) {
-        ++t;
-        continue;
-      }
-      const std::size_t first = t;
-      while (t < accused.frames && missing(t, n) != 0) ++t;
-      const bool rests_on_accused =
-          (first > 0 && accused(first - 1, n) != 0) || (t < accused.frames && accused(t, n) != 0);
-      for (std::size_t f = first; rests_on_accused && f < t; ++f) result(f, n) = 1;
+// Accuses until nothing changes. What a track's verdicts are depends on it alone, so only those
+// whose accused have changed are looked at again.
+void run_rounds(Inquest& inquest) {
+  std::vector<std::size_t> open(inquest.measured.tracks());
+  std::iota(open.begin(), open.end(), std::size_t{0});
+  examine(inquest, open);
+  for (int round = 0; round < rounds && !open.empty(); ++round) {
+    std::vector<std::uint8_t> changed(open.size());
+    for_each_parallel(open.size(), open.size() * inquest.measured.frames(),
+                      [&](std::size_t i) { changed[i] = accuse(inquest, open[i]) ? 1 : 0; });
+    std::vector<std::size_t> still_open;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      if (changed[i] != 0) still_open.push_back(open[i]);
     }
+    open = std::move(still_open);
+    examine(inquest, open);
   }
-  return result;
 }
 
 }  // namespace
@@ -205,36 +246,26 @@ SpikeVerdicts find_spikes(VectorTracks& tracks, const SampleMarks& suspects,
   if (frames < 6) {
     return {SampleMarks(frames, count), std::vector<double>(count)};
   }
-  const LeaveOneOutGrid grid(frames, frame_rate_hz);
-  const VectorTracks measured = tracks;
-  SampleMarks accused = suspects;
-  const auto refill = [&] {
-    tracks = measured;
-    fill_marked(tracks, missing ? with_bridges_beside(accused, *missing) : accused);
-  };
-  const auto noise_without_accused = [&] {
-    return noise_levels(measured, missing ? either(accused, *missing) : accused);
-  };
-  refill();
-  for (int round = 0; round < rounds; ++round) {
-    const std::vector<double> noise = noise_without_accused();
-    const Predictions predictions = predict(measured, tracks, accused, noise, grid);
-    SampleMarks next = accuse(predictions, accused, noise, frame_rate_hz);
-    for (std::size_t i = 0; missing && i < next.marks.size(); ++i) {
-      if (missing->marks[i] != 0) next.marks[i] = 0;
-    }
-    if (next == accused) break;
-    accused = std::move(next);
-    refill();
-  }
-  std::vector<double> noise = noise_without_accused();
-  const std::vector<double> shares = cleaning_shares(noise, frame_rate_hz);
-  const Predictions predictions = predict(measured, tracks, accused, noise, grid);
-  accused =
-      judge_spikes({measured, predictions, accused, noise, shares, nearby, frame_rate_hz, missing});
-  refill();
-  noise = noise_without_accused();
-  return {std::move(accused), std::move(noise)};
+  const signal::LeaveOneOut others(frames, frame_rate_hz);
+  Inquest inquest{tracks,
+                  frame_rate_hz,
+                  missing,
+                  others,
+                  suspects,
+                  std::vector<double>(count),
+                  Predictions(frames, count)};
+  run_rounds(inquest);
+  const std::vector<double> shares = cleaning_shares(inquest.noise, frame_rate_hz);
+  const SampleMarks accused = std::exchange(
+      inquest.accused, judge_spikes({tracks, inquest.predictions, inquest.accused, inquest.noise,
+                                     shares, nearby, frame_rate_hz, missing}));
+  inquest.predictions = Predictions(0, 0);
+  for_each_parallel(count, frames * count, [&](std::size_t n) {
+    const std::span<const std::uint8_t> before = accused.track(n), now = inquest.accused.track(n);
+    if (!std::equal(now.begin(), now.end(), before.begin())) measure_noise(inquest, n);
+    refill(inquest, n, tracks.track(n));
+  });
+  return {std::move(inquest.accused), std::move(inquest.noise)};
 }
 
 }  // namespace kinemend

@@ -78,9 +78,14 @@ void smooth_as_auto(PoseMatrix& poses, std::span<const std::uint8_t> missing,
                     std::span<const double> noise, double rate_hz) {
   VectorTracks tracks(poses.frames, poses.channels / 3);
   SampleMarks marks(poses.frames, tracks.tracks());
-  for (std::size_t i = 0; i < poses.values.size(); ++i) {
-    tracks.values.values[i] = poses.values[i] / noise[i % poses.channels];
-    marks.marks[i / 3] |= missing[i];
+  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
+    const double* of_axes = &noise[3 * n];
+    for (std::size_t f = 0; f < poses.frames; ++f) {
+      const std::size_t i = f * poses.channels + 3 * n;
+      const double* v = &poses.values[i];
+      tracks.set(f, n, {v[0] / of_axes[0], v[1] / of_axes[1], v[2] / of_axes[2]});
+      marks(f, n) = missing[i] | missing[i + 1] | missing[i + 2];
+    }
   }
   const std::vector<double> one(tracks.tracks(), 1);
   std::vector<double> shares(tracks.tracks(), 1);
@@ -90,8 +95,14 @@ void smooth_as_auto(PoseMatrix& poses, std::span<const std::uint8_t> missing,
     if (seen < fewest_smoothed_frames) shares[n] = 0;
   }
   smooth_tracks(tracks, marks, one, shares, rate_hz);
-  for (std::size_t i = 0; i < poses.values.size(); ++i)
-    poses.values[i] = tracks.values.values[i] * noise[i % poses.channels];
+  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
+    for (std::size_t f = 0; f < poses.frames; ++f) {
+      const Vec3 v = tracks.at(f, n);
+      poses(f, 3 * n) = v.x * noise[3 * n];
+      poses(f, 3 * n + 1) = v.y * noise[3 * n + 1];
+      poses(f, 3 * n + 2) = v.z * noise[3 * n + 2];
+    }
+  }
 }
 
 std::vector<double> noise_of(const PriorWork& work, std::span<const std::uint8_t> suspect,
@@ -109,9 +120,13 @@ std::vector<Eigen::Matrix3d> noise_axes(const PriorWork& work) {
   const PoseMatrix& poses = work.channels.poses;
   VectorTracks tracks(poses.frames, poses.channels / 3);
   SampleMarks marks(poses.frames, tracks.tracks());
-  tracks.values.values = poses.values;
-  for (std::size_t i = 0; i < poses.values.size(); ++i)
-    marks.marks[i / 3] |= static_cast<std::uint8_t>(work.channels.observed[i] == 0);
+  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
+    for (std::size_t f = 0; f < poses.frames; ++f) {
+      tracks.set(f, n, {poses(f, 3 * n), poses(f, 3 * n + 1), poses(f, 3 * n + 2)});
+      const std::uint8_t* observed = &work.channels.observed[f * poses.channels + 3 * n];
+      marks(f, n) = observed[0] == 0 || observed[1] == 0 || observed[2] == 0 ? 1 : 0;
+    }
+  }
   std::vector<Eigen::Matrix3d> axes;
   for (const NoiseShape& shape : noise_shapes(tracks, marks, work.channels.frame_rate_hz))
     axes.push_back(shape.to_round.rowwise().normalized());

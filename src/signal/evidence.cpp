@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace kinemend::signal {
 
@@ -47,87 +48,44 @@ double misfit(const SmoothingModel& model, const SharedFactor& factor, std::size
          order * std::log(variance);
 }
 
-// The model of each channel of `block`; `group` neighbours share theirs.
-std::vector<std::size_t> most_likely_models(const ChannelBlock& y, const Channels& block,
-                                            std::span<const double> noise_variance,
-                                            const ModelGrid& grid, std::size_t group) {
-  ChannelBlock x(y.frames);
-  std::vector<double> least(block.size(), std::numeric_limits<double>::infinity());
-  std::vector<std::size_t> best(block.size(), 0);
-  for (std::size_t m = 0; m < grid.models().size(); ++m) {
-    const BlockRow residuals = solve_shared(grid.factor(m), y, x);
-    for (std::size_t first = 0; first < block.size(); first += group) {
-      double value = 0;
-      for (std::size_t i = first; i < first + group; ++i) {
-        value += misfit(grid.models()[m], grid.factor(m), y.frames, residuals[i],
-                        noise_variance[block[i]]);
-      }
-      if (value < least[first]) {
-        least[first] = value;
-        std::fill_n(best.begin() + static_cast<std::ptrdiff_t>(first), group, m);
-      }
-    }
-  }
-  return best;
-}
-
 // Mean over `half` rows on either side, the first and last rows continued.
 void box_average(ChannelBlock& block, std::size_t half) {
   if (block.frames == 0 || half == 0) return;
-  const ChannelBlock in = block;
-  const auto last = static_cast<std::ptrdiff_t>(block.frames) - 1;
-  const auto row = [&](std::ptrdiff_t t) {
-    return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(t, 0, last));
+  const std::size_t last = block.frames - 1;
+  const auto row_at = [&](std::size_t t) {
+    BlockRow row;
+    std::copy_n(block.values.begin() + static_cast<std::ptrdiff_t>(t * block_channels),
+                block_channels, row.begin());
+    return row;
   };
-  const auto reach = static_cast<std::ptrdiff_t>(half);
+  const BlockRow first = row_at(0);
+  // What the rows that are written already held, as far back as it is needed.
+  std::vector<BlockRow> before(half + 1, first);
   const double scale = 1.0 / static_cast<double>(2 * half + 1);
   BlockRow sum{};
-  for (std::ptrdiff_t t = -reach; t <= reach; ++t) {
-    for (std::size_t c = 0; c < block_channels; ++c) sum[c] += in(row(t), c);
+  for (std::size_t k = 0; k <= 2 * half; ++k) {
+    const BlockRow row = row_at(std::min(k < half ? 0 : k - half, last));
+    for (std::size_t c = 0; c < block_channels; ++c) sum[c] += row[c];
   }
-  for (std::ptrdiff_t t = 0; t <= last; ++t) {
+  for (std::size_t t = 0; t <= last; ++t) {
+    before[t % (half + 1)] = row_at(t);
+    const BlockRow next = row_at(std::min(t + half + 1, last));
+    const BlockRow gone = t < half ? first : before[(t - half) % (half + 1)];
     for (std::size_t c = 0; c < block_channels; ++c) {
-      block(static_cast<std::size_t>(t), c) = scale * sum[c];
-      sum[c] += in(row(t + reach + 1), c) - in(row(t - reach), c);
+      block(t, c) = scale * sum[c];
+      sum[c] += next[c] - gone[c];
     }
   }
 }
 
-struct AdaptiveBlock {
-  ChannelBlock y;
-  ChannelBlock weight;  // 1 / noise variance, 0 where missing
-  BlockRow variance{};  // of the differences, were it constant
-  std::size_t order;
-};
-
-ChannelBlock smooth_block(const AdaptiveBlock& block, std::size_t half_window,
-                          const AdaptiveSettings& settings) {
-  const std::size_t frames = block.y.frames, differences = frames - block.order;
-  const auto c = difference_coefficients(block.order);
-  ChannelBlock x = block.y, penalty(differences), variances(differences);
-  for (std::size_t t = 0; t < differences; ++t) {
-    for (std::size_t i = 0; i < block_channels; ++i) penalty(t, i) = 1 / block.variance[i];
-  }
-  WeightedSystem system(frames, block.order);
-  for (int iteration = 0;; ++iteration) {
-    system.factor(block.weight, penalty);
-    system.refine(block.weight, penalty, block.y, x);
-    if (iteration == settings.iterations) return x;
-    system.difference_variances(variances);
-    for (std::size_t t = 0; t < differences; ++t) {
-      for (std::size_t i = 0; i < block_channels; ++i) {
-        double difference = 0;
-        for (std::size_t k = 0; k <= block.order; ++k) difference += c[k] * x(t + k, i);
-        variances(t, i) += difference * difference;
-      }
-    }
-    box_average(variances, half_window);
-    box_average(variances, half_window);
-    for (std::size_t t = 0; t < differences; ++t) {
-      for (std::size_t i = 0; i < block_channels; ++i) {
-        const double share = settings.share_of_constant;
-        penalty(t, i) = 1 / ((1 - share) * variances(t, i) + share * block.variance[i]);
-      }
+// The squared differences of the fit, added to their posterior variances.
+void add_squared_differences(const ChannelBlock& x, std::size_t order, ChannelBlock& variances) {
+  const auto c = difference_coefficients(order);
+  for (std::size_t t = 0; t < variances.frames; ++t) {
+    for (std::size_t i = 0; i < block_channels; ++i) {
+      double difference = 0;
+      for (std::size_t k = 0; k <= order; ++k) difference += c[k] * x(t + k, i);
+      variances(t, i) += difference * difference;
     }
   }
 }
@@ -166,9 +124,52 @@ ModelGrid::ModelGrid(std::size_t frames, double frame_rate_hz)
   });
 }
 
-std::vector<std::size_t> smooth_by_evidence(PoseMatrix& matrix,
+std::vector<std::size_t> most_likely_models(const ChannelBlock& y,
                                             std::span<const double> noise_variance,
                                             const ModelGrid& grid, std::size_t group) {
+  const std::size_t channels = noise_variance.size();
+  assert(group >= 1 && channels <= block_channels && channels % group == 0);
+  std::vector<double> least(channels, std::numeric_limits<double>::infinity());
+  std::vector<std::size_t> best(channels, 0);
+  const std::vector<BlockRow> residuals = shared_residuals(grid.factors(), y);
+  for (std::size_t m = 0; m < grid.models().size(); ++m) {
+    for (std::size_t first = 0; first < channels; first += group) {
+      double value = 0;
+      for (std::size_t i = first; i < first + group; ++i) {
+        value +=
+            misfit(grid.models()[m], grid.factor(m), y.frames, residuals[m][i], noise_variance[i]);
+      }
+      if (value < least[first]) {
+        least[first] = value;
+        std::fill_n(best.begin() + static_cast<std::ptrdiff_t>(first), group, m);
+      }
+    }
+  }
+  return best;
+}
+
+void smooth_with(const ModelGrid& grid, std::span<const std::size_t> models, ChannelBlock& y) {
+  const ChannelBlock given = y;
+  ChannelBlock x(y.frames);
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const auto here = models.begin() + static_cast<std::ptrdiff_t>(i);
+    // Solved with an earlier channel.
+    if (std::find(models.begin(), here, models[i]) != here) continue;
+    solve_shared(grid.factor(models[i]), given, x);
+    for (std::size_t k = i; k < models.size(); ++k) {
+      if (models[k] != models[i]) continue;
+      for (std::size_t t = 0; t < y.frames; ++t) y(t, k) = x(t, k);
+    }
+  }
+}
+
+namespace {
+
+// Calls work(channels of a block, their values, their models).
+template <class Work>
+std::vector<std::size_t> for_models(const PoseMatrix& matrix,
+                                    std::span<const double> noise_variance, const ModelGrid& grid,
+                                    std::size_t group, const Work& work) {
   assert(noise_variance.size() == matrix.channels && grid.frames() == matrix.frames);
   assert(group >= 1 && group <= block_channels && matrix.channels % group == 0);
   if (grid.models().empty()) return {};
@@ -176,22 +177,69 @@ std::vector<std::size_t> smooth_by_evidence(PoseMatrix& matrix,
   std::iota(all.begin(), all.end(), std::size_t{0});
   std::vector<std::size_t> chosen(matrix.channels);
   for_each_block(in_blocks(all, group), [&](const Channels& block) {
-    const ChannelBlock y = gather(matrix, block);
-    const std::vector<std::size_t> best = most_likely_models(y, block, noise_variance, grid, group);
-    ChannelBlock x(matrix.frames);
-    for (std::size_t i = 0; i < block.size(); ++i) {
-      chosen[block[i]] = best[i];
-      const auto here = best.begin() + static_cast<std::ptrdiff_t>(i);
-      if (std::find(best.begin(), here, best[i]) != here)
-        continue;  // solved with an earlier channel
-      solve_shared(grid.factor(best[i]), y, x);
-      for (std::size_t k = i; k < block.size(); ++k) {
-        if (best[k] != best[i]) continue;
-        for (std::size_t t = 0; t < matrix.frames; ++t) matrix(t, block[k]) = x(t, k);
-      }
-    }
+    ChannelBlock y = gather(matrix, block);
+    const std::vector<std::size_t> best =
+        most_likely_models(y, noise_variance.subspan(block[0], block.size()), grid, group);
+    std::copy(best.begin(), best.end(), chosen.begin() + static_cast<std::ptrdiff_t>(block[0]));
+    work(block, y, best);
   });
   return chosen;
+}
+
+}  // namespace
+
+std::vector<std::size_t> most_likely_models(const PoseMatrix& matrix,
+                                            std::span<const double> noise_variance,
+                                            const ModelGrid& grid, std::size_t group) {
+  return for_models(matrix, noise_variance, grid, group,
+                    [](const Channels&, const ChannelBlock&, const Channels&) {});
+}
+
+std::vector<std::size_t> smooth_by_evidence(PoseMatrix& matrix,
+                                            std::span<const double> noise_variance,
+                                            const ModelGrid& grid, std::size_t group) {
+  return for_models(matrix, noise_variance, grid, group,
+                    [&](const Channels& block, ChannelBlock& y, const Channels& best) {
+                      smooth_with(grid, best, y);
+                      scatter(y, block, matrix);
+                    });
+}
+
+ChannelBlock smooth_adaptively(const ChannelBlock& y, const ChannelBlock& weight,
+                               std::span<const double> noise_variance,
+                               std::span<const SmoothingModel> models, double frame_rate_hz,
+                               const AdaptiveSettings& settings) {
+  const std::size_t order = models[0].order, differences = y.frames - order;
+  const auto half_window = static_cast<std::size_t>(
+      std::max(0.0, std::round((settings.window_s * frame_rate_hz - 1) / 2)));
+  BlockRow constant;  // variance of the differences, were it the same throughout
+  constant.fill(1);
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    assert(models[i].order == order);
+    constant[i] = noise_variance[i] / models[i].strength;
+  }
+  // The penalty, which is one over the variances: these are made in its place.
+  ChannelBlock x = y, penalty(differences), scratch(y.frames);
+  for (std::size_t t = 0; t < differences; ++t) {
+    for (std::size_t i = 0; i < block_channels; ++i) penalty(t, i) = 1 / constant[i];
+  }
+  WeightedSystem system(y.frames, order);
+  for (int iteration = 0;; ++iteration) {
+    system.factor(weight, penalty);
+    system.refine(weight, penalty, y, x, scratch);
+    if (iteration == settings.iterations) return x;
+    ChannelBlock& variances = penalty;
+    system.difference_variances(variances);
+    add_squared_differences(x, order, variances);
+    box_average(variances, half_window);
+    box_average(variances, half_window);
+    for (std::size_t t = 0; t < differences; ++t) {
+      for (std::size_t i = 0; i < block_channels; ++i) {
+        const double share = settings.share_of_constant;
+        penalty(t, i) = 1 / ((1 - share) * variances(t, i) + share * constant[i]);
+      }
+    }
+  }
 }
 
 void smooth_adaptively(PoseMatrix& matrix, std::span<const std::uint8_t> missing,
@@ -200,27 +248,35 @@ void smooth_adaptively(PoseMatrix& matrix, std::span<const std::uint8_t> missing
                        const AdaptiveSettings& settings) {
   assert(noise_variance.size() == matrix.channels && models.size() == matrix.channels);
   assert(missing.empty() || missing.size() == matrix.values.size());
-  const auto half_window = static_cast<std::size_t>(
-      std::max(0.0, std::round((settings.window_s * frame_rate_hz - 1) / 2)));
+  for_each_of_one_order(models, [&](const Channels& members) {
+    ChannelBlock weight(matrix.frames, 1);
+    std::vector<double> variances;
+    std::vector<SmoothingModel> own;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      const std::size_t c = members[i];
+      variances.push_back(noise_variance[c]);
+      own.push_back(models[c]);
+      for (std::size_t t = 0; t < matrix.frames; ++t) {
+        const bool lost = !missing.empty() && missing[t * matrix.channels + c] != 0;
+        weight(t, i) = lost ? 0 : 1 / noise_variance[c];
+      }
+    }
+    const ChannelBlock y = gather(matrix, members);
+    scatter(smooth_adaptively(y, weight, variances, own, frame_rate_hz, settings), members, matrix);
+  });
+}
+
+void for_each_of_one_order(std::span<const SmoothingModel> models,
+                           const std::function<void(const std::vector<std::size_t>&)>& work) {
+  std::vector<Channels> blocks;
   for (std::size_t order = 1; order <= largest_order; ++order) {
     Channels channels;
-    for (std::size_t c = 0; c < matrix.channels; ++c) {
+    for (std::size_t c = 0; c < models.size(); ++c) {
       if (models[c].order == order) channels.push_back(c);
     }
-    for_each_block(in_blocks(channels), [&](const Channels& members) {
-      AdaptiveBlock block{gather(matrix, members), ChannelBlock(matrix.frames, 1), {}, order};
-      block.variance.fill(1);
-      for (std::size_t i = 0; i < members.size(); ++i) {
-        const std::size_t c = members[i];
-        block.variance[i] = noise_variance[c] / models[c].strength;
-        for (std::size_t t = 0; t < matrix.frames; ++t) {
-          const bool lost = !missing.empty() && missing[t * matrix.channels + c] != 0;
-          block.weight(t, i) = lost ? 0 : 1 / noise_variance[c];
-        }
-      }
-      scatter(smooth_block(block, half_window, settings), members, matrix);
-    });
+    for (Channels& block : in_blocks(channels)) blocks.push_back(std::move(block));
   }
+  for_each_block(blocks, work);
 }
 
 }  // namespace kinemend::signal

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,7 @@ class ModelGrid {
   double frame_rate_hz() const noexcept { return frame_rate_hz_; }
   const std::vector<SmoothingModel>& models() const noexcept { return models_; }
   const SharedFactor& factor(std::size_t model) const { return factors_[model]; }
+  const std::vector<SharedFactor>& factors() const noexcept { return factors_; }
 
  private:
   std::size_t frames_;
@@ -38,12 +40,23 @@ class ModelGrid {
   std::vector<SharedFactor> factors_;
 };
 
-/// Smooths the channels of `matrix` in place, each with its most likely model: the one with the
+/// The most likely model of each of the first channels of `y`, one a variance: the one with the
 /// largest marginal likelihood of the channel under white noise of variance `noise_variance[c]`
 /// (> 0). With `group` above 1 that many neighbouring channels (a divisor of their number, at most
 /// 8) share the model that is most likely for all of them. Returns the index of each channel's
-/// model in the grid's list; empty when there is no model for so few frames (and nothing is
-/// changed).
+/// model in the grid's list, which must not be empty.
+std::vector<std::size_t> most_likely_models(const ChannelBlock& y,
+                                            std::span<const double> noise_variance,
+                                            const ModelGrid& grid, std::size_t group = 1);
+/// Smooths the first channels of `y` in place, each with the model of that index.
+void smooth_with(const ModelGrid& grid, std::span<const std::size_t> models, ChannelBlock& y);
+
+/// The models of all channels of a matrix; empty when there is none for so few frames.
+std::vector<std::size_t> most_likely_models(const PoseMatrix& matrix,
+                                            std::span<const double> noise_variance,
+                                            const ModelGrid& grid, std::size_t group = 1);
+/// Smooths the channels of `matrix` in place, each with its most likely model, and returns these;
+/// without any nothing is changed.
 std::vector<std::size_t> smooth_by_evidence(PoseMatrix& matrix,
                                             std::span<const double> noise_variance,
                                             const ModelGrid& grid, std::size_t group = 1);
@@ -63,6 +76,17 @@ void smooth_adaptively(PoseMatrix& matrix, std::span<const std::uint8_t> missing
                        std::span<const double> noise_variance,
                        std::span<const SmoothingModel> models, double frame_rate_hz,
                        const AdaptiveSettings& settings = {});
+
+/// The same of a block whose channels have models of one order, one each; the channels behind them
+/// are not used. `weight`: 1 / noise variance, 0 where a sample is missing; 1 of unused channels.
+ChannelBlock smooth_adaptively(const ChannelBlock& y, const ChannelBlock& weight,
+                               std::span<const double> noise_variance,
+                               std::span<const SmoothingModel> models, double frame_rate_hz,
+                               const AdaptiveSettings& settings = {});
+/// Calls work(channels), in parallel, for blocks of up to eight channels of one order: all of them,
+/// those of order 0 left out.
+void for_each_of_one_order(std::span<const SmoothingModel> models,
+                           const std::function<void(const std::vector<std::size_t>&)>& work);
 
 /// Columns `channels` of a matrix as a block; the rest of the block is zero.
 ChannelBlock gather(const PoseMatrix& matrix, std::span<const std::size_t> channels);

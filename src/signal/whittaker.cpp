@@ -34,25 +34,21 @@ bool has_settled(const SharedFactor& factor, double largest_entry, double pivot,
 }
 
 WeightedRows rows_of(std::size_t frames, std::vector<double>& diagonal,
-                     std::vector<std::vector<double>>& lower,
-                     std::vector<std::vector<double>>& inverse) {
-  WeightedRows rows{frames, lower.size(), diagonal.data(), {}, {}};
+                     std::vector<std::vector<double>>& lower) {
+  WeightedRows rows{frames, lower.size(), diagonal.data(), {}};
   for (std::size_t k = 0; k < lower.size(); ++k) rows.lower[k] = lower[k].data();
-  for (std::size_t k = 0; k < inverse.size(); ++k) rows.inverse[k] = inverse[k].data();
   return rows;
 }
 
 }  // namespace
 
-std::array<double, largest_order + 1> difference_coefficients(std::size_t order) {
-  switch (order) {
-    case 1:
-      return {-1, 1, 0, 0};
-    case 2:
-      return {1, -2, 1, 0};
-    default:
-      return {-1, 3, -3, 1};
-  }
+SharedRows rows_of(const SharedFactor& factor) {
+  return {factor.frames,
+          factor.order,
+          factor.strength,
+          factor.lower.data(),
+          factor.inverse_diagonal.data(),
+          factor.inverse_diagonal.size()};
 }
 
 double strength_of_cutoff(double cutoff, std::size_t order) {
@@ -91,10 +87,30 @@ SharedFactor factor_shared(std::size_t frames, std::size_t order, double strengt
 BlockRow solve_shared(const SharedFactor& factor, const ChannelBlock& y, ChannelBlock& x) {
   assert(factor.frames == y.frames && x.frames == y.frames);
   BlockRow sums{};
-  solve_shared_rows({factor.frames, factor.order, factor.strength, factor.lower.data(),
-                     factor.inverse_diagonal.data(), factor.inverse_diagonal.size()},
-                    y.values.data(), x.values.data(), sums.data());
+  solve_shared_rows(rows_of(factor), y.values.data(), x.values.data(), sums.data());
   return sums;
+}
+
+std::vector<BlockRow> shared_residuals(std::span<const SharedFactor> factors,
+                                       const ChannelBlock& y) {
+  constexpr std::size_t tile = 512;  // rows that stay in the cache while all models go over them
+  std::vector<BlockRow> residuals(factors.size(), BlockRow{});
+  for (std::size_t begin = 0; begin < factors.size();) {
+    const std::size_t order = factors[begin].order, differences = y.frames - order;
+    std::vector<SharedRows> rows;
+    for (std::size_t m = begin; m < factors.size() && factors[m].order == order; ++m)
+      rows.push_back(rows_of(factors[m]));
+    std::vector<double> before(rows.size() * largest_order * block_channels);
+    for (std::size_t first = 0; first < differences; first += tile) {
+      add_shared_residuals(rows.data(), rows.size(), first, std::min(first + tile, differences),
+                           y.values.data(), residuals[begin].data(), before.data());
+    }
+    for (std::size_t m = begin; m < begin + rows.size(); ++m) {
+      for (double& residual : residuals[m]) residual *= factors[m].strength;
+    }
+    begin += rows.size();
+  }
+  return residuals;
 }
 
 std::vector<double> weights_of_others(const SharedFactor& factor) {
@@ -135,27 +151,25 @@ std::vector<double> weights_of_others(const SharedFactor& factor) {
 WeightedSystem::WeightedSystem(std::size_t frames, std::size_t order)
     : frames_(frames),
       diagonal_(frames * block_channels),
-      lower_(order, std::vector<double>(frames * block_channels)),
-      inverse_(order + 1, std::vector<double>(frames * block_channels)),
-      step_(frames * block_channels) {
+      lower_(order, std::vector<double>(frames * block_channels)) {
   assert(order >= 1 && order <= largest_order && order < frames);
 }
 
 void WeightedSystem::factor(const ChannelBlock& weight, const ChannelBlock& penalty) {
-  factor_weighted_rows(rows_of(frames_, diagonal_, lower_, inverse_), weight.values.data(),
+  factor_weighted_rows(rows_of(frames_, diagonal_, lower_), weight.values.data(),
                        penalty.values.data());
 }
 
 void WeightedSystem::refine(const ChannelBlock& weight, const ChannelBlock& penalty,
-                            const ChannelBlock& y, ChannelBlock& x) {
-  refine_weighted_rows(rows_of(frames_, diagonal_, lower_, inverse_), weight.values.data(),
-                       penalty.values.data(), y.values.data(), x.values.data(), step_.data());
+                            const ChannelBlock& y, ChannelBlock& x, ChannelBlock& scratch) {
+  assert(scratch.frames == frames_);
+  refine_weighted_rows(rows_of(frames_, diagonal_, lower_), weight.values.data(),
+                       penalty.values.data(), y.values.data(), x.values.data(),
+                       scratch.values.data());
 }
 
 void WeightedSystem::difference_variances(ChannelBlock& variances) {
-  const WeightedRows rows = rows_of(frames_, diagonal_, lower_, inverse_);
-  invert_weighted_rows(rows);
-  difference_variance_rows(rows, variances.values.data());
+  difference_variance_rows(rows_of(frames_, diagonal_, lower_), variances.values.data());
 }
 
 }  // namespace kinemend::signal

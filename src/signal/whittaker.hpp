@@ -33,7 +33,16 @@ struct ChannelBlock {
 using BlockRow = std::array<double, block_channels>;
 
 /// Binomial coefficients with alternating signs: (D^d x)[t] = sum_k c[k] x[t + k].
-std::array<double, largest_order + 1> difference_coefficients(std::size_t order);
+constexpr std::array<double, largest_order + 1> difference_coefficients(std::size_t order) {
+  switch (order) {
+    case 1:
+      return {-1, 1, 0, 0};
+    case 2:
+      return {1, -2, 1, 0};
+    default:
+      return {-1, 3, -3, 1};
+  }
+}
 /// The strength p / w at which the smoother passes half the amplitude at `cutoff` cycles a frame
 /// (up to 1/2): (2 sin(pi cutoff))^(-2 order).
 double strength_of_cutoff(double cutoff, std::size_t order);
@@ -54,11 +63,14 @@ struct SharedFactor {
 SharedFactor factor_shared(std::size_t frames, std::size_t order, double strength);
 /// x = A^-1 y with A = I + strength (D^d)^T D^d; returns y^T (I - A^-1) y of each channel.
 BlockRow solve_shared(const SharedFactor& factor, const ChannelBlock& y, ChannelBlock& x);
+/// What `solve_shared` returns of each of these factors, without their solutions. Those of one
+/// order stand together.
+std::vector<BlockRow> shared_residuals(std::span<const SharedFactor> factors,
+                                       const ChannelBlock& y);
 /// The diagonal of I - A^-1, F values: the weight of all other samples in the fit of each.
 std::vector<double> weights_of_others(const SharedFactor& factor);
 
-/// diag(weight) + (D^d)^T diag(penalty) D^d for each channel by itself, with room for its solution
-/// and its inverse's band.
+/// diag(weight) + (D^d)^T diag(penalty) D^d for each channel by itself, with room for its factor.
 class WeightedSystem {
  public:
   /// `order` is 1 to 3 and less than `frames`.
@@ -69,17 +81,16 @@ class WeightedSystem {
   void factor(const ChannelBlock& weight, const ChannelBlock& penalty);
   /// Brings `x` to A^-1 (weight y) from any values, of the same weights and penalties: it adds
   /// A^-1 (weight (y - x) - (D^d)^T penalty D^d x), which rounds as little as `x` is wrong.
+  /// `scratch`: F rows.
   void refine(const ChannelBlock& weight, const ChannelBlock& penalty, const ChannelBlock& y,
-              ChannelBlock& x);
+              ChannelBlock& x, ChannelBlock& scratch);
   /// The posterior variance of each difference, diag(D^d A^-1 (D^d)^T): F - order rows.
   void difference_variances(ChannelBlock& variances);
 
  private:
   std::size_t frames_;
-  std::vector<double> diagonal_;              // F x 8
-  std::vector<std::vector<double>> lower_;    // order of F x 8: L[t, t - k]
-  std::vector<std::vector<double>> inverse_;  // order + 1 of F x 8: A^-1[t, t + k]
-  std::vector<double> step_;                  // F x 8
+  std::vector<double> diagonal_;            // F x 8
+  std::vector<std::vector<double>> lower_;  // order of F x 8: L[t, t - k]
 };
 
 }  // namespace kinemend::signal

@@ -23,7 +23,7 @@ HWY_INLINE void for_columns(const Work& work) {
 template <std::size_t order>
 HWY_INLINE auto difference_at(const double* x, std::size_t t) {
   const Tag d;
-  const auto c = difference_coefficients(order);
+  constexpr auto c = difference_coefficients(order);
   auto sum = hn::Zero(d);
   for (std::size_t k = 0; k <= order; ++k)
     sum = hn::Add(sum, hn::Mul(hn::Set(d, c[k]), hn::LoadU(d, x + (t + k) * block_channels)));
@@ -34,7 +34,7 @@ template <std::size_t order>
 HWY_INLINE void solve_shared_column(const SharedRows& factor, const double* y, double* x,
                                     double* residuals) {
   const Tag d;
-  const auto c = difference_coefficients(order);
+  constexpr auto c = difference_coefficients(order);
   const std::size_t differences = factor.frames - order, last = factor.stored - 1;
   const auto at = [](double* data, std::size_t t) { return data + t * block_channels; };
   const auto stored = [last](std::size_t t) { return t < last ? t : last; };
@@ -99,7 +99,7 @@ template <std::size_t order>
 HWY_INLINE void factor_column(const WeightedRows& rows, const double* weight, const double* penalty,
                               std::size_t column) {
   const Tag d;
-  const auto c = difference_coefficients(order);
+  constexpr auto c = difference_coefficients(order);
   const auto at = [column](const double* data, std::size_t t) {
     return hn::LoadU(Tag(), data + t * block_channels + column);
   };
@@ -134,7 +134,7 @@ template <std::size_t order>
 HWY_INLINE void refine_column(const WeightedRows& rows, const double* weight, const double* penalty,
                               const double* y, double* x, double* step, std::size_t column) {
   const Tag d;
-  const auto c = difference_coefficients(order);
+  constexpr auto c = difference_coefficients(order);
   const auto at = [column](const double* data, std::size_t t) {
     return hn::LoadU(Tag(), data + t * block_channels + column);
   };
@@ -174,56 +174,57 @@ void refine_weighted_rows(const WeightedRows& rows, const double* weight, const 
   });
 }
 
-// Takahashi's recursion: the band of A^-1 from its factor, from the last row up.
+// Takahashi's recursion: the band of A^-1 from its factor, from the last row up, of which the last
+// order + 1 rows give the variance of a difference.
 template <std::size_t order>
-HWY_INLINE void invert_column(const WeightedRows& rows, std::size_t column) {
+HWY_INLINE void variance_column(const WeightedRows& rows, double* variances, std::size_t column) {
   const Tag d;
+  constexpr auto c = difference_coefficients(order);
   const auto at = [column](const double* data, std::size_t t) {
     return hn::LoadU(Tag(), data + t * block_channels + column);
   };
+  // inverse[r][k] = A^-1[t + r, t + r + k].
+  hn::Vec<Tag> inverse[order + 1][order + 1];
+  for (auto& row : inverse) {
+    for (auto& entry : row) entry = hn::Zero(d);
+  }
   for (std::size_t t = rows.frames; t-- > 0;) {
+    for (std::size_t r = order; r >= 1; --r) {
+      for (std::size_t k = 0; k <= order; ++k) inverse[r][k] = inverse[r - 1][k];
+    }
     const std::size_t band = rows.frames - 1 - t < order ? rows.frames - 1 - t : order;
-    for (std::size_t k = band; k >= 1; --k) {
+    for (std::size_t k = order; k >= 1; --k) {
+      if (k > band) continue;
       auto sum = hn::Zero(d);
-      for (std::size_t m = 1; m <= band; ++m) {
-        const std::size_t distance = m > k ? m - k : k - m;
-        const std::size_t first = t + (m < k ? m : k);
-        sum =
-            hn::Sub(sum, hn::Mul(at(rows.lower[m - 1], t + m), at(rows.inverse[distance], first)));
+      for (std::size_t m = 1; m <= order; ++m) {
+        if (m > band) continue;
+        sum = hn::Sub(sum, hn::Mul(at(rows.lower[m - 1], t + m),
+                                   inverse[m < k ? m : k][m > k ? m - k : k - m]));
       }
-      hn::StoreU(sum, d, rows.inverse[k] + t * block_channels + column);
+      inverse[0][k] = sum;
     }
     auto sum = hn::Div(hn::Set(d, 1.0), at(rows.diagonal, t));
-    for (std::size_t m = 1; m <= band; ++m) {
-      sum = hn::Sub(sum, hn::Mul(at(rows.lower[m - 1], t + m), at(rows.inverse[m], t)));
+    for (std::size_t m = 1; m <= order; ++m) {
+      if (m <= band) sum = hn::Sub(sum, hn::Mul(at(rows.lower[m - 1], t + m), inverse[0][m]));
     }
-    hn::StoreU(sum, d, rows.inverse[0] + t * block_channels + column);
+    inverse[0][0] = sum;
+    if (band < order) continue;
+    auto variance = hn::Zero(d);
+    for (std::size_t u = 0; u <= order; ++u) {
+      for (std::size_t v = u; v <= order; ++v) {
+        const double factor = (u == v ? 1.0 : 2.0) * c[u] * c[v];
+        variance = hn::Add(variance, hn::Mul(hn::Set(d, factor), inverse[u][v - u]));
+      }
+    }
+    hn::StoreU(variance, d, variances + t * block_channels + column);
   }
 }
 
-void invert_weighted_rows(const WeightedRows& rows) {
-  for_columns([&](std::size_t c) {
-    if (rows.order == 1) invert_column<1>(rows, c);
-    if (rows.order == 2) invert_column<2>(rows, c);
-    if (rows.order == 3) invert_column<3>(rows, c);
-  });
-}
-
 void difference_variance_rows(const WeightedRows& rows, double* variances) {
-  const Tag d;
-  const auto c = difference_coefficients(rows.order);
-  for_columns([&](std::size_t column) {
-    for (std::size_t t = 0; t + rows.order < rows.frames; ++t) {
-      auto sum = hn::Zero(d);
-      for (std::size_t u = 0; u <= rows.order; ++u) {
-        for (std::size_t v = u; v <= rows.order; ++v) {
-          const double factor = (u == v ? 1.0 : 2.0) * c[u] * c[v];
-          const double* entry = rows.inverse[v - u] + (t + u) * block_channels + column;
-          sum = hn::Add(sum, hn::Mul(hn::Set(d, factor), hn::LoadU(d, entry)));
-        }
-      }
-      hn::StoreU(sum, d, variances + t * block_channels + column);
-    }
+  for_columns([&](std::size_t c) {
+    if (rows.order == 1) variance_column<1>(rows, variances, c);
+    if (rows.order == 2) variance_column<2>(rows, variances, c);
+    if (rows.order == 3) variance_column<3>(rows, variances, c);
   });
 }
 
@@ -236,7 +237,6 @@ namespace kinemend::signal {
 HWY_EXPORT(solve_shared_rows);
 HWY_EXPORT(factor_weighted_rows);
 HWY_EXPORT(refine_weighted_rows);
-HWY_EXPORT(invert_weighted_rows);
 HWY_EXPORT(difference_variance_rows);
 
 void solve_shared_rows(const SharedRows& factor, const double* y, double* x, double* residuals) {
@@ -248,9 +248,6 @@ void factor_weighted_rows(const WeightedRows& rows, const double* weight, const 
 void refine_weighted_rows(const WeightedRows& rows, const double* weight, const double* penalty,
                           const double* y, double* x, double* step) {
   HWY_DYNAMIC_DISPATCH(refine_weighted_rows)(rows, weight, penalty, y, x, step);
-}
-void invert_weighted_rows(const WeightedRows& rows) {
-  HWY_DYNAMIC_DISPATCH(invert_weighted_rows)(rows);
 }
 void difference_variance_rows(const WeightedRows& rows, double* variances) {
   HWY_DYNAMIC_DISPATCH(difference_variance_rows)(rows, variances);

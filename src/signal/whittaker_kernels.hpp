@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "signal/whittaker.hpp"
+
 /// The recursions of whittaker.hpp over rows of eight channels, compiled for each instruction set
 /// and chosen at run time. Products and sums stay apart, so that each instruction set gives the
 /// same bits.
@@ -15,19 +17,23 @@ struct SharedRows {
   const double* inverse_diagonal;  ///< R
   std::size_t stored;              ///< R: the last row serves all that follow
 };
+SharedRows rows_of(const SharedFactor& factor);
 void solve_shared_rows(const SharedRows& factor, const double* y, double* x, double* residuals);
+/// Adds what differences [first, last) add to the residuals of `solve_shared_rows`, but for the
+/// strength, to `sums` (models x 8) of `models` factors of one order. `before` (models x
+/// `largest_order` x 8) holds the recursion's last rows, the newest first: all zero at first.
+void add_shared_residuals(const SharedRows* factors, std::size_t models, std::size_t first,
+                          std::size_t last, const double* y, double* sums, double* before);
 
 struct WeightedRows {
   std::size_t frames;
   std::size_t order;
-  double* diagonal;    ///< F x 8
-  double* lower[3];    ///< order of F x 8
-  double* inverse[4];  ///< order + 1 of F x 8
+  double* diagonal;  ///< F x 8
+  double* lower[3];  ///< order of F x 8
 };
 void factor_weighted_rows(const WeightedRows& rows, const double* weight, const double* penalty);
 void refine_weighted_rows(const WeightedRows& rows, const double* weight, const double* penalty,
                           const double* y, double* x, double* step);
-void invert_weighted_rows(const WeightedRows& rows);
 void difference_variance_rows(const WeightedRows& rows, double* variances);
 
 }  // namespace kinemend::signal

@@ -75,8 +75,9 @@ TEST_P(WhittakerOrder, WeightedSolutionAndVariancesAreThoseOfTheDenseSystem) {
     const ChannelBlock y = random_block(frames, random, -2, 2);
     ChannelBlock x = random_block(frames, random, -2, 2), variances(frames - order);
     WeightedSystem system(frames, order);
+    ChannelBlock scratch(frames);
     system.factor(weight, penalty);
-    system.refine(weight, penalty, y, x);
+    system.refine(weight, penalty, y, x, scratch);
     system.difference_variances(variances);
     const Eigen::MatrixXd d = difference_matrix(frames, order);
     for (std::size_t c = 0; c < block_channels; ++c) {
@@ -132,8 +133,9 @@ TEST_P(WhittakerOrder, LargeTrendsCostTheStrongestSmootherNoDigits) {
   const ChannelBlock weight(frames, 1), penalty(frames - order, strength);
   ChannelBlock weighted = y;
   WeightedSystem system(frames, order);
+  ChannelBlock scratch(frames);
   system.factor(weight, penalty);
-  for (int round = 0; round < 2; ++round) system.refine(weight, penalty, y, weighted);
+  for (int round = 0; round < 2; ++round) system.refine(weight, penalty, y, weighted, scratch);
   EXPECT_LT(largest_difference(weighted, shared), 1e-4);
 }
 

@@ -1,0 +1,98 @@
+#include "signal/leave_one_out.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "signal/leave_one_out_kernels.hpp"
+#include "signal/whittaker_kernels.hpp"
+
+namespace kinemend::signal {
+
+namespace {
+
+constexpr std::size_t order = 2;
+// Of the fit: rows that stay in a processor's own cache while they are gone over.
+constexpr std::size_t tile_frames = 2048;
+// What is left of a row's say when it no longer counts: nothing of a double.
+constexpr double forgotten = 1e-18;
+
+// How many differences it takes until one has no say any more in those before it: the rows of a
+// factor that has settled are one recursion, whose roots say how fast it forgets.
+std::size_t memory_of(const SharedFactor& factor) {
+  const std::size_t differences = factor.frames - order;
+  const std::size_t rows = factor.inverse_diagonal.size();
+  if (rows >= differences) return differences;
+  const double b = factor.lower[(rows - 1) * order], c = factor.lower[(rows - 1) * order + 1];
+  const double discriminant = b * b / 4 - c;
+  const double root = discriminant < 0 ? std::sqrt(c) : std::fabs(b) / 2 + std::sqrt(discriminant);
+  if (!(root < 1)) return differences;
+  const double frames = std::ceil(std::log(forgotten) / std::log(std::max(root, 1e-9)));
+  return frames < static_cast<double>(differences) ? static_cast<std::size_t>(frames) + order
+                                                   : differences;
+}
+
+}  // namespace
+
+LeaveOneOut::LeaveOneOut(std::size_t frames, double frame_rate_hz) {
+  constexpr std::size_t cutoffs = 10;
+  constexpr double lowest_hz = 0.3, highest_hz = 30, largest_strength = 1e10, least_weight = 1e-3;
+  if (frames <= order + 1) return;
+  for (std::size_t i = 0; i < cutoffs; ++i) {
+    const double cutoff =
+        lowest_hz * std::pow(highest_hz / lowest_hz, static_cast<double>(i) / (cutoffs - 1));
+    const double strength = strength_of_cutoff(std::min(cutoff / frame_rate_hz, 0.49), order);
+    if (strength > largest_strength) continue;
+    factors_.push_back(factor_shared(frames, order, strength));
+    memories_.push_back(memory_of(factors_.back()));
+    weights_.push_back(signal::weights_of_others(factors_.back()));
+    for (double& weight : weights_.back()) weight = std::max(weight, least_weight);
+  }
+}
+
+// The recursion back over the differences begins behind a tile where nothing that lies farther has
+// a say any more, so that what is gone over stays in the cache.
+void LeaveOneOut::fit(std::size_t smoother, const LaneBlock& y, const FitVisitor& visit) const {
+  const SharedRows factor = rows_of(factors_[smoother]);
+  const std::size_t frames = y.frames, differences = frames - order;
+  const std::size_t memory = memories_[smoother];
+  const std::size_t room = std::min(differences, tile_frames + memory + order);
+  std::vector<double> forward(room * lane_row),
+      back(std::min(room, tile_frames + order) * lane_row),
+      x(std::min(frames, tile_frames) * lane_row);
+  std::size_t held = 0, known = 0;  // differences in `forward`: from, to
+  for (std::size_t first = 0; first < frames; first += tile_frames) {
+    const std::size_t last = std::min(first + tile_frames, frames);
+    const std::size_t from = first < order ? 0 : first - order;
+    const std::size_t kept = std::min(last, differences);
+    const std::size_t to = std::min(differences, last + memory);
+    std::copy(forward.begin() + static_cast<std::ptrdiff_t>((from - held) * lane_row),
+              forward.begin() + static_cast<std::ptrdiff_t>((known - held) * lane_row),
+              forward.begin());
+    held = from;
+    lanes_forward(factor, known, to, y.values.data(), forward.data(), held);
+    known = to;
+    lanes_backward(factor, from, kept, to, forward.data(), held, back.data());
+    lanes_fit(factor, first, last, y.values.data(), back.data(), from, x.data());
+    visit(first, last - first, x.data());
+  }
+}
+
+std::array<std::size_t, lane_tracks> LeaveOneOut::best_smoothers(const LaneBlock& y,
+                                                                 const BlockRow& caps) const {
+  std::array<std::size_t, lane_tracks> best{};
+  BlockRow least;
+  least.fill(std::numeric_limits<double>::infinity());
+  for (std::size_t m = 0; m < smoothers(); ++m) {
+    BlockRow sums{};
+    fit(m, y, [&](std::size_t first, std::size_t count, const double* x) {
+      lanes_errors(count, y.row(first), x, weights_[m].data() + first, caps.data(), sums.data());
+    });
+    for (std::size_t i = 0; i < lane_tracks; ++i) {
+      if (sums[i] < least[i]) least[i] = sums[i], best[i] = m;
+    }
+  }
+  return best;
+}
+
+}  // namespace kinemend::signal

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "signal/whittaker.hpp"
+
+/// Predictions of each sample of a track from all others of its track, by second-order Whittaker
+/// smoothers over a coarse grid of cutoffs.
+namespace kinemend::signal {
+
+inline constexpr std::size_t lane_tracks = block_channels;
+inline constexpr std::size_t lane_row = 3 * lane_tracks;
+
+/// F frames of eight tracks of vectors: in each row the first axis of all eight, then the second,
+/// then the third. Tracks that are not used are zero.
+struct LaneBlock {
+  std::size_t frames = 0;
+  std::vector<double> values;
+
+  explicit LaneBlock(std::size_t frame_count)
+      : frames(frame_count), values(frame_count * lane_row) {}
+  double* row(std::size_t frame) { return values.data() + frame * lane_row; }
+  const double* row(std::size_t frame) const { return values.data() + frame * lane_row; }
+};
+
+class LeaveOneOut {
+ public:
+  /// No smoothers for takes of up to three frames.
+  LeaveOneOut(std::size_t frames, double frame_rate_hz);
+
+  std::size_t smoothers() const noexcept { return factors_.size(); }
+  /// The weight of all other samples in the fit of each, F; at least a thousandth. A sample less
+  /// its fit, divided by it, is the error of its prediction.
+  const std::vector<double>& weights_of_others(std::size_t smoother) const {
+    return weights_[smoother];
+  }
+
+  /// Of each track the smoother that predicts best: the least sum of squared errors, each of which
+  /// counts for no more than the track's `caps`.
+  std::array<std::size_t, lane_tracks> best_smoothers(const LaneBlock& y,
+                                                      const BlockRow& caps) const;
+
+  /// Rows of the fit x, in the layout of `LaneBlock`: `count` frames from `first` on.
+  using FitVisitor = std::function<void(std::size_t first, std::size_t count, const double* x)>;
+  /// Hands out the fit of one smoother, from the first frame to the last, a tile at a time.
+  void fit(std::size_t smoother, const LaneBlock& y, const FitVisitor& visit) const;
+
+ private:
+  std::vector<SharedFactor> factors_;
+  std::vector<std::size_t> memories_;         ///< frames after which a sample has no say any more
+  std::vector<std::vector<double>> weights_;  ///< of the others, F each
+};
+
+}  // namespace kinemend::signal
