@@ -41,7 +41,7 @@ Travel travel_of(const VectorTracks& tracks, std::size_t track) {
 
 std::vector<Travel> take_travel(VectorTracks& tracks) {
   std::vector<Travel> travels(tracks.tracks());
-  for_each_parallel(tracks.tracks(), tracks.values.values.size(), [&](std::size_t n) {
+  for_each_parallel(tracks.tracks(), tracks.values.size(), [&](std::size_t n) {
     travels[n] = travel_of(tracks, n);
     for (std::size_t t = 0; t < tracks.frames(); ++t)
       tracks.set(t, n, tracks.at(t, n) - travels[n].at(t));
@@ -50,7 +50,7 @@ std::vector<Travel> take_travel(VectorTracks& tracks) {
 }
 
 void give_travel_back(VectorTracks& tracks, const std::vector<Travel>& travels) {
-  for_each_parallel(tracks.tracks(), tracks.values.values.size(), [&](std::size_t n) {
+  for_each_parallel(tracks.tracks(), tracks.values.size(), [&](std::size_t n) {
     for (std::size_t t = 0; t < tracks.frames(); ++t)
       tracks.set(t, n, tracks.at(t, n) + travels[n].at(t));
   });

@@ -140,7 +140,7 @@ TEST(Formats, AreFoundByContentThenByName) {
             "take.BVH:1: expected HIERARCHY, found \"garbage\"");
   EXPECT_EQ(
       message_of([] { read_clip(std::string("garbage"), "take"); }, ErrorKind::unreadable_input),
-      "take:1: not a motion file of a known format (bvh, amc, asf, c3d, trc, csv)");
+      "take:1: not a motion file of a known format (bvh, amc, asf, c3d, trc, tsv, csv)");
   EXPECT_EQ(message_of([] { read_clip(std::string(), "take"); }, ErrorKind::unreadable_input),
             "take:1: the file is empty");
   ReadOptions options;
