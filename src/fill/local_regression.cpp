@@ -88,11 +88,11 @@ LocalRegression::Rows LocalRegression::sums_without(Span span, double& count) co
   return sums_ - hidden.transpose() * hidden;
 }
 
-LocalRegression::Scene LocalRegression::scene_of(Span span,
+LocalRegression::Scene LocalRegression::scene_of(const MarkerGap& gap,
                                                  std::span<const std::size_t> wanted) const {
-  Scene scene{span, {}, {wanted.begin(), wanted.end()}, {}, {}, {}};
-  scene.beside = frames_beside(samples_, {marker_, span}, most_beside,
-                               samples_.frames_in(reach_s, most_beside));
+  Scene scene{gap.span, {}, {wanted.begin(), wanted.end()}, {}, {}, {}};
+  scene.beside =
+      frames_beside(samples_, gap, most_beside, samples_.frames_in(reach_s, most_beside));
   std::erase_if(scene.beside, [&](std::size_t f) { return !group_.seen_in(samples_, f); });
   std::vector<std::size_t> frames = scene.beside;
   frames.insert(frames.end(), wanted.begin(), wanted.end());

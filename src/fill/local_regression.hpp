@@ -35,14 +35,15 @@ class LocalRegression {
   /// A span of the take to be predicted: what is seen of the companions in its frames, and of the
   /// marker beside it.
   struct Scene {
-    Span span;
+    Span span = {};
     std::vector<std::size_t> beside;  ///< observed frames near the span, ascending
     std::vector<std::size_t> wanted;  ///< frames of the span
     std::vector<Placement> placed;    ///< in the frames beside, then in those wanted
     Rows inputs;                      ///< likewise: the companions' coordinates about their shape
     Rows seen;                        ///< the marker's own coordinates in the frames beside
   };
-  Scene scene_of(Span span, std::span<const std::size_t> wanted) const;
+  /// `gap`: of the same marker.
+  Scene scene_of(const MarkerGap& gap, std::span<const std::size_t> wanted) const;
 
   /// The marker's coordinates in all frames of the scene, by the regression on the frames outside
   /// its span, for each stiffness (file units; infinity: rigid).

@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <map>
 
+#include "fill/judgement.hpp"
 #include "fill/local_regression.hpp"
 #include "fill/marker_methods.hpp"
 
@@ -16,11 +17,12 @@ namespace {
 constexpr std::string_view name = "auto";
 constexpr double longest_curve_s = 0.1;
 constexpr double longest_spline_s = 1;
-constexpr std::size_t trials = 5;
 constexpr std::size_t trial_frames = 12;
 constexpr std::size_t least_companions = 3;
-// Expected errors beyond this share of the body's radius are refused.
+// Expected errors beyond this share of the body's radius are refused; none is stated below the
+// other.
 constexpr double largest_error = 0.1;
+constexpr double least_error = 1e-4;
 
 // Groups of companions, and how stiff the body is taken to be (shares of its radius).
 constexpr std::array<std::size_t, 2> group_sizes = {6, 12};
@@ -28,11 +30,6 @@ constexpr std::array<double, 3> stiffnesses = {0.0015, 0.008,
                                                std::numeric_limits<double>::infinity()};
 // Clean samples, and trembling ones.
 constexpr std::array<double, 2> noises = {1e-4, 2e-2};
-
-struct Proposal {
-  std::vector<Vec3> positions;
-  std::string_view method;
-};
 
 std::vector<std::size_t> frames_of(Span span, std::size_t most) {
   std::vector<std::size_t> frames(span.length());
@@ -43,115 +40,115 @@ std::vector<std::size_t> frames_of(Span span, std::size_t most) {
 // All ways that a gap may be filled in, ready to be tried on other spans as well.
 class Candidates {
  public:
-  Candidates(const Samples& samples, const MarkerGap& gap, double radius)
-      : samples_(samples),
-        gap_(gap),
-        companions_(companions_of(samples, gap, helpers_of(samples, gap))) {
-    for (std::size_t s = 0; s < stiffnesses.size(); ++s) stiffness_[s] = stiffnesses[s] * radius;
+  /// One for each candidate: positions in the frames that are asked for.
+  using Proposals = std::vector<std::vector<Vec3>>;
+
+  Candidates(const Samples& samples, const MarkerGap& gap)
+      : samples_(samples), companions_(companions_of(samples, gap, helpers_of(samples, gap))) {
+    for (std::size_t s = 0; s < stiffnesses.size(); ++s)
+      stiffness_[s] = stiffnesses[s] * samples.radius;
     for (const std::size_t size : group_sizes) {
       if (companions_.size() < least_companions) break;
       if (!regressions_.empty() && companions_.size() <= group_sizes.front()) break;
       regressions_.emplace_back(samples, gap, companions_, size);
       if (!regressions_.back().usable()) regressions_.pop_back();
     }
-    const bool inside = gap.span.first > 0 && gap.span.last + 1 < samples.frames;
-    curves_ = inside && gap.span.length() <= samples.frames_in(longest_curve_s, 1);
+    for (std::size_t i = 0; i < noises.size() * regressions_.size(); ++i) {
+      for (const double stiffness : stiffness_)
+        add(CandidateKind::model, std::isfinite(stiffness) ? "local-regression" : "rigid-body");
+    }
+    if (gap.span.length() > samples.frames_in(longest_curve_s, 1)) return;
+    add(CandidateKind::curve, "spline");
+    add(CandidateKind::line, "");
   }
 
-  bool any() const { return !regressions_.empty() || curves_; }
-  bool has_curve() const { return curves_; }
+  bool any() const { return !kinds_.empty(); }
+  bool has_curve() const { return any() && kinds_.back() == CandidateKind::line; }
   /// Whether its segment alone vouches for the marker.
-  bool on_a_segment(double radius) const {
+  bool on_a_segment() const {
     return !regressions_.empty() &&
-           companions_[least_companions - 1].spread <= segment_spread * radius;
+           companions_[least_companions - 1].spread <= segment_spread * samples_.radius;
   }
   std::vector<std::size_t> markers_used() const {
     if (regressions_.empty()) return {};
     const auto markers = regressions_.back().group().markers();
     return {markers.begin(), markers.end()};
   }
+  const std::vector<CandidateKind>& kinds() const { return kinds_; }
+  std::string_view method(std::size_t candidate) const { return methods_[candidate]; }
+  std::size_t curve() const { return kinds_.size() - 2; }
 
-  std::vector<Proposal> proposals(Span span, const std::vector<std::size_t>& wanted) const {
-    std::vector<Proposal> all;
+  Proposals proposals(const MarkerGap& gap, const std::vector<std::size_t>& wanted) const {
+    Proposals all;
     for (const LocalRegression& regression : regressions_) {
-      const LocalRegression::Scene scene = regression.scene_of(span, wanted);
+      const LocalRegression::Scene scene = regression.scene_of(gap, wanted);
       const std::vector<LocalRegression::Rows> predictions = regression.predict(scene, stiffness_);
       for (const double noise : noises) {
         const Bridge bridge = regression.bridge_of(scene, {.noise = noise});
-        for (std::size_t s = 0; s < predictions.size(); ++s) {
-          all.push_back({LocalRegression::meet_ends(scene, bridge, predictions[s]),
-                         std::isfinite(stiffness_[s]) ? "local-regression" : "rigid-body"});
-        }
+        for (const LocalRegression::Rows& prediction : predictions)
+          all.push_back(LocalRegression::meet_ends(scene, bridge, prediction));
       }
     }
-    if (curves_) all.push_back(curve(span, wanted));
+    if (!has_curve()) return all;
+    for (const Curve curve : {Curve::cubic, Curve::linear}) {
+      const std::vector<Vec3> whole = curve_positions(samples_, gap, curve);
+      all.emplace_back();
+      for (const std::size_t f : wanted) all.back().push_back(whole[f - gap.span.first]);
+    }
     return all;
   }
 
  private:
-  Proposal curve(Span span, const std::vector<std::size_t>& wanted) const {
-    const std::vector<Vec3> whole = curve_positions(samples_, {gap_.marker, span}, Curve::cubic);
-    Proposal proposal{{}, "spline"};
-    for (const std::size_t f : wanted) proposal.positions.push_back(whole[f - span.first]);
-    return proposal;
+  void add(CandidateKind kind, std::string_view method) {
+    kinds_.push_back(kind);
+    methods_.push_back(method);
   }
 
   const Samples& samples_;
-  MarkerGap gap_;
   std::vector<Companion> companions_;
   std::array<double, stiffnesses.size()> stiffness_{};
   std::vector<LocalRegression> regressions_;
-  bool curves_ = false;
+  std::vector<CandidateKind> kinds_;
+  std::vector<std::string_view> methods_;
 };
 
-double mean_square(const Samples& samples, std::size_t marker,
-                   const std::vector<std::size_t>& frames, const std::vector<Vec3>& positions) {
-  double sum = 0;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const Vec3 error = positions[i] - samples.at(frames[i], marker);
-    sum += dot(error, error);
+// Spans of the take that were filled to see how the candidates do.
+struct Trials {
+  std::vector<Eigen::MatrixXd> products;  ///< of the candidates' errors; empty: no room
+  double longer = 1;                      ///< the gap is, than these
+};
+
+Trials try_out(const Samples& samples, const MarkerGap& gap, const Candidates& candidates) {
+  Trials trials;
+  for (const MarkerGap& trial : trial_gaps(samples, gap, candidates.markers_used())) {
+    const std::vector<std::size_t> wanted = frames_of(trial.span, trial_frames);
+    std::vector<Vec3> truth;
+    truth.reserve(wanted.size());
+    for (const std::size_t f : wanted) truth.push_back(samples.at(f, gap.marker));
+    trials.products.push_back(products_of(candidates.proposals(trial, wanted), truth));
+    trials.longer =
+        static_cast<double>(gap.span.length()) / static_cast<double>(trial.span.length());
   }
-  return sum / static_cast<double>(frames.size());
+  return trials;
 }
 
-// The mean square error of each candidate over spans of the take; empty where it has no room.
-std::vector<double> try_out(const Samples& samples, const MarkerGap& gap,
-                            const Candidates& candidates) {
-  const std::vector<Span> spans = trial_spans(samples, gap, candidates.markers_used(), trials);
-  std::vector<double> squares;
-  for (const Span span : spans) {
-    const std::vector<std::size_t> wanted = frames_of(span, trial_frames);
-    const std::vector<Proposal> proposals = candidates.proposals(span, wanted);
-    squares.resize(proposals.size());
-    for (std::size_t c = 0; c < proposals.size(); ++c) {
-      squares[c] += mean_square(samples, gap.marker, wanted, proposals[c].positions) /
-                    static_cast<double>(spans.size());
-    }
-  }
-  return squares;
-}
-
-// The proposals averaged by the inverse squares of their mean square errors.
-Filling average(std::vector<Proposal> proposals, const std::vector<double>& squares) {
-  const auto best =
-      static_cast<std::size_t>(std::min_element(squares.begin(), squares.end()) - squares.begin());
-  double total = 0;
-  std::vector<double> weights;
-  for (const double square : squares) {
-    const double share = square > 0 ? squares[best] / square : 1;
-    weights.push_back(share * share);
-    total += weights.back();
-  }
-  Filling filling{std::vector<Vec3>(proposals[best].positions.size()),
-                  std::string(proposals[best].method),
-                  {},
-                  std::sqrt(squares[best])};
-  filling.is_evidence = proposals.size() > 1;
+// The proposals for a gap averaged as the trials tell.
+Filling average(const Samples& samples, const MarkerGap& gap, const Candidates& candidates,
+                const Candidates::Proposals& proposals, const Trials& trials) {
+  const Judgement judgement = judge(candidates.kinds(), products_of(proposals, proposals.front()),
+                                    trials.products, trials.longer, least_error * samples.radius);
+  std::map<std::string_view, double> shares;
+  Filling filling{std::vector<Vec3>(gap.span.length())};
   for (std::size_t c = 0; c < proposals.size(); ++c) {
-    for (std::size_t i = 0; i < filling.positions.size(); ++i) {
-      filling.positions[i] += (weights[c] / total) * proposals[c].positions[i];
-    }
+    shares[candidates.method(c)] += judgement.weights[c];
+    for (std::size_t i = 0; i < filling.positions.size(); ++i)
+      filling.positions[i] += judgement.weights[c] * proposals[c][i];
   }
+  filling.method = std::max_element(shares.begin(), shares.end(), [](const auto& a, const auto& b) {
+                     return a.second < b.second;
+                   })->first;
+  filling.expected_error = judgement.expected_error;
+  filling.is_evidence = candidates.kinds().front() == CandidateKind::model;
   return filling;
 }
 
@@ -174,22 +171,22 @@ Filling without_support(const Samples& samples, const MarkerGap& gap,
 }  // namespace
 
 Filling fill_by_auto(const Samples& samples, const MarkerGap& gap, const MarkerRequest& request) {
-  const double radius = samples.radius;
-  const Candidates candidates(samples, gap, radius);
+  const Candidates candidates(samples, gap);
   if (!candidates.any()) return without_support(samples, gap, request);
-  const std::vector<double> squares = try_out(samples, gap, candidates);
-  std::vector<Proposal> proposals =
-      candidates.proposals(gap.span, frames_of(gap.span, gap.span.length()));
-  if (squares.empty()) {
-    if (!request.lenient && !candidates.has_curve() && !candidates.on_a_segment(radius)) {
+  const Candidates::Proposals proposals =
+      candidates.proposals(gap, frames_of(gap.span, gap.span.length()));
+  const Trials trials = try_out(samples, gap, candidates);
+  if (trials.products.empty()) {
+    if (!request.lenient && !candidates.has_curve() && !candidates.on_a_segment()) {
       return Filling::refused(name, "the marker is seen too little to try a method on it");
     }
-    const Proposal& proposal =
-        candidates.on_a_segment(radius) ? proposals.front() : proposals.back();
-    return {proposal.positions, std::string(proposal.method)};
+    const std::size_t chosen =
+        candidates.on_a_segment() || !candidates.has_curve() ? 0 : candidates.curve();
+    return {proposals[chosen], std::string(candidates.method(chosen))};
   }
-  Filling filling = average(std::move(proposals), squares);
+  Filling filling = average(samples, gap, candidates, proposals, trials);
   // Without other markers there is no size to judge by; a curve is short.
+  const double radius = samples.radius;
   if (request.lenient || radius == 0 || filling.expected_error <= largest_error * radius) {
     return filling;
   }

@@ -23,9 +23,10 @@ struct Window {
 Window window_around(const Samples& samples, const MarkerGap& gap) {
   // As many observed samples as the longest support of a curve, other gaps between them aside.
   const std::size_t reach = 2 * samples.frames_in(0.5, 64);
+  const std::size_t before = gap.starts_take ? 0 : reach, behind = gap.ends_take ? 0 : reach;
   Window window;
-  window.first_frame = gap.span.first - std::min(gap.span.first, reach);
-  const std::size_t end = std::min(samples.frames, gap.span.last + 1 + reach);
+  window.first_frame = gap.span.first - std::min(gap.span.first, before);
+  const std::size_t end = std::min(samples.frames, gap.span.last + 1 + behind);
   for (std::size_t f = window.first_frame; f < end; ++f) {
     const bool seen = samples.measures(f, gap.marker) && !gap.covers(f);
     const Vec3 p = seen ? samples.at(f, gap.marker) : Vec3{};

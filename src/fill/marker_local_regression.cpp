@@ -137,7 +137,7 @@ Filling fill_by_local_regression(const Samples& samples, const MarkerGap& gap,
   }
   std::vector<std::size_t> frames(gap.span.length());
   std::iota(frames.begin(), frames.end(), gap.span.first);
-  const LocalRegression::Scene scene = body.scene_of(gap.span, frames);
+  const LocalRegression::Scene scene = body.scene_of(gap, frames);
   const Rows coordinates = averaged(body, scene, samples.radius);
   return {LocalRegression::meet_ends(scene, body.bridge_of(scene), coordinates), std::string(name)};
 }

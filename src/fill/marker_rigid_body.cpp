@@ -32,7 +32,7 @@ Filling fill_by_rigid_body(const Samples& samples, const MarkerGap& gap,
   }
   std::vector<std::size_t> frames(gap.span.length());
   std::iota(frames.begin(), frames.end(), gap.span.first);
-  const LocalRegression::Scene scene = body.scene_of(gap.span, frames);
+  const LocalRegression::Scene scene = body.scene_of(gap, frames);
   const LocalRegression::Rows still = body.predict(scene, {&rigid, 1}).front();
   return {LocalRegression::meet_ends(scene, body.bridge_of(scene), still), std::string(name)};
 }

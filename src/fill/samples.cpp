@@ -40,13 +40,15 @@ Span evidence_around(const Samples& samples, const MarkerGap& gap) {
 std::vector<std::size_t> frames_beside(const Samples& samples, const MarkerGap& gap,
                                        std::size_t most, std::size_t reach) {
   std::vector<std::size_t> found;
-  const std::size_t lowest = gap.span.first - std::min(gap.span.first, reach);
+  const std::size_t before_reach = gap.starts_take ? 0 : reach;
+  const std::size_t lowest = gap.span.first - std::min(gap.span.first, before_reach);
   for (std::size_t f = gap.span.first; f-- > lowest && found.size() < most;) {
     if (samples.measures(f, gap.marker)) found.push_back(f);
   }
   std::reverse(found.begin(), found.end());
   const std::size_t before = found.size();
-  const std::size_t end = std::min(samples.frames, gap.span.last + 1 + reach);
+  const std::size_t behind_reach = gap.ends_take ? 0 : reach;
+  const std::size_t end = std::min(samples.frames, gap.span.last + 1 + behind_reach);
   for (std::size_t f = gap.span.last + 1; f < end && found.size() < before + most; ++f) {
     if (samples.measures(f, gap.marker)) found.push_back(f);
   }

@@ -40,6 +40,8 @@ struct Samples {
 struct MarkerGap {
   std::size_t marker = 0;
   Span span;
+  bool starts_take = false;  ///< nothing of the marker is seen before the span
+  bool ends_take = false;    ///< nothing of it is seen behind the span
 
   bool covers(std::size_t frame) const { return frame >= span.first && frame <= span.last; }
 };
