@@ -53,8 +53,9 @@ bool fill_by_poses(JointTrack& track, Span span, const JointContext& context) {
       5, static_cast<std::size_t>(std::lround(settings.velocity_window_s * context.frame_rate_hz)));
   const std::size_t first = span.first - std::min(beside, span.first);
   const std::size_t last = std::min(span.last + beside, track.observed.size() - 1);
-  const std::vector<Quat> rotations =
-      context.poses.predict(track.joint, span, first, last, stiffness);
+  const std::size_t shift = track.first_frame;
+  const std::vector<Quat> rotations = context.poses.predict(
+      track.joint, {span.first + shift, span.last + shift}, first + shift, last + shift, stiffness);
   if (rotations.empty()) return false;
   Guess guess{first, {}};
   for (std::size_t f = first; f <= last; ++f) {

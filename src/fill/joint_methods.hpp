@@ -14,6 +14,7 @@ namespace kinemend::fill {
 struct JointContext {
   double frame_rate_hz = 0;
   const PoseRegression& poses;
+  double height = 0;  ///< of the skeleton, file units
 
   CurveSettings curve() const { return {.frame_rate_hz = frame_rate_hz}; }
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace kinemend::fill {
 
@@ -44,6 +45,31 @@ Vec3 turn_through(std::span<const Quat> rotations, std::span<const std::uint8_t>
     best = longer;
   }
   return best;
+}
+
+// The reference runs through the span as through a gap, and what comes behind it moves along.
+void hide_from_chart(JointTrack& track, Span span, TakeEnds ends, double frame_rate_hz) {
+  RotationChart& chart = track.chart;
+  for (std::size_t f = span.first; f <= span.last; ++f) {
+    if (ends.at_start || ends.at_end) {
+      const std::size_t side = ends.at_start ? span.last + 1 : span.first - 1;
+      chart.reference[f] = chart.reference[side];
+      chart.path[f] = chart.path[side];
+    }
+  }
+  if (ends.at_start || ends.at_end) return;
+  const std::size_t before = span.first - 1, behind = span.last + 1;
+  const Vec3 turn = turn_through(chart.reference, track.observed, before, behind, frame_rate_hz);
+  const Vec3 moved = chart.path[before] + turn - chart.path[behind];
+  for (std::size_t f = span.first; f <= span.last; ++f) {
+    const double t = static_cast<double>(f - before) / static_cast<double>(behind - before);
+    chart.reference[f] = chart.reference[before] * exp(t * turn);
+    chart.path[f] = chart.path[before] + t * turn;
+  }
+  for (std::size_t f = behind; f < chart.path.size(); ++f) {
+    chart.path[f] += moved;
+    track.set(f, track.at(f) + moved);
+  }
 }
 
 Vec3& position_at(Clip& clip, std::size_t position, std::size_t frame) {
@@ -132,6 +158,28 @@ JointTrack position_track(const Clip& clip, std::size_t position) {
     track.observed[f] = clip.is_position_observed(f, position) ? 1 : 0;
   }
   return track;
+}
+
+JointTrack hide_span(const JointTrack& track, Span span, TakeEnds ends, std::size_t reach,
+                     double frame_rate_hz) {
+  const std::size_t first = ends.at_start ? span.first : span.first - std::min(reach, span.first);
+  const std::size_t end =
+      ends.at_end ? span.last + 1 : std::min(span.last + 1 + reach, track.observed.size());
+  const auto part_of = [&](const auto& values, std::size_t width) {
+    const auto at = [&](std::size_t frame) {
+      return values.begin() + static_cast<std::ptrdiff_t>(width * frame);
+    };
+    return std::decay_t<decltype(values)>(at(first), at(end));
+  };
+  JointTrack part{track.joint, track.is_position,        track.first_frame + first,
+                  {},          part_of(track.values, 3), part_of(track.observed, 1)};
+  const Span hidden{span.first - first, span.last - first};
+  std::fill_n(part.observed.begin() + static_cast<std::ptrdiff_t>(hidden.first), hidden.length(),
+              std::uint8_t{0});
+  if (track.is_position) return part;
+  part.chart = {part_of(track.chart.reference, 1), part_of(track.chart.path, 1)};
+  hide_from_chart(part, hidden, ends, frame_rate_hz);
+  return part;
 }
 
 void store_span(const JointTrack& track, Span span, Clip& clip) {

@@ -39,6 +39,7 @@ RotationChart make_rotation_chart(std::span<const Quat> rotations,
 struct JointTrack {
   std::size_t joint = 0;
   bool is_position = false;
+  std::size_t first_frame = 0;         ///< of the take, where the track is a part of it
   RotationChart chart;                 ///< of rotations
   std::vector<double> values;          ///< F x 3, the chart's vectors or the positions
   std::vector<std::uint8_t> observed;  ///< F
@@ -56,6 +57,16 @@ struct JointTrack {
 JointTrack rotation_track(const Clip& clip, std::size_t joint);
 /// `position`: 0 for joint 0, k + 1 for translated joint k.
 JointTrack position_track(const Clip& clip, std::size_t position);
+
+/// Whether the take starts or ends with a span.
+struct TakeEnds {
+  bool at_start = false, at_end = false;
+};
+
+/// The track up to `reach` frames around an observed span, as if that were a gap: nothing of what
+/// stands in it is known to the chart. With `ends` also as if the take ended there.
+JointTrack hide_span(const JointTrack& track, Span span, TakeEnds ends, std::size_t reach,
+                     double frame_rate_hz);
 
 /// Writes the span back: rotations that the joint's channels can hold (the nearest ones where it
 /// has fewer than three), signs continued from the frame before; the samples become observed.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -8,25 +7,26 @@
 
 namespace kinemend::fill {
 
-/// How well a method fills a track where it is observed.
-struct Trial {
+/// What one method makes of a gap of a track.
+struct JointProposal {
   const JointMethod* method = nullptr;
-  double error = 0;       ///< mean distance to what was observed, in the track's unit
-  std::size_t spans = 0;  ///< that the method filled
-  double score = 0;       ///< least is best
+  std::vector<double> values;  ///< 3 a frame of the span; empty: it cannot fill it
+  double score = 0;            ///< least is best
+  /// Root mean square distance to the truth, in the track's unit; 0 where the take has no room to
+  /// try.
+  double expected_error = 0;
 };
 
-/// Hides up to `most` spans of `length` frames, spread evenly over what is observed of the track,
-/// and fills them with each of the methods; `at_end`: as if the take ended with each of them. Spans
-/// that a method cannot fill count with the mean error of the others. Shorter spans where there is
-/// no room for that length, the errors then growing with the length; no spans where there is no
-/// room at all.
+/// Fills the gap with each of the methods, and spans of the track that are observed
+/// (`trial_places`), as if these were gaps of it: at an end of the take where the gap is. A method
+/// that cannot fill one of those counts with slerp there.
 ///
-/// Best first by a score, the mean logarithm of the error beside slerp's. The trials are few, so
-/// they count beside six more that went as those methods usually do
+/// Best first. The score is the logarithm of the mean square error to be expected (`Judgement`), in
+/// short gaps with favour for the spline. The trials are few, and tell less where there was room
+/// for shorter ones only: they count beside two more that went as those methods usually do
 /// (`JointMethod::usual_errors`).
-std::vector<Trial> try_methods(const JointTrack& track, std::size_t length, bool at_end,
-                               std::span<const JointMethod* const> methods,
-                               const JointContext& context, std::size_t most = 8);
+std::vector<JointProposal> propose(const JointTrack& track, Span gap,
+                                   std::span<const JointMethod* const> methods,
+                                   const JointContext& context);
 
 }  // namespace kinemend::fill

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <tuple>
 
 #include "fill/joint_trials.hpp"
@@ -17,13 +16,13 @@ namespace {
 
 using fill::JointContext;
 using fill::JointMethod;
+using fill::JointProposal;
 using fill::JointTrack;
 using fill::Span;
-using fill::Trial;
 
-// `auto` refuses what it expects to be farther from the truth than this, on average.
-constexpr double largest_error_deg = 10;
-constexpr double largest_error_of_height = 0.05;
+// `auto` refuses what it expects to be farther from the truth than this.
+constexpr double largest_error_deg = 12.5;
+constexpr double largest_error_of_height = 0.0625;
 
 std::vector<const JointMethod*> chosen_methods(const std::string& name) {
   std::vector<const JointMethod*> chosen;
@@ -57,22 +56,6 @@ std::vector<std::uint8_t> chosen_joints(const Clip& clip, const std::vector<std:
   return chosen;
 }
 
-// Gaps of the same kind are tried once: lengths within a quarter of each other, all at an end or
-// none.
-struct Kind {
-  std::size_t length = 0;
-  bool at_end = false;
-  friend bool operator<(const Kind& a, const Kind& b) {
-    return std::tie(a.length, a.at_end) < std::tie(b.length, b.at_end);
-  }
-};
-
-Kind kind_of(const JointTrack& track, Span span) {
-  std::size_t length = 1;
-  while (length < span.length()) length += std::max<std::size_t>(1, length / 4);
-  return {length, span.first == 0 || span.last + 1 == track.observed.size()};
-}
-
 // Fills the gaps of one track, each by itself.
 class TrackFiller {
  public:
@@ -102,54 +85,45 @@ class TrackFiller {
     if (methods_.empty()) {
       outcome.reason = fmt::format("{} fills no positions", settings_.method);
     }
-    if (!methods_.empty()) {
-      for (const Trial& trial : trials_of(kind_of(track_, span))) {
-        if (try_one(trial, span, outcome)) return;
-      }
+    for (const JointProposal& proposal : fill::propose(track_, span, methods_, context_)) {
+      if (accept(proposal, span, outcome)) return;
     }
     if (settings_.fill_all) fill_anyhow(span, outcome);
   }
 
  private:
-  // Best first.
-  const std::vector<Trial>& trials_of(Kind kind) {
-    const auto [found, is_new] = trials_.try_emplace(kind);
-    if (is_new) {
-      found->second = try_methods(track_, kind.length, kind.at_end, methods_, context_);
-    }
-    return found->second;
-  }
-
-  bool try_one(const Trial& trial, Span span, GapOutcome& outcome) {
-    const std::string reason = settings_.fill_all ? "" : refusal(trial, span);
-    if (reason.empty() && trial.method->fill(track_, span, context_)) {
-      outcome.method = trial.method->name;
-      outcome.filled = true;
+  bool accept(const JointProposal& proposal, Span span, GapOutcome& outcome) {
+    const bool is_able = !proposal.values.empty();
+    const std::string reason = settings_.fill_all ? "" : refusal(proposal, span);
+    const bool filled = is_able && reason.empty();
+    if (!filled && !outcome.reason.empty()) return false;  // that of the best method tells most
+    outcome.method = proposal.method->name;
+    outcome.filled = filled;
+    outcome.expected_error = in_unit(proposal.expected_error);
+    if (filled) {
+      std::copy(proposal.values.begin(), proposal.values.end(),
+                track_.values.begin() + static_cast<std::ptrdiff_t>(3 * span.first));
       outcome.reason.clear();
-      outcome.expected_error = trial.spans > 0 ? in_unit(trial.error) : 0;
-      return true;
+    } else {
+      outcome.reason = reason.empty() ? std::string(proposal.method->cannot) : reason;
     }
-    if (outcome.reason.empty()) {  // that of the best method tells most
-      outcome.method = trial.method->name;
-      outcome.reason = reason.empty() ? std::string(trial.method->cannot) : reason;
-      outcome.expected_error = trial.spans > 0 ? in_unit(trial.error) : 0;
-    }
-    return false;
+    return filled;
   }
 
   // Why the rules do not let the method fill the span; empty where they do.
-  std::string refusal(const Trial& trial, Span span) const {
-    const bool at_end = kind_of(track_, span).at_end;
-    const double rule = at_end ? trial.method->longest_at_end_s : trial.method->longest_s;
+  std::string refusal(const JointProposal& proposal, Span span) const {
+    const JointMethod& method = *proposal.method;
+    const bool at_end = span.first == 0 || span.last + 1 == track_.observed.size();
+    const double rule = at_end ? method.longest_at_end_s : method.longest_s;
     const double longest = settings_.longest_gap_s > 0 ? settings_.longest_gap_s : rule;
     const double length = static_cast<double>(span.length()) / context_.frame_rate_hz;
     if (length > longest + 0.5 / context_.frame_rate_hz) {
       return fmt::format("{:.3g} s is longer than the {:.3g} s that {} may fill{}", length, longest,
-                         trial.method->name, at_end ? " at an end of the take" : "");
+                         method.name, at_end ? " at an end of the take" : "");
     }
-    if (settings_.method == "auto" && trial.error > largest_error_) {
-      return fmt::format("the expected error of {}, {:.3g}, is above {:.3g}", trial.method->name,
-                         in_unit(trial.error), in_unit(largest_error_));
+    if (settings_.method == "auto" && proposal.expected_error > largest_error_) {
+      return fmt::format("the expected error of {}, {:.3g}, is above {:.3g}", method.name,
+                         in_unit(proposal.expected_error), in_unit(largest_error_));
     }
     return "";
   }
@@ -172,7 +146,6 @@ class TrackFiller {
   const FillSettings& settings_;
   const JointContext& context_;
   double largest_error_;
-  std::map<Kind, std::vector<Trial>> trials_;
 };
 
 // The gaps of one track.
@@ -224,7 +197,7 @@ FillReport fill_motion(Clip& clip, const std::vector<const JointMethod*>& method
   if (tasks.empty()) return report;
   // Every gap is filled from what was observed, whatever the order.
   const fill::PoseRegression poses(clip);
-  const JointContext context{clip.frame_rate_hz, poses};
+  const JointContext context{clip.frame_rate_hz, poses, skeleton_height(clip.skeleton)};
   tbb::parallel_for(std::size_t{0}, tasks.size(),
                     [&](std::size_t i) { run_task(tasks[i], clip, methods, settings, context); });
   for (const Task& task : tasks) {

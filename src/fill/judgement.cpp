@@ -3,31 +3,34 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace kinemend::fill {
 
 namespace {
 
-// Exponents of the ratios of mean square differences, for the choice and for the expected error:
-// from gaps made in the takes that docs/methods/fill.md names.
-constexpr double choice_exponent = 0.6;
+// Exponents of the ratios of mean square differences, for the choice and for the expected error.
+// They and `caution` are from gaps made in the takes that docs/methods/fill.md names.
+constexpr double choice_exponent = 0.5;
 constexpr double error_exponent = 0.7;
-// A model's mean square error has to be so much less than a curve's to count as much.
-constexpr double clearly_better = 3;
-// The error is as often above as below the root mean square of few trials; it is stated a little
-// above, for what no trial has shown.
-constexpr double caution = 1.25;
+// Few trials do not show the worst: the error is stated above their root mean square.
+constexpr double caution = 1.3;
 constexpr double least_ratio = 1.0 / 16, most_ratio = 1e4;
 
 using Matrix = Eigen::MatrixXd;
 using Indices = std::vector<Eigen::Index>;
 
-Indices of_kind(std::span<const CandidateKind> kinds, CandidateKind kind) {
+template <class Accept>
+Indices indices_of(std::span<const CandidateKind> kinds, const Accept& accept) {
   Indices found;
   for (std::size_t c = 0; c < kinds.size(); ++c) {
-    if (kinds[c] == kind) found.push_back(static_cast<Eigen::Index>(c));
+    if (accept(kinds[c])) found.push_back(static_cast<Eigen::Index>(c));
   }
   return found;
+}
+
+Indices lines_among(std::span<const CandidateKind> kinds) {
+  return indices_of(kinds, [](CandidateKind kind) { return kind == CandidateKind::line; });
 }
 
 // Mean square distance of the candidates from the average of them with these weights.
@@ -40,87 +43,22 @@ double spread_about(const Matrix& products, const Indices& candidates,
   return std::max(0.0, sum / static_cast<double>(candidates.size()));
 }
 
-Eigen::VectorXd evenly_over(const Indices& candidates, Eigen::Index count) {
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(count);
-  for (const Eigen::Index c : candidates) weights[c] = 1 / static_cast<double>(candidates.size());
-  return weights;
-}
-
 double square_distance(const Matrix& products, Eigen::Index a, Eigen::Index b) {
   return std::max(0.0, products(a, a) + products(b, b) - 2 * products(a, b));
 }
 
-// How much `difference(products)` is greater in the gap than in the trials.
-template <class Difference>
-double ratio_of(const Matrix& gap, std::span<const Matrix> trials, double floor,
-                const Difference& difference) {
+double mean_over(const std::vector<Matrix>& trials, const auto& value) {
   double sum = 0;
-  for (const Matrix& trial : trials) sum += difference(trial);
-  const double usual = sum / static_cast<double>(trials.size()) + floor;
-  if (!(usual > 0)) return 1;
-  return std::clamp((difference(gap) + floor) / usual, least_ratio, most_ratio);
+  for (const Matrix& trial : trials) sum += value(trial);
+  return sum / static_cast<double>(trials.size());
 }
 
-// The mean square error that is to be expected of each candidate.
-class Squares {
- public:
-  Squares(std::span<const CandidateKind> kinds, const Matrix& gap, std::span<const Matrix> trials,
-          double floor)
-      : gap_(gap), trials_(trials), floor_(floor) {
-    values_.assign(kinds.size(), std::numeric_limits<double>::infinity());
-    judge_models(of_kind(kinds, CandidateKind::model));
-    const Indices lines = of_kind(kinds, CandidateKind::line);
-    for (const Eigen::Index c : of_kind(kinds, CandidateKind::curve)) judge_curve(c, lines);
-    const double favour = of_kind(kinds, CandidateKind::model).empty() ? 1 : clearly_better;
-    for (const Eigen::Index c : of_kind(kinds, CandidateKind::curve)) at(c) /= favour;
-  }
-
-  const std::vector<double>& values() const { return values_; }
-
- private:
-  double& at(Eigen::Index c) { return values_[static_cast<std::size_t>(c)]; }
-
-  void judge_models(const Indices& models) {
-    if (models.empty()) return;
-    const Eigen::VectorXd even = evenly_over(models, gap_.rows());
-    const double ratio = ratio_of(gap_, trials_, floor_, [&](const Matrix& products) {
-      return spread_about(products, models, even);
-    });
-    const double harder = std::pow(ratio, choice_exponent);
-    for (const Eigen::Index c : models) {
-      double sum = 0;
-      for (const Matrix& trial : trials_) sum += trial(c, c);
-      at(c) = harder * sum / static_cast<double>(trials_.size());
-    }
-  }
-
-  // Its typical error: one trial that went astray says nothing against it.
-  void judge_curve(Eigen::Index c, const Indices& lines) {
-    double sum = 0;
-    for (const Matrix& trial : trials_) sum += std::log(trial(c, c) + 0.01 * floor_ + 1e-300);
-    at(c) = std::exp(sum / static_cast<double>(trials_.size()));
-    if (lines.empty()) return;
-    const double ratio = ratio_of(gap_, trials_, floor_, [&](const Matrix& products) {
-      return square_distance(products, c, lines.front());
-    });
-    at(c) *= std::pow(ratio, choice_exponent);
-  }
-
-  const Matrix& gap_;
-  std::span<const Matrix> trials_;
-  double floor_;
-  std::vector<double> values_;
-};
-
-Eigen::VectorXd weights_of(const std::vector<double>& squares, double floor) {
-  const double least = *std::min_element(squares.begin(), squares.end()) + floor;
-  Eigen::VectorXd weights(static_cast<Eigen::Index>(squares.size()));
-  for (std::size_t c = 0; c < squares.size(); ++c) {
-    const double square = squares[c] + floor;
-    const double share = square > 0 ? least / square : 1;
-    weights[static_cast<Eigen::Index>(c)] = share * share;
-  }
-  return weights / weights.sum();
+// How much `difference(products)` is greater in the gap than in the trials.
+double ratio_of(const Matrix& gap, const std::vector<Matrix>& trials, double floor,
+                const auto& difference) {
+  const double usual = mean_over(trials, difference) + floor;
+  if (!(usual > 0)) return 1;
+  return std::clamp((difference(gap) + floor) / usual, least_ratio, most_ratio);
 }
 
 }  // namespace
@@ -139,26 +77,85 @@ Eigen::MatrixXd products_of(const std::vector<std::vector<Vec3>>& proposals,
   return offsets * offsets.transpose() / static_cast<double>(origin.size());
 }
 
-Judgement judge(std::span<const CandidateKind> kinds, const Eigen::MatrixXd& gap,
-                std::span<const Eigen::MatrixXd> trials, double longer, double grain) {
-  const double floor = grain * grain;
-  const Squares squares(kinds, gap, trials, floor);
-  const Eigen::VectorXd weights = weights_of(squares.values(), floor);
-  Indices used;
-  for (std::size_t c = 0; c < kinds.size(); ++c) {
-    if (kinds[c] != CandidateKind::line) used.push_back(static_cast<Eigen::Index>(c));
+Judgement::Judgement(std::vector<CandidateKind> kinds, Eigen::MatrixXd gap, Trials trials,
+                     double grain)
+    : kinds_(std::move(kinds)),
+      gap_(std::move(gap)),
+      trials_(std::move(trials)),
+      floor_(grain * grain),
+      squares_(kinds_.size(), std::numeric_limits<double>::infinity()) {
+  judge_models();
+  for (std::size_t c = 0; c < kinds_.size(); ++c) {
+    if (kinds_[c] == CandidateKind::spline || kinds_[c] == CandidateKind::curve) judge_curve(c);
   }
-  // A curve alone is compared with the line.
-  const bool alone = used.size() < 2;
-  double sum = 0;
-  for (const Matrix& trial : trials) sum += std::max(0.0, weights.dot(trial * weights));
-  const double ratio = ratio_of(gap, trials, 0.25 * floor, [&](const Matrix& products) {
-    return alone ? spread_about(products, of_kind(kinds, CandidateKind::line), weights)
-                 : spread_about(products, used, weights);
+}
+
+void Judgement::judge_models() {
+  const Indices models =
+      indices_of(kinds_, [](CandidateKind kind) { return kind == CandidateKind::model; });
+  if (models.empty()) return;
+  Eigen::VectorXd even = Eigen::VectorXd::Zero(gap_.rows());
+  for (const Eigen::Index c : models) even[c] = 1 / static_cast<double>(models.size());
+  const double ratio = ratio_of(gap_, trials_.products, floor_, [&](const Matrix& products) {
+    return spread_about(products, models, even);
   });
-  const double square =
-      longer * sum / static_cast<double>(trials.size()) * std::pow(ratio, error_exponent) + floor;
-  return {{weights.data(), weights.data() + weights.size()}, caution * std::sqrt(square)};
+  const double harder = std::pow(ratio, choice_exponent);
+  for (const Eigen::Index c : models) {
+    squares_[static_cast<std::size_t>(c)] =
+        harder * mean_over(trials_.products, [&](const Matrix& trial) { return trial(c, c); });
+  }
+}
+
+void Judgement::judge_curve(std::size_t candidate) {
+  const auto c = static_cast<Eigen::Index>(candidate);
+  double& square = squares_[candidate];
+  if (kinds_[candidate] == CandidateKind::spline) {
+    square = std::exp(mean_over(trials_.products, [&](const Matrix& trial) {
+      return std::log(trial(c, c) + 0.01 * floor_ + std::numeric_limits<double>::min());
+    }));
+  } else {
+    square = mean_over(trials_.products, [&](const Matrix& trial) { return trial(c, c); });
+  }
+  const Indices lines = lines_among(kinds_);
+  if (lines.empty()) return;
+  const double ratio = ratio_of(gap_, trials_.products, floor_, [&](const Matrix& products) {
+    return square_distance(products, c, lines.front());
+  });
+  square *= std::pow(ratio, choice_exponent);
+}
+
+std::vector<double> Judgement::weights(double favour) const {
+  std::vector<double> squares = squares_;
+  for (std::size_t c = 0; c < squares.size(); ++c) {
+    if (kinds_[c] == CandidateKind::spline) squares[c] /= favour;
+  }
+  const double least = *std::min_element(squares.begin(), squares.end()) + floor_;
+  std::vector<double> weights;
+  double sum = 0;
+  for (const double square : squares) {
+    const double share = square + floor_ > 0 ? least / (square + floor_) : 1;
+    weights.push_back(share * share);
+    sum += weights.back();
+  }
+  for (double& weight : weights) weight /= sum;
+  return weights;
+}
+
+double Judgement::expected_error(std::span<const double> weights) const {
+  const Eigen::Map<const Eigen::VectorXd> w(weights.data(),
+                                            static_cast<Eigen::Index>(weights.size()));
+  // A candidate alone is compared with the line.
+  Indices others =
+      indices_of(kinds_, [](CandidateKind kind) { return kind != CandidateKind::line; });
+  if (others.size() < 2) others = lines_among(kinds_);
+  double ratio = 1;
+  if (!others.empty()) {
+    ratio = ratio_of(gap_, trials_.products, 0.25 * floor_,
+                     [&](const Matrix& products) { return spread_about(products, others, w); });
+  }
+  const double square = mean_over(
+      trials_.products, [&](const Matrix& trial) { return std::max(0.0, w.dot(trial * w)); });
+  return caution * std::sqrt(trials_.longer * square * std::pow(ratio, error_exponent) + floor_);
 }
 
 }  // namespace kinemend::fill

@@ -12,31 +12,57 @@
 namespace kinemend::fill {
 
 enum class CandidateKind : std::uint8_t {
-  model,  ///< made of what other markers or joints show
-  curve,  ///< made of the track's own samples beside the gap
-  line    ///< never used: the distance of the curves from it tells how much the track moves
+  model,   ///< made of what other markers or joints show
+  spline,  ///< the natural cubic, by which all are judged in a gap of a few frames
+  curve,   ///< another curve through the track's own samples
+  line     ///< never used: the distance of the others from it tells how much the track moves
 };
+
+/// In gaps of up to this length a spline is hard to beat: another candidate's mean square error has
+/// to be so much less to count as much.
+inline constexpr double short_gap_s = 0.1;
+inline constexpr double clearly_better = 4;
 
 /// Mean scalar products, over the frames of one span, of what the candidates propose: C x C. Of a
 /// trial about the truth, so that they are products of errors; of the gap about any one of them.
 Eigen::MatrixXd products_of(const std::vector<std::vector<Vec3>>& proposals,
                             std::span<const Vec3> origin);
 
-struct Judgement {
-  std::vector<double> weights;  ///< of the candidates; their sum is 1
-  double expected_error = 0;    ///< root mean square distance to the truth
+/// Spans of the take that were filled to see how the candidates do.
+struct Trials {
+  std::vector<Eigen::MatrixXd> products;  ///< of the candidates' errors; empty: no room
+  double longer = 1;                      ///< the gap is, than these; its errors grow with it
 };
 
-/// The trials tell a candidate's mean square error; the gap may be harder than they are, and
-/// candidates that differ more in it than in the trials say so: a candidate's mean square error is
-/// multiplied by (D / D')^g, with D the mean square by which those of its kind differ in the gap
-/// (models from each other, a curve from the line) and D' that in the trials. The candidates are
-/// averaged with the weights 1 / square^2. A curve goes before the models unless these were clearly
-/// better in the trials. The error of that average in the trials, with the ratio of the differences
-/// of all, is the error to be expected.
-/// `longer`: length of the gap over that of the trials; the mean square error grows with it.
-/// `grain`: lengths below it mean nothing.
-Judgement judge(std::span<const CandidateKind> kinds, const Eigen::MatrixXd& gap,
-                std::span<const Eigen::MatrixXd> trials, double longer, double grain);
+/// What trials (one at least) tell about the candidates for one gap. The gap may be harder than the
+/// trials were, and candidates that differ more in it than in the trials say so: mean square errors
+/// of the trials are multiplied by (D / D')^g, with D the mean square by which candidates differ in
+/// the gap and D' that in the trials.
+class Judgement {
+ public:
+  /// `gap`: products of what the candidates propose for it. `grain`: lengths below it mean nothing.
+  Judgement(std::vector<CandidateKind> kinds, Eigen::MatrixXd gap, Trials trials, double grain);
+
+  /// The mean square error to be expected of each candidate, by how much the models differ from
+  /// each other, and a curve from the line; infinite for the line. The spline's is its typical one:
+  /// a single trial in which it went astray says nothing against it.
+  const std::vector<double>& squares() const { return squares_; }
+  /// Weights of the candidates in their average, as 1 / square^2; their sum is 1. The spline's
+  /// square is divided by `favour` first.
+  std::vector<double> weights(double favour) const;
+  /// Root mean square distance to the truth of the average with these weights, by how much all
+  /// differ from it.
+  double expected_error(std::span<const double> weights) const;
+
+ private:
+  void judge_models();
+  void judge_curve(std::size_t candidate);
+
+  std::vector<CandidateKind> kinds_;
+  Eigen::MatrixXd gap_;
+  Trials trials_;
+  double floor_;
+  std::vector<double> squares_;
+};
 
 }  // namespace kinemend::fill

@@ -15,13 +15,12 @@ namespace kinemend::fill {
 namespace {
 
 constexpr std::string_view name = "auto";
-constexpr double longest_curve_s = 0.1;
 constexpr double longest_spline_s = 1;
 constexpr std::size_t trial_frames = 12;
 constexpr std::size_t least_companions = 3;
 // Expected errors beyond this share of the body's radius are refused; none is stated below the
 // other.
-constexpr double largest_error = 0.1;
+constexpr double largest_error = 0.125;
 constexpr double least_error = 1e-4;
 
 // Groups of companions, and how stiff the body is taken to be (shares of its radius).
@@ -57,8 +56,8 @@ class Candidates {
       for (const double stiffness : stiffness_)
         add(CandidateKind::model, std::isfinite(stiffness) ? "local-regression" : "rigid-body");
     }
-    if (gap.span.length() > samples.frames_in(longest_curve_s, 1)) return;
-    add(CandidateKind::curve, "spline");
+    if (gap.span.length() > samples.frames_in(short_gap_s, 1)) return;
+    add(CandidateKind::spline, "spline");
     add(CandidateKind::line, "");
   }
 
@@ -112,12 +111,6 @@ class Candidates {
   std::vector<std::string_view> methods_;
 };
 
-// Spans of the take that were filled to see how the candidates do.
-struct Trials {
-  std::vector<Eigen::MatrixXd> products;  ///< of the candidates' errors; empty: no room
-  double longer = 1;                      ///< the gap is, than these
-};
-
 Trials try_out(const Samples& samples, const MarkerGap& gap, const Candidates& candidates) {
   Trials trials;
   for (const MarkerGap& trial : trial_gaps(samples, gap, candidates.markers_used())) {
@@ -135,19 +128,21 @@ Trials try_out(const Samples& samples, const MarkerGap& gap, const Candidates& c
 // The proposals for a gap averaged as the trials tell.
 Filling average(const Samples& samples, const MarkerGap& gap, const Candidates& candidates,
                 const Candidates::Proposals& proposals, const Trials& trials) {
-  const Judgement judgement = judge(candidates.kinds(), products_of(proposals, proposals.front()),
-                                    trials.products, trials.longer, least_error * samples.radius);
+  const Judgement judgement(candidates.kinds(), products_of(proposals, proposals.front()), trials,
+                            least_error * samples.radius);
+  // Curves are candidates in short gaps alone.
+  const std::vector<double> weights = judgement.weights(clearly_better);
   std::map<std::string_view, double> shares;
   Filling filling{std::vector<Vec3>(gap.span.length())};
   for (std::size_t c = 0; c < proposals.size(); ++c) {
-    shares[candidates.method(c)] += judgement.weights[c];
+    shares[candidates.method(c)] += weights[c];
     for (std::size_t i = 0; i < filling.positions.size(); ++i)
-      filling.positions[i] += judgement.weights[c] * proposals[c][i];
+      filling.positions[i] += weights[c] * proposals[c][i];
   }
   filling.method = std::max_element(shares.begin(), shares.end(), [](const auto& a, const auto& b) {
                      return a.second < b.second;
                    })->first;
-  filling.expected_error = judgement.expected_error;
+  filling.expected_error = judgement.expected_error(weights);
   filling.is_evidence = candidates.kinds().front() == CandidateKind::model;
   return filling;
 }
@@ -191,8 +186,8 @@ Filling fill_by_auto(const Samples& samples, const MarkerGap& gap, const MarkerR
     return filling;
   }
   Filling refused = Filling::refused(
-      filling.method, fmt::format("expected to be off by {:.3g}, more than a tenth of the body's "
-                                  "radius of {:.3g}",
+      filling.method, fmt::format("expected to be off by {:.3g}, more than an eighth of the "
+                                  "body's radius of {:.3g}",
                                   filling.expected_error, radius));
   refused.expected_error = filling.expected_error;
   return refused;

@@ -63,8 +63,7 @@ std::vector<Vec3> meet_ends(const Samples& samples, const MarkerGap& gap, std::s
 /// deviation).
 inline constexpr double segment_spread = 0.02;
 
-/// Spans as long as the gap in which its marker is seen, for trying a method: the four nearest to
-/// the gap, and three evenly over the take; shorter ones where there is no room. Those of a gap at
+/// Spans in which the gap's marker is seen, for trying a method (`trial_places`); those of a gap at
 /// an end of the take are tried as if the take ended with them. `helpers` are seen in all of them.
 std::vector<MarkerGap> trial_gaps(const Samples& samples, const MarkerGap& gap,
                                   std::span<const std::size_t> helpers);
