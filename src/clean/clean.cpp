@@ -134,7 +134,7 @@ void finish_translations(const Work& work, Clip& motion) {
   }
 }
 
-// The cleaner takes what the step before it filled for measured.
+// Also where the cleaner did not look at a gap.
 void state_filled(const std::vector<std::uint8_t>& observed, const Clip& motion,
                   CleanTrace& trace) {
   if (observed == motion.observed) return;
@@ -169,19 +169,20 @@ CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner, const CleanSett
   const std::size_t frames = motion.frame_count();
   std::vector<double> weights =
       frame_weights(settings, clip.frame_count(), first, clip.frame_rate_hz);
-  const std::vector<std::uint8_t> observed = motion.observed;
+  const Clip measured = settings.fill ? motion : Clip{};
+  bridge_positions(motion);
+  CleanTrace trace = cleaner.clean(motion, selection);
+  report.warnings = trace.warnings;
   if (settings.fill) {
-    report.fill = fill_step(motion, selection.joints, weights, *settings.fill);
+    report.fill = fill_step(measured, cleaner, selection, weights, *settings.fill, trace, motion);
     for (GapOutcome& outcome : report.fill.gaps) {
       outcome.gap.first_frame += first;
       outcome.gap.last_frame += first;
     }
-    report.warnings = report.fill.warnings;
+    report.warnings.insert(report.warnings.end(), report.fill.warnings.begin(),
+                           report.fill.warnings.end());
+    state_filled(measured.observed, motion, trace);
   }
-  bridge_positions(motion);
-  CleanTrace trace = cleaner.clean(motion, selection);
-  report.warnings.insert(report.warnings.end(), trace.warnings.begin(), trace.warnings.end());
-  state_filled(observed, motion, trace);
   if (settings.feet) {
     report.feet = feet_step(motion, selection, *settings.feet, first, trace);
     report.warnings.insert(report.warnings.end(), report.feet->warnings.begin(),

@@ -69,10 +69,6 @@ MarkerResult clean_markers(const MarkerClip& clip, const Cleaner& cleaner,
   report.body_height = selection.body_height;
   for (std::size_t m = 0; m < markers; ++m)
     selection.markers[m] = marker_selected(clip, selection, m);
-  if (settings.fill) {
-    report.fill = fill_step(result.clip, selection.markers, weights, *settings.fill);
-    add_fill_warnings(report);
-  }
   if (settings.feet && settings.feet->mode != FeetMode::off) {
     report.warnings.emplace_back(
         "feet: markers are measured points and stay where they are; feet are held in takes of "
@@ -80,6 +76,10 @@ MarkerResult clean_markers(const MarkerClip& clip, const Cleaner& cleaner,
   }
   const MarkerTrace trace = cleaner.clean_markers(result.clip, selection);
   report.warnings.insert(report.warnings.end(), trace.warnings.begin(), trace.warnings.end());
+  if (settings.fill) {
+    report.fill = fill_step(clip, cleaner, selection, weights, *settings.fill, trace, result.clip);
+    add_fill_warnings(report);
+  }
 
   empty_outside(result.clip, clip, weights);
 

@@ -1,8 +1,10 @@
 #include "clean/gap_step.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
-#include "kinemend/cleaner.hpp"
+#include "clean/tracks.hpp"
 #include "kinemend/methods.hpp"
 
 namespace kinemend {
@@ -11,41 +13,74 @@ namespace {
 
 std::unique_ptr<Cleaner> make_despiker() { return make_auto({.sensitivity = 0, .despike = true}); }
 
-void despike(Clip& clip) { make_despiker()->clean(clip, Selection::all(clip)); }
-void despike(MarkerClip& clip) { make_despiker()->clean_markers(clip, MarkerSelection::all(clip)); }
+bool holds_more_spikes(const std::vector<Action>& found, const std::vector<Action>& repaired) {
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i] == Action::despiked && (repaired.empty() || repaired[i] != Action::despiked))
+      return true;
+  }
+  return false;
+}
 
-// Calls `take_over(i)` for the samples of `filled` that were missing and may be filled.
+// What the gaps are filled from: the cleaned take, or one that was cleaned without its spikes.
+Clip evidence_of(const Clip& measured, const Cleaner& cleaner, const Selection& selection,
+                 const CleanTrace& trace, const Clip& cleaned) {
+  Clip despiked = measured;
+  bridge_positions(despiked);
+  const CleanTrace spikes = make_despiker()->clean(despiked, Selection::all(despiked));
+  const bool some_left = holds_more_spikes(spikes.actions, trace.actions) ||
+                         holds_more_spikes(spikes.root_actions, trace.root_actions);
+  if (some_left) cleaner.clean(despiked, selection);
+  Clip evidence = some_left ? std::move(despiked) : cleaned;
+  evidence.observed = measured.observed;
+  evidence.observed_positions = measured.observed_positions;
+  return evidence;
+}
+
+MarkerClip evidence_of(const MarkerClip& measured, const Cleaner& cleaner,
+                       const MarkerSelection& selection, const MarkerTrace& trace,
+                       const MarkerClip& cleaned) {
+  MarkerClip despiked = measured;
+  const MarkerTrace spikes =
+      make_despiker()->clean_markers(despiked, MarkerSelection::all(despiked));
+  const bool some_left = holds_more_spikes(spikes.actions, trace.actions);
+  if (some_left) cleaner.clean_markers(despiked, selection);
+  MarkerClip evidence = some_left ? std::move(despiked) : cleaned;
+  evidence.observed = measured.observed;
+  return evidence;
+}
+
+// Calls `take_over(i)` for the samples that were not measured, are filled, and may be.
 template <class TakeOver>
-void for_each_filled(std::vector<std::uint8_t>& observed,
-                     const std::vector<std::uint8_t>& filled_observed,
+void for_each_filled(const std::vector<std::uint8_t>& measured,
+                     const std::vector<std::uint8_t>& filled,
                      const std::vector<std::uint8_t>& selected, const std::vector<double>& weights,
                      const TakeOver& take_over) {
-  for (std::size_t i = 0; i < observed.size(); ++i) {
+  for (std::size_t i = 0; i < measured.size(); ++i) {
     const bool may_change = selected[i % selected.size()] != 0 && weights[i / selected.size()] > 0;
-    if (observed[i] != 0 || filled_observed[i] == 0 || !may_change) continue;
-    observed[i] = 1;
-    take_over(i);
+    if (measured[i] == 0 && filled[i] != 0 && may_change) take_over(i);
   }
 }
 
 // The same of the root position and the translations, which are selected with their joints.
-void take_over_positions(Clip& clip, const Clip& filled, const std::vector<std::uint8_t>& selected,
-                         const std::vector<double>& weights) {
+void take_over_positions(const Clip& measured, const Clip& filled,
+                         const std::vector<std::uint8_t>& selected,
+                         const std::vector<double>& weights, Clip& clip) {
   const std::size_t translated = clip.translated_joints.size();
   std::vector<std::uint8_t> tracks{selected[0]};
   for (const auto joint : clip.translated_joints)
     tracks.push_back(selected[static_cast<std::size_t>(joint)]);
-  std::vector<std::uint8_t> all(clip.observed_positions.size(), 1);
-  const auto& now = filled.observed_positions.empty() ? all : filled.observed_positions;
-  for_each_filled(clip.observed_positions, now, tracks, weights, [&](std::size_t i) {
+  const auto take_over = [&](std::size_t i) {
     const std::size_t frame = i / tracks.size(), track = i % tracks.size();
+    clip.observed_positions[i] = 1;
     if (track == 0) {
       clip.root_positions[frame] = filled.root_positions[frame];
     } else {
       const std::size_t at = frame * translated + track - 1;
       clip.joint_translations[at] = filled.joint_translations[at];
     }
-  });
+  };
+  for_each_filled(measured.observed_positions, filled.observed_positions, tracks, weights,
+                  take_over);
 }
 
 void drop_unselected(FillReport& report, const std::vector<std::uint8_t>& selected) {
@@ -55,31 +90,35 @@ void drop_unselected(FillReport& report, const std::vector<std::uint8_t>& select
 
 }  // namespace
 
-FillReport fill_step(Clip& clip, const std::vector<std::uint8_t>& selected,
-                     const std::vector<double>& weights, const FillSettings& settings) {
-  if (clip.observed.empty() && clip.observed_positions.empty()) return {};
-  Clip filled = clip;
-  despike(filled);
+FillReport fill_step(const Clip& measured, const Cleaner& cleaner, const Selection& selection,
+                     const std::vector<double>& weights, const FillSettings& settings,
+                     const CleanTrace& trace, Clip& cleaned) {
+  if (find_gaps(measured).empty() && find_position_gaps(measured).empty()) return {};
+  Clip filled = evidence_of(measured, cleaner, selection, trace, cleaned);
   FillReport report = fill_gaps(filled, settings);
-  drop_unselected(report, selected);
-  if (filled.observed.empty()) filled.observed.assign(filled.local_rotations.size(), 1);
-  for_each_filled(clip.observed, filled.observed, selected, weights,
-                  [&](std::size_t i) { clip.local_rotations[i] = filled.local_rotations[i]; });
-  take_over_positions(clip, filled, selected, weights);
+  drop_unselected(report, selection.joints);
+  for_each_filled(measured.observed, filled.observed, selection.joints, weights,
+                  [&](std::size_t i) {
+                    cleaned.local_rotations[i] = filled.local_rotations[i];
+                    cleaned.observed[i] = 1;
+                  });
+  take_over_positions(measured, filled, selection.joints, weights, cleaned);
   return report;
 }
 
-FillReport fill_step(MarkerClip& clip, const std::vector<std::uint8_t>& selected,
-                     const std::vector<double>& weights, const FillSettings& settings) {
-  if (find_gaps(clip).empty()) return {};
-  MarkerClip filled = clip;
-  despike(filled);
+FillReport fill_step(const MarkerClip& measured, const Cleaner& cleaner,
+                     const MarkerSelection& selection, const std::vector<double>& weights,
+                     const FillSettings& settings, const MarkerTrace& trace, MarkerClip& cleaned) {
+  if (find_gaps(measured).empty()) return {};
+  MarkerClip filled = evidence_of(measured, cleaner, selection, trace, cleaned);
   FillReport report = fill_gaps(filled, settings);
-  drop_unselected(report, selected);
-  for_each_filled(clip.observed, filled.observed, selected, weights, [&](std::size_t i) {
-    clip.positions[i] = filled.positions[i];
-    if (!clip.residuals.empty()) clip.residuals[i] = 0;
-  });
+  drop_unselected(report, selection.markers);
+  for_each_filled(measured.observed, filled.observed, selection.markers, weights,
+                  [&](std::size_t i) {
+                    cleaned.positions[i] = filled.positions[i];
+                    cleaned.observed[i] = 1;
+                    if (!cleaned.residuals.empty()) cleaned.residuals[i] = 0;
+                  });
   return report;
 }
 

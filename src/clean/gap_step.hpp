@@ -1,21 +1,26 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
+#include "kinemend/cleaner.hpp"
 #include "kinemend/clip.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/marker_clip.hpp"
 
-// The step of the pipeline that fills gaps.
+// The step of the pipeline that fills gaps, behind the cleaner: what it fills is no measurement.
 namespace kinemend {
 
-/// Fills the gaps of the selected joints or markers in the frames of weight above 0, in place. The
-/// methods see the take without its spikes, as `auto` finds them; nothing but gaps changes. The
-/// report lists the gaps of what is selected.
-FillReport fill_step(Clip& clip, const std::vector<std::uint8_t>& selected,
-                     const std::vector<double>& weights, const FillSettings& settings);
-FillReport fill_step(MarkerClip& clip, const std::vector<std::uint8_t>& selected,
-                     const std::vector<double>& weights, const FillSettings& settings);
+/// Fills the gaps of the selected joints or markers in the frames of weight above 0. `measured` is
+/// the take before the cleaner, `cleaned` behind it, with what the cleaner says of it in `trace`;
+/// the gaps are filled in `cleaned`, from its samples, so that they meet these. Where the cleaner
+/// has left spikes, as `auto` finds them, they are filled from a take that was cleaned without
+/// them. A gap that is refused stays as the cleaner has left it. The report lists the gaps of what
+/// is selected.
+FillReport fill_step(const Clip& measured, const Cleaner& cleaner, const Selection& selection,
+                     const std::vector<double>& weights, const FillSettings& settings,
+                     const CleanTrace& trace, Clip& cleaned);
+FillReport fill_step(const MarkerClip& measured, const Cleaner& cleaner,
+                     const MarkerSelection& selection, const std::vector<double>& weights,
+                     const FillSettings& settings, const MarkerTrace& trace, MarkerClip& cleaned);
 
 }  // namespace kinemend

@@ -128,6 +128,7 @@ JointTrials try_out(const JointTrack& track, Span gap, const Methods& methods,
   const TakeEnds ends{gap.first == 0, gap.last + 1 == track.observed.size()};
   const std::vector<Span> spans = trial_places(usable, first, gap);
   JointTrials result;
+  result.trials.at_end = ends.at_start || ends.at_end;
   for (const Span span : spans)
     result.trials.products.push_back(try_span(track, span, ends, methods, context));
   if (spans.empty()) return result;

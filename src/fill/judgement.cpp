@@ -14,7 +14,7 @@ namespace {
 constexpr double choice_exponent = 0.5;
 constexpr double error_exponent = 0.7;
 // Few trials do not show the worst: the error is stated above their root mean square.
-constexpr double caution = 1.3;
+constexpr double caution = 1.3, caution_at_end = 2;
 constexpr double least_ratio = 1.0 / 16, most_ratio = 1e4;
 
 using Matrix = Eigen::MatrixXd;
@@ -155,7 +155,8 @@ double Judgement::expected_error(std::span<const double> weights) const {
   }
   const double square = mean_over(
       trials_.products, [&](const Matrix& trial) { return std::max(0.0, w.dot(trial * w)); });
-  return caution * std::sqrt(trials_.longer * square * std::pow(ratio, error_exponent) + floor_);
+  return (trials_.at_end ? caution_at_end : caution) *
+         std::sqrt(trials_.longer * square * std::pow(ratio, error_exponent) + floor_);
 }
 
 }  // namespace kinemend::fill

@@ -32,6 +32,7 @@ Eigen::MatrixXd products_of(const std::vector<std::vector<Vec3>>& proposals,
 struct Trials {
   std::vector<Eigen::MatrixXd> products;  ///< of the candidates' errors; empty: no room
   double longer = 1;                      ///< the gap is, than these; its errors grow with it
+  bool at_end = false;                    ///< of the take: one side of the gap tells nothing
 };
 
 /// What trials (one at least) tell about the candidates for one gap. The gap may be harder than the

@@ -113,6 +113,7 @@ class Candidates {
 
 Trials try_out(const Samples& samples, const MarkerGap& gap, const Candidates& candidates) {
   Trials trials;
+  trials.at_end = gap.span.first == 0 || gap.span.last + 1 == samples.frames;
   for (const MarkerGap& trial : trial_gaps(samples, gap, candidates.markers_used())) {
     const std::vector<std::size_t> wanted = frames_of(trial.span, trial_frames);
     std::vector<Vec3> truth;
