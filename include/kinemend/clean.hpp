@@ -35,8 +35,9 @@ struct CleanSettings {
   /// result is blended in over 0.1 s at either end that is not an end of the take.
   std::optional<std::pair<std::size_t, std::size_t>> range;
   double peak_loss_limit = 0.10;  ///< a larger loss of a peak speed is a warning (0..1)
-  /// Fills gaps before anything is denoised, from a copy of the take without its spikes; not set:
-  /// no. Gaps outside the selection and the range stay. Its own list of names must be empty.
+  /// Fills gaps from what the method made of the measured samples, or without the spikes that it
+  /// left there; not set: no. Gaps outside the selection and the range stay. Its own list of names
+  /// must be empty.
   std::optional<FillSettings> fill;
   /// Stops feet in contact from sliding, after everything else; not set: no. A leg of which not all
   /// joints are selected keeps its slide. Contacts are of frames of the whole take. Means nothing
@@ -126,16 +127,16 @@ struct MarkerResult {
   MarkerReport report;
 };
 
-/// The main path: takes calibration frames off, fills gaps if asked, runs the cleaner, holds feet
-/// if asked, blends by strength, range and largest change, and reports. Samples outside the
-/// selection, joints without rotation channels and samples whose change is below 1e-9 degrees keep
-/// their exact value; the rotations of joints with one or two rotation channels are those that the
-/// channels can hold. Errors: `ErrorKind::usage` for settings out of range and for a joint pattern
-/// that matches nothing.
+/// The main path: takes calibration frames off, runs the cleaner, fills gaps if asked (what was
+/// measured comes out as without), holds feet if asked, blends by strength, range and largest
+/// change, and reports. Samples outside the selection, joints without rotation channels and samples
+/// whose change is below 1e-9 degrees keep their exact value; the rotations of joints with one or
+/// two rotation channels are those that the channels can hold. Errors: `ErrorKind::usage` for
+/// settings out of range and for a joint pattern that matches nothing.
 CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner, const CleanSettings& settings = {},
                        std::string method_name = {});
 
-/// The same for markers: fills gaps if asked, runs the cleaner, blends by strength, range and
+/// The same for markers: runs the cleaner, fills gaps if asked, blends by strength, range and
 /// largest change, and reports. What is missing and not filled stays missing; points that are no
 /// positions, markers outside the selection and samples whose change is below rounding keep their
 /// exact value. Residuals stay, and are 0 where a sample was filled. `max_change_deg` and

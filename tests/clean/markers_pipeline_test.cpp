@@ -148,7 +148,7 @@ TEST(MarkerPipeline, WarnsOfALostPeak) {
   EXPECT_THAT(result.report.warnings[0], HasSubstr(" mm/s ("));
 }
 
-TEST(MarkerPipeline, FillsBeforeItDenoises) {
+TEST(MarkerPipeline, FillsFromWhatIsDenoised) {
   MarkerClip truth = marker_take("walk", 2);
   truth.residuals.assign(truth.positions.size(), 0.5F);
   MarkerClip clip = damaged(truth, 1, 0, 0, 5);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <numeric>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "fill/made_gaps.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
@@ -133,6 +135,82 @@ TEST(FillRealTakes, AutoIsBetterThanEachMethodByItself) {
        {"spline", "quintic", "pchip", "rigid-body", "pca", "local-regression"}) {
     EXPECT_LT(chosen, figures(truth, 30, method).mean) << method;
   }
+}
+
+// Promises, over takes that nothing was chosen with: no subject of these is among those that are.
+struct Promises {
+  std::vector<fill::Kept> kept;
+
+  template <class AnyClip>
+  void add(const AnyClip& truth, std::vector<std::size_t> tracks, std::uint64_t rounds) {
+    for (std::uint64_t seed = 1; seed <= rounds; ++seed) {
+      const auto some = fill::make_and_fill(truth, tracks, 8, seed);
+      kept.insert(kept.end(), some.begin(), some.end());
+    }
+  }
+
+  // `least`: a short gap's error that counts.
+  fill::Figures figures(const char* what, double least) const {
+    const fill::Figures f = fill::figures_of(kept, least);
+    printf(
+        "  %s: %zu gaps, %.1f %% within twice, %zu above ten times, worst %.1f times; %zu of %zu "
+        "short ones worse than twice the spline\n",
+        what, f.gaps, 100 * f.share_within_twice(), f.above_ten, f.worst, f.worse_than_spline,
+        f.short_gaps);
+    return f;
+  }
+};
+
+// Markers that are seen in every frame.
+std::vector<std::size_t> whole_markers(const MarkerClip& clip) {
+  std::vector<std::size_t> whole;
+  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+    bool seen = true;
+    for (std::size_t f = 0; seen && f < clip.frame_count(); ++f) seen = clip.is_observed(f, m);
+    if (seen) whole.push_back(m);
+  }
+  return whole;
+}
+
+TEST(FillRealTakes, PromisesOfMarkersHoldOnTakesOfOthers) {
+  Promises promises;
+  for (const char* path :
+       {"c3d/other/HDM_bd_05-01_01_120.c3d", "c3d/btk/others/FunctionalLHip.c3d",
+        "c3d/btk/others/561xxa01_anonym.C3D", "c3d/btk/c3d.org/sample21/sample21.c3d",
+        "paired/S02-Trial-Walk-1-vicon.c3d", "trc/SprintMotion.trc", "trc/MOTEK/ballet_reduced.trc",
+        "real/depth-RTK.reference.trc"}) {
+    const std::size_t skip = std::string(path).find("HDM") == std::string::npos ? 0 : 3;
+    const MarkerClip truth = points_of(path, skip, body_markers);
+    promises.add(truth, whole_markers(truth), 8);
+  }
+  const fill::Figures f = promises.figures("markers", 0.5);
+  EXPECT_GT(f.gaps, 300U);
+  EXPECT_GE(f.share_within_twice(), 0.9);
+  EXPECT_EQ(f.above_ten, 0U);
+  EXPECT_LE(f.worse_than_spline, f.short_gaps / 200);
+}
+
+TEST(FillRealTakes, PromisesOfJointsHoldOnTakesOfOthers) {
+  Promises promises;
+  for (const char* name :
+       {"01_05", "03_03", "07_04", "09_05", "10_03", "11_01", "35_20", "131_05"}) {
+    const std::string path = std::string(KINEMEND_DATA_FOLDER "/cmu/bvh/") + name + ".bvh";
+    const Clip all = read_clip(std::filesystem::path(path)).clip;
+    const Clip truth = slice(all, leading_calibration_frames(all), all.frame_count());
+    std::vector<std::size_t> moving;
+    for (std::size_t j = 0; j < truth.joint_count(); ++j) {
+      double farthest = 0;
+      for (std::size_t f = 0; f < truth.frame_count(); ++f)
+        farthest = std::max(farthest, angle_between(truth.rotation(0, j), truth.rotation(f, j)));
+      if (farthest > 0.02) moving.push_back(j);
+    }
+    promises.add(truth, moving, 8);
+  }
+  const fill::Figures f = promises.figures("joints", 0.1);
+  EXPECT_GT(f.gaps, 300U);
+  EXPECT_GE(f.share_within_twice(), 0.9);
+  EXPECT_EQ(f.above_ten, 0U);
+  EXPECT_LE(f.worse_than_spline, f.short_gaps / 200);
 }
 
 }  // namespace

@@ -1,0 +1,55 @@
+// Real takes with gaps: filling them changes nothing that was measured, and rests on no spike.
+#include <gtest/gtest.h>
+
+#include <variant>
+
+#include "kinemend/clean.hpp"
+#include "kinemend/gaps.hpp"
+#include "kinemend/io.hpp"
+
+namespace kinemend::test {
+namespace {
+
+MarkerClip take_of(const std::string& path) {
+  return std::get<MarkerClip>(read_take(std::filesystem::path(KINEMEND_DATA_FOLDER) / path).take);
+}
+
+MarkerResult filled(const MarkerClip& clip) {
+  CleanSettings settings;
+  settings.fill = FillSettings{};
+  return clean_markers(clip, *make_cleaner("auto"), settings);
+}
+
+TEST(GapStepOfRealTakes, LeavesWhatWasMeasuredAsCleaningAloneMakesIt) {
+  for (const char* path :
+       {"c3d/btk/c3d.org/sample01/Eb015pr.c3d", "c3d/btk/c3d.org/sample06/MACsample.c3d",
+        "c3d/btk/c3d.org/sample28/dynamic.C3D", "c3d/btk/c3d.org/sample02/pc_real.c3d",
+        "c3d/btk/others/561xxa01_anonym.C3D", "c3d/kineticstoolkit/c3d_sample.c3d"}) {
+    const MarkerClip clip = take_of(path);
+    const MarkerResult alone = clean_markers(clip, *make_cleaner("auto"));
+    const MarkerResult with = filled(clip);
+    EXPECT_GT(with.report.fill.filled(), 0U) << path;
+    for (std::size_t i = 0; i < clip.positions.size(); ++i) {
+      if (clip.observed[i] == 0) continue;
+      ASSERT_EQ(with.clip.positions[i], alone.clip.positions[i]) << path << ", sample " << i;
+    }
+    for (std::size_t m = 0; m < clip.marker_count(); ++m)
+      EXPECT_EQ(with.report.markers[m].noise, alone.report.markers[m].noise) << path;
+  }
+}
+
+TEST(GapStepOfRealTakes, ASpikeBesideAGapIsRepairedAndDoesNotBendTheFilling) {
+  const MarkerClip clip = take_of("c3d/btk/c3d.org/sample01/Eb015pr.c3d");
+  MarkerClip spiked = clip;
+  for (const Gap& gap : find_gaps(clip)) {
+    if (gap.first_frame > 10) spiked.position(gap.first_frame - 1, gap.track) += {0, 0, 400};
+  }
+  const MarkerClip with = filled(spiked).clip, without = filled(clip).clip;
+  for (std::size_t i = 0; i < clip.positions.size(); ++i) {
+    if (clip.observed[i] != 0 || without.observed[i] == 0 || with.observed[i] == 0) continue;
+    EXPECT_LT(norm(with.positions[i] - without.positions[i]), 20) << "sample " << i;
+  }
+}
+
+}  // namespace
+}  // namespace kinemend::test

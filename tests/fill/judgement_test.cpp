@@ -1,0 +1,153 @@
+// How candidates for a gap are judged: weights and expected errors by hand, and the places of
+// trials.
+#include "fill/judgement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "fill/joint_trials.hpp"
+#include "fill/trial_places.hpp"
+#include "kinemend/gaps.hpp"
+#include "kinemend/synth.hpp"
+
+namespace kinemend::fill {
+namespace {
+
+using Proposals = std::vector<std::vector<Vec3>>;
+constexpr auto model = CandidateKind::model;
+constexpr auto spline = CandidateKind::spline;
+constexpr auto line = CandidateKind::line;
+
+// Candidates that are off by these along x in every one of three frames.
+Eigen::MatrixXd errors(const std::vector<double>& along_x) {
+  Proposals proposals;
+  for (const double x : along_x) proposals.push_back({{x, 0, 0}, {x, 0, 0}, {x, 0, 0}});
+  return products_of(proposals, std::vector<Vec3>(3));
+}
+
+TEST(Judgement, ProductsAreMeansOverTheFrames) {
+  const Proposals proposals{{{1, 2, 2}, {0, 0, 0}}, {{3, 0, 0}, {0, 4, 0}}};
+  const Eigen::MatrixXd products = products_of(proposals, std::vector<Vec3>{{0, 0, 0}, {0, 1, 0}});
+  EXPECT_NEAR(products(0, 0), (9 + 1) / 2.0, 1e-12);
+  EXPECT_NEAR(products(1, 1), (9 + 9) / 2.0, 1e-12);
+  EXPECT_NEAR(products(0, 1), (3 - 3) / 2.0, 1e-12);
+}
+
+TEST(Judgement, WeighsByTheInverseFourthPowerOfErrorsAndNeverTheLine) {
+  const auto trial = errors({1, -2, 5});
+  const Judgement judgement({model, model, line}, trial, {{trial, trial}, 1}, 0);
+  const std::vector<double> weights = judgement.weights(clearly_better);
+  EXPECT_NEAR(weights[0] / weights[1], 16, 1e-9);
+  EXPECT_EQ(weights[2], 0);
+  EXPECT_NEAR(weights[0] + weights[1], 1, 1e-12);
+}
+
+TEST(Judgement, AGapInWhichCandidatesDifferAsInTheTrialsPromisesALittleMoreThanTheirError) {
+  const auto trial = errors({1, -1, 5});
+  const Judgement judgement({model, model, line}, trial, {{trial, trial, trial}, 1}, 0);
+  const double expected = judgement.expected_error(std::vector<double>{1, 0, 0});
+  EXPECT_GT(expected, 1);
+  EXPECT_LT(expected, 1.5);
+}
+
+TEST(Judgement, CandidatesThatDifferMoreThanInTheTrialsPromiseMore) {
+  const std::vector<double> weights{1, 0, 0};
+  const auto trial = errors({1, -1, 5});
+  const auto expected = [&](double farther) {
+    const auto gap = errors({farther, -farther, 5 * farther});
+    return Judgement({model, model, line}, gap, {{trial, trial, trial}, 1}, 0)
+        .expected_error(weights);
+  };
+  EXPECT_NEAR(expected(4) / expected(1), std::pow(4, 0.7), 1e-9);
+  EXPECT_NEAR(expected(1) / expected(0.5), std::pow(2, 0.7), 1e-9);
+}
+
+TEST(Judgement, LongerGapsAndEndsOfTheTakePromiseMore) {
+  const std::vector<double> weights{1, 0, 0};
+  const auto trial = errors({1, -1, 5});
+  const auto expected = [&](double longer, bool at_end) {
+    return Judgement({model, model, line}, trial, {{trial}, longer, at_end}, 0)
+        .expected_error(weights);
+  };
+  EXPECT_NEAR(expected(4, false) / expected(1, false), 2, 1e-9);
+  EXPECT_GT(expected(1, true), 1.2 * expected(1, false));
+}
+
+TEST(Judgement, TheSplineGoesBeforeModelsThatWereALittleBetter) {
+  const auto trial = errors({0.7, 0.8, 1, 5});
+  const Judgement judgement({model, model, spline, line}, trial, {{trial, trial, trial}, 1}, 0);
+  const std::vector<double> weights = judgement.weights(clearly_better);
+  EXPECT_GT(weights[2], 0.5);
+  const auto clear = errors({0.2, 0.3, 1, 5});
+  const Judgement other({model, model, spline, line}, clear, {{clear, clear, clear}, 1}, 0);
+  EXPECT_LT(other.weights(clearly_better)[2], 0.1);
+}
+
+TEST(Judgement, OneTrialThatWentAstraySaysNothingAgainstTheSpline) {
+  const auto usual = errors({1, 1.1, 0.5, 5}), astray = errors({1, 1.1, 20, 5});
+  const Judgement judgement({model, model, spline, line}, usual, {{usual, usual, usual, astray}, 1},
+                            0);
+  EXPECT_GT(judgement.weights(clearly_better)[2], 0.5);
+  // But it is told.
+  EXPECT_GT(judgement.expected_error(std::vector<double>{0, 0, 1, 0}), 4);
+}
+
+TEST(TrialPlaces, AreSeenThroughoutAndLieAboutTheGapAndElsewhere) {
+  std::vector<std::uint8_t> usable(1000, 1);
+  const Span gap{400, 419};
+  std::fill(usable.begin() + 400, usable.begin() + 420, 0);
+  std::fill(usable.begin() + 440, usable.begin() + 450, 0);
+  const std::vector<Span> spans = trial_places(usable, 0, gap);
+  ASSERT_EQ(spans.size(), 9U);
+  std::size_t near = 0;
+  for (const Span span : spans) {
+    EXPECT_EQ(span.length(), 20U);
+    for (std::size_t f = span.first - 1; f <= span.last + 1; ++f) EXPECT_EQ(usable[f], 1) << f;
+    near += span.first > 300 && span.last < 520;
+  }
+  EXPECT_GE(near, 6U);
+  // A frame between, so that the gap's end and the trial's are not the same sample.
+  EXPECT_EQ(spans[0].last, 398U);
+}
+
+TEST(TrialPlaces, AreShorterWhereThereIsNoRoomAndNoneWhereThereIsNone) {
+  std::vector<std::uint8_t> usable(100, 1);
+  std::fill(usable.begin() + 20, usable.begin() + 80, 0);
+  const std::vector<Span> spans = trial_places(usable, 0, {20, 79});
+  ASSERT_FALSE(spans.empty());
+  EXPECT_EQ(spans[0].length(), 15U);
+  EXPECT_TRUE(trial_places(std::vector<std::uint8_t>(100, 0), 0, {20, 79}).empty());
+}
+
+// The same as a take in which the span is missing: nothing of what stands in it is known.
+TEST(HiddenSpan, IsAsAGapOfTheTake) {
+  const Clip clip = synthesize({.motion = "stroll", .duration_s = 4});
+  const std::size_t joint = 5;
+  const JointTrack whole = rotation_track(clip, joint);
+  const PoseRegression poses(clip);
+  const JointContext context{clip.frame_rate_hz, poses, 1};
+  for (const std::size_t first : {60U, 200U, 333U}) {
+    const Span span{first, first + 11};
+    Clip gapped = clip;
+    const NamedGap gap{clip.skeleton.names[joint], span.first, span.last};
+    mark_gaps(gapped, {&gap, 1});
+    JointTrack missing = rotation_track(gapped, joint);
+    JointTrack hidden = hide_span(whole, span, {}, 100, clip.frame_rate_hz);
+    const std::size_t shift = hidden.first_frame;
+    for (const char* name : {"slerp", "spline", "pchip", "squad"}) {
+      const JointMethod* method = find_joint_method(name);
+      ASSERT_TRUE(method->fill(missing, span, context));
+      ASSERT_TRUE(method->fill(hidden, {span.first - shift, span.last - shift}, context));
+      for (std::size_t f = span.first; f <= span.last; ++f) {
+        EXPECT_LT(angle_between(missing.rotation(f), hidden.rotation(f - shift)), 1e-9)
+            << name << ", frame " << f;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kinemend::fill

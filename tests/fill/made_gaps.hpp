@@ -1,0 +1,131 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "kinemend/fill.hpp"
+#include "kinemend/gaps.hpp"
+#include "kinemend/random.hpp"
+
+// Gaps made in takes that have none, and what becomes of what is promised of them.
+namespace kinemend::fill {
+
+/// One filled gap: what was promised, what became of it, and what a spline would have made.
+struct Kept {
+  double promised = 0, error = 0, spline_error = 0;
+  double length_s = 0;
+  bool inside = true;  ///< of the take
+};
+
+struct Figures {
+  std::size_t gaps = 0, within_twice = 0, above_ten = 0;
+  std::size_t short_gaps = 0, worse_than_spline = 0;
+  double worst = 0;  ///< error over promise
+
+  double share_within_twice() const {
+    return static_cast<double>(within_twice) / static_cast<double>(gaps);
+  }
+};
+
+/// `least`: a short gap's error that counts at all.
+inline Figures figures_of(const std::vector<Kept>& all, double least) {
+  Figures figures;
+  for (const Kept& kept : all) {
+    const double ratio = kept.error / kept.promised;
+    figures.gaps += 1;
+    figures.within_twice += ratio <= 2;
+    figures.above_ten += ratio > 10;
+    figures.worst = std::max(figures.worst, ratio);
+    if (kept.length_s > 0.1001 || !kept.inside) continue;
+    figures.short_gaps += 1;
+    figures.worse_than_spline += kept.error > std::max(2 * kept.spline_error, least);
+  }
+  return figures;
+}
+
+/// A length of 1 frame to 1 s, short ones as often as long ones.
+inline std::size_t random_length(Random& random, double frame_rate_hz) {
+  const double longest = std::log(frame_rate_hz);
+  return static_cast<std::size_t>(std::lround(std::exp(random.uniform(0, longest))));
+}
+
+inline double distance(const MarkerClip& a, const MarkerClip& b, std::size_t frame,
+                       std::size_t marker) {
+  return norm(a.position(frame, marker) - b.position(frame, marker));
+}
+
+/// Degrees.
+inline double distance(const Clip& a, const Clip& b, std::size_t frame, std::size_t joint) {
+  return angle_between(a.rotation(frame, joint), b.rotation(frame, joint)) * degrees_per_radian;
+}
+
+inline double step(const MarkerClip& clip, std::size_t frame, std::size_t marker) {
+  return norm(clip.position(frame + 1, marker) - clip.position(frame, marker));
+}
+inline double step(const Clip& clip, std::size_t frame, std::size_t joint) {
+  return angle_between(clip.rotation(frame, joint), clip.rotation(frame + 1, joint));
+}
+
+inline const std::string& name_of(const MarkerClip& clip, std::size_t marker) {
+  return clip.names[marker];
+}
+inline const std::string& name_of(const Clip& clip, std::size_t joint) {
+  return clip.skeleton.names[joint];
+}
+
+template <class AnyClip>
+double rms_error(const AnyClip& truth, const AnyClip& filled, const Gap& gap) {
+  double sum = 0;
+  for (std::size_t f = gap.first_frame; f <= gap.last_frame; ++f)
+    sum += std::pow(distance(truth, filled, f, gap.track), 2);
+  return std::sqrt(sum / static_cast<double>(gap.length()));
+}
+
+/// Makes one gap in each of some of the tracks, half of them where the track is fast, and fills
+/// them.
+template <class AnyClip>
+std::vector<Kept> make_and_fill(const AnyClip& truth, std::vector<std::size_t> tracks,
+                                std::size_t most, std::uint64_t seed) {
+  Random random(seed);
+  AnyClip clip = truth;
+  std::vector<NamedGap> gaps;
+  for (std::size_t i = 0; i < std::min(most, tracks.size()); ++i) {
+    std::swap(tracks[i], tracks[i + random.below(tracks.size() - i)]);
+    const std::size_t length = random_length(random, truth.frame_rate_hz);
+    if (truth.frame_count() < 2 * length + 20) continue;
+    const int tries = random.chance(0.5) ? 1 : 12;
+    std::size_t first = 0;
+    double fastest = -1;
+    for (int t = 0; t < tries; ++t) {
+      const std::size_t start = 5 + random.below(truth.frame_count() - length - 10);
+      double way = 0;
+      for (std::size_t f = start; f < start + length; ++f) way += step(truth, f, tracks[i]);
+      if (way > fastest) fastest = way, first = start;
+    }
+    gaps.push_back({name_of(truth, tracks[i]), first, first + length - 1});
+  }
+  mark_gaps(clip, gaps);
+  AnyClip splined = clip;
+  const FillReport report = fill_gaps(clip);
+  FillSettings settings;
+  settings.method = "spline";
+  settings.fill_all = true;
+  fill_gaps(splined, settings);
+  std::vector<Kept> all;
+  for (const GapOutcome& outcome : report.gaps) {
+    const bool made = std::any_of(gaps.begin(), gaps.end(), [&](const NamedGap& gap) {
+      return gap.name == name_of(truth, outcome.gap.track) &&
+             gap.first_frame == outcome.gap.first_frame && gap.last_frame == outcome.gap.last_frame;
+    });
+    if (!made || !outcome.filled || outcome.is_position) continue;
+    const auto frames = static_cast<double>(outcome.gap.length());
+    all.push_back(
+        {outcome.expected_error, rms_error(truth, clip, outcome.gap),
+         rms_error(truth, splined, outcome.gap), frames / truth.frame_rate_hz,
+         outcome.gap.first_frame > 0 && outcome.gap.last_frame + 1 < truth.frame_count()});
+  }
+  return all;
+}
+
+}  // namespace kinemend::fill

@@ -1,0 +1,76 @@
+// What the report promises of a filling, against what it becomes.
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "fill/made_gaps.hpp"
+#include "fill/marker_takes.hpp"
+#include "kinemend/synth.hpp"
+
+namespace kinemend::fill {
+namespace {
+
+template <class AnyClip>
+void add(std::vector<Kept>& all, const AnyClip& truth, std::size_t tracks, std::uint64_t seed) {
+  std::vector<std::size_t> every(tracks);
+  std::iota(every.begin(), every.end(), std::size_t{0});
+  for (const Kept& kept : make_and_fill(truth, every, 8, seed)) all.push_back(kept);
+}
+
+void expect_kept(const Figures& figures) {
+  EXPECT_GE(figures.gaps, 90U);
+  EXPECT_GE(figures.share_within_twice(), 0.9);
+  EXPECT_EQ(figures.above_ten, 0U);
+  EXPECT_GE(figures.short_gaps, 40U);
+  EXPECT_EQ(figures.worse_than_spline, 0U);
+}
+
+TEST(Promise, HoldsForMarkers) {
+  std::vector<Kept> all;
+  for (const char* motion : {"walk", "stroll", "punch", "turn"}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+      MarkerClip truth = marker_take(motion, 4, 0.5);
+      Random random(seed);
+      for (Vec3& p : truth.positions) {
+        const double x = random.normal(), y = random.normal(), z = random.normal();
+        p += 0.02 * Vec3{x, y, z};
+      }
+      add(all, truth, truth.marker_count(), seed);
+    }
+  }
+  expect_kept(figures_of(all, 0.05));  // half a millimetre
+}
+
+TEST(Promise, HoldsForJoints) {
+  std::vector<Kept> all;
+  for (const char* motion : {"walk", "stroll", "punch", "turn"}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+      Clip truth = synthesize({.motion = motion, .duration_s = 4});
+      Random random(seed);
+      for (Quat& q : truth.local_rotations) {
+        const double x = random.normal(), y = random.normal(), z = random.normal();
+        q = q * exp(0.05 * radians_per_degree * Vec3{x, y, z});
+      }
+      add(all, truth, 22, seed);
+    }
+  }
+  expect_kept(figures_of(all, 0.1));
+}
+
+// A spike is no measurement, but a filling alone cannot know.
+TEST(Promise, TellsOfASpikeBesideAGap) {
+  const MarkerClip truth = marker_take("walk", 4, 0.5);
+  for (const std::size_t length : {3U, 8U, 12U}) {
+    MarkerClip clip = truth;
+    hide(clip, "LeftLeg_b", 200, 199 + length);
+    const auto marker = static_cast<std::size_t>(clip.find("LeftLeg_b"));
+    clip.position(199, marker) += Vec3{10, 0, 0};
+    const GapOutcome outcome = fill_gaps(clip).gaps[0];
+    if (!outcome.filled) continue;  // that says it too
+    const double error = rms_error(truth, clip, outcome.gap);
+    EXPECT_LT(error, 4 * outcome.expected_error) << length;
+  }
+}
+
+}  // namespace
+}  // namespace kinemend::fill
