@@ -6,6 +6,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "fill/beside_gap.hpp"
 #include "fill/joint_trials.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/fill.hpp"
@@ -85,29 +86,100 @@ class TrackFiller {
     if (methods_.empty()) {
       outcome.reason = fmt::format("{} fills no positions", settings_.method);
     }
-    for (const JointProposal& proposal : fill::propose(track_, span, methods_, context_)) {
-      if (accept(proposal, span, outcome)) return;
+    if (fill_without_doubted(span, outcome)) return;
+    const auto proposals = fill::propose(track_, span, methods_, context_);
+    if (const JointProposal* chosen = choose(proposals, span, outcome)) {
+      std::copy(chosen->values.begin(), chosen->values.end(),
+                track_.values.begin() + static_cast<std::ptrdiff_t>(3 * span.first));
+      return;
     }
     if (settings_.fill_all) fill_anyhow(span, outcome);
   }
 
  private:
-  bool accept(const JointProposal& proposal, Span span, GapOutcome& outcome) {
-    const bool is_able = !proposal.values.empty();
-    const std::string reason = settings_.fill_all ? "" : refusal(proposal, span);
-    const bool filled = is_able && reason.empty();
-    if (!filled && !outcome.reason.empty()) return false;  // that of the best method tells most
-    outcome.method = proposal.method->name;
-    outcome.filled = filled;
-    outcome.expected_error = in_unit(proposal.expected_error);
-    if (filled) {
-      std::copy(proposal.values.begin(), proposal.values.end(),
-                track_.values.begin() + static_cast<std::ptrdiff_t>(3 * span.first));
-      outcome.reason.clear();
-    } else {
+  // The best that fills the span and may; nullptr, with the reason, where there is none.
+  const JointProposal* choose(const std::vector<JointProposal>& proposals, Span span,
+                              GapOutcome& outcome) const {
+    for (const JointProposal& proposal : proposals) {
+      const std::string reason = settings_.fill_all ? "" : refusal(proposal, span);
+      outcome.filled = !proposal.values.empty() && reason.empty();
+      // That of the best method tells most.
+      if (!outcome.filled && !outcome.reason.empty()) continue;
+      outcome.method = proposal.method->name;
+      outcome.expected_error = in_unit(proposal.expected_error);
       outcome.reason = reason.empty() ? std::string(proposal.method->cannot) : reason;
+      if (!outcome.filled) continue;
+      outcome.reason.clear();
+      return &proposal;
     }
-    return filled;
+    return nullptr;
+  }
+
+  // How far two samples are from each other, in the track's unit.
+  double distance(std::size_t frame, const JointTrack& other, Vec3 value) const {
+    if (track_.is_position) return norm(track_.at(frame) - value);
+    return angle_between(track_.rotation(frame), other.chart.rotation_of(frame, value));
+  }
+
+  fill::Doubt doubt_of(Span span) const {
+    const auto leap = [&](std::size_t f) {
+      const auto& seen = track_.observed;
+      if (!seen[f - 1] || !seen[f] || !seen[f + 1]) return -1.0;
+      return norm(track_.at(f - 1) - 2 * track_.at(f) + track_.at(f + 1));
+    };
+    return fill::doubt_beside(span, track_.observed.size(), context_.frame_rate_hz, spike_size(),
+                              leap);
+  }
+
+  // What is nearer to a filling is no spike.
+  double spike_size() const { return 1.6 * largest_error_; }
+
+  // The track as if the span were missing.
+  JointTrack without(Span span) const {
+    JointTrack other = track_;
+    std::fill_n(other.observed.begin() + static_cast<std::ptrdiff_t>(span.first), span.length(),
+                std::uint8_t{0});
+    if (track_.is_position) return other;
+    other.chart =
+        fill::make_rotation_chart(track_.chart.reference, other.observed, context_.frame_rate_hz);
+    for (std::size_t f = 0; f < other.observed.size(); ++f) other.set(f, other.chart.path[f]);
+    return other;
+  }
+
+  // Fills the span without the doubted samples beside it; false where there are none, and where
+  // such a filling bears them out.
+  bool fill_without_doubted(Span span, GapOutcome& outcome) {
+    constexpr double expected_errors = 4;
+    fill::Doubt doubt = doubt_of(span);
+    for (int round = 0; round < 2 && doubt.any(); ++round) {
+      const Span wider = doubt.widened(span);
+      const JointTrack other = without(wider);
+      const auto proposals = fill::propose(other, wider, methods_, context_);
+      const JointProposal* chosen = choose(proposals, span, outcome);
+      if (!chosen) break;
+      const auto value = [&](std::size_t frame) {
+        const double* v = &chosen->values[3 * (frame - wider.first)];
+        return Vec3{v[0], v[1], v[2]};
+      };
+      const double far = std::max(spike_size(), expected_errors * chosen->expected_error);
+      const auto is_far = [&](std::size_t frame) {
+        return distance(frame, other, value(frame)) > far;
+      };
+      const fill::Doubt spikes{doubt.before > 0 && is_far(span.first - 1) ? doubt.before : 0,
+                               doubt.behind > 0 && is_far(span.last + 1) ? doubt.behind : 0};
+      const bool all = spikes.before == doubt.before && spikes.behind == doubt.behind;
+      doubt = spikes;
+      if (!all) continue;
+      for (std::size_t f = span.first; f <= span.last; ++f) {
+        track_.set(f, track_.is_position
+                          ? value(f)
+                          : track_.chart.vector_of(f, other.chart.rotation_of(f, value(f))));
+      }
+      return true;
+    }
+    outcome.filled = false;
+    outcome.reason.clear();
+    return false;
   }
 
   // Why the rules do not let the method fill the span; empty where they do.

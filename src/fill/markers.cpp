@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "fill/beside_gap.hpp"
 #include "fill/marker_group.hpp"
 #include "fill/marker_methods.hpp"
 #include "kinemend/error.hpp"
@@ -99,6 +100,11 @@ Samples samples_of(const MarkerClip& clip, const std::vector<std::uint8_t>& seen
   return samples;
 }
 
+// A sample beside a gap is a spike where it is farther from a filling without it than this share of
+// the body's radius, and than this many expected errors.
+constexpr double spike_share = 0.1;
+constexpr double spike_errors = 4;
+
 // Fills the gaps of a clip in rounds: what one round fills is evidence for the next.
 class Filler {
  public:
@@ -180,9 +186,57 @@ class Filler {
       return Filling::refused(name_, fmt::format("the gap of {:.2f} s is longer than {:.2f} s",
                                                  length_s, request_.longest_gap_s));
     }
+    const fill::Doubt doubt = doubt_of(samples, gap);
+    if (doubt.any()) {
+      Filling filling = fill_without(doubt, samples, gap);
+      if (!filling.positions.empty()) return filling;
+    }
+    return fill_span(samples, gap);
+  }
+
+  Filling fill_span(const Samples& samples, const MarkerGap& gap) const {
     Filling filling = method_(samples, gap, request_);
     if (!filling.positions.empty() || !request_.lenient) return filling;
     return fill::fill_by_auto(samples, gap, request_);
+  }
+
+  static fill::Doubt doubt_of(const Samples& samples, const MarkerGap& gap) {
+    const auto leap = [&](std::size_t f) {
+      for (const std::size_t k : {f - 1, f, f + 1}) {
+        if (!samples.measures(k, gap.marker)) return -1.0;
+      }
+      return norm(samples.at(f - 1, gap.marker) - 2 * samples.at(f, gap.marker) +
+                  samples.at(f + 1, gap.marker));
+    };
+    return fill::doubt_beside(gap.span, samples.frames, samples.frame_rate_hz,
+                              spike_share * samples.radius, leap);
+  }
+
+  // The filling of the gap with what is doubted beside it; refused where that bears a doubted
+  // sample out.
+  Filling fill_without(fill::Doubt doubt, const Samples& samples, const MarkerGap& gap) const {
+    MarkerGap wider = gap;
+    wider.span = doubt.widened(gap.span);
+    Filling filling = fill_span(samples, wider);
+    if (filling.positions.empty()) return filling;
+    const double far =
+        std::max(spike_share * samples.radius, spike_errors * filling.expected_error);
+    const auto is_far = [&](std::size_t frame) {
+      const Vec3 filled = filling.positions[frame - wider.span.first];
+      return norm(samples.at(frame, gap.marker) - filled) > far;
+    };
+    const bool spike_before = doubt.before > 0 && is_far(gap.span.first - 1);
+    const bool spike_behind = doubt.behind > 0 && is_far(gap.span.last + 1);
+    if (spike_before != (doubt.before > 0) || spike_behind != (doubt.behind > 0)) {
+      if (!spike_before && !spike_behind) return Filling::refused(name_, "");
+      doubt = {spike_before ? doubt.before : 0, spike_behind ? doubt.behind : 0};
+      wider.span = doubt.widened(gap.span);
+      filling = fill_span(samples, wider);
+      if (filling.positions.empty()) return filling;
+    }
+    const auto first = filling.positions.begin() + static_cast<std::ptrdiff_t>(doubt.before);
+    filling.positions = {first, first + static_cast<std::ptrdiff_t>(gap.span.length())};
+    return filling;
   }
 
   void put(const Gap& gap, const Filling& filling) {
