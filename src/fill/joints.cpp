@@ -85,18 +85,22 @@ class TrackFiller {
     }
     if (methods_.empty()) {
       outcome.reason = fmt::format("{} fills no positions", settings_.method);
-    }
-    if (fill_without_doubted(span, outcome)) return;
-    const auto proposals = fill::propose(track_, span, methods_, context_);
-    if (const JointProposal* chosen = choose(proposals, span, outcome)) {
-      std::copy(chosen->values.begin(), chosen->values.end(),
-                track_.values.begin() + static_cast<std::ptrdiff_t>(3 * span.first));
+    } else if (fill_without_doubted(span, outcome) || fill_span(span, outcome)) {
       return;
     }
     if (settings_.fill_all) fill_anyhow(span, outcome);
   }
 
  private:
+  bool fill_span(Span span, GapOutcome& outcome) {
+    const auto proposals = fill::propose(track_, span, methods_, context_);
+    const JointProposal* chosen = choose(proposals, span, outcome);
+    if (!chosen) return false;
+    std::copy(chosen->values.begin(), chosen->values.end(),
+              track_.values.begin() + static_cast<std::ptrdiff_t>(3 * span.first));
+    return true;
+  }
+
   // The best that fills the span and may; nullptr, with the reason, where there is none.
   const JointProposal* choose(const std::vector<JointProposal>& proposals, Span span,
                               GapOutcome& outcome) const {
