@@ -11,10 +11,10 @@ constexpr bool yes = true, no = false;
 // name, summary, paper, rules, markers, joints
 constexpr std::array methods = {
     FillMethod{"auto", "tries the others on gaps made in the take, and takes what does best", "",
-               "markers: what is expected to be off by less than a tenth of the body's radius; "
+               "markers: what is expected to be off by less than an eighth of the body's radius; "
                "joints: what a method's own rule lets it fill, with an expected error of at most "
-               "10 degrees "
-               "(positions: 5 % of the skeleton's height)",
+               "12.5 degrees "
+               "(positions: 6 % of the skeleton's height)",
                yes, yes},
     FillMethod{"spline", "natural cubic spline through the samples around the gap", "",
                "both ends are seen; at most 0.25 s", yes, yes},
