@@ -85,14 +85,17 @@ class Auto final : public Cleaner {
     const std::size_t frames = clip.frame_count(), count = positions.size();
     const double degrees_per_unit = degrees_per_radian / typical_bone_length(clip.skeleton);
     VectorTracks tracks(frames, count);
+    SampleMarks gaps(frames, count);
     for (std::size_t n = 0; n < count; ++n) {
+      const std::size_t position = position_number(clip, positions[n]);
       for (std::size_t t = 0; t < frames; ++t) {
+        gaps(t, n) = !clip.is_position_observed(t, position);
         tracks.set(t, n, degrees_per_unit * positions[n].values[t * positions[n].stride]);
       }
     }
     const SampleMarks none(frames, count);
     const CleanedTracks verdicts =
-        clean_tracks(tracks, none, none, std::vector<std::vector<std::size_t>>(count),
+        clean_tracks(tracks, none, gaps, std::vector<std::vector<std::size_t>>(count),
                      clip.frame_rate_hz, options_);
     for (std::size_t n = 0; n < count; ++n) {
       const ActionTrack actions = position_actions(clip, positions[n], trace);
@@ -104,6 +107,12 @@ class Auto final : public Cleaner {
         if (spike) actions.values[t * actions.stride] = Action::despiked;
       }
     }
+  }
+
+  // 0: the root's, k + 1: of translated joint k.
+  static std::size_t position_number(const Clip& clip, const PositionTrack& track) {
+    if (is_root(clip, track)) return 0;
+    return 1 + static_cast<std::size_t>(track.values - clip.joint_translations.data());
   }
 
   // The tracks of the joints that are near each joint, where they are cleaned too.

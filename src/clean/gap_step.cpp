@@ -28,7 +28,8 @@ Clip evidence_of(const Clip& measured, const Cleaner& cleaner, const Selection& 
   bridge_positions(despiked);
   const CleanTrace spikes = make_despiker()->clean(despiked, Selection::all(despiked));
   const bool some_left = holds_more_spikes(spikes.actions, trace.actions) ||
-                         holds_more_spikes(spikes.root_actions, trace.root_actions);
+                         holds_more_spikes(spikes.root_actions, trace.root_actions) ||
+                         holds_more_spikes(spikes.translation_actions, trace.translation_actions);
   if (some_left) cleaner.clean(despiked, selection);
   Clip evidence = some_left ? std::move(despiked) : cleaned;
   evidence.observed = measured.observed;
