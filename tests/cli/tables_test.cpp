@@ -73,7 +73,7 @@ TEST_F(Tables, ComeBackInTheirOwnLayout) {
     const std::string take = fixture(name), out = "out-" + take;
     ASSERT_EQ(run({"convert", take, "-o", out}).code, 0);
     EXPECT_EQ(contents(folder / out), contents(folder / take));
-    const Ran filled = run({"fill", take, "-o", "filled-" + take, "--method", "linear"});
+    const Ran filled = run({"fill", take, "-o", "filled-" + take, "--method", "spline"});
     EXPECT_EQ(filled.code, 0) << filled.err;
     // The head is there to the byte.
     const std::string head = contents(folder / take).substr(0, 300);

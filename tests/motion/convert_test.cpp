@@ -105,6 +105,48 @@ TEST(Resample, ObservesASampleOnlyBetweenTwoThatWereObserved) {
   }
 }
 
+TEST(Resample, LeavesATakeAtItsOwnRateAlone) {
+  const auto document = std::make_shared<const SourceDocument>();
+  MarkerClip markers = line_of_markers(6, 119.88012);
+  markers.source.document = document;
+  markers.first_frame = 7;
+  Clip joints = moving_chain(2, 10);
+  joints.source.document = document;
+  for (const double rate : {119.88012, 119.88}) {
+    const MarkerClip same = resample(markers, rate);
+    EXPECT_EQ(same.source.document, document);
+    EXPECT_EQ(same.positions, markers.positions);
+    EXPECT_EQ(same.frame_rate_hz, markers.frame_rate_hz);
+    EXPECT_EQ(same.first_frame, 7);
+  }
+  EXPECT_EQ(resample(markers, 119.8).source.document, nullptr);
+  EXPECT_EQ(resample(joints, joints.frame_rate_hz).source.document, document);
+  EXPECT_EQ(scale_lengths(markers, 1, "m").source.document, document);
+  EXPECT_EQ(scale_lengths(joints, 1).source.document, document);
+}
+
+// The first frame's number is a whole one; what it misses is made up for in the events' times.
+TEST(Resample, LeavesEventsAtTheirMomentOfTheMotion) {
+  MarkerClip clip = line_of_markers(20, 100);
+  clip.events = {{"Foot Strike", "Left", 0.5}};
+  for (const std::int64_t first : {0, 1, 2, 11, 480}) {
+    clip.first_frame = first;
+    for (const double rate : {25.0, 50.0, 60.0, 240.0}) {
+      const MarkerClip other = resample(clip, rate);
+      const auto moment = [](const MarkerClip& take) {
+        return take.events[0].time_s -
+               static_cast<double>(take.first_frame - 1) / take.frame_rate_hz;
+      };
+      EXPECT_NEAR(moment(other), moment(clip), 1e-9) << first << " at " << rate;
+      const double trial_s = static_cast<double>(first - 1) / 100;
+      if (first > 0) {
+        EXPECT_LE(std::fabs(static_cast<double>(other.first_frame - 1) / rate - trial_s),
+                  0.5 / rate + 1e-9);
+      }
+    }
+  }
+}
+
 TEST(Resample, RefusesRatesThatMakeNoSense) {
   const Clip clip = moving_chain(2, 10);
   EXPECT_THROW(resample(clip, 0), Error);
