@@ -80,6 +80,8 @@ class HeaderReader {
     const std::string_view line = take_line(), bare = without_spaces_around(line);
     if (bare.empty()) return;
     if (bare[0] == '#') return read_note(bare);
+    // What spreadsheets understand.
+    if (place_ == after_byte_order_mark(text_.bytes) && bare.substr(0, 4) == "sep=") return;
     if (!first_row_) first_row_ = place_;
     const char separator = separator_of(line);
     if (static_cast<std::size_t>(std::count(line.begin(), line.end(), separator)) > most_columns) {

@@ -31,7 +31,12 @@ class MotiveReader {
       : text_(text), lines_(text, after_byte_order_mark(text.bytes)) {}
 
   CsvHeader read() {
-    read_facts(lines_.take_cells());
+    // It can be left out of an export.
+    HeadLines first = lines_;
+    if (const Cells facts = first.take_cells(); !facts.empty() && facts[0] == first_word) {
+      read_facts(facts);
+      lines_ = first;
+    }
     find_rows();
     header_.labels_line = lines_.place();
     header_.style.separator = lines_.separator();
@@ -150,8 +155,14 @@ class MotiveReader {
 
 bool starts_as_motive_export(std::string_view text) {
   text.remove_prefix(after_byte_order_mark(text));
-  if (text.substr(0, 1) == "\"") text.remove_prefix(1);
-  return text.substr(0, first_word.size()) == first_word;
+  const std::string_view line = line_from(text, 0);
+  if (line.substr(line.substr(0, 1) == "\"" ? 1 : 0, first_word.size()) == first_word) return true;
+  // Without the line of facts: the row of types.
+  if (line.empty() || std::string_view(",;\t").find(line[0]) == std::string_view::npos)
+    return false;
+  const Cells cells = split_cells(line, line[0]);
+  return cells.size() > 2 && (cells[1].empty() || cells[1] == "Type") &&
+         std::any_of(cells.begin() + 2, cells.end(), is_type);
 }
 
 CsvHeader read_motive_header(const SourceText& text) { return MotiveReader(text).read(); }

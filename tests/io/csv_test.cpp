@@ -57,9 +57,10 @@ TEST(CsvReader, ReadsNamesPositionsRateAndUnit) {
 
 TEST(CsvReader, LayoutsOfTheSameTakeReadTheSame) {
   const MarkerClip plain = read_markers(csv_fixture("good/plain.csv"));
-  for (const char* name : {"crlf", "bom", "semicolon_comma", "semicolon", "tabs", "quoted_comma",
-                           "dotted", "spaced", "colons", "no_frame", "no_frame_no_time", "no_rate",
-                           "milliseconds", "extra_column", "filler_rows"}) {
+  for (const char* name :
+       {"crlf", "bom", "semicolon_comma", "semicolon", "tabs", "quoted_comma", "dotted", "spaced",
+        "colons", "no_frame", "no_frame_no_time", "no_rate", "milliseconds", "extra_column",
+        "filler_rows", "spreadsheet_separator"}) {
     SCOPED_TRACE(name);
     const MarkerClip clip = read_markers(csv_fixture(std::string("good/") + name + ".csv"));
     EXPECT_EQ(clip.names, plain.names);
@@ -167,6 +168,7 @@ TEST(CsvReader, LaboratoriesTablesAreReadRight) {
        {1, 0, 0, 1, 1, 1, 1, 1},
        {1, 2, 3.5}},
       {"motive_unlabelled_rows", {"Shank:Marker1"}, 100, "Meters", 0, {1, 1}, {0.25, 0.5, 0.875}},
+      {"motive_bare", {"M1"}, 100, "", 0, {1, 1}, {0.25, 0.5, 0.875}},
       {"head_unknown", {"LASI"}, 120, "", 1, {1, 1}, {-200.75, -116.75, 721.5}}};
   for (const Table& table : tables) {
     SCOPED_TRACE(table.name);
