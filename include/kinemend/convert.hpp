@@ -15,9 +15,9 @@ namespace kinemend {
 /// falls on one of the old frames is that frame, so that 120 Hz to 60 Hz drops every second one;
 /// any other is interpolated (cubic through four frames; rotations in the tangent space of one of
 /// them) and is observed where both of its neighbours are. Nothing is averaged: what is faster than
-/// half the new rate is folded, as in a camera. A rate that agrees with the take's own to six digits
-/// is its own. Events stay at their moment of the motion. Errors: `ErrorKind::usage` for a rate that
-/// is not finite and positive, or that would make more than 100 million samples.
+/// half the new rate is folded, as in a camera. A rate that agrees with the take's own to six
+/// digits is its own. Events stay at their moment of the motion. Errors: `ErrorKind::usage` for a
+/// rate that is not finite and positive, or that would make more than 100 million samples.
 Clip resample(const Clip& clip, double frame_rate_hz);
 MarkerClip resample(const MarkerClip& clip, double frame_rate_hz);
 

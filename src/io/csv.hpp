@@ -16,8 +16,8 @@ TakeResult read_csv(std::string bytes, std::string_view name, const ReadOptions&
 /// not changed; any other in a plain layout. Errors: `usage` when the format cannot hold the take.
 std::string write_csv(const Clip& clip);
 std::string write_csv_markers(const MarkerClip& clip);
-/// What the table that a clip comes from holds beside its markers and a new file does not, in words:
-/// "the sections Devices"; empty where nothing is lost.
+/// What the table that a clip comes from holds beside its markers and a new file does not, in
+/// words: "the sections Devices"; empty where nothing is lost.
 std::string csv_beside_markers(const MarkerClip& clip, bool as_csv);
 
 }  // namespace kinemend

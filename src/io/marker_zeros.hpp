@@ -20,9 +20,9 @@ struct ZeroGap {
 /// times the step that it usually makes from frame to frame (5 cm where that is not known), than 20
 /// `resolution` (file units), and than 2 mm; or it is there in every frame of several, and so is
 /// another marker (no two can be in one place) or such zeros stand elsewhere, in a clip where no
-/// sample is missing otherwise. Millimetres are taken where the clip names no unit that is known. A marker that rests at the origin or passes through
-/// it keeps its samples; so do points that are no positions, and a sample of which `is_measured`
-/// (one for each sample, or empty) says so.
+/// sample is missing otherwise. Millimetres are taken where the clip names no unit that is known. A
+/// marker that rests at the origin or passes through it keeps its samples; so do points that are no
+/// positions, and a sample of which `is_measured` (one for each sample, or empty) says so.
 std::vector<ZeroGap> find_zero_gaps(const MarkerClip& clip, double resolution = 0,
                                     const std::vector<std::uint8_t>& is_measured = {});
 
