@@ -100,7 +100,15 @@ void clean_all(const CleanPlan& plan, Announcer& announcer) {
     limit.emplace(tbb::global_control::max_allowed_parallelism,
                   static_cast<std::size_t>(plan.threads));
   }
-  if (plan.jobs.size() == 1) return announcer.take(0, try_take(plan.jobs[0], plan));
+  if (plan.jobs.size() == 1) {
+    Outcome outcome;
+    {
+      LateProgressLine line(!plan.quiet);
+      outcome = try_take(plan.jobs[0], plan,
+                         [&](std::string_view stage, double done) { line.show(stage, done); });
+    }
+    return announcer.take(0, std::move(outcome));
+  }
   // Each worker takes the next job in order, so that the first takes are announced first.
   const int workers = tbb::this_task_arena::max_concurrency();
   std::atomic<std::size_t> next{0};

@@ -46,11 +46,10 @@ std::vector<MarkerSwap> prepare(Take& take, const CleanPlan& plan) {
   return swaps;
 }
 
-CleanResult run_cleaner(const Clip& clip, const CleanPlan& plan, const CleanSettings& settings) {
-  return clean_clip(clip, *plan.cleaner, settings, plan.method);
+CleanResult run_cleaner(Clip& clip, const CleanPlan& plan, const CleanSettings& settings) {
+  return clean_clip(std::move(clip), *plan.cleaner, settings, plan.method);
 }
-MarkerResult run_cleaner(const MarkerClip& clip, const CleanPlan& plan,
-                         const CleanSettings& settings) {
+MarkerResult run_cleaner(MarkerClip& clip, const CleanPlan& plan, const CleanSettings& settings) {
   return clean_markers(clip, *plan.cleaner, settings, plan.method);
 }
 
@@ -62,11 +61,12 @@ void read_contacts(const MarkerClip& /*clip*/, const CleanPlan& /*plan*/,
                    CleanSettings& /*settings*/) {}
 
 // Cleans the take in place.
-ReportView clean_in_place(Take& take, const CleanPlan& plan) {
+ReportView clean_in_place(Take& take, const CleanPlan& plan, const TakeProgress& progress) {
   const std::vector<MarkerSwap> swaps = prepare(take, plan);
   return std::visit(
       [&](auto& clip) {
         CleanSettings settings = plan.settings;
+        settings.progress = progress;
         if (plan.range)
           settings.range = frames_of(*plan.range, clip.frame_count(), clip.frame_rate_hz);
         read_contacts(clip, plan, settings);
@@ -80,13 +80,28 @@ ReportView clean_in_place(Take& take, const CleanPlan& plan) {
       take);
 }
 
-void clean_take(const CleanJob& job, const CleanPlan& plan, Outcome& outcome) {
+// Calls `work(tell)` as a stage of its own.
+template <class Work>
+auto as_stage(const TakeProgress& progress, std::string_view name, const Work& work) {
+  const auto tell = [&](double done) {
+    if (progress) progress(name, done);
+  };
+  tell(0);
+  return work(tell);
+}
+
+void clean_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& progress,
+                Outcome& outcome) {
   const std::string name = input_name(job.input);
   if (!plan.dry_run) check_free(job.output, plan.force || job.may_replace);
-  TakeResult read = read_take(fs::path(job.input), plan.reading);
+  TakeResult read = as_stage(progress, "reading", [&](const auto& tell) {
+    ReadOptions options = plan.reading;
+    if (progress) options.progress = tell;
+    return read_take(fs::path(job.input), options);
+  });
   for (const Diagnostic& entry : read.diagnostics.entries())
     outcome.warnings.push_back(diagnostic_line(name, entry));
-  ReportView report = clean_in_place(read.take, plan);
+  ReportView report = clean_in_place(read.take, plan, progress);
   report.contents = pointless_text(read.take);
   if (plan.strict) refuse_warnings(name, report.warnings);
   for (const std::string& warning : report.warnings)
@@ -94,7 +109,8 @@ void clean_take(const CleanJob& job, const CleanPlan& plan, Outcome& outcome) {
   const std::string format = format_for(job.output, source_of(read.take));
   for (std::string& line : loss_lines(name, read.take, format, plan.strict))
     outcome.warnings.push_back(std::move(line));
-  if (!plan.dry_run) write_result(job, read.take, plan);
+  if (!plan.dry_run)
+    as_stage(progress, "writing", [&](const auto&) { write_result(job, read.take, plan); });
   const bool is_only = plan.jobs.size() == 1;
   outcome.text = headline(job, report, plan, Colours::of_out());
   if (is_only || plan.verbose) outcome.text += report_text(report, plan.verbose);
@@ -108,10 +124,10 @@ void clean_take(const CleanJob& job, const CleanPlan& plan, Outcome& outcome) {
 
 }  // namespace
 
-Outcome try_take(const CleanJob& job, const CleanPlan& plan) {
+Outcome try_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& progress) {
   Outcome outcome;
   try {
-    clean_take(job, plan, outcome);
+    clean_take(job, plan, progress, outcome);
     return outcome;
   } catch (const Error& error) {
     outcome.code = static_cast<int>(error.kind());

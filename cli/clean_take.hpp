@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "clean_plan.hpp"
@@ -19,7 +21,10 @@ struct Outcome {
   std::shared_ptr<const Json> report;  ///< entry of --report
 };
 
+/// Told what is being done with a take and how far it is (0..1).
+using TakeProgress = std::function<void(std::string_view stage, double done)>;
+
 /// Reads, cleans and writes one take as the plan says. What goes wrong with it is in the outcome.
-Outcome try_take(const CleanJob& job, const CleanPlan& plan);
+Outcome try_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& progress = {});
 
 }  // namespace kinemend::cli

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 
@@ -138,6 +139,34 @@ void ProgressLine::show(std::string_view stage, double done) {
 void ProgressLine::clear() {
   if (!shown_.empty()) write_err(erase_line);
   shown_.clear();
+}
+
+LateProgressLine::LateProgressLine(bool wanted) {
+  if (wanted && isatty(STDERR_FILENO)) waiting_ = std::thread([this] { wait(); });
+}
+
+LateProgressLine::~LateProgressLine() {
+  {
+    const std::lock_guard lock(mutex_);
+    has_ended_ = true;
+  }
+  ended_.notify_all();
+  if (waiting_.joinable()) waiting_.join();
+}
+
+void LateProgressLine::wait() {
+  constexpr std::chrono::seconds patience(1);
+  std::unique_lock lock(mutex_);
+  if (ended_.wait_for(lock, patience, [this] { return has_ended_; })) return;
+  is_late_ = true;
+  if (!stage_.empty()) line_.show(stage_, done_);
+}
+
+void LateProgressLine::show(std::string_view stage, double done) {
+  const std::lock_guard lock(mutex_);
+  stage_ = stage;
+  done_ = done;
+  if (is_late_) line_.show(stage_, done_);
 }
 
 }  // namespace kinemend::cli

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <condition_variable>
 #include <cstddef>
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <thread>
 
 #include "kinemend/error.hpp"
 
@@ -76,6 +78,30 @@ class ProgressLine {
  private:
   std::string shown_;
   bool on_;
+};
+
+/// A `ProgressLine` that appears only where work takes longer than a second. Calls may come from
+/// any thread. It goes with the object.
+class LateProgressLine {
+ public:
+  explicit LateProgressLine(bool wanted);
+  ~LateProgressLine();
+  LateProgressLine(const LateProgressLine&) = delete;
+  LateProgressLine& operator=(const LateProgressLine&) = delete;
+
+  void show(std::string_view stage, double done);
+
+ private:
+  void wait();
+
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  ProgressLine line_;
+  std::string stage_;
+  double done_ = 0;
+  bool is_late_ = false;
+  bool has_ended_ = false;
+  std::thread waiting_;
 };
 
 }  // namespace kinemend::cli

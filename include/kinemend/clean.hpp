@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -43,6 +45,10 @@ struct CleanSettings {
   /// joints are selected keeps its slide. Contacts are of frames of the whole take. Means nothing
   /// for markers, which are measured points: a warning says so.
   std::optional<FeetSettings> feet;
+  /// Told what is being done and how far it is (0..1, never less than before), by one thread at a
+  /// time: "filling" and "feet" where asked for, and "cleaning" between them. Each stage comes
+  /// once, from 0 to 1.
+  std::function<void(std::string_view stage, double done)> progress;
 };
 
 /// A run of frames in which one thing was done to one joint or marker.
@@ -134,6 +140,9 @@ struct MarkerResult {
 /// two rotation channels are those that the channels can hold. Errors: `ErrorKind::usage` for
 /// settings out of range and for a joint pattern that matches nothing.
 CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner, const CleanSettings& settings = {},
+                       std::string method_name = {});
+/// The same where the take is needed no more: a long one then takes half the room.
+CleanResult clean_clip(Clip&& clip, const Cleaner& cleaner, const CleanSettings& settings = {},
                        std::string method_name = {});
 
 /// The same for markers: runs the cleaner, fills gaps if asked, blends by strength, range and

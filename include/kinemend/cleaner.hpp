@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -60,6 +61,11 @@ struct MarkerTrace {
   std::vector<std::string> warnings;
 };
 
+/// Takes what a cleaner made of a joint: F rotations, and what it says it did to each of them
+/// (empty: nothing in particular). May be called from any thread, at most once a joint.
+using JointSink = std::function<void(std::size_t joint, std::vector<Quat> rotations,
+                                     std::vector<Action> actions)>;
+
 /// What a method can do live.
 struct LiveSupport {
   enum class Kind : std::uint8_t {
@@ -110,6 +116,14 @@ class Cleaner {
   /// already off. Any number of frames is accepted, one and two included. The result does not
   /// depend on the number of threads.
   virtual CleanTrace clean(Clip& clip, const Selection& selection) const = 0;
+
+  /// The same for a caller who wants no second copy of a long take: positions are cleaned in place,
+  /// and the rotations of those joints that may have changed go to `sink`, which may write them
+  /// into `clip`: they are not looked at again. `CleanTrace::actions` stays empty. `progress`,
+  /// where there is one, is told how far the work is (0..1), by one thread at a time. The default
+  /// cleans a copy, and tells nothing on the way.
+  virtual CleanTrace clean_joints(Clip& clip, const Selection& selection, const JointSink& sink,
+                                  const std::function<void(double)>& progress = {}) const;
 
   /// Cleans the selected markers in place. What stands in a gap never matters. Gaps up to 0.25 s
   /// are bridged while a track is filtered, and no filter reaches across longer ones; only methods

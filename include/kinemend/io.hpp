@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,6 +31,8 @@ struct ReadOptions {
   /// Rate of a format that has none (AMC, CSV without times), hertz; 0: the format's custom (120
   /// for AMC), with a diagnostic `frame_rate_assumed`. Formats that have a rate ignore it.
   double frame_rate_hz = 0;
+  /// Told how far reading is (0..1); formats whose files are never large tell nothing on the way.
+  std::function<void(double done)> progress;
 };
 
 struct ReadResult {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/progress.hpp"
 #include "clean/auto_markers.hpp"
 #include "clean/method_list.hpp"
 #include "clean/moving_chart.hpp"
@@ -33,8 +34,26 @@ class Auto final : public Cleaner {
     const std::vector<std::size_t> joints = selected_joints(clip, selection);
     bridge_gaps(clip, joints, trace);
     if (clip.frame_count() < fewest_clean_frames) return trace;
-    clean_rotations(clip, joints, trace);
-    clean_positions(clip, selected_positions(clip, selection), trace);
+    if (trace.actions.empty()) trace.actions.assign(clip.local_rotations.size(), Action::kept);
+    const JointSink keep = [&](std::size_t joint, std::vector<Quat> rotations,
+                               std::vector<Action> actions) {
+      set_joint_track(clip, joint, rotations);
+      for (std::size_t t = 0; t < actions.size(); ++t) {
+        Action& action = trace.actions[t * clip.joint_count() + joint];
+        if (action == Action::kept) action = actions[t];
+      }
+    };
+    clean_parts(clip, selection, joints, keep, {}, trace);
+    return trace;
+  }
+
+  CleanTrace clean_joints(Clip& clip, const Selection& selection, const JointSink& sink,
+                          const std::function<void(double)>& progress) const override {
+    // Bridges would take the place of what is there before anybody has seen it.
+    if (!clip.observed.empty()) return Cleaner::clean_joints(clip, selection, sink, progress);
+    CleanTrace trace;
+    if (clip.frame_count() < fewest_clean_frames) return trace;
+    clean_parts(clip, selection, selected_joints(clip, selection), sink, progress, trace);
     return trace;
   }
 
@@ -43,38 +62,63 @@ class Auto final : public Cleaner {
   }
 
  private:
-  void clean_rotations(Clip& clip, const std::vector<std::size_t>& joints,
-                       CleanTrace& trace) const {
+  void clean_parts(Clip& clip, const Selection& selection, const std::vector<std::size_t>& joints,
+                   const JointSink& sink, const std::function<void(double)>& tell,
+                   CleanTrace& trace) const {
+    ShareProgress progress(tell);
+    clean_rotations(clip, joints, sink, progress, trace);
+    clean_positions(clip, selected_positions(clip, selection), trace);
+  }
+
+  // A chart takes more room than the vectors that it gives: it is made once for these, and again
+  // to come back from them.
+  static MovingChart chart_of(std::vector<Quat> track, double frame_rate_hz,
+                              std::vector<std::uint8_t>* gross = nullptr) {
+    std::vector<std::uint8_t> marks = replace_gross_spikes(track);
+    if (gross) *gross = std::move(marks);
+    return make_moving_chart(track, frame_rate_hz);
+  }
+
+  void clean_rotations(const Clip& clip, const std::vector<std::size_t>& joints,
+                       const JointSink& sink, ShareProgress& progress, CleanTrace& trace) const {
     const std::size_t frames = clip.frame_count(), count = joints.size();
     VectorTracks tracks(frames, count);
     SampleMarks suspects(frames, count), gaps(frames, count);
-    std::vector<MovingChart> charts(count);
+    progress.begin_part(0.2, count);
     for_each_parallel(count, frames * count, [&](std::size_t n) {
-      std::vector<Quat> steady = joint_track(clip, joints[n]);
-      const std::vector<std::uint8_t> gross = replace_gross_spikes(steady);
-      charts[n] = make_moving_chart(steady, clip.frame_rate_hz);
+      const std::vector<Quat> track = joint_track(clip, joints[n]);
+      std::vector<std::uint8_t> gross;
+      const MovingChart chart = chart_of(track, clip.frame_rate_hz, &gross);
       for (std::size_t t = 0; t < frames; ++t) {
-        tracks.set(t, n, degrees_per_radian * charts[n].vector_of(t, clip.rotation(t, joints[n])));
+        tracks.set(t, n, degrees_per_radian * chart.vector_of(t, track[t]));
         suspects(t, n) = gross[t];
         gaps(t, n) = !clip.is_observed(t, joints[n]);
       }
+      progress.step();
     });
 
-    const CleanedTracks verdicts = clean_tracks(
-        tracks, suspects, gaps, tracks_nearby(clip.skeleton, joints), clip.frame_rate_hz, options_);
+    const CleanedTracks verdicts =
+        clean_tracks(tracks, suspects, gaps, tracks_nearby(clip.skeleton, joints),
+                     clip.frame_rate_hz, options_, &progress);
 
-    if (trace.actions.empty()) trace.actions.assign(clip.local_rotations.size(), Action::kept);
     trace.noise_deg.assign(clip.joint_count(), 0);
+    progress.begin_part(1, count);
     for_each_parallel(count, frames * count, [&](std::size_t n) {
-      const std::size_t joint = joints[n];
-      trace.noise_deg[joint] = verdicts.noise[n];
-      for (std::size_t t = 0; t < frames; ++t) {
-        const bool spike = verdicts.marked(t, n) != 0;
-        if (verdicts.shares[n] == 0 && !spike) continue;
-        clip.rotation(t, joint) = charts[n].rotation_of(t, radians_per_degree * tracks.at(t, n));
-        Action& action = trace.actions[t * clip.joint_count() + joint];
-        if (spike && action == Action::kept) action = Action::despiked;
+      trace.noise_deg[joints[n]] = verdicts.noise[n];
+      const auto spikes = verdicts.marked.track(n);
+      const bool smoothed = verdicts.shares[n] != 0;
+      if (smoothed || std::find(spikes.begin(), spikes.end(), 1) != spikes.end()) {
+        std::vector<Quat> track = joint_track(clip, joints[n]);
+        const MovingChart chart = chart_of(track, clip.frame_rate_hz);
+        std::vector<Action> actions(frames, Action::kept);
+        for (std::size_t t = 0; t < frames; ++t) {
+          if (!smoothed && spikes[t] == 0) continue;
+          track[t] = chart.rotation_of(t, radians_per_degree * tracks.at(t, n));
+          if (spikes[t] != 0) actions[t] = Action::despiked;
+        }
+        sink(joints[n], std::move(track), std::move(actions));
       }
+      progress.step();
     });
   }
 

@@ -1,6 +1,9 @@
 #include "kinemend/cleaner.hpp"
 
+#include <utility>
+
 #include "clean/live_frames.hpp"
+#include "clean/tracks.hpp"
 #include "kinemend/error.hpp"
 
 namespace kinemend {
@@ -25,6 +28,24 @@ std::string_view to_string(Action action) {
 
 MarkerSelection MarkerSelection::all(const MarkerClip& clip) {
   return {std::vector<std::uint8_t>(clip.marker_count(), 1), kinemend::body_height(clip)};
+}
+
+CleanTrace Cleaner::clean_joints(Clip& clip, const Selection& selection, const JointSink& sink,
+                                 const std::function<void(double)>& /*progress*/) const {
+  Clip cleaned = clip;
+  CleanTrace trace = clean(cleaned, selection);
+  clip.root_positions = std::move(cleaned.root_positions);
+  clip.joint_translations = std::move(cleaned.joint_translations);
+  clip.observed = std::move(cleaned.observed);
+  clip.observed_positions = std::move(cleaned.observed_positions);
+  const std::size_t joints = clip.joint_count(), frames = clip.frame_count();
+  for_each_parallel(joints, clip.local_rotations.size(), [&](std::size_t j) {
+    std::vector<Action> actions(trace.actions.empty() ? 0 : frames);
+    for (std::size_t f = 0; f < actions.size(); ++f) actions[f] = trace.actions[f * joints + j];
+    sink(j, joint_track(cleaned, j), std::move(actions));
+  });
+  trace.actions.clear();
+  return trace;
 }
 
 MarkerTrace Cleaner::clean_markers(MarkerClip&, const MarkerSelection&) const {

@@ -181,22 +181,25 @@ bool accuse(Inquest& inquest, std::size_t n) {
 }
 
 // Measures and predicts these tracks, eight at a time.
-void examine(Inquest& inquest, std::span<const std::size_t> tracks) {
+void examine(Inquest& inquest, std::span<const std::size_t> tracks,
+             ShareProgress* progress = nullptr) {
   const std::size_t blocks = (tracks.size() + signal::lane_tracks - 1) / signal::lane_tracks;
+  if (progress) progress->begin_part(0.4, blocks);
   for_each_parallel(blocks, tracks.size() * inquest.measured.frames(), [&](std::size_t b) {
     const std::size_t first = b * signal::lane_tracks;
     const auto some = tracks.subspan(first, std::min(signal::lane_tracks, tracks.size() - first));
     for (const std::size_t track : some) measure_noise(inquest, track);
     if (inquest.others.smoothers() > 0) predict(inquest, some);
+    if (progress) progress->step();
   });
 }
 
 // Accuses until nothing changes. What a track's verdicts are depends on it alone, so only those
 // whose accused have changed are looked at again.
-void run_rounds(Inquest& inquest) {
+void run_rounds(Inquest& inquest, ShareProgress* progress) {
   std::vector<std::size_t> open(inquest.measured.tracks());
   std::iota(open.begin(), open.end(), std::size_t{0});
-  examine(inquest, open);
+  examine(inquest, open, progress);
   for (int round = 0; round < rounds && !open.empty(); ++round) {
     std::vector<std::uint8_t> changed(open.size());
     for_each_parallel(open.size(), open.size() * inquest.measured.frames(),
@@ -241,7 +244,7 @@ std::vector<std::vector<std::size_t>> joints_nearby(std::span<const std::int32_t
 
 SpikeVerdicts find_spikes(VectorTracks& tracks, const SampleMarks& suspects,
                           const std::vector<std::vector<std::size_t>>& nearby, double frame_rate_hz,
-                          const SampleMarks* missing) {
+                          const SampleMarks* missing, ShareProgress* progress) {
   const std::size_t frames = tracks.frames(), count = tracks.tracks();
   if (frames < 6) {
     return {SampleMarks(frames, count), std::vector<double>(count)};
@@ -254,7 +257,7 @@ SpikeVerdicts find_spikes(VectorTracks& tracks, const SampleMarks& suspects,
                   suspects,
                   std::vector<double>(count),
                   Predictions(frames, count)};
-  run_rounds(inquest);
+  run_rounds(inquest, progress);
   const std::vector<double> shares = cleaning_shares(inquest.noise, frame_rate_hz);
   const SampleMarks accused = std::exchange(
       inquest.accused, judge_spikes({tracks, inquest.predictions, inquest.accused, inquest.noise,

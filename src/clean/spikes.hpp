@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "clean/vector_tracks.hpp"
 #include "kinemend/rotation.hpp"
 
@@ -27,8 +28,9 @@ struct SpikeVerdicts {
 /// and no joint nearby moves with it. `suspects` are the first accused; `nearby[n]` the tracks that
 /// move with track n; `missing` samples are gaps already bridged, of which none is a spike. Marked
 /// samples of `tracks` come back interpolated, and so do bridges that start or end at one.
+/// `progress`, where there is one, goes on to two fifths.
 SpikeVerdicts find_spikes(VectorTracks& tracks, const SampleMarks& suspects,
                           const std::vector<std::vector<std::size_t>>& nearby, double frame_rate_hz,
-                          const SampleMarks* missing = nullptr);
+                          const SampleMarks* missing = nullptr, ShareProgress* progress = nullptr);
 
 }  // namespace kinemend

@@ -61,13 +61,15 @@ void give_travel_back(VectorTracks& tracks, const std::vector<Travel>& travels) 
 CleanedTracks clean_tracks(VectorTracks& tracks, const SampleMarks& suspects,
                            const SampleMarks& always_missing,
                            const std::vector<std::vector<std::size_t>>& nearby,
-                           double frame_rate_hz, const AutoOptions& options) {
+                           double frame_rate_hz, const AutoOptions& options,
+                           ShareProgress* progress) {
   const std::vector<Travel> travels = take_travel(tracks);
   const std::vector<NoiseShape> shapes = noise_shapes(tracks, always_missing, frame_rate_hz);
   make_round(tracks, shapes);
   CleanedTracks verdicts{SampleMarks(tracks.frames(), tracks.tracks()), {}, {}};
   if (options.despike) {
-    SpikeVerdicts found = find_spikes(tracks, suspects, nearby, frame_rate_hz, &always_missing);
+    SpikeVerdicts found =
+        find_spikes(tracks, suspects, nearby, frame_rate_hz, &always_missing, progress);
     verdicts.marked = std::move(found.marked);
     verdicts.noise = std::move(found.noise);
   } else {
@@ -82,7 +84,7 @@ CleanedTracks clean_tracks(VectorTracks& tracks, const SampleMarks& suspects,
     for (std::size_t t = 0; t < tracks.frames(); ++t) seen += missing(t, n) == 0;
     if (seen < 2 * fewest_clean_frames) verdicts.shares[n] = 0;
   }
-  smooth_tracks(tracks, missing, verdicts.noise, verdicts.shares, frame_rate_hz);
+  smooth_tracks(tracks, missing, verdicts.noise, verdicts.shares, frame_rate_hz, progress);
   undo_round(tracks, shapes);
   give_travel_back(tracks, travels);
   return verdicts;

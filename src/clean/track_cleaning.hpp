@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "clean/vector_tracks.hpp"
 #include "kinemend/methods.hpp"
 
@@ -20,10 +21,11 @@ struct CleanedTracks {
 
 /// Finds spikes and smooths noise. `suspects` are the first accused of being spikes;
 /// `always_missing` samples are gaps already bridged; `nearby[n]` are the tracks that move with
-/// track n.
+/// track n. `progress`, where there is one, goes on to three quarters.
 CleanedTracks clean_tracks(VectorTracks& tracks, const SampleMarks& suspects,
                            const SampleMarks& always_missing,
                            const std::vector<std::vector<std::size_t>>& nearby,
-                           double frame_rate_hz, const AutoOptions& options);
+                           double frame_rate_hz, const AutoOptions& options,
+                           ShareProgress* progress = nullptr);
 
 }  // namespace kinemend

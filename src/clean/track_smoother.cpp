@@ -78,16 +78,21 @@ class Smoothing {
     }
   }
 
-  void run(std::span<const double> shares) {
+  void run(std::span<const double> shares, ShareProgress* progress) {
     if (grid_.models().empty()) return;
     constexpr std::size_t together = signal::block_channels / 3;
     const std::size_t blocks = (chosen_.size() + together - 1) / together;
+    if (progress) progress->begin_part(0.55, blocks);
     for_each_parallel(blocks, samples(), [&](std::size_t b) {
       const std::size_t first = b * together;
       turn_to_axes(first, std::min(together, chosen_.size() - first));
+      if (progress) progress->step();
     });
-    signal::for_each_of_one_order(
-        models_, [&](const std::vector<std::size_t>& channels) { smooth(channels, shares); });
+    if (progress) progress->begin_part(0.75, models_.size() / signal::block_channels + 1);
+    signal::for_each_of_one_order(models_, [&](const std::vector<std::size_t>& channels) {
+      smooth(channels, shares);
+      if (progress) progress->step();
+    });
     for_each_parallel(chosen_.size(), samples(), [&](std::size_t i) { turn_back(i); });
   }
 
@@ -173,13 +178,13 @@ class Smoothing {
 }  // namespace
 
 void smooth_tracks(VectorTracks& tracks, const SampleMarks& missing, std::span<const double> noise,
-                   std::span<const double> shares, double frame_rate_hz) {
+                   std::span<const double> shares, double frame_rate_hz, ShareProgress* progress) {
   std::vector<std::size_t> chosen;
   for (std::size_t n = 0; n < tracks.tracks(); ++n) {
     if (shares[n] > 0) chosen.push_back(n);
   }
   if (chosen.empty() || tracks.frames() < 4) return;
-  Smoothing(tracks, missing, noise, std::move(chosen), frame_rate_hz).run(shares);
+  Smoothing(tracks, missing, noise, std::move(chosen), frame_rate_hz).run(shares, progress);
 }
 
 }  // namespace kinemend

@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "base/progress.hpp"
 #include "clean/vector_tracks.hpp"
 
 namespace kinemend {
@@ -10,8 +11,9 @@ namespace kinemend {
 /// of its own motion; each axis takes the order and strength of the Whittaker smoother that are
 /// most likely under `noise` (degrees), then strengths that follow the motion in time; the result
 /// is blended in by `shares` (0: the track stays as it is). `missing` samples have no weight. Takes
-/// under 4 frames stay as they are.
+/// under 4 frames stay as they are. `progress`, where there is one, goes on to three quarters.
 void smooth_tracks(VectorTracks& tracks, const SampleMarks& missing, std::span<const double> noise,
-                   std::span<const double> shares, double frame_rate_hz);
+                   std::span<const double> shares, double frame_rate_hz,
+                   ShareProgress* progress = nullptr);
 
 }  // namespace kinemend

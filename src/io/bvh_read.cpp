@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/progress.hpp"
 #include "io/bvh.hpp"
 #include "io/bvh_document.hpp"
 #include "io/bvh_hierarchy.hpp"
@@ -24,9 +25,10 @@ constexpr double rate_when_unknown_hz = 30;
 
 class MotionReader {
  public:
-  MotionReader(const SourceText& text, Diagnostics& diagnostics, const BvhHeader& header,
-               Clip& clip, BvhDocument& document)
+  MotionReader(const SourceText& text, const ReadOptions& options, Diagnostics& diagnostics,
+               const BvhHeader& header, Clip& clip, BvhDocument& document)
       : text_(text),
+        progress_(options.progress),
         diagnostics_(diagnostics),
         header_(header),
         clip_(clip),
@@ -108,6 +110,8 @@ class MotionReader {
       }
       if (filled == block || (rest < width && filled > 0)) {
         store(values.data(), filled, rows.gaps() > gaps_before);
+        progress_.reach(static_cast<double>(rows.position() - begin_) /
+                        static_cast<double>(end_ - begin_));
         gaps_before = rows.gaps();
         filled = 0;
       }
@@ -182,6 +186,7 @@ class MotionReader {
   }
 
   const SourceText& text_;
+  ShareProgress progress_;
   Diagnostics& diagnostics_;
   const BvhHeader& header_;
   Clip& clip_;
@@ -215,7 +220,7 @@ TakeResult read_bvh(std::string bytes, std::string_view name, const ReadOptions&
       header.frame_time_s > 0
           ? rate_from_frame_time(header.frame_time_s, document->text(header.frame_time))
           : rate_when_unknown_hz;
-  MotionReader(text, result.diagnostics, header, clip, *document).read();
+  MotionReader(text, options, result.diagnostics, header, clip, *document).read();
   document->skeleton = clip.skeleton;
   document->frame_rate_hz = clip.frame_rate_hz;
   document->frame_count = clip.frame_count();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 namespace kinemend {
 
@@ -31,39 +32,30 @@ Sum sum_over_frames(std::size_t frames, const Part& part) {
 
 class Minimisation {
  public:
-  Minimisation(const PoseMatrix& first_guess, const PoseMatrix& measured,
+  Minimisation(PoseMatrix first_guess, const PoseMatrix& measured,
                std::span<const std::uint8_t> observed, const WindowBases& bases,
                std::span<const double> mean, const ExampleWeights& weights,
                const ExampleSettings& settings)
       : frames_(measured.frames),
         channels_(measured.channels),
+        measured_(measured),
+        observed_(observed),
         mean_(mean),
         weights_(weights),
         settings_(settings),
         penalty_(bases, doubled(weights.prior), doubled(weights.coefficients), measured.frames,
                  usual_iterations),
-        z_(penalty_.padded_frames(), channels_),
-        y_(z_),
-        alpha_(z_),
-        image_(z_),
-        confidence_(z_),
-        gradient_(z_),
-        gradient_image_(z_),
-        step_(z_),
-        step_image_(z_) {
+        z_(padded(std::move(first_guess), penalty_.padded_frames())),
+        image_(z_.frames, channels_),
+        confidence_(frames_, channels_),
+        gradient_(z_.frames, channels_),
+        gradient_image_(z_.frames, channels_),
+        step_(z_.frames, channels_),
+        step_image_(z_.frames, channels_) {
     for (std::size_t f = 0; f < z_.frames; ++f) {
-      const std::size_t from = std::min(f, frames_ - 1);
-      for (std::size_t c = 0; c < channels_; ++c) {
-        z_(f, c) = first_guess(from, c) - mean[c];
-        if (f >= frames_) continue;
-        y_(f, c) = measured(f, c) - mean[c];
-        const bool seen = observed.empty() || observed[f * channels_ + c] != 0;
-        alpha_(f, c) = seen ? weights.data[c] : 0.0;
-      }
+      for (std::size_t c = 0; c < channels_; ++c) z_(f, c) -= mean[c];
     }
-    if (!limited()) return;
-    poses_ = PoseMatrix(frames_, channels_);
-    nearest_ = poses_;
+    if (limited()) beyond_ = PoseMatrix(frames_, channels_);
   }
 
   ExampleTrace run() {
@@ -85,17 +77,22 @@ class Minimisation {
         before = now;
       }
     }
-    trace.weights = PoseMatrix(frames_, channels_);
-    for (std::size_t i = 0; i < trace.weights.values.size(); ++i) {
-      trace.weights.values[i] = alpha_.values[i] > 0 ? confidence_.values[i] : 0.0;
+    for (std::size_t f = 0; f < frames_; ++f) {
+      for (std::size_t c = 0; c < channels_; ++c) {
+        if (!(alpha(f, c) > 0)) confidence_(f, c) = 0;
+      }
     }
+    trace.weights = std::move(confidence_);
     return trace;
   }
 
-  void store(PoseMatrix& poses) const {
-    for (std::size_t f = 0; f < frames_; ++f) {
-      for (std::size_t c = 0; c < channels_; ++c) poses(f, c) = z_(f, c) + mean_[c];
-    }
+  // What was minimised, which is used up.
+  PoseMatrix take_poses() {
+    PoseMatrix poses = std::move(z_);
+    poses.values.resize(frames_ * channels_);
+    poses.frames = frames_;
+    for (std::size_t i = 0; i < poses.values.size(); ++i) poses.values[i] += mean_[i % channels_];
+    return poses;
   }
 
  private:
@@ -105,37 +102,69 @@ class Minimisation {
     return values;
   }
 
+  // Frames behind the clip belong to nothing, and begin where it ends.
+  static PoseMatrix padded(PoseMatrix poses, std::size_t frames) {
+    const std::size_t channels = poses.channels, last = poses.values.size() - channels;
+    poses.values.reserve(frames * channels);
+    for (std::size_t f = poses.frames; f < frames; ++f) {
+      for (std::size_t c = 0; c < channels; ++c) poses.values.push_back(poses.values[last + c]);
+    }
+    poses.frames = frames;
+    return poses;
+  }
+
   bool limited() const { return settings_.limit_weight > 0 && settings_.project; }
+
+  // b_l where a sample was observed.
+  double alpha(std::size_t f, std::size_t c) const {
+    const bool seen = f < frames_ && (observed_.empty() || observed_[f * channels_ + c] != 0);
+    return seen ? weights_.data[c] : 0.0;
+  }
+  // z - y, less the mean both.
+  double residual(std::size_t f, std::size_t c) const {
+    return z_(f, c) - (measured_(f, c) - mean_[c]);
+  }
 
   // The objective at z, whose image is known. What it finds on the way, the next step needs: the
   // nearest poses within the limits and eq. 15's weights, w = phi(r) / r.
   double evaluate() {
-    if (limited()) {
-      store(poses_);
-      settings_.project(poses_, nearest_);
-    }
     return sum_over_frames<double>(
         z_.frames, [&](std::size_t first, std::size_t last) { return evaluate(first, last); });
   }
 
   double evaluate(std::size_t first, std::size_t last) {
     double data = 0, patterns = 0, limits = 0;
+    if (limited()) find_limits(first, std::min(last, frames_));
     for (std::size_t f = first; f < last; ++f) {
       for (std::size_t c = 0; c < channels_; ++c) {
-        patterns += z_(f, c) * (penalty_.diagonal()(f, c) * z_(f, c) - image_(f, c));
-        if (alpha_(f, c) == 0) continue;
-        const double r = z_(f, c) - y_(f, c), p = scale_ * weights_.welsch[c];
+        patterns += z_(f, c) * (penalty_.diagonal(f, c) * z_(f, c) - image_(f, c));
+        const double b = alpha(f, c);
+        if (b == 0) continue;
+        const double r = residual(f, c), p = scale_ * weights_.welsch[c];
         const double lost = std::expm1(-r * r / (p * p));
-        data += alpha_(f, c) * (std::isinf(p) ? r * r / 2 : -p * p / 2 * lost);
+        data += b * (std::isinf(p) ? r * r / 2 : -p * p / 2 * lost);
         confidence_(f, c) = 1 + lost;
       }
       if (!limited() || f >= frames_) continue;
       for (std::size_t c = 0; c < channels_; ++c) {
-        const double beyond = poses_(f, c) - nearest_(f, c);
-        limits += beyond * beyond;
+        limits += beyond_(f, c) * beyond_(f, c);
       }
     }
     return data + patterns / 2 + settings_.limit_weight * limits;
+  }
+
+  // How far the poses of some frames are from the nearest allowed ones.
+  void find_limits(std::size_t first, std::size_t last) {
+    if (first >= last) return;
+    PoseMatrix poses(last - first, channels_), nearest = poses;
+    for (std::size_t f = first; f < last; ++f) {
+      for (std::size_t c = 0; c < channels_; ++c) poses(f - first, c) = z_(f, c) + mean_[c];
+    }
+    settings_.project(poses, nearest);
+    for (std::size_t f = first; f < last; ++f) {
+      for (std::size_t c = 0; c < channels_; ++c)
+        beyond_(f, c) = poses(f - first, c) - nearest(f - first, c);
+    }
   }
 
   // Of the quadratic that majorises the objective at z, less the patterns' part: its diagonal and
@@ -144,12 +173,14 @@ class Minimisation {
     double diagonal, residual;
   };
   Slope slope(std::size_t f, std::size_t c) const {
-    const double w = alpha_(f, c) * confidence_(f, c), patterns = penalty_.diagonal()(f, c);
-    Slope slope{w + patterns, w * (y_(f, c) - z_(f, c)) - patterns * z_(f, c) + image_(f, c)};
+    const double b = alpha(f, c), patterns = penalty_.diagonal(f, c);
+    const double w = b > 0 ? b * confidence_(f, c) : 0.0;
+    const double pull = b > 0 ? w * -residual(f, c) : 0.0;
+    Slope slope{w + patterns, pull - patterns * z_(f, c) + image_(f, c)};
     if (limited() && f < frames_) {
       const double limit = 2 * settings_.limit_weight;
       slope.diagonal += limit;
-      slope.residual += limit * (nearest_(f, c) - poses_(f, c));
+      slope.residual -= limit * beyond_(f, c);
     }
     return slope;
   }
@@ -226,17 +257,18 @@ class Minimisation {
   }
 
   std::size_t frames_, channels_;
+  const PoseMatrix& measured_;
+  std::span<const std::uint8_t> observed_;
   std::span<const double> mean_;
   const ExampleWeights& weights_;
   const ExampleSettings& settings_;
   PatternPenalty penalty_;
   double scale_ = 1;       // of p
-  PoseMatrix z_, y_;       // less the mean; frames behind the clip belong to nothing
-  PoseMatrix alpha_;       // b_l where observed
+  PoseMatrix z_;           // less the mean; frames behind the clip belong to nothing
   PoseMatrix image_;       // A z
-  PoseMatrix confidence_;  // exp(-r^2 / p^2)
+  PoseMatrix confidence_;  // F x L: exp(-r^2 / p^2)
   PoseMatrix gradient_, gradient_image_, step_, step_image_;
-  PoseMatrix poses_, nearest_;  // of the limits
+  PoseMatrix beyond_;  // F x L: from the nearest pose within the limits
 };
 
 }  // namespace
@@ -259,7 +291,7 @@ void LinearExampleFilter::filter(PoseMatrix& poses) {
   patterns_->multiply(z, image);
   for (std::size_t f = 0; f < poses.frames; ++f) {
     for (std::size_t c = 0; c < poses.channels; ++c) {
-      poses(f, c) = mean_[c] + image(f, c) / patterns_->diagonal()(f, c);
+      poses(f, c) = mean_[c] + image(f, c) / patterns_->diagonal(f, c);
     }
   }
 }
@@ -269,9 +301,9 @@ ExampleTrace example_filter(PoseMatrix& poses, const PoseMatrix& measured,
                             std::span<const double> mean, const ExampleWeights& weights,
                             const ExampleSettings& settings) {
   if (measured.frames == 0) return {};
-  Minimisation minimisation(poses, measured, observed, bases, mean, weights, settings);
+  Minimisation minimisation(std::move(poses), measured, observed, bases, mean, weights, settings);
   ExampleTrace trace = minimisation.run();
-  minimisation.store(poses);
+  poses = minimisation.take_poses();
   return trace;
 }
 

@@ -59,7 +59,8 @@ struct ExampleSettings {
   /// far minima in which outliers hold each other.
   double first_welsch = 1;
   double limit_weight = 0;
-  /// The nearest allowed poses.
+  /// The nearest allowed poses, of any frames: asked for some of them at a time, from several
+  /// threads.
   std::function<void(const PoseMatrix& poses, PoseMatrix& nearest)> project{};
 };
 
@@ -68,7 +69,8 @@ struct ExampleTrace {
   PoseMatrix weights;             ///< F x L: exp(-r^2 / p^2) of the last; 0 where not observed
 };
 
-/// Minimises the objective. `poses` holds the first guess and becomes the result; `measured` is y,
+/// Minimises the objective. `poses` holds the first guess and becomes the result (it lends its room
+/// on the way); `measured` is y,
 /// `observed` alpha (F x L, 0 or 1; empty: all), `mean` the channels' means (L), from which the
 /// patterns are measured. F is at least `bases.frames`.
 ExampleTrace example_filter(PoseMatrix& poses, const PoseMatrix& measured,

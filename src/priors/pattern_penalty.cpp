@@ -87,11 +87,10 @@ PatternPenalty::PatternPenalty(const WindowBases& bases, std::span<const double>
       overlap_((bases.frames + bases.hop - 1) / bases.hop),
       windows_((frames - bases.frames + bases.hop - 1) / bases.hop + 1),
       groups_(windows_ - 1 + overlap_),
-      diagonal_(groups_ * hop_, channels_) {
+      windows_over_(groups_ * hop_),
+      weights_(weights.begin(), weights.end()) {
   for (std::size_t s = 0; s < windows_; ++s) {
-    for (std::size_t f = s * hop_; f < s * hop_ + bases.frames; ++f) {
-      for (std::size_t c = 0; c < channels_; ++c) diagonal_(f, c) += weights[c];
-    }
+    for (std::size_t f = s * hop_; f < s * hop_ + bases.frames; ++f) windows_over_[f] += 1;
   }
   std::vector<double> factor = penalty_factor(bases, weights, ridge);
   if (product == Product::frequencies ||

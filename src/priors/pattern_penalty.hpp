@@ -41,8 +41,10 @@ class PatternPenalty {
   std::size_t padded_frames() const noexcept { return groups_ * hop_; }
   std::size_t windows() const noexcept { return windows_; }
   bool goes_by_frequencies() const noexcept { return convolution_.has_value(); }
-  /// D: padded_frames x L.
-  const PoseMatrix& diagonal() const noexcept { return diagonal_; }
+  /// D, of a frame (below padded_frames) and a channel: its weight in all windows over it.
+  double diagonal(std::size_t frame, std::size_t channel) const {
+    return windows_over_[frame] * weights_[channel];
+  }
   /// image = A z; both padded_frames x L.
   void multiply(const PoseMatrix& z, PoseMatrix& image);
 
@@ -66,7 +68,8 @@ class PatternPenalty {
   std::optional<PatternConvolution> convolution_;
   std::vector<double> factor_;
   std::vector<double> ends_, windows_over_end_;
-  PoseMatrix diagonal_;
+  std::vector<double> windows_over_;  // each frame
+  std::vector<double> weights_;       // d_l^2
 };
 
 }  // namespace kinemend

@@ -18,19 +18,7 @@
 /// Laws that hold for any bytes, whatever the format. A new fixture is cut and patched everywhere.
 namespace kinemend::test {
 
-/// Bytes on the heap; counted by counted_memory_test.cpp, zero where a sanitizer counts itself.
-inline std::atomic<std::size_t> memory_now{0}, memory_peak{0};
-
 inline constexpr std::size_t memory_allowed = 50u << 20;
-
-/// Most memory that `action` held at once beyond what was held before.
-template <class Action>
-std::size_t peak_memory(Action&& action) {
-  const std::size_t before = memory_now;
-  memory_peak = before;
-  action();
-  return memory_peak - before;
-}
 
 inline std::vector<std::filesystem::path> fixture_paths(const std::string& format) {
   std::vector<std::filesystem::path> paths;
