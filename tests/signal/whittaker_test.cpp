@@ -165,5 +165,22 @@ TEST_P(WhittakerOrder, FactorOfALongTakeIsThatOfAShortOneContinued) {
 
 INSTANTIATE_TEST_SUITE_P(Orders, WhittakerOrder, testing::Values(1, 2, 3));
 
+TEST(SharedResiduals, AreThoseOfTheSolutions) {
+  Random random(11);
+  for (const std::size_t frames : {5, 40, 1300}) {
+    const ChannelBlock y = random_block(frames, random, -20, 20);
+    std::vector<SharedFactor> factors;
+    for (const std::size_t order : {1, 2, 3}) {
+      for (const double strength : {0.1, 3.0, 40.0, 1e3, 1e5, 1e8})
+        factors.push_back(factor_shared(frames, order, strength));
+    }
+    const std::vector<BlockRow> residuals = shared_residuals(factors, y);
+    ASSERT_EQ(residuals.size(), factors.size());
+    ChannelBlock x(frames);
+    for (std::size_t m = 0; m < factors.size(); ++m)
+      EXPECT_EQ(residuals[m], solve_shared(factors[m], y, x)) << frames << " " << m;
+  }
+}
+
 }  // namespace
 }  // namespace kinemend::signal

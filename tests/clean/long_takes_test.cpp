@@ -1,0 +1,132 @@
+// What long takes need: one copy of the take, and word of how far the work is.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "clean/takes.hpp"
+#include "counted_operators.hpp"
+#include "kinemend/clean.hpp"
+#include "kinemend/corrupt.hpp"
+#include "kinemend/methods.hpp"
+#include "kinemend/synth.hpp"
+
+namespace kinemend::test {
+namespace {
+
+using testing::ElementsAre;
+
+Clip noisy_stroll(double duration_s) {
+  Clip clip = synthesize({"stroll", duration_s, 120, 1});
+  Random random(7);
+  apply_damage(clip, "gaussian", {{"std_deg", 1.5}}, random);
+  apply_damage(clip, "outliers", {{"share", 0.004}}, random);
+  return clip;
+}
+
+#if !defined(KINEMEND_SANITIZED)
+// Beside the take itself, which is 32 bytes a rotation. What it takes: the vectors of all joints,
+// marks, and what two threads work on.
+TEST(LongTakes, AreCleanedInLittleMoreRoomThanTheyTake) {
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 2);
+  const auto cleaner = make_auto();
+  Clip clip = noisy_stroll(40);
+  const auto rotations = static_cast<double>(clip.local_rotations.size());
+  const std::size_t peak = peak_memory([&] { clip = clean_clip(std::move(clip), *cleaner).clip; });
+  EXPECT_LT(static_cast<double>(peak), 90 * rotations);
+  EXPECT_GT(static_cast<double>(peak), 10 * rotations);  // counted at all
+}
+#endif
+
+struct Told {
+  std::string stage;
+  std::vector<double> shares;
+};
+
+class EveryOnLongTakes : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryOnLongTakes, TellsOfEachStageOnceFromBeginningToEnd) {
+  Clip clip = moving_take(1500, 120);
+  add_noise(clip, 1.5, 0.5, 1);
+  std::vector<Told> told;
+  CleanSettings settings;
+  settings.progress = [&](std::string_view stage, double done) {
+    if (told.empty() || told.back().stage != stage) told.push_back({std::string(stage), {}});
+    told.back().shares.push_back(done);
+  };
+  const auto cleaner = make_cleaner(GetParam());
+  const auto stages = [&] {
+    told.clear();
+    clean_clip(clip, *cleaner, settings);
+    std::vector<std::string> names;
+    for (const Told& stage : told) {
+      names.push_back(stage.stage);
+      EXPECT_EQ(stage.shares.front(), 0) << stage.stage;
+      EXPECT_EQ(stage.shares.back(), 1) << stage.stage;
+      for (std::size_t i = 1; i < stage.shares.size(); ++i)
+        EXPECT_LT(stage.shares[i - 1], stage.shares[i]) << stage.stage;
+    }
+    return names;
+  };
+  EXPECT_THAT(stages(), ElementsAre("cleaning"));
+  if (GetParam() == "auto") {
+    EXPECT_GT(told[0].shares.size(), 10U);
+  }
+  settings.fill.emplace();
+  settings.feet.emplace();
+  EXPECT_THAT(stages(), ElementsAre("filling", "cleaning", "feet"));
+}
+
+TEST_P(EveryOnLongTakes, GivesTheSameJointByJoint) {
+  Clip clip = moving_take(600, 120);
+  add_noise(clip, 1.5, 0.5, 2);
+  clip.rotation(100, 2) = clip.rotation(100, 2) * exp({1.2, 0, 0});
+  const auto cleaner = make_cleaner(GetParam());
+  Clip whole = clip, parts = clip;
+  const Selection all = Selection::all(clip);
+  const CleanTrace trace = cleaner->clean(whole, all);
+  std::vector<Action> actions(clip.local_rotations.size(), Action::kept);
+  const CleanTrace other = cleaner->clean_joints(
+      parts, all, [&](std::size_t joint, std::vector<Quat> rotations, std::vector<Action> stated) {
+        for (std::size_t f = 0; f < rotations.size(); ++f) {
+          parts.rotation(f, joint) = rotations[f];
+          if (!stated.empty()) actions[f * parts.joint_count() + joint] = stated[f];
+        }
+      });
+  EXPECT_EQ(parts.local_rotations, whole.local_rotations);
+  EXPECT_EQ(parts.root_positions, whole.root_positions);
+  EXPECT_EQ(parts.joint_translations, whole.joint_translations);
+  EXPECT_EQ(other.noise_deg, trace.noise_deg);
+  EXPECT_EQ(other.root_actions, trace.root_actions);
+  if (!trace.actions.empty()) {
+    EXPECT_EQ(actions, trace.actions);
+  }
+  EXPECT_TRUE(other.actions.empty());
+}
+
+TEST_P(EveryOnLongTakes, GivesTheSameOfATakeThatIsNeededNoMore) {
+  Clip clip = moving_take(300, 120);
+  add_noise(clip, 1.5, 0.5, 3);
+  for (std::size_t j = 0; j < clip.joint_count(); ++j) clip.rotation(0, j) = {};
+  ASSERT_EQ(leading_calibration_frames(clip), 1U);
+  clip.observed.assign(clip.local_rotations.size(), 1);
+  for (std::size_t f = 50; f < 55; ++f) clip.observed[f * clip.joint_count() + 1] = 0;
+  const auto cleaner = make_cleaner(GetParam());
+  const CleanResult kept = clean_clip(clip, *cleaner);
+  const std::vector<std::uint8_t> observed = clip.observed;
+  const CleanResult given = clean_clip(std::move(clip), *cleaner);
+  EXPECT_EQ(given.clip.local_rotations, kept.clip.local_rotations);
+  EXPECT_EQ(given.clip.root_positions, kept.clip.root_positions);
+  EXPECT_EQ(given.clip.joint_translations, kept.clip.joint_translations);
+  EXPECT_EQ(given.clip.observed, observed);
+  ASSERT_EQ(given.report.spans.size(), kept.report.spans.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, EveryOnLongTakes, testing::ValuesIn(method_names()),
+                         [](const auto& method) { return camel_case(method.param); });
+
+}  // namespace
+}  // namespace kinemend::test
