@@ -34,17 +34,7 @@ CleanTrace Cleaner::clean_joints(Clip& clip, const Selection& selection, const J
                                  const std::function<void(double)>& /*progress*/) const {
   Clip cleaned = clip;
   CleanTrace trace = clean(cleaned, selection);
-  clip.root_positions = std::move(cleaned.root_positions);
-  clip.joint_translations = std::move(cleaned.joint_translations);
-  clip.observed = std::move(cleaned.observed);
-  clip.observed_positions = std::move(cleaned.observed_positions);
-  const std::size_t joints = clip.joint_count(), frames = clip.frame_count();
-  for_each_parallel(joints, clip.local_rotations.size(), [&](std::size_t j) {
-    std::vector<Action> actions(trace.actions.empty() ? 0 : frames);
-    for (std::size_t f = 0; f < actions.size(); ++f) actions[f] = trace.actions[f * joints + j];
-    sink(j, joint_track(cleaned, j), std::move(actions));
-  });
-  trace.actions.clear();
+  hand_over(clip, std::move(cleaned), sink, trace);
   return trace;
 }
 

@@ -109,7 +109,7 @@ class ExampleCleaning {
     const WindowBases bases =
         bases_at_rate(prior_.bases, prior_.rate_hz, channels.frame_rate_hz, channels.poses.frames,
                       static_cast<std::size_t>(options_.bases));
-    const PoseMatrix guess = first_guess(work, mean);
+    PoseMatrix guess = first_guess(work, mean);
     // Starting from what the bases express, outliers stand out at once.
     PoseMatrix cleaned = guess;
     LinearExampleFilter expressible(bases, mean, cleaned.frames);
@@ -121,6 +121,7 @@ class ExampleCleaning {
     const std::vector<double> noise = example_noise(work);
     const double suspects = suspect_share(work, cleaned);
     const double rest = strangeness(work, guess, cleaned, noise, prior_.bases.residual);
+    guess = {};
     ExampleSettings settings;
     settings.iterations = static_cast<std::size_t>(options_.iterations);
     settings.tolerance = options_.tolerance;

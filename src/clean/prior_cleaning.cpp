@@ -338,10 +338,11 @@ void settle_gaps(const MarkerClip& before, MarkerClip& clip, const BodyMatch& ma
 
 }  // namespace
 
-CleanTrace clean_with_prior(Clip& clip, const Selection& selection, const BodyLayout& layout,
-                            const NameMap& names, bool fill, const PriorFilter& filter) {
+Clip cleaned_with_prior(const Clip& clip, const Selection& selection, const BodyLayout& layout,
+                        const NameMap& names, bool fill, const PriorFilter& filter,
+                        CleanTrace& trace) {
   const BodyMatch match = match_body(layout, clip, names);
-  if (clip.frame_count() == 0) return {};
+  if (clip.frame_count() == 0) return clip;
   std::vector<std::uint8_t> chosen = chosen_parts(match, selection.joints);
   const JointRun run = run_auto(clip, layout, match, selection);
   PriorWork work = work_of(clip, run);
@@ -355,8 +356,14 @@ CleanTrace clean_with_prior(Clip& clip, const Selection& selection, const BodyLa
   take_fallback(result, run, chosen);
   decode_body(work.channels, layout, match, result, chosen);
   if (!fill) keep_bridges(result, run, chosen);
-  CleanTrace trace = trace_of(clip, run, work, chosen);
-  clip = std::move(result);
+  trace = trace_of(clip, run, work, chosen);
+  return result;
+}
+
+CleanTrace clean_with_prior(Clip& clip, const Selection& selection, const BodyLayout& layout,
+                            const NameMap& names, bool fill, const PriorFilter& filter) {
+  CleanTrace trace;
+  clip = cleaned_with_prior(clip, selection, layout, names, fill, filter, trace);
   return trace;
 }
 
@@ -396,6 +403,15 @@ class PriorCleaner final : public Cleaner {
 
   CleanTrace clean(Clip& clip, const Selection& selection) const override {
     return clean_with_prior(clip, selection, model_->layout, names_, fill_, filter_);
+  }
+
+  CleanTrace clean_joints(Clip& clip, const Selection& selection, const JointSink& sink,
+                          const std::function<void(double)>& /*progress*/) const override {
+    CleanTrace trace;
+    hand_over(clip,
+              cleaned_with_prior(clip, selection, model_->layout, names_, fill_, filter_, trace),
+              sink, trace);
+    return trace;
   }
 
   MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {

@@ -41,6 +41,10 @@ using PriorFilter = std::function<void(PriorWork& work)>;
 /// where `fill` is set. Errors: `ErrorKind::usage` as of `match_body`.
 CleanTrace clean_with_prior(Clip& clip, const Selection& selection, const BodyLayout& layout,
                             const NameMap& names, bool fill, const PriorFilter& filter);
+/// The same, as a clip of its own.
+Clip cleaned_with_prior(const Clip& clip, const Selection& selection, const BodyLayout& layout,
+                        const NameMap& names, bool fill, const PriorFilter& filter,
+                        CleanTrace& trace);
 MarkerTrace clean_with_prior(MarkerClip& clip, const MarkerSelection& selection,
                              const BodyLayout& layout, const NameMap& names, bool fill,
                              const PriorFilter& filter);

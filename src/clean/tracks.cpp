@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "kinemend/representation.hpp"
 
@@ -177,6 +178,20 @@ void bridge_gaps(Clip& clip, std::span<const std::size_t> joints, CleanTrace& tr
       clip.rotation(f, joint) = clip.rotation(seen.back(), joint);
     }
   }
+}
+
+void hand_over(Clip& clip, Clip cleaned, const JointSink& sink, CleanTrace& trace) {
+  clip.root_positions = std::move(cleaned.root_positions);
+  clip.joint_translations = std::move(cleaned.joint_translations);
+  clip.observed = std::move(cleaned.observed);
+  clip.observed_positions = std::move(cleaned.observed_positions);
+  const std::size_t joints = clip.joint_count(), frames = clip.frame_count();
+  for_each_parallel(joints, clip.local_rotations.size(), [&](std::size_t j) {
+    std::vector<Action> actions(trace.actions.empty() ? 0 : frames);
+    for (std::size_t f = 0; f < actions.size(); ++f) actions[f] = trace.actions[f * joints + j];
+    sink(j, joint_track(cleaned, j), std::move(actions));
+  });
+  trace.actions.clear();
 }
 
 void bridge_positions(Clip& clip) {

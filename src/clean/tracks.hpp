@@ -47,6 +47,10 @@ void mark_gaps(const Clip& clip, std::span<const std::size_t> joints, CleanTrace
 /// (the nearest observed sample at the ends of the take), and marks it as filled.
 void bridge_gaps(Clip& clip, std::span<const std::size_t> joints, CleanTrace& trace);
 
+/// Gives what a cleaner made of a copy of `clip` to `sink`, joint by joint, and everything else to
+/// `clip`. `trace.actions` go to the sink, too.
+void hand_over(Clip& clip, Clip cleaned, const JointSink& sink, CleanTrace& trace);
+
 /// Puts the straight line between its observed neighbours into each position that was not observed.
 void bridge_positions(Clip& clip);
 

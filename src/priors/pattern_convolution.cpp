@@ -20,6 +20,8 @@ std::size_t rows_of_block(std::size_t window_rows) { return (3 * window_rows) | 
 constexpr std::size_t frequencies_at_once = 4;
 // Blocks of about so many columns are transformed at once.
 constexpr std::size_t columns_at_once = 300;
+// Spectra of about so many values are made before they are used: enough for products of matrices.
+constexpr std::size_t spectrum_values = std::size_t{3} << 19;
 
 }  // namespace
 
@@ -103,16 +105,22 @@ void PatternConvolution::prepare_matrices(const nn::PackedMatrix& patterns, std:
 }
 
 void PatternConvolution::multiply(const double* z, std::size_t rows, double* image) {
-  blocks_ = (rows + fresh_rows_ - 1) / fresh_rows_;
-  spectrum_.resize(frequencies_ * 2 * blocks_ * row_values_);
-  const tbb::blocked_range<std::size_t> some_blocks(
-      0, blocks_, std::max<std::size_t>(1, columns_at_once / row_values_));
-  tbb::parallel_for(some_blocks,
-                    [&](const auto& range) { transform(z, rows, range.begin(), range.end()); });
-  tbb::parallel_for(std::size_t{0}, frequencies_, [&](std::size_t f) { filter(f); });
-  tbb::parallel_for(some_blocks, [&](const auto& range) {
-    transform_back(image, rows, range.begin(), range.end());
-  });
+  const std::size_t blocks = (rows + fresh_rows_ - 1) / fresh_rows_;
+  const std::size_t of_block = frequencies_ * 2 * row_values_;
+  const std::size_t at_once =
+      std::max<std::size_t>(1, std::min(blocks, spectrum_values / of_block));
+  spectrum_.resize(of_block * at_once);
+  for (first_block_ = 0; first_block_ < blocks; first_block_ += at_once) {
+    blocks_ = std::min(at_once, blocks - first_block_);
+    const tbb::blocked_range<std::size_t> some_blocks(
+        0, blocks_, std::max<std::size_t>(1, columns_at_once / row_values_));
+    tbb::parallel_for(some_blocks,
+                      [&](const auto& range) { transform(z, rows, range.begin(), range.end()); });
+    tbb::parallel_for(std::size_t{0}, frequencies_, [&](std::size_t f) { filter(f); });
+    tbb::parallel_for(some_blocks, [&](const auto& range) {
+      transform_back(image, rows, range.begin(), range.end());
+    });
+  }
 }
 
 void PatternConvolution::transform(const double* z, std::size_t rows, std::size_t first,
@@ -120,7 +128,7 @@ void PatternConvolution::transform(const double* z, std::size_t rows, std::size_
   const std::size_t v = row_values_, columns = (last - first) * v;
   std::vector<double> even(frequencies_ * columns), odd(frequencies_ * columns);
   for (std::size_t b = first; b < last; ++b) {
-    const std::size_t middle = b * fresh_rows_ + fresh_rows_ / 2;
+    const std::size_t middle = (first_block_ + b) * fresh_rows_ + fresh_rows_ / 2;
     for (std::size_t t = 0; t < frequencies_; ++t) {
       const double* after = &z[(middle + t) % rows * v];
       const double* before = &z[(middle + t * (rows - 1)) % rows * v];
@@ -171,7 +179,7 @@ void PatternConvolution::transform_back(double* image, std::size_t rows, std::si
                {real + blocks_ * v, frequencies_, columns, stride},
                {odd.data(), times, columns, columns});
   for (std::size_t b = first; b < last; ++b) {
-    const std::size_t middle = b * fresh_rows_ + fresh_rows_ / 2;
+    const std::size_t middle = (first_block_ + b) * fresh_rows_ + fresh_rows_ / 2;
     for (std::size_t t = 0; t < times; ++t) {
       const double* sum = &even[t * columns + (b - first) * v];
       const double* difference = &odd[t * columns + (b - first) * v];

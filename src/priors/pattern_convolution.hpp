@@ -34,7 +34,7 @@ class PatternConvolution {
   // Of frequencies [first, last); `parts` is scratch.
   void prepare_matrices(const nn::PackedMatrix& patterns, std::size_t first, std::size_t last,
                         std::vector<double>& parts);
-  // Of blocks [first, last).
+  // Of blocks [first, last) of those that are transformed at once.
   void transform(const double* z, std::size_t rows, std::size_t first, std::size_t last);
   void filter(std::size_t frequency);
   void transform_back(double* image, std::size_t rows, std::size_t first, std::size_t last);
@@ -44,7 +44,8 @@ class PatternConvolution {
   std::size_t block_rows_;   // odd, so that a block has a middle and only frequency 0 is real
   std::size_t frequencies_;  // (block_rows + 1) / 2
   std::size_t fresh_rows_;   // of the image that a block gives, odd
-  std::size_t blocks_ = 0;
+  // Blocks that are transformed at once, and the first of them.
+  std::size_t first_block_ = 0, blocks_ = 0;
   // Cosines and -sines at the frequencies and at times 0, 1, ... from the middle of a block.
   std::vector<double> cosines_, sines_;
   std::vector<double> cosines_back_, sines_back_;  // times x frequencies
