@@ -33,7 +33,7 @@ Clip noisy_stroll(double duration_s) {
 TEST(LongTakes, AreCleanedInLittleMoreRoomThanTheyTake) {
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 2);
   const auto cleaner = make_auto();
-  Clip clip = noisy_stroll(40);
+  Clip clip = noisy_stroll(60);
   const auto rotations = static_cast<double>(clip.local_rotations.size());
   const std::size_t peak = peak_memory([&] { clip = clean_clip(std::move(clip), *cleaner).clip; });
   EXPECT_LT(static_cast<double>(peak), 90 * rotations);

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <string>
@@ -11,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "counted_memory.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/random.hpp"
