@@ -3,12 +3,12 @@
 #include <atomic>
 #include <cstddef>
 
-// How much memory an action takes. The counting operators of `counted_operators.hpp` are part of
-// those programs that ask.
+/// Bytes on the heap, for laws about memory. `counting_allocation.hpp` counts them in the programs
+/// that include it once; they stay zero where a sanitizer counts itself.
 namespace kinemend::test {
 
-/// Bytes on the heap; zero where a sanitizer counts itself.
 inline std::atomic<std::size_t> memory_now{0}, memory_peak{0};
+inline std::atomic<std::size_t> memory_taken{0};  ///< ever, freed or not
 
 /// Most memory that `action` held at once beyond what was held before.
 template <class Action>

@@ -126,7 +126,7 @@ BodyMatch match_body(const BodyLayout& layout, const MarkerClip& clip, const Nam
 struct BodyChannels {
   PoseMatrix poses;                    ///< F x D degrees; of missing samples the last seen value
   std::vector<std::uint8_t> observed;  ///< F x D, 1 where there was a measurement
-  double frame_rate_hz = 0;
+  double frame_rate_hz = 0;  ///< of the take; of one above 1,000 Hz that (`window_rate_hz`)
   // The body's frame, and the scale:
   std::vector<double> headings;  ///< F, radians about y, from z
   std::vector<Vec3> places;      ///< F, on the floor, file units, in the take's axes turned upright

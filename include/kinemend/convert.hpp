@@ -17,7 +17,7 @@ namespace kinemend {
 /// them) and is observed where both of its neighbours are. Nothing is averaged: what is faster than
 /// half the new rate is folded, as in a camera. A rate that agrees with the take's own to six
 /// digits is its own. Events stay at their moment of the motion. Errors: `ErrorKind::usage` for a
-/// rate that is not finite and positive, or that would make more than 100 million samples.
+/// rate outside of 0.1 to 100,000 Hz, or that would make more than 100 million samples.
 Clip resample(const Clip& clip, double frame_rate_hz);
 MarkerClip resample(const MarkerClip& clip, double frame_rate_hz);
 

@@ -4,6 +4,7 @@
 #include "clean/marker_tracks.hpp"
 #include "clean/method_list.hpp"
 #include "clean/rotation_track.hpp"
+#include "kinemend/frame_rate.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
 
@@ -37,7 +38,7 @@ class BilateralCleaner final : public Cleaner {
   }
 
   CleanTrace clean(Clip& clip, const Selection& selection) const override {
-    const double sigma_t = options_.sigma_t_s * clip.frame_rate_hz;
+    const double sigma_t = options_.sigma_t_s * window_rate_hz(clip.frame_rate_hz);
     const double sigma_g = options_.sigma_g_deg * radians_per_degree;
     const auto passes = static_cast<std::size_t>(options_.passes);
     const BilateralKernel turns = bilateral_kernel(sigma_t, sigma_g);
@@ -51,7 +52,7 @@ class BilateralCleaner final : public Cleaner {
   }
 
   MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
-    const double sigma_t = options_.sigma_t_s * clip.frame_rate_hz;
+    const double sigma_t = options_.sigma_t_s * window_rate_hz(clip.frame_rate_hz);
     const double sigma_g = options_.sigma_g_deg * radians_per_degree;
     const BilateralKernel moves = bilateral_kernel(sigma_t, sigma_g * selection.body_height);
     // Bridges count like samples: a mean of one side only would lag behind a marker that travels.
@@ -62,7 +63,8 @@ class BilateralCleaner final : public Cleaner {
   }
 
   LiveSupport live_support(double frame_rate_hz) const override {
-    const std::size_t k = bilateral_kernel(options_.sigma_t_s * frame_rate_hz, 1).half_width();
+    const double sigma_t = options_.sigma_t_s * window_rate_hz(frame_rate_hz);
+    const std::size_t k = bilateral_kernel(sigma_t, 1).half_width();
     return {LiveSupport::Kind::windowed, k * static_cast<std::size_t>(options_.passes)};
   }
 

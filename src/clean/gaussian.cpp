@@ -6,6 +6,7 @@
 #include "clean/method_list.hpp"
 #include "clean/orientation_filter.hpp"
 #include "clean/rotation_track.hpp"
+#include "kinemend/frame_rate.hpp"
 #include "kinemend/methods.hpp"
 
 namespace kinemend {
@@ -21,9 +22,13 @@ const OptionTable<GaussianOptions>& table() {
   return result;
 }
 
-// exp(-j^2 / (2 sigma^2)) for j = -k .. k.
-std::vector<double> gaussian_values(double sigma_frames) {
-  const auto k = static_cast<std::size_t>(std::lround(mask_reach * sigma_frames));
+std::size_t half_width(double sigma_frames) {
+  return static_cast<std::size_t>(std::lround(mask_reach * sigma_frames));
+}
+
+// exp(-j^2 / (2 sigma^2)) for j = -k .. k; k is no more than `most`.
+std::vector<double> gaussian_values(double sigma_frames, std::size_t most) {
+  const std::size_t k = std::min(half_width(sigma_frames), most);
   std::vector<double> values(2 * k + 1, 1.0);
   for (std::size_t j = 1; j <= k; ++j) {
     const double steps = static_cast<double>(j) / sigma_frames;
@@ -83,7 +88,7 @@ bool whole_window(std::span<const double> observed, std::size_t i, std::size_t k
 class GaussianFilter {
  public:
   GaussianFilter(double sigma_frames, std::size_t frames)
-      : values_(gaussian_values(sigma_frames)), frames_(frames), ends_(frames) {
+      : values_(gaussian_values(sigma_frames, frames)), frames_(frames), ends_(frames) {
     const std::size_t k = values_.size() / 2;
     inner_ = increment_weights(mask_at(values_, {}, k, 2 * k + 1));
     for (std::size_t i = 0; i < frames; ++i) {
@@ -126,7 +131,7 @@ class GaussianCleaner final : public Cleaner {
   }
 
   CleanTrace clean(Clip& clip, const Selection& selection) const override {
-    const GaussianFilter filter(options_.width_s * clip.frame_rate_hz, clip.frame_count());
+    const GaussianFilter filter(sigma_frames(clip.frame_rate_hz), clip.frame_count());
     if (filter.does_nothing()) return {};
     return filter_tracks(
         clip, selection,
@@ -135,17 +140,20 @@ class GaussianCleaner final : public Cleaner {
   }
 
   MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
-    const GaussianFilter filter(options_.width_s * clip.frame_rate_hz, clip.frame_count());
+    const GaussianFilter filter(sigma_frames(clip.frame_rate_hz), clip.frame_count());
     if (filter.does_nothing()) return {};
     return filter_marker_tracks(clip, selection, filter);
   }
 
   LiveSupport live_support(double frame_rate_hz) const override {
-    return {LiveSupport::Kind::windowed,
-            gaussian_values(options_.width_s * frame_rate_hz).size() / 2};
+    return {LiveSupport::Kind::windowed, half_width(sigma_frames(frame_rate_hz))};
   }
 
  private:
+  double sigma_frames(double frame_rate_hz) const {
+    return options_.width_s * window_rate_hz(frame_rate_hz);
+  }
+
   GaussianOptions options_;
 };
 

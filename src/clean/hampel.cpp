@@ -7,6 +7,7 @@
 #include "clean/medians.hpp"
 #include "clean/method_list.hpp"
 #include "clean/tracks.hpp"
+#include "kinemend/frame_rate.hpp"
 #include "kinemend/methods.hpp"
 
 namespace kinemend {
@@ -158,7 +159,7 @@ class Hampel final : public Cleaner {
 
  private:
   std::size_t half_frames(double rate_hz) const {
-    return frames_in(options_.window_s / 2, rate_hz, 3);
+    return frames_in(options_.window_s / 2, window_rate_hz(rate_hz), 3);
   }
   // `scale`: the distance that counts as one radian.
   Rule rule_for(double rate_hz, double scale) const {

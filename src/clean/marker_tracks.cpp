@@ -5,6 +5,7 @@
 
 #include "clean/track_noise.hpp"
 #include "clean/tracks.hpp"
+#include "kinemend/frame_rate.hpp"
 
 namespace kinemend {
 
@@ -110,9 +111,13 @@ void filter_block(std::span<MarkerPath> paths, const std::function<void(PoseMatr
 
 }  // namespace
 
-std::size_t longest_bridge(double frame_rate_hz) { return frames_in(0.25, frame_rate_hz, 1); }
+std::size_t longest_bridge(double frame_rate_hz) {
+  return frames_in(0.25, window_rate_hz(frame_rate_hz), 1);
+}
 
-std::size_t bridge_support(double frame_rate_hz) { return frames_in(0.05, frame_rate_hz, 3); }
+std::size_t bridge_support(double frame_rate_hz) {
+  return frames_in(0.05, window_rate_hz(frame_rate_hz), 3);
+}
 
 bool marker_selected(const MarkerClip& clip, const MarkerSelection& selection, std::size_t marker) {
   return selection.markers[marker] != 0 && clip.holds_positions(marker);

@@ -5,6 +5,7 @@
 #include "clean/medians.hpp"
 #include "clean/method_list.hpp"
 #include "clean/tracks.hpp"
+#include "kinemend/frame_rate.hpp"
 #include "kinemend/methods.hpp"
 
 namespace kinemend {
@@ -130,7 +131,7 @@ class Median final : public Cleaner {
 
  private:
   std::size_t half_frames(double rate_hz) const {
-    return frames_in(options_.window_s / 2, rate_hz, 1);
+    return frames_in(options_.window_s / 2, window_rate_hz(rate_hz), 1);
   }
 
   MedianOptions options_;

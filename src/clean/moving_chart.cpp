@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemend/frame_rate.hpp"
+
 namespace kinemend {
 
 namespace {
@@ -33,7 +35,8 @@ std::vector<Quat> smooth_reference(std::vector<Quat> track, double width_frames)
 
 MovingChart make_moving_chart(std::span<const Quat> track, double frame_rate_hz, double width_s) {
   MovingChart chart;
-  chart.reference = smooth_reference({track.begin(), track.end()}, width_s * frame_rate_hz);
+  chart.reference =
+      smooth_reference({track.begin(), track.end()}, width_s * window_rate_hz(frame_rate_hz));
   chart.path.resize(track.size());
   for (std::size_t t = 1; t < track.size(); ++t) {
     chart.path[t] = chart.path[t - 1] + log(conjugate(chart.reference[t - 1]) * chart.reference[t]);

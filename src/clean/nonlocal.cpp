@@ -13,6 +13,7 @@
 #include "clean/track_noise.hpp"
 #include "clean/tracks.hpp"
 #include "clean/whole_markers.hpp"
+#include "kinemend/frame_rate.hpp"
 #include "kinemend/methods.hpp"
 
 namespace kinemend {
@@ -55,7 +56,7 @@ std::vector<std::size_t> pose_joints(const Skeleton& skeleton) {
 
 // Half of a whole window of so many seconds, in frames: 2 r + 1 of them are nearest to it.
 std::size_t radius_frames(double seconds, double frame_rate_hz, std::size_t least) {
-  const auto radius = std::lround((seconds * frame_rate_hz - 1) / 2);
+  const auto radius = std::lround((seconds * window_rate_hz(frame_rate_hz) - 1) / 2);
   return std::max(least, static_cast<std::size_t>(std::max(radius, 0L)));
 }
 

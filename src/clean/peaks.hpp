@@ -8,6 +8,7 @@
 
 #include "clean/track_noise.hpp"
 #include "clean/tracks.hpp"
+#include "kinemend/frame_rate.hpp"
 #include "kinemend/rotation.hpp"
 
 // Peak speeds of a track before and after cleaning, in radians or the points' unit.
@@ -72,7 +73,7 @@ Peaks measure_peaks(const std::vector<Sample>& before, const std::vector<Sample>
   // Four standard deviations of the difference of two samples: the largest of many.
   const double largest_noise = 4 * std::sqrt(2.0) * noise;
   peaks::leave_out_spikes(before, noise, left_out);
-  const std::size_t most = frames_in(longest_s, rate_hz, 1);
+  const std::size_t most = frames_in(longest_s, window_rate_hz(rate_hz), 1);
   Peaks result;
   for (std::size_t gap = 1; gap <= most; ++gap) {
     const double peak = peaks::peak_speed(before, left_out, gap, rate_hz);

@@ -7,6 +7,7 @@
 
 #include "clean/spike_trial.hpp"
 #include "clean/tracks.hpp"
+#include "kinemend/frame_rate.hpp"
 #include "signal/leave_one_out.hpp"
 
 namespace kinemend {
@@ -154,7 +155,8 @@ bool accuse(Inquest& inquest, std::size_t n) {
     std::fill(accused.begin(), accused.end(), std::uint8_t{0});
     return any;
   }
-  const auto half = static_cast<std::size_t>(std::lround(0.08 * inquest.frame_rate_hz));
+  const auto half =
+      static_cast<std::size_t>(std::lround(0.08 * window_rate_hz(inquest.frame_rate_hz)));
   const double scale = error_scale(inquest, n);
   const std::vector<double>& weight =
       inquest.others.weights_of_others(inquest.predictions.smoothers[n]);

@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "kinemend/frame_rate.hpp"
+
 namespace kinemend {
 
 namespace {
@@ -217,8 +219,12 @@ class HierarchyParser {
 class MotionHeaderParser {
  public:
   MotionHeaderParser(const SourceText& text, Diagnostics& diagnostics, TextScanner& scanner,
-                     BvhHeader& header)
-      : text_(text), diagnostics_(diagnostics), scanner_(scanner), header_(header) {}
+                     BvhHeader& header, double unknown_rate_hz)
+      : text_(text),
+        diagnostics_(diagnostics),
+        scanner_(scanner),
+        header_(header),
+        unknown_rate_hz_(unknown_rate_hz) {}
 
   void parse() {
     header_.data_begin = scanner_.position();
@@ -229,7 +235,7 @@ class MotionHeaderParser {
     }
     if (!seen_time_) {
       note_repair(text_, diagnostics_, "frame_time_missing", header_.data_begin,
-                  "no Frame Time: line: 30 Hz assumed");
+                  fmt::format("no Frame Time: line: {} Hz assumed", unknown_rate_hz_));
     }
   }
 
@@ -289,13 +295,13 @@ class MotionHeaderParser {
     if (std::exchange(seen_time_, true)) fail("a second Frame Time: line");
     NumberToken number;
     header_.frame_time = take_number(number, "the frame time in seconds");
-    constexpr double shortest_s = 1e-6, longest_s = 1e6;
-    if (number.kind == TokenKind::number && number.value >= shortest_s &&
-        number.value <= longest_s) {
+    header_.frame_time_is_none = number.kind == TokenKind::not_finite;
+    if (number.kind == TokenKind::number && is_usable_frame_rate(1 / number.value)) {
       header_.frame_time_s = number.value;
     } else {
       note_repair(text_, diagnostics_, "frame_time_unusable", header_.frame_time.begin,
-                  "Frame Time: is no usable time: 30 Hz assumed");
+                  fmt::format("Frame Time: is no time of {} to {} Hz: {} Hz assumed",
+                              least_frame_rate_hz, most_frame_rate_hz, unknown_rate_hz_));
     }
   }
 
@@ -307,6 +313,7 @@ class MotionHeaderParser {
   Diagnostics& diagnostics_;
   TextScanner& scanner_;
   BvhHeader& header_;
+  double unknown_rate_hz_;
   bool seen_frames_ = false;
   bool seen_time_ = false;
 };
@@ -321,7 +328,8 @@ std::size_t after_byte_order_mark(const SourceText& text) {
 
 }  // namespace
 
-BvhHeader read_bvh_header(const SourceText& text, Diagnostics& diagnostics, std::size_t max_depth) {
+BvhHeader read_bvh_header(const SourceText& text, Diagnostics& diagnostics, std::size_t max_depth,
+                          double unknown_rate_hz) {
   TextScanner scanner(text.bytes, after_byte_order_mark(text));
   if (scanner.peek().empty()) throw text.error_at(std::size_t{0}, "the file is empty");
   HierarchyParser parser(text, diagnostics, scanner, max_depth);
@@ -336,7 +344,7 @@ BvhHeader read_bvh_header(const SourceText& text, Diagnostics& diagnostics, std:
   header.data_begin = text.bytes.size();
   if (scanner.accept("MOTION")) {
     header.has_motion = true;
-    MotionHeaderParser(text, diagnostics, scanner, header).parse();
+    MotionHeaderParser(text, diagnostics, scanner, header, unknown_rate_hz).parse();
   } else if (scanner.peek().empty()) {
     note_repair(text, diagnostics, "motion_missing", header.hierarchy_end,
                 "no MOTION: the take has no frames");

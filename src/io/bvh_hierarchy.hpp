@@ -19,14 +19,17 @@ struct BvhHeader {
   ByteSpan frame_count;
   double frame_time_s = 0;  ///< 0 when missing or unusable
   ByteSpan frame_time;
+  bool frame_time_is_none = false;  ///< what stands there is no finite number
   std::size_t data_begin = 0;
 };
 
 /// More joints or end sites than this are taken for garbage.
 inline constexpr std::size_t most_joints = 16384;
 
-/// Parses up to the first channel value. Errors: `unreadable_input`, naming the line.
-BvhHeader read_bvh_header(const SourceText& text, Diagnostics& diagnostics, std::size_t max_depth);
+/// Parses up to the first channel value. `unknown_rate_hz`: what is taken where there is no usable
+/// frame time. Errors: `unreadable_input`, naming the line.
+BvhHeader read_bvh_header(const SourceText& text, Diagnostics& diagnostics, std::size_t max_depth,
+                          double unknown_rate_hz);
 
 /// Frames per second of a frame time as written: a rate that is in use (24, 25, 30, ..., 240 and
 /// their NTSC neighbours) when the text is within 1e-3 of it (1e-6 when nine digits or more are

@@ -213,19 +213,23 @@ TakeResult read_bvh(std::string bytes, std::string_view name, const ReadOptions&
   document->bytes = std::move(bytes);
   const SourceText text{name, document->bytes, options.strict};
   TakeResult result;
-  const BvhHeader header = read_bvh_header(text, result.diagnostics, options.max_depth);
+  const double unknown_rate_hz =
+      options.frame_rate_hz > 0 ? options.frame_rate_hz : rate_when_unknown_hz;
+  const BvhHeader header =
+      read_bvh_header(text, result.diagnostics, options.max_depth, unknown_rate_hz);
   Clip& clip = result.take.emplace<Clip>();
   clip.skeleton = header.skeleton;
   clip.frame_rate_hz =
       header.frame_time_s > 0
           ? rate_from_frame_time(header.frame_time_s, document->text(header.frame_time))
-          : rate_when_unknown_hz;
+          : unknown_rate_hz;
   MotionReader(text, options, result.diagnostics, header, clip, *document).read();
   document->skeleton = clip.skeleton;
   document->frame_rate_hz = clip.frame_rate_hz;
   document->frame_count = clip.frame_count();
   document->hierarchy_end = header.hierarchy_end;
   document->frame_time = header.frame_time;
+  document->frame_time_is_none = header.frame_time_is_none;
   clip.source = {std::string(name), "bvh", document};
   return result;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/c3d_layout.hpp"
+#include "kinemend/frame_rate.hpp"
 
 namespace kinemend {
 
@@ -15,8 +16,6 @@ constexpr std::uint8_t key = 0x50;
 std::size_t word_offset(const C3dHeader& header, std::size_t number) {
   return header.begin + 2 * (number - 1);
 }
-
-bool is_likely_rate(float rate_hz) { return rate_hz > 0.1f && rate_hz < 1e5f; }
 
 bool is_parameter_section(const C3dSource& source, std::size_t offset) {
   return source.holds(offset, 4) && source.byte(offset + 1) == key;
@@ -63,7 +62,7 @@ C3dProcessor find_processor(C3dSource& source, const C3dHeader& header) {
   for (const C3dProcessor processor :
        {C3dProcessor::intel, C3dProcessor::dec, C3dProcessor::mips}) {
     source.processor = processor;
-    if (!is_likely_rate(source.real(word_offset(header, 11)))) continue;
+    if (!is_usable_frame_rate(source.real(word_offset(header, 11)))) continue;
     source.note(
         "unknown_processor", header.parameters_begin + 3,
         fmt::format("processor type {} is unknown; the frame rate tells which it is", number));

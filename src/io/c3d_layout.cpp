@@ -8,6 +8,9 @@
 #include <optional>
 #include <vector>
 
+#include "io/stated_rate.hpp"
+#include "kinemend/frame_rate.hpp"
+
 namespace kinemend {
 
 namespace {
@@ -95,13 +98,17 @@ class LayoutFinder {
   }
 
   void find_rate() {
+    double unusable = 0;
     for (const double rate :
          {parameters_.number("POINT", "RATE").value_or(0), static_cast<double>(header_.rate_hz),
           parameters_.number("TRIAL", "CAMERA_RATE").value_or(0)}) {
-      if (!std::isfinite(rate) || rate <= 0) continue;
-      layout_.rate_hz = rate;
-      return;
+      if (is_usable_frame_rate(rate)) {
+        layout_.rate_hz = rate;
+        return;
+      }
+      if (rate > 0 && unusable == 0) unusable = rate;
     }
+    if (unusable > 0) note("frame_rate_unusable", 11, unusable_rate_text(unusable));
   }
 
   std::optional<std::size_t> data_begin(std::size_t block) const {

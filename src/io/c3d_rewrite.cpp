@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "io/c3d_source_frames.hpp"
+#include "kinemend/frame_rate.hpp"
 
 namespace kinemend {
 
@@ -123,17 +124,19 @@ class Rewriter {
   void replace_rate() {
     const double before = document_.frame_rate_hz, now = clip_.frame_rate_hz;
     put_real(layout().header_begin + 20, now);
-    const auto replace = [&](std::string_view group, std::string_view name) {
+    const auto replace = [&](std::string_view group, std::string_view name, double per_frame) {
       const C3dParameter* const parameter = document_.parameters.find(group, name);
       if (parameter == nullptr || parameter->type != C3dType::real || parameter->numbers.empty())
         return;
       const double old = parameter->numbers[0];
-      // A rate that the reader had to assume stands nowhere.
-      put_real(parameter->data_begin, old > 0 ? old / before * now : now);
+      // A rate that the reader had to assume stands nowhere, or is none.
+      const bool follows =
+          layout().rate_hz > 0 && old > 0 && (group == "ANALOG" || is_usable_frame_rate(old));
+      put_real(parameter->data_begin, follows ? old / before * now : per_frame * now);
     };
-    replace("POINT", "RATE");
-    replace("ANALOG", "RATE");
-    replace("TRIAL", "CAMERA_RATE");
+    replace("POINT", "RATE", 1);
+    replace("ANALOG", "RATE", static_cast<double>(layout().analog_instants()));
+    replace("TRIAL", "CAMERA_RATE", 1);
   }
 
   const MarkerClip& clip_;

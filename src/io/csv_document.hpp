@@ -54,6 +54,8 @@ struct CsvHeader {
   std::string beside;             ///< what else the file holds, in words; empty for nothing
 
   bool has_rotations() const;
+  /// Whether a line `# frames: 0` says that there are no rows.
+  bool has_no_frames() const;
 };
 
 /// Parses up to the first row. Errors: `unreadable_input`, naming the line.

@@ -197,9 +197,7 @@ class HeaderReader {
         header_.unit = note.value;
       }
     }
-    if (!(header_.frame_rate_hz > 0) || !std::isfinite(1 / header_.frame_rate_hz)) {
-      header_.frame_rate_hz = 0;
-    }
+    if (!(header_.frame_rate_hz > 0)) header_.frame_rate_hz = 0;
   }
 
   const SourceText& text_;
@@ -215,6 +213,11 @@ class HeaderReader {
 bool CsvHeader::has_rotations() const {
   return std::any_of(groups.begin(), groups.end(),
                      [](const CsvGroup& group) { return group.kind == CsvGroup::Kind::rotation; });
+}
+
+bool CsvHeader::has_no_frames() const {
+  return std::any_of(notes.begin(), notes.end(),
+                     [](const CsvNote& note) { return note.key == "frames" && note.value == "0"; });
 }
 
 CsvHeader read_csv_header(const SourceText& text) {

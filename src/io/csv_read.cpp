@@ -9,6 +9,7 @@
 #include "io/csv.hpp"
 #include "io/csv_document.hpp"
 #include "io/csv_joints.hpp"
+#include "io/stated_rate.hpp"
 
 namespace kinemend {
 
@@ -85,7 +86,7 @@ class CsvReader {
                            fmt::format("expected {} cells as in the row of labels, found more",
                                        document_.table.width()));
     }
-    if (document_.table.frames == 0) {
+    if (document_.table.frames == 0 && !header_.has_no_frames()) {
       throw text_.error_at(header_.data_begin, "expected a row for each frame, found none");
     }
     labels_ = std::move(rows.labels);
@@ -106,21 +107,24 @@ class CsvReader {
   double choose_rate(MarkerClip& clip) {
     for (double& time : labels_.times_s) time *= header_.seconds_per_time;
     const RowRate times = check_row_labels(text_, diagnostics_, document_.table, labels_, clip);
-    if (header_.frame_rate_hz > 0) {
+    const double declared =
+        usable_rate(text_, diagnostics_, header_.frame_rate_hz, header_.labels_line);
+    if (declared > 0) {
       constexpr double tolerance = 0.01;
-      const double step_s = 1 / header_.frame_rate_hz;
+      const double step_s = 1 / declared;
       if (times.rate_hz > 0 &&
           std::fabs(step_s - times.step_s) > tolerance * step_s + times.tolerance_s) {
         note("time_mismatch", header_.data_begin,
-             fmt::format("the head says {} Hz, the times {:.6g} Hz: the head is taken",
-                         header_.frame_rate_hz, times.rate_hz));
+             fmt::format("the head says {} Hz, the times {:.6g} Hz: the head is taken", declared,
+                         times.rate_hz));
       }
-      return header_.frame_rate_hz;
+      return declared;
     }
-    if (times.rate_hz > 0) return times.rate_hz;
+    const double of_times = usable_rate(text_, diagnostics_, times.rate_hz, header_.data_begin);
+    if (of_times > 0) return of_times;
     if (options_.frame_rate_hz > 0) return options_.frame_rate_hz;
     note("frame_rate_assumed", header_.labels_line,
-         fmt::format("neither times nor a line '# rate_hz: 120': {} Hz assumed",
+         fmt::format("neither usable times nor a line '# rate_hz: 120': {} Hz assumed",
                      rate_when_unknown_hz));
     return rate_when_unknown_hz;
   }

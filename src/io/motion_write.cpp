@@ -8,6 +8,7 @@
 
 #include "io/text.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/frame_rate.hpp"
 
 namespace kinemend {
 
@@ -50,9 +51,7 @@ void check_lengths(const Clip& clip) {
       clip.joint_translations.size() != frames * clip.translated_joints.size()) {
     throw Error(ErrorKind::usage, "the clip's arrays do not have its number of frames");
   }
-  if (!(std::isfinite(clip.frame_rate_hz) && clip.frame_rate_hz > 0)) {
-    throw Error(ErrorKind::usage, "the clip's frame rate is not positive");
-  }
+  check_frame_rate(clip.frame_rate_hz);
 }
 
 // A motion that no channel can hold is not dropped in silence.

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "io/stated_rate.hpp"
 #include "io/trc.hpp"
 #include "io/trc_document.hpp"
 
@@ -95,7 +96,8 @@ class TrcReader {
 
   void check_counts() {
     if (clip_.names.empty()) throw text_.error_at(header_.labels_line, "the file has no markers");
-    if (document_.table.frames == 0) {
+    // A take without frames says so.
+    if (document_.table.frames == 0 && header_.number("NumFrames") != 0) {
       throw text_.error_at(header_.data_begin, "expected a row for each frame, found none");
     }
     const auto compare = [&](std::string_view key, std::size_t found, std::string_view kind,
@@ -121,8 +123,9 @@ class TrcReader {
 
   void choose_rate(const RowRate& times) {
     constexpr double tolerance = 0.01;
-    const double declared = header_.number("DataRate");
-    if (declared > 0 && std::isfinite(1 / declared)) {
+    const double declared =
+        usable_rate(text_, diagnostics_, header_.number("DataRate"), header_.values_line);
+    if (declared > 0) {
       clip_.frame_rate_hz = declared;
       const double off_s = std::fabs(1 / declared - times.step_s);
       if (times.rate_hz > 0 && off_s > tolerance / declared + times.tolerance_s) {
@@ -132,8 +135,9 @@ class TrcReader {
       }
       return;
     }
-    const bool by_times = times.rate_hz > 0, by_options = options_.frame_rate_hz > 0;
-    clip_.frame_rate_hz = by_times     ? times.rate_hz
+    const double of_times = usable_rate(text_, diagnostics_, times.rate_hz, document_.table.begin);
+    const bool by_times = of_times > 0, by_options = options_.frame_rate_hz > 0;
+    clip_.frame_rate_hz = by_times     ? of_times
                           : by_options ? options_.frame_rate_hz
                                        : rate_when_unknown_hz;
     note_repair(text_, diagnostics_, "frame_rate_assumed", header_.values_line,

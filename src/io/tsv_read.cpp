@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/csv_head.hpp"
+#include "io/stated_rate.hpp"
 #include "io/tsv.hpp"
 #include "io/tsv_document.hpp"
 
@@ -136,7 +137,7 @@ class TsvReader {
       throw text_.error_at(found.wide_row,
                            fmt::format("expected {} cells, found {}", table.width(), found.widest));
     }
-    if (table.frames == 0) {
+    if (table.frames == 0 && frames_.number != 0) {
       throw text_.error_at(std::min(table.begin, text_.bytes.size()),
                            "expected a row for each frame, found none");
     }
@@ -208,18 +209,20 @@ class TsvReader {
   // FREQUENCY is a word where the cameras were driven from outside.
   void choose_rate(const RowRate& times) {
     constexpr double tolerance = 0.01;
-    if (rate_.number > 0 && std::isfinite(1 / rate_.number)) {
-      clip_.frame_rate_hz = rate_.number;
-      const double off_s = std::fabs(1 / rate_.number - times.step_s);
-      if (times.rate_hz > 0 && off_s > tolerance / rate_.number + times.tolerance_s) {
+    const double stated = usable_rate(text_, diagnostics_, rate_.number, rate_.place);
+    if (stated > 0) {
+      clip_.frame_rate_hz = stated;
+      const double off_s = std::fabs(1 / stated - times.step_s);
+      if (times.rate_hz > 0 && off_s > tolerance / stated + times.tolerance_s) {
         note("time_mismatch", rate_.place,
-             fmt::format("FREQUENCY says {} Hz, the times {:.6g} Hz: FREQUENCY is taken",
-                         rate_.number, times.rate_hz));
+             fmt::format("FREQUENCY says {} Hz, the times {:.6g} Hz: FREQUENCY is taken", stated,
+                         times.rate_hz));
       }
       return;
     }
-    const bool by_times = times.rate_hz > 0, by_options = options_.frame_rate_hz > 0;
-    clip_.frame_rate_hz = by_times     ? times.rate_hz
+    const double of_times = usable_rate(text_, diagnostics_, times.rate_hz, document_.table.begin);
+    const bool by_times = of_times > 0, by_options = options_.frame_rate_hz > 0;
+    clip_.frame_rate_hz = by_times     ? of_times
                           : by_options ? options_.frame_rate_hz
                                        : rate_when_unknown_hz;
     note("frame_rate_assumed", rate_.place,

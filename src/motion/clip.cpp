@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "kinemend/error.hpp"
+#include "kinemend/frame_rate.hpp"
 
 namespace kinemend {
 
@@ -64,9 +65,7 @@ double usual_step(const Clip& clip, std::size_t first, std::size_t last) {
 
 void Clip::validate() const {
   skeleton.validate();
-  if (!(std::isfinite(frame_rate_hz) && frame_rate_hz > 0)) {
-    throw Error(ErrorKind::usage, fmt::format("frame rate {} Hz is not positive", frame_rate_hz));
-  }
+  check_frame_rate(frame_rate_hz);
   const std::size_t frames = frame_count(), joints = joint_count();
   check_length(local_rotations.size(), frames * joints, "local rotations");
   check_length(joint_translations.size(), frames * translated_joints.size(), "joint translations");

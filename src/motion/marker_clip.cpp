@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kinemend/error.hpp"
+#include "kinemend/frame_rate.hpp"
 
 namespace kinemend {
 
@@ -47,9 +48,7 @@ std::int32_t MarkerClip::find(std::string_view name) const noexcept {
 }
 
 void MarkerClip::validate() const {
-  if (!(std::isfinite(frame_rate_hz) && frame_rate_hz > 0)) {
-    throw Error(ErrorKind::usage, fmt::format("frame rate {} Hz is not positive", frame_rate_hz));
-  }
+  check_frame_rate(frame_rate_hz);
   const std::size_t samples = frame_count() * marker_count();
   check_length(positions.size(), samples, "positions");
   check_length(observed.size(), samples, "observed mask");

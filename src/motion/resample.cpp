@@ -6,6 +6,7 @@
 
 #include "kinemend/convert.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/frame_rate.hpp"
 #include "motion/take_change.hpp"
 
 namespace kinemend {
@@ -21,9 +22,7 @@ struct Place {
 };
 
 std::vector<Place> places(std::size_t frames, std::size_t tracks, double old_rate, double rate) {
-  if (!(std::isfinite(rate) && rate > 0)) {
-    throw Error(ErrorKind::usage, fmt::format("a rate of {} Hz is not positive", rate));
-  }
+  check_frame_rate(rate);
   if (frames == 0) return {};
   constexpr double rounding = 1e-6;  // of a frame: what the rates' own digits leave open
   const double step = old_rate / rate, last = static_cast<double>(frames - 1);

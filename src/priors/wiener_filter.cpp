@@ -288,7 +288,11 @@ class Filtering {
 WienerResult wiener_filter(const WienerPrior& prior, const WienerTake& take,
                            const WienerSettings& settings) {
   if (take.poses.frames == 0) return {take.poses, {}};
-  const Index window = window_frames(prior.window_s, take.rate_hz);
+  // At high rates no window is longer than the take: its length in frames is a matrix's side.
+  constexpr double usual_rate_hz = 240;
+  const double whole_take_hz = static_cast<double>(take.poses.frames) / prior.window_s;
+  const double rate_hz = std::min(take.rate_hz, std::max(usual_rate_hz, whole_take_hz));
+  const Index window = window_frames(prior.window_s, rate_hz);
   const WienerPrior fitting = with_coefficients(prior, window);
   return Filtering(fitting, take, settings, window).run();
 }

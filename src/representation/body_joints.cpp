@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "kinemend/body.hpp"
+#include "kinemend/frame_rate.hpp"
 #include "kinemend/representation.hpp"
 #include "representation/body_frame.hpp"
 #include "representation/body_rotations.hpp"
@@ -53,7 +54,7 @@ BodyChannels encode(const Clip& clip, const BodyLayout& layout, const BodyMatch&
                     const BodyChannels* guide) {
   const std::size_t frames = clip.frame_count();
   BodyChannels channels;
-  channels.frame_rate_hz = clip.frame_rate_hz;
+  channels.frame_rate_hz = window_rate_hz(clip.frame_rate_hz);
   channels.degrees_per_unit = representation::degrees_per_unit(match);
   channels.poses = PoseMatrix(frames, layout.channel_count());
   channels.observed.assign(frames * layout.channel_count(), 0);

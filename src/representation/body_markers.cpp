@@ -1,6 +1,7 @@
 #include <vector>
 
 #include "kinemend/body.hpp"
+#include "kinemend/frame_rate.hpp"
 #include "representation/body_anchors.hpp"
 #include "representation/body_frame.hpp"
 
@@ -14,7 +15,7 @@ BodyChannels encode(const MarkerClip& clip, const BodyLayout& layout, const Body
                     const BodyChannels* guide) {
   const std::size_t frames = clip.frame_count();
   BodyChannels channels;
-  channels.frame_rate_hz = clip.frame_rate_hz;
+  channels.frame_rate_hz = window_rate_hz(clip.frame_rate_hz);
   channels.degrees_per_unit = representation::degrees_per_unit(match);
   channels.poses = PoseMatrix(frames, layout.channel_count());
   channels.observed.assign(frames * layout.channel_count(), 0);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kinemend/frame_rate.hpp"
 #include "kinemend/representation.hpp"
 
 namespace kinemend::representation {
@@ -50,7 +51,8 @@ void continue_vectors(std::span<Vec3> vectors, double frame_rate_hz) {
   constexpr double far = 210 * radians_per_degree;
   constexpr double patience_s = 0.5;
   if (vectors.empty()) return;
-  const auto patience = static_cast<std::size_t>(std::max(8.0, patience_s * frame_rate_hz));
+  const auto patience =
+      static_cast<std::size_t>(std::max(8.0, patience_s * window_rate_hz(frame_rate_hz)));
   VectorContinuation continuation(vectors.front());
   std::vector<Vec3> beyond;
   for (std::size_t f = 1; f < vectors.size();) {

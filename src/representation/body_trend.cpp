@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "kinemend/frame_rate.hpp"
+
 namespace kinemend::representation {
 
 namespace {
@@ -79,7 +81,8 @@ std::vector<Value> despiked(std::vector<Value> track, std::span<const double> we
                             double frame_rate_hz) {
   constexpr double median_s = 0.1;
   bridge(track, weights);
-  const double half_window = std::max(2.0, std::round(0.5 * median_s * frame_rate_hz));
+  const double half_window =
+      std::max(2.0, std::round(0.5 * median_s * window_rate_hz(frame_rate_hz)));
   return running_median(track, static_cast<std::size_t>(half_window));
 }
 
@@ -183,7 +186,7 @@ std::vector<double> local_fit(const std::vector<double>& track, std::span<const 
 }
 
 double deviation_frames(double frame_rate_hz, double deviation_s) {
-  return std::max(deviation_s * frame_rate_hz, 1e-3);
+  return std::max(deviation_s * window_rate_hz(frame_rate_hz), 1e-3);
 }
 
 }  // namespace

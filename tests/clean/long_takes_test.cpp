@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "clean/takes.hpp"
-#include "counted_operators.hpp"
+#include "counting_allocation.hpp"
 #include "kinemend/clean.hpp"
 #include "kinemend/corrupt.hpp"
 #include "kinemend/methods.hpp"

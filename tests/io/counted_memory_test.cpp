@@ -1,8 +1,6 @@
-#include <gtest/gtest.h>
+#include "counting_allocation.hpp"
 
-#include <vector>
-
-#include "counted_operators.hpp"
+#include "hostile.hpp"
 
 #if !defined(KINEMEND_SANITIZED)
 

@@ -56,9 +56,9 @@ TEST(ClipRules, NameTheFirstFrameAndJointThatBreaksOne) {
   EXPECT_THAT(validating([](Clip& c) { c.skeleton.parents[0] = 1; }),
               usage("joint 0 is not a root"));
   EXPECT_THAT(validating([](Clip& c) { c.frame_rate_hz = 0; }),
-              usage("frame rate 0 Hz is not positive"));
+              usage("a frame rate of 0 Hz is outside 0.1 to 100000 Hz"));
   EXPECT_THAT(validating([&](Clip& c) { c.frame_rate_hz = infinity; }),
-              usage("frame rate inf Hz is not positive"));
+              usage("a frame rate of inf Hz is outside 0.1 to 100000 Hz"));
   EXPECT_THAT(validating([](Clip& c) { c.local_rotations.pop_back(); }),
               usage("local rotations: 14 values, expected 15"));
   EXPECT_THAT(validating([](Clip& c) { c.joint_translations.pop_back(); }),

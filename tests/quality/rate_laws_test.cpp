@@ -1,0 +1,313 @@
+// Laws over every rate that a take may have: results are finite, and what they cost goes by the
+// number of frames, not by the rate.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <ostream>
+#include <variant>
+
+#include "clean/marker_takes.hpp"
+#include "clean/takes.hpp"
+#include "counting_allocation.hpp"
+#include "kinemend/check.hpp"
+#include "kinemend/clean.hpp"
+#include "kinemend/convert.hpp"
+#include "kinemend/corrupt.hpp"
+#include "kinemend/feet.hpp"
+#include "kinemend/fill.hpp"
+#include "kinemend/methods.hpp"
+#include "kinemend/metrics.hpp"
+#include "kinemend/stream.hpp"
+#include "kinemend/synth.hpp"
+#include "kinemend/train.hpp"
+
+namespace kinemend::test {
+namespace {
+
+constexpr double rates_hz[] = {0.1, 1, 10, 1e3, 5e3, 1e5};
+constexpr std::size_t few_frames = 40, more_frames = 200;
+
+Clip made_walk(std::size_t frames) {
+  SynthOptions options;
+  options.duration_s = static_cast<double>(frames) / 120;
+  Clip clip = slice(synthesize(options), 0, frames);
+  Random random(5);
+  apply_damage(clip, "gaussian", {{"std_deg", 1.5}}, random);
+  apply_damage(clip, "outliers", {{"share", 0.004}}, random);
+  return clip;
+}
+
+Clip walk(std::size_t frames, double rate_hz) {
+  static const Clip few = made_walk(few_frames), more = made_walk(more_frames);
+  Clip clip = frames == few_frames ? few : more;
+  clip.frame_rate_hz = rate_hz;
+  return clip;
+}
+
+MarkerClip walk_of_markers(std::size_t frames, double rate_hz) {
+  static const MarkerClip more =
+      damaged(marker_take("walk", static_cast<double>(more_frames) / 120), 3, 0.003, 100, 1);
+  MarkerClip clip = slice(more, 0, frames);
+  clip.frame_rate_hz = rate_hz;
+  return clip;
+}
+
+// What was taken from the heap, ever and at once; zero under sanitizers.
+struct Cost {
+  std::size_t taken = 0, peak = 0;
+};
+
+Cost cost_of(const std::function<void()>& action) {
+  const std::size_t before = memory_taken;
+  const std::size_t peak = peak_memory(action);
+  return {memory_taken - before, peak};
+}
+
+// `run` does something with takes of so many frames and this rate.
+void expect_cost_by_frames(const std::function<void(std::size_t, double)>& run,
+                           const std::vector<std::size_t>& sizes = {few_frames, more_frames}) {
+  for (const std::size_t frames : sizes) {
+    run(frames, 120);  // what is made once and kept
+#if !defined(KINEMEND_SANITIZED)
+    ASSERT_GT(cost_of([&] { run(frames, 120); }).taken, 0U);
+#endif
+    Cost usual;
+    for (const double rate_hz : {120.0, 1000.0}) {
+      const Cost cost = cost_of([&] { run(frames, rate_hz); });
+      usual = {std::max(usual.taken, cost.taken), std::max(usual.peak, cost.peak)};
+    }
+    for (const double rate_hz : rates_hz) {
+      SCOPED_TRACE(testing::Message() << frames << " frames at " << rate_hz << " Hz");
+      const Cost cost = cost_of([&] { run(frames, rate_hz); });
+      constexpr std::size_t slack = 1 << 18;
+      EXPECT_LE(cost.taken, usual.taken + usual.taken / 2 + slack);
+      EXPECT_LE(cost.peak, usual.peak + usual.peak / 2 + slack);
+    }
+  }
+}
+
+// Words for numbers that are none.
+void expect_words(const std::string& text) {
+  for (const char* word : {"inf", "nan"}) {
+    const std::size_t at = text.find(word);
+    const bool is_word = at != text.npos && (at == 0 || !std::isalpha(text[at - 1])) &&
+                         !std::isalpha((text + " ")[at + 3]);
+    EXPECT_FALSE(is_word) << text;
+  }
+}
+
+void expect_finite(const CleanReport& report) {
+  for (const JointSummary& joint : report.joints) {
+    for (const double figure : {joint.noise_deg, joint.rms_change_deg, joint.max_change_deg,
+                                joint.peak_speed_before_deg_s, joint.peak_speed_after_deg_s}) {
+      EXPECT_TRUE(std::isfinite(figure)) << joint.name;
+    }
+  }
+  for (const std::string& warning : report.warnings) expect_words(warning);
+}
+
+void expect_finite(const MarkerReport& report) {
+  for (const MarkerSummary& marker : report.markers) {
+    for (const double figure : {marker.noise, marker.rms_change, marker.max_change,
+                                marker.peak_speed_before, marker.peak_speed_after}) {
+      EXPECT_TRUE(std::isfinite(figure)) << marker.name;
+    }
+  }
+  for (const std::string& warning : report.warnings) expect_words(warning);
+}
+
+std::unique_ptr<Cleaner> made(const std::string& method) {
+  if (method != "kalman-learned") return make_cleaner(method);
+  SynthOptions options{.motion = "walk", .duration_s = 3, .frame_rate_hz = 30};
+  const Clip clip = synthesize(options);
+  const auto model = std::make_shared<const Model>(
+      train_model(method, {1, [&](std::size_t) { return std::variant<Clip, MarkerClip>(clip); }}));
+  return make_kalman_learned({}, model);
+}
+
+std::vector<std::string> all_methods() {
+  std::vector<std::string> names;
+  for (const Method& method : methods()) {
+#if defined(KINEMEND_SANITIZED)
+    if (method.learned) continue;  // slow, and nothing is counted
+#endif
+    names.push_back(method.name);
+  }
+  return names;
+}
+
+class EveryRate : public testing::TestWithParam<std::string> {
+ protected:
+  std::unique_ptr<Cleaner> cleaner_ = made(GetParam());
+  bool is_learned() const {
+    return GetParam() == "example" || GetParam() == "wiener" || GetParam() == "kalman-learned";
+  }
+};
+
+TEST_P(EveryRate, CleansJointsAtACostThatGoesByFrames) {
+  const auto run = [&](std::size_t frames, double rate_hz) {
+    const CleanResult result = clean_clip(walk(frames, rate_hz), *cleaner_);
+    EXPECT_NO_THROW(result.clip.validate());
+    expect_finite(result.report);
+  };
+  if (is_learned()) {
+    expect_cost_by_frames(run, {few_frames});
+  } else {
+    expect_cost_by_frames(run);
+  }
+}
+
+TEST_P(EveryRate, CleansMarkersAtACostThatGoesByFrames) {
+  if (is_learned()) return;  // models of joints; channels are the same from here on
+  expect_cost_by_frames([&](std::size_t frames, double rate_hz) {
+    const MarkerResult result = clean_markers(walk_of_markers(frames, rate_hz), *cleaner_);
+    EXPECT_NO_THROW(result.clip.validate());
+    expect_finite(result.report);
+  });
+}
+
+TEST_P(EveryRate, RunsLiveAtACostThatGoesByFrames) {
+  if (cleaner_->live_support(120).kind == LiveSupport::Kind::none) return;
+  const std::size_t latency = make_stream(*cleaner_, walk(few_frames, 1000))->latency_frames();
+  expect_cost_by_frames(
+      [&](std::size_t frames, double rate_hz) {
+        const Clip clip = walk(frames, rate_hz);
+        const auto stream = make_stream(*cleaner_, clip);
+        EXPECT_LE(stream->latency_frames(), latency);
+        LiveFrame out;
+        const auto check = [&] {
+          for (const Quat q : out.rotations) EXPECT_NEAR(norm(q), 1, 1e-6);
+        };
+        for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+          LiveFrame in{clip.root_positions[f], {}, {}, {}};
+          for (std::size_t j = 0; j < clip.joint_count(); ++j)
+            in.rotations.push_back(clip.rotation(f, j));
+          if (stream->push(in, out)) check();
+        }
+        while (stream->flush(out)) check();
+      },
+      {few_frames});
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, EveryRate, testing::ValuesIn(all_methods()),
+                         [](const auto& method) { return camel_case(method.param); });
+
+TEST(TheModelsWindow, IsNoLongerThanTheTakeAtHighRates) {
+  const auto cleaner = make_cleaner("wiener");
+  const auto run = [&](double rate_hz) { clean_clip(walk(few_frames, rate_hz), *cleaner); };
+  run(240);
+  const Cost usual = cost_of([&] { run(240); }), high = cost_of([&] { run(1000); });
+  EXPECT_LE(high.peak, usual.peak + usual.peak / 4);
+}
+
+TEST(EveryRateOfMarkers, RunsLiveAtACostThatGoesByFrames) {
+  for (const char* method : {"median", "butterworth", "one-euro"}) {
+    const auto cleaner = method == std::string("butterworth")
+                             ? make_cleaner(method, {{"causal", true}})
+                             : make_cleaner(method);
+    expect_cost_by_frames(
+        [&](std::size_t, double rate_hz) {
+          const MarkerClip clip = walk_of_markers(few_frames, rate_hz);
+          const auto stream = make_marker_stream(*cleaner, clip, 1700);
+          MarkerFrame out;
+          for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+            MarkerFrame in;
+            for (std::size_t m = 0; m < clip.marker_count(); ++m)
+              in.positions.push_back(clip.position(f, m));
+            stream->push(in, out);
+          }
+          while (stream->flush(out)) {
+            for (const Vec3 p : out.positions) EXPECT_TRUE(std::isfinite(norm(p)));
+          }
+        },
+        {few_frames});
+  }
+}
+
+TEST(CheckAtEveryRate, CostsByFramesAndFindsNumbers) {
+  const auto expect_numbers = [](const CheckReport& report) {
+    EXPECT_TRUE(std::isfinite(report.figures.worst_noise));
+    EXPECT_TRUE(std::isfinite(report.figures.longest_gap_s));
+    for (const Finding& finding : report.findings) {
+      EXPECT_TRUE(std::isfinite(finding.figure)) << finding.words;
+      expect_words(finding.words);
+    }
+  };
+  expect_cost_by_frames([&](std::size_t frames, double rate_hz) {
+    expect_numbers(check_take(walk(frames, rate_hz)));
+    expect_numbers(check_take(walk_of_markers(frames, rate_hz)));
+  });
+}
+
+TEST(FillAtEveryRate, CostsByFrames) {
+  for (const FillMethod& method : fill_methods()) {
+    SCOPED_TRACE(std::string(method.name));
+    FillSettings settings;
+    settings.method = method.name;
+    settings.fill_all = true;
+    expect_cost_by_frames(
+        [&](std::size_t frames, double rate_hz) {
+          if (method.joints) {
+            Clip clip = walk(frames, rate_hz);
+            clip.observed.assign(clip.local_rotations.size(), 1);
+            for (std::size_t f = 12; f < 20; ++f) {
+              clip.observed[f * clip.joint_count() + 3] = 0;
+              clip.observed[f * clip.joint_count() + 5] = f % 2 == 0;
+            }
+            fill_gaps(clip, settings);
+            EXPECT_NO_THROW(clip.validate());
+          }
+          if (method.markers) {
+            MarkerClip clip = walk_of_markers(frames, rate_hz);
+            FillSettings with_donor = settings;
+            if (method.name == "pattern") with_donor.donor = clip.names[4];
+            lose(clip, 1, 12, 20);
+            lose(clip, 2, 15, 30);
+            fill_gaps(clip, with_donor);
+            EXPECT_NO_THROW(clip.validate());
+          }
+        },
+        {few_frames});
+  }
+}
+
+TEST(FeetAtEveryRate, CostByFrames) {
+  expect_cost_by_frames([](std::size_t frames, double rate_hz) {
+    Clip clip = walk(frames, rate_hz);
+    const FeetReport report = clean_feet(clip);
+    EXPECT_NO_THROW(clip.validate());
+    EXPECT_TRUE(std::isfinite(report.before.slide + report.after.slide));
+  });
+}
+
+TEST(FiguresAtEveryRate, CostByFramesAndAreNumbers) {
+  expect_cost_by_frames([](std::size_t frames, double rate_hz) {
+    const Clip truth = walk(frames, rate_hz);
+    Clip other = truth;
+    Random random(9);
+    apply_damage(other, "gaussian", {{"std_deg", 1.0}}, random);
+    compare_clips(truth, other);
+    EXPECT_TRUE(std::isfinite(accel_error(truth, other)));
+    for (const double speed : peak_angular_speed_deg_s(other)) EXPECT_TRUE(std::isfinite(speed));
+  });
+}
+
+TEST(DamageAtEveryRate, CostsByFrames) {
+  for (const Damage& damage : damages()) {
+    SCOPED_TRACE(damage.name);
+    expect_cost_by_frames(
+        [&](std::size_t frames, double rate_hz) {
+          Clip clip = walk(frames, rate_hz);
+          Random random(3);
+          apply_damage(clip, damage.name, {}, random);
+          EXPECT_NO_THROW(clip.validate());
+        },
+        {few_frames});
+  }
+}
+
+}  // namespace
+}  // namespace kinemend::test
