@@ -159,7 +159,7 @@ double AmcRows::read_value(const char*& p) {
     return plain.value;
   }
   const std::string_view word = word_at(p);
-  const NumberToken token = word.empty() ? NumberToken{} : read_number(p, p + word.size());
+  const NumberToken token = word.empty() ? NumberToken{} : read_sample(p, p + word.size());
   const bool is_value = token.kind == TokenKind::number || token.kind == TokenKind::not_finite;
   if (!is_value || token.end != p + word.size()) {
     throw text_.error_at(p, fmt::format("expected a number, found {}", quote(word)));

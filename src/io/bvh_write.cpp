@@ -149,8 +149,8 @@ std::string write_with_hierarchy(const Clip& clip, const BvhDocument& document) 
   const std::string_view line_end = line_ending_of(hierarchy);
   out.append(hierarchy);
   out.append(line_end);
-  const bool same_rate =
-      clip.frame_rate_hz == document.frame_rate_hz && document.frame_time.size > 0;
+  const bool same_rate = clip.frame_rate_hz == document.frame_rate_hz &&
+                         document.frame_time.size > 0 && !document.frame_time_is_none;
   const std::string frame_time = same_rate ? std::string(document.text(document.frame_time))
                                            : frame_time_text(clip.frame_rate_hz);
   std::vector<std::size_t> order(clip.joint_count());

@@ -25,6 +25,11 @@ class CellPatch {
   const CellRow& row() const { return row_; }
   /// As read, NaN where a cell is empty.
   double value(std::size_t column) const { return values_[column]; }
+  /// Whether the cell holds a word such as `nan` in the place of a number.
+  bool is_no_number(std::size_t column) const {
+    const TokenSpan& token = tokens_[column];
+    return std::isnan(values_[column]) && token.begin != token.end;
+  }
   /// NaN makes an empty cell, or `NaN` in a table without separators. Digits that already say the
   /// new value, as well as so many decimals can, stay.
   void replace(std::size_t column, double value, unsigned decimals);

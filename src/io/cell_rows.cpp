@@ -148,7 +148,7 @@ double CellRows::value_of(TokenSpan token, std::size_t column, CellRow& row) {
   const char* const place = token.begin;
   if (is_quoted(token)) token = trimmed({token.begin + 1, token.end - 1}, style_.separator);
   if (token.begin == token.end) return not_a_number;
-  const NumberToken number = read_number(token.begin, token.end, style_.commas);
+  const NumberToken number = read_sample(token.begin, token.end, style_.commas);
   const bool whole = number.end == token.end;
   if (whole && number.kind == TokenKind::number) return number.value;
   if (whole && number.kind == TokenKind::not_finite) {

@@ -191,7 +191,7 @@ class JointReader {
       }
       store(place);
     }
-    if (clip_.frame_count() == 0) {
+    if (clip_.frame_count() == 0 && !header_.has_no_frames()) {
       throw text_.error_at(header_.data_begin, "expected a row for each frame, found none");
     }
     document_.table.frames = clip_.frame_count();
@@ -314,7 +314,9 @@ class JointRewriter {
     const auto& [x, y, z] = columns_.positions[index];
     const Vec3 before = held.empty() ? Vec3{patch_.value(x), patch_.value(y), patch_.value(z)}
                                      : held[index == 0 ? frame : at];
-    if (now == before) return;
+    const bool is_number =
+        !patch_.is_no_number(x) && !patch_.is_no_number(y) && !patch_.is_no_number(z);
+    if (now == before && is_number) return;
     patch_.replace(x, now.x, shortest_digits);
     patch_.replace(y, now.y, shortest_digits);
     patch_.replace(z, now.z, shortest_digits);

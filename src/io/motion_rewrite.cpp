@@ -72,6 +72,7 @@ class Rewriter {
     while (source_.next()) {
       for (std::size_t f = 0; f < source_.count(); ++f) {
         rewrite_frame(f);
+        if (document_.has_gaps) replace_position_gaps(f);
         write_replacements(source_.tokens(f));
       }
       const double* const last = source_.row(source_.count() - 1);
@@ -111,7 +112,28 @@ class Rewriter {
     const double* const row_before =
         block_frame > 0 ? row - row_before_.size() : row_before_.data();
     for (std::size_t j = 0; j < joints; ++j) {
-      if (!(now[j] == before[j])) replace_rotation(frame, j, row, row_before);
+      if (!(now[j] == before[j]) || (document_.has_gaps && holds_gap(j, row)))
+        replace_rotation(frame, j, row, row_before);
+    }
+  }
+
+  // What is no finite number is never written, whatever the clip holds in its place.
+  bool holds_gap(std::size_t joint, const double* row) const {
+    const MotionColumns::Rotation& rotation = source_.columns().rotations()[joint];
+    Angles ignored{};
+    return !source_angles(rotation, row, ignored);
+  }
+
+  // The rows hold positions as repaired; only the text tells which were no numbers.
+  void replace_position_gaps(std::size_t block_frame) {
+    const double* const row = source_.row(block_frame);
+    const TokenSpan* const tokens = source_.tokens(block_frame);
+    for (const MotionColumns::Position& position : source_.columns().positions()) {
+      const auto [begin, end] = tokens[position.column];
+      if (read_sample(begin, end, document_.commas).kind != TokenKind::not_finite) continue;
+      const auto is_here = [&](const Replacement& r) { return r.column == position.column; };
+      if (std::none_of(replacements_.begin(), replacements_.end(), is_here))
+        replacements_.push_back({position.column, row[position.column]});
     }
   }
 

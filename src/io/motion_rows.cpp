@@ -27,7 +27,7 @@ bool MotionRows::at_line_start() const { return std::any_of(last_end_, position_
 bool MotionRows::read_rare(const char*& p, NumberToken& token) {
   for (;;) {
     if (p == end_) return false;
-    token = read_number(p, end_, commas_);
+    token = read_sample(p, end_, commas_);
     if (token.kind == TokenKind::text) return false;
     if (token.kind == TokenKind::number) return true;
     if (token.kind == TokenKind::not_finite) {

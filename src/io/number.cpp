@@ -71,6 +71,16 @@ NumberToken read_number(const char* begin, const char* end, CommaStyle commas) {
   return result;
 }
 
+NumberToken read_sample(const char* begin, const char* end, CommaStyle commas) {
+  constexpr double largest = 1e100;
+  NumberToken result = read_number(begin, end, commas);
+  if (result.kind == TokenKind::number && std::fabs(result.value) > largest) {
+    result.kind = TokenKind::not_finite;
+    result.value = std::numeric_limits<double>::quiet_NaN();
+  }
+  return result;
+}
+
 CommaStyle comma_style(std::string_view line, std::size_t expected) {
   if (line.find(',') == line.npos) return CommaStyle::none;
   std::size_t by_space = 0, by_both = 0;

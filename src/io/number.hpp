@@ -35,6 +35,10 @@ struct NumberToken {
 /// separates).
 NumberToken read_number(const char* begin, const char* end, CommaStyle commas = CommaStyle::none);
 
+/// The same for a place or an angle: one beyond 1e100, of which squares and sums are no finite
+/// numbers, is `not_finite` itself.
+NumberToken read_sample(const char* begin, const char* end, CommaStyle commas = CommaStyle::none);
+
 /// How the commas of `line` are to be read when it holds `expected` numbers. `none` when it has no
 /// comma, or when both readings are possible or neither is.
 CommaStyle comma_style(std::string_view line, std::size_t expected);

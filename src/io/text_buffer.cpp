@@ -7,9 +7,17 @@
 
 namespace kinemend {
 
+namespace {
+
+// No output holds a number that is none.
+void check_finite(double value) {
+  if (!std::isfinite(value)) throw Error(ErrorKind::usage, "a value to write is not finite");
+}
+
+}  // namespace
+
 void TextBuffer::append_fixed(double value, unsigned decimals, CommaStyle commas) {
-  if (!std::isfinite(value))
-    throw Error(ErrorKind::usage, "a channel value to write is not finite");
+  check_finite(value);
   make_room(fixed_number_room);
   char* const begin = text_.data() + used_;
   char* const end = write_fixed(begin, value, decimals);
@@ -18,6 +26,7 @@ void TextBuffer::append_fixed(double value, unsigned decimals, CommaStyle commas
 }
 
 void TextBuffer::append_shortest(double value, CommaStyle commas) {
+  check_finite(value);
   make_room(fixed_number_room);
   char* const begin = text_.data() + used_;
   char* const end = write_shortest(begin, value);

@@ -49,12 +49,29 @@ void expect_same_positions(const Clip& clip, const Clip& again, double relative,
 }
 
 TEST(AmcWriter, AnUnchangedTakeComesBackToTheByte) {
-  for (const char* name : {"figure", "gaps", "order", "radians", "three_dofs", "header_only"}) {
+  for (const char* name : {"figure", "order", "radians", "three_dofs", "header_only"}) {
     const std::string text = read_file(acclaim_fixture(std::string("amc/good/") + name + ".amc"));
     const Clip clip = read_pair(text, figure_asf()).clip;
     EXPECT_EQ(write_clip(clip, "amc"), text) << name;
     EXPECT_EQ(write_clip(clip, "asf"), figure_asf()) << name;
   }
+}
+
+TEST(AmcWriter, WhatIsNoNumberIsWrittenAsItIsHeld) {
+  const std::string text = read_file(acclaim_fixture("amc/good/gaps.amc"));
+  const Clip clip = read_pair(text, figure_asf()).clip;
+  const auto before = lines_of(text), after = lines_of(write_clip(clip, "amc"));
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const bool had_gap =
+        before[i].find("nan") != before[i].npos || before[i].find("inf") != before[i].npos;
+    if (!had_gap) {
+      EXPECT_EQ(after[i], before[i]);
+    }
+  }
+  EXPECT_EQ(after[5], "thigh -5.268300 -35.656800 -66.701300");
+  EXPECT_EQ(after[10], "slider -47.877000 50.6778 7.852000 76.9462 -47.2785");
+  EXPECT_EQ(after[13], "root -22.285800 5.4957 -15.8819 18.1322 22.040000 -22.2744");
 }
 
 TEST(AmcWriter, OnlyChangedSamplesAreWrittenAnew) {

@@ -58,7 +58,9 @@ double largest_step(const std::vector<std::vector<double>>& rows) {
 
 TEST(BvhRewriter, AnUnchangedClipComesBackToTheByte) {
   for (const auto& path : fixtures_in("good")) {
-    EXPECT_EQ(write_clip(read_clip(path).clip), read_file(path)) << path;
+    const ReadResult read = read_clip(path);
+    if (read.diagnostics.count("value_not_finite") > 0) continue;
+    EXPECT_EQ(write_clip(read.clip), read_file(path)) << path;
   }
 }
 
@@ -132,15 +134,17 @@ TEST(BvhRewriter, WritesNoExponentsAndAsManyDecimalsAsTheSource) {
   EXPECT_NE(write_clip(comma).find(" 5,5000 6,0000 -7,1250\n"), std::string::npos);
 }
 
-TEST(BvhRewriter, AGapIsWrittenOnlyWhereItIsFilled) {
+TEST(BvhRewriter, WhatIsNoNumberIsWrittenAsItIsHeld) {
   Clip clip = read_clip(fixture("good/gaps.bvh")).clip;
+  const std::string held = write_clip(clip);
+  EXPECT_THAT(held, testing::EndsWith(
+                        "1.0000 92.0000 -3.5000 11.0000 -21.0000 31.0000 5.5000 6.2500 -7.1250\n"
+                        "1.1000 92.0000 -3.4000 11.0000 -21.0000 31.0000 5.5000 6.2500 -7.1250\n"
+                        "1.1000 92.2000 -3.3000 12.0000 -22.0000 32.0000 5.5000 6.2500 -7.1250\n"));
   clip.rotation(1, 1) = rotation_of({5.6, 6.35, -7.225}, "ZXY");
-  const std::string text = write_clip(clip);
-  EXPECT_NE(text.find("1.1000 inf -3.4000 11.0000 -21.0000 31.0000 5.6000 6.3500 -7.2250\n"),
-            std::string::npos)
-      << text;
-  EXPECT_NE(text.find("-nan(ind) 92.2000"), std::string::npos);
-  EXPECT_NE(text.find(" 1e999 "), std::string::npos);
+  EXPECT_THAT(write_clip(clip),
+              testing::HasSubstr(
+                  "1.1000 92.0000 -3.4000 11.0000 -21.0000 31.0000 5.6000 6.3500 -7.2250\n"));
 }
 
 TEST(BvhRewriter, ANewRateReplacesTheFrameTimeOnly) {
@@ -244,8 +248,10 @@ TEST(BvhRewriter, LongTakesWithGapsKeepTheirDigits) {
       "HIERARCHY\nROOT a\n{\n OFFSET 0 0 0\n CHANNELS 4 Xposition Zrotation Xrotation "
       "Yrotation\n}\nMOTION\n"
       "Frames: 5000\nFrame Time: 0.01\n";
-  for (int f = 0; f < 5000; ++f) {
-    const bool gap = f % 1024 < 2 || f % 97 == 0;
+  const std::size_t first_word = words_of(text).size();
+  const auto is_gap = [](std::size_t f) { return f % 1024 < 2 || f % 97 == 0; };
+  for (std::size_t f = 0; f < 5000; ++f) {
+    const bool gap = is_gap(f);
     text += gap ? "nan 1.0 nan 2.0\n"
                 : std::to_string(f) + ".25 1.5 " + std::to_string(f % 90) + ".125 2.0\n";
   }
@@ -254,14 +260,14 @@ TEST(BvhRewriter, LongTakesWithGapsKeepTheirDigits) {
   EXPECT_EQ(clip.root_positions[0].x, 2.25);
   EXPECT_EQ(clip.root_positions[2049].x, 2047.25);
   EXPECT_LT(angle_between(clip.rotation(2049, 0), rotation_of({1.5, 67.125, 2}, "ZXY")), 1e-14);
-  EXPECT_TRUE(write_clip(clip) == text);
   clip.rotation(4000, 0) = clip.rotation(4000, 0) * exp({0.1, 0, 0});
-  const std::string changed = write_clip(clip);
-  std::size_t different = 0;
-  ASSERT_EQ(changed.size() > text.size(), true);
-  const auto before = words_of(text), after = words_of(changed);
+  const auto before = words_of(text), after = words_of(write_clip(clip));
   ASSERT_EQ(before.size(), after.size());
-  for (std::size_t w = 0; w < before.size(); ++w) different += before[w] != after[w] ? 1 : 0;
+  std::size_t different = 0;
+  for (std::size_t w = first_word; w < before.size(); ++w) {
+    EXPECT_NE(after[w], "nan") << w;
+    if (!is_gap((w - first_word) / 4)) different += before[w] != after[w] ? 1 : 0;
+  }
   EXPECT_GE(different, 1u);
   EXPECT_LE(different, 3u);
 }

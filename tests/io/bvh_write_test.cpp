@@ -202,10 +202,11 @@ TEST(BvhWriter, RefusesWhatTheFormatCannotHold) {
             "joint \"a\" moves but has no position channels");
   EXPECT_EQ(
       refuse([](Clip& c) { c.root_positions[0].x = std::numeric_limits<double>::quiet_NaN(); }),
-      "a channel value to write is not finite");
+      "a value to write is not finite");
   EXPECT_EQ(refuse([](Clip& c) { c.local_rotations.pop_back(); }),
             "the clip's arrays do not have its number of frames");
-  EXPECT_EQ(refuse([](Clip& c) { c.frame_rate_hz = 0; }), "the clip's frame rate is not positive");
+  EXPECT_EQ(refuse([](Clip& c) { c.frame_rate_hz = 0; }),
+            "a frame rate of 0 Hz is outside 0.1 to 100000 Hz");
 }
 
 TEST(BvhWriter, FrameTimesReadBackAsTheirRate) {
