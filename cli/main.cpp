@@ -11,12 +11,29 @@
 #include "command_line.hpp"
 #include "help.hpp"
 #include "kinemend/version.hpp"
+#include "takes.hpp"
 #include "terminal.hpp"
 
 namespace {
 
 using namespace kinemend;
 using namespace kinemend::cli;
+
+/// What no part of the program foresaw is at least told with the take that it happened in.
+int run_command(const Command& command, const Arguments& arguments) {
+  const std::string place =
+      arguments.positionals.size() == 1 ? input_name(arguments.positionals[0]) + ": " : "";
+  try {
+    return command.run(arguments);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorKind::unreadable_input, place + "out of memory");
+  } catch (const std::exception& error) {
+    throw Error(ErrorKind::unreadable_input,
+                fmt::format("{}internal error: {}", place, error.what()));
+  }
+}
 
 int run(const std::vector<std::string>& words) {
   const Request request = parse_command_line(words);
@@ -33,7 +50,7 @@ int run(const std::vector<std::string>& words) {
     case Request::Kind::run:
       break;
   }
-  return command->run(request.arguments);
+  return run_command(*command, request.arguments);
 }
 
 int fail(const std::string& message, ErrorKind kind) {
@@ -45,6 +62,7 @@ int fail(const std::string& message, ErrorKind kind) {
 
 // The locale is never set: the C library keeps to "C", and numbers look alike everywhere.
 int main(int argc, char** argv) {
+  open_standard_streams();
   // A reader that has gone shows as an error of the write, not as a signal.
   std::signal(SIGPIPE, SIG_IGN);
   try {

@@ -1,5 +1,6 @@
 #include "terminal.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -49,6 +50,8 @@ std::string_view code_of(Paint paint) {
   return "0";
 }
 
+bool out_was_closed = false;
+
 constexpr std::string_view erase_line = "\r\033[K";
 
 std::string bar_text(double share) {
@@ -62,6 +65,19 @@ void say_as(Paint paint, std::string_view kind, std::string_view text) {
 }
 
 }  // namespace
+
+void open_standard_streams() {
+  out_was_closed = ::fcntl(STDOUT_FILENO, F_GETFD) == -1;
+  int opened = -1;
+  do {
+    opened = ::open("/dev/null", O_RDWR);
+  } while (opened >= 0 && opened <= STDERR_FILENO);
+  if (opened > STDERR_FILENO) ::close(opened);
+}
+
+void check_out_is_open() {
+  if (out_was_closed) throw Error(ErrorKind::cannot_write, "standard output: is closed");
+}
 
 void write_out(std::string_view text) {
   const int error = write_all(STDOUT_FILENO, text);
@@ -84,7 +100,37 @@ std::string Colours::paint(Paint paint, std::string_view text) const {
   return fmt::format("\033[{}m{}\033[0m", code_of(paint), text);
 }
 
-std::string printable(std::string_view text) {
+namespace {
+
+// At most 80 characters of each word, and three dots where it was longer; paths are left whole, as
+// their end says most.
+std::string shortened(std::string_view text) {
+  constexpr std::size_t longest = 80;
+  constexpr std::string_view blanks = " \t\r\n";
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t blank = std::min(text.find_first_not_of(blanks), text.size());
+    result += text.substr(0, blank);
+    text.remove_prefix(blank);
+    const std::string_view word = text.substr(0, text.find_first_of(blanks));
+    text.remove_prefix(word.size());
+    if (word.size() <= longest || word.find('/') != word.npos) {
+      result += word;
+      continue;
+    }
+    // Not within a character of several bytes.
+    std::size_t end = longest;
+    while (end > 0 && (static_cast<unsigned char>(word[end]) & 0xC0) == 0x80) --end;
+    result += word.substr(0, end);
+    result += "...";
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string printable(std::string_view whole) {
+  const std::string text = shortened(whole);
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto byte = static_cast<unsigned char>(text[i]);

@@ -14,6 +14,12 @@ namespace kinemend::cli {
 /// The reader of standard output is gone, which is no failure: `head` has seen enough.
 struct ClosedPipe {};
 
+/// Opens those of the descriptors 0 to 2 that are closed on the null device: else the next file
+/// that is opened would be taken for a standard stream. The first thing of all in `main`.
+void open_standard_streams();
+/// Throws `Error` of kind `cannot_write` where standard output was closed from the start: a take
+/// that is meant for it must not vanish.
+void check_out_is_open();
 /// Throws `ClosedPipe`, or `Error` of kind `cannot_write`.
 void write_out(std::string_view text);
 /// Never fails: there is nobody left to tell.
@@ -38,7 +44,7 @@ class Colours {
 };
 
 /// Control characters as \xNN, so that a name in a file can neither break a line nor command the
-/// terminal.
+/// terminal, and words cut at 80 characters, so that it cannot fill it. Paths are left whole.
 std::string printable(std::string_view text);
 
 /// A bar on standard error, on a terminal only. Calls may come from any thread.

@@ -32,6 +32,78 @@ class Terminal : public Program {
   int code = -1;
 };
 
+/// Started with some of the descriptors 0 to 2 closed, as by `<&- >&-`.
+class ClosedStreams : public Program {
+ protected:
+  int run_without(const std::vector<int>& streams, const std::vector<std::string>& words) {
+    const pid_t child = fork();
+    if (child == 0) {
+      const int null = open("/dev/null", O_RDWR);
+      for (const int stream : {0, 1, 2}) dup2(null, stream);
+      close(null);
+      for (const int stream : streams) close(stream);
+      execute(words, {});
+    }
+    return wait_for(child).code;
+  }
+};
+
+TEST_F(ClosedStreams, NeverEndUpInTheTake) {
+  noisy("walk.bvh");
+  const std::vector<std::vector<std::string>> commands = {
+      {"clean", "walk.bvh", "-o", "out.bvh", "--force"},
+      {"fill", "walk.bvh", "-o", "out.bvh", "--force"},
+      {"corrupt", "walk.bvh", "-o", "out.bvh", "--damage", "gaussian", "--force"},
+      {"convert", "walk.bvh", "-o", "out.bvh", "--plain", "--force"},
+      {"clean", "out.bvh", "-o", "out.bvh", "-m", "butterworth", "--force"},
+      {"clean", "no.bvh", "-o", "out.bvh", "--force"}};
+  for (const auto& words : commands) {
+    put(folder / "out.bvh", contents(folder / "walk.bvh"));
+    const int code = run(words).code;
+    const std::string expected = contents(folder / "out.bvh");
+    for (const std::vector<int>& streams :
+         std::vector<std::vector<int>>{{0}, {1}, {2}, {0, 1}, {0, 2}, {1, 2}, {0, 1, 2}}) {
+      put(folder / "out.bvh", contents(folder / "walk.bvh"));
+      EXPECT_EQ(run_without(streams, words), code) << words[0];
+      EXPECT_EQ(contents(folder / "out.bvh"), expected) << words[0] << " without " << streams[0];
+    }
+  }
+}
+
+TEST_F(ClosedStreams, ATakeForAClosedStandardOutputIsExitCode4) {
+  noisy("walk.bvh");
+  EXPECT_EQ(run_without({1}, {"clean", "walk.bvh", "-o", "-"}), 4);
+  EXPECT_EQ(run_without({1}, {"convert", "walk.bvh", "-o", "-"}), 4);
+  EXPECT_EQ(run_without({0}, {"clean", "-", "-o", "out.bvh"}), 3);
+}
+
+TEST_F(Streams, StandardInputUnderAnotherNameGoesToStandardOutput) {
+  noisy("walk.bvh");
+  const std::string take = contents(folder / "walk.bvh");
+  const Ran ran = run({"clean", "/dev/stdin"}, {take, {}, {}});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(ran.out, run({"clean", "-"}, {take, {}, {}}).out);
+  EXPECT_EQ(run({"clean", "/dev/stdin", "--output-dir", "out"}, {take, {}, {}}).code, 2);
+}
+
+TEST_F(Streams, ALongNameIsCutInMessages) {
+  const std::string name(500, 'n');
+  std::string take = hand_take();
+  take.replace(take.find("LeftArm"), 7, name);
+  put(folder / "long.bvh", take);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"info", "long.bvh", "--tree"},
+        {"clean", "long.bvh", "-m", "gaussian", "--verbose", "-o", "a.bvh"},
+        {"clean", "long.bvh", "--joints", "none", "-o", "b.bvh"},
+        {"clean", "long.bvh", "--joints", name + "x", "-o", "b.bvh"},
+        {"check", "long.bvh"},
+        {name},
+        {"clean", "--" + name}}) {
+    const Ran ran = run(words);
+    EXPECT_THAT(ran.err + ran.out, Not(HasSubstr(std::string(81, 'n')))) << words[0];
+  }
+}
+
 TEST_F(Streams, ATakeGoesThroughAPipe) {
   noisy("walk.bvh");
   ASSERT_EQ(run({"clean", "walk.bvh"}).code, 0);
