@@ -48,7 +48,8 @@ struct Batch {
 struct Done {
   Json row;
   int code = 0;
-  bool is_new = false;  ///< false where an earlier run had done it
+  bool is_new = false;   ///< false where an earlier run had done it
+  bool is_begun = true;  ///< false where it was refused before anything was done
   std::string error;
   std::vector<std::string> warnings;
 };
@@ -140,17 +141,29 @@ Done clean_item(const BatchItem& item, const std::string& output, const Batch& b
   return done;
 }
 
+/// What an earlier run of the batch made, or had begun, may be replaced; what somebody else put
+/// there may not. A record is older than its result, and so it is asked for second.
+void check_is_ours(const BatchItem& item, const std::string& output, const Batch& batch) {
+  std::error_code ignored;
+  if (fs::exists(output, ignored) && !read_record(batch.folder, item.name))
+    check_free(output, batch.plan.force);
+}
+
 Done do_item(const BatchItem& item, const Batch& batch) {
   const std::string output = (fs::path(batch.folder) / item.name).string();
-  fs::create_directories(fs::path(output).parent_path());
-  if (item.is_copied) return copy_skeleton(item, output, true);
+  make_folder(fs::path(output).parent_path());
+  if (item.is_copied) {
+    const TakeLock lock(batch.folder, item.name);
+    return copy_skeleton(item, output, true);
+  }
+  // What is refused leaves no trace.
+  check_is_ours(item, output, batch);
   const BatchKey key{input_hash(item), batch.options_hash, std::string(version())};
+  const TakeLock lock(batch.folder, item.name);
   const auto record = read_record(batch.folder, item.name);
-  if (record && is_done(*record, key, output)) return {record->row, 0, false, {}, {}};
-  // What an earlier run of the batch made, or had begun, may be replaced; what somebody else put
-  // there may not.
+  if (record && is_done(*record, key, output)) return {record->row, 0, false, true, {}, {}};
   if (!record) {
-    check_free(output, batch.plan.force);
+    check_is_ours(item, output, batch);
     write_record(batch.folder, item.name, {key, "", {{"name", item.name}, {"status", "begun"}}});
   }
   return clean_item(item, output, batch, key);
@@ -165,13 +178,14 @@ Done try_item(const BatchItem& item, const Batch& batch) {
   } catch (const Error& error) {
     done.code = static_cast<int>(error.kind());
     done.error = error.what();
-  } catch (const fs::filesystem_error& error) {
-    done.code = static_cast<int>(ErrorKind::cannot_write);
-    done.error = fmt::format("{}: {}", item.name, error.code().message());
   } catch (const std::bad_alloc&) {
     done.code = static_cast<int>(ErrorKind::unreadable_input);
     done.error = item.input + ": out of memory";
+  } catch (const std::exception& error) {
+    done.code = static_cast<int>(ErrorKind::unreadable_input);
+    done.error = fmt::format("{}: internal error: {}", item.input, error.what());
   }
+  done.is_begun = false;
   done.row = {{"name", item.name},
               {"status", "failed"},
               {"input", item.input},
@@ -232,7 +246,7 @@ int run(const Arguments& arguments) {
   std::vector<BatchItem> mine;
   std::copy_if(all.begin(), all.end(), std::back_inserter(mine),
                [&](const BatchItem& item) { return in_shard(item.name, batch.shard); });
-  fs::create_directories(batch.folder);
+  make_folder(batch.folder);
   remove_leftovers(batch.folder);
   const std::vector<Done> done = do_all(mine, batch);
 
@@ -242,8 +256,17 @@ int run(const Arguments& arguments) {
     counts.add(one.row, one.is_new, one.code);
     rows.push_back(one.row);
   }
-  write_rows(batch.folder, batch.shard, rows);
-  const Json summary = write_summary(batch.folder, all, batch.options_hash);
+  // A batch that could begin nothing leaves no word of itself.
+  const bool is_refused =
+      std::any_of(done.begin(), done.end(), [](const Done& one) { return !one.is_begun; }) &&
+      std::none_of(done.begin(), done.end(), [](const Done& one) {
+        return one.is_begun && one.row.at("status") != "copied";
+      });
+  const Json summary = summary_of(batch.folder, all, batch.options_hash);
+  if (!is_refused) {
+    write_rows(batch.folder, batch.shard, rows);
+    write_summary(batch.folder, summary);
+  }
   if (arguments.flag("json")) {
     write_out(json_text(summary));
   } else if (!batch.quiet) {

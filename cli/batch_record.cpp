@@ -1,12 +1,18 @@
 #include "batch_record.hpp"
 
+#include <fcntl.h>
+#include <fmt/format.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <charconv>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
+#include <system_error>
 
+#include "kinemend/content_hash.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
 
@@ -58,9 +64,43 @@ std::optional<BatchRecord> read_record(const std::string& folder, const std::str
   }
 }
 
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error && !fs::is_directory(folder, error))
+    error = std::make_error_code(std::errc::not_a_directory);
+  if (error) {
+    throw Error(ErrorKind::cannot_write, fmt::format("{}: {}", folder.string(), error.message()));
+  }
+}
+
+TakeLock::TakeLock(const std::string& folder, const std::string& name) {
+  const fs::path path = fs::path(folder) / records_folder / "lock";
+  make_folder(path.parent_path());
+  descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) return;
+  // One byte of the file for each take, by its name: whose bytes are the same wait for each other.
+  constexpr std::uint64_t places = std::uint64_t{1} << 40;
+  std::uint64_t place = 0;
+  const std::string digits = content_hash(name).substr(0, 16);
+  std::from_chars(digits.data(), digits.data() + digits.size(), place, 16);
+  struct flock lock {};
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  lock.l_start = static_cast<off_t>(place % places);
+  lock.l_len = 1;
+  // Where the file system knows no locks there are none.
+  while (::fcntl(descriptor_, F_OFD_SETLKW, &lock) != 0 && errno == EINTR) {
+  }
+}
+
+TakeLock::~TakeLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
 void write_record(const std::string& folder, const std::string& name, const BatchRecord& record) {
   const fs::path path = record_path(folder, name);
-  fs::create_directories(path.parent_path());
+  make_folder(path.parent_path());
   write_file(path,
              json_text({{"kinemend", record.key.version},
                         {"input_hash", record.key.input},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,23 @@ std::string record_path(const std::string& folder, const std::string& name);
 /// None where there is no record or it cannot be understood.
 std::optional<BatchRecord> read_record(const std::string& folder, const std::string& name);
 void write_record(const std::string& folder, const std::string& name, const BatchRecord& record);
+
+/// Makes a folder and those above it. Errors: `ErrorKind::cannot_write`, also where a file stands
+/// in its place.
+void make_folder(const std::filesystem::path& folder);
+
+/// While it lives nobody else works on the take `name` of the batch in `folder`, in this process or
+/// in another one.
+class TakeLock {
+ public:
+  TakeLock(const std::string& folder, const std::string& name);
+  ~TakeLock();
+  TakeLock(const TakeLock&) = delete;
+  TakeLock& operator=(const TakeLock&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
 
 /// Removes what a run that was killed may have left under a temporary name: files of this program
 /// in `folder` and below that are older than an hour and whose process is gone.

@@ -53,8 +53,8 @@ void write_rows(const std::string& folder, const Shard& shard, const std::vector
   write_file(fs::path(folder) / name, text, true);
 }
 
-Json write_summary(const std::string& folder, const std::vector<BatchItem>& all,
-                   const std::string& options_hash) {
+Json summary_of(const std::string& folder, const std::vector<BatchItem>& all,
+                const std::string& options_hash) {
   std::size_t takes = 0, cleaned = 0, failed = 0, stale = 0, frames = 0, spikes = 0, gaps = 0;
   double duration_s = 0, seconds = 0;
   Json failures = Json::array();
@@ -81,14 +81,16 @@ Json write_summary(const std::string& folder, const std::vector<BatchItem>& all,
     if (rate > 0) duration_s += static_cast<double>(whole(row, "frames")) / rate;
     seconds += number(row, "seconds");
   }
-  Json summary = {{"kinemend", version()}, {"options_hash", options_hash},
-                  {"takes", takes},        {"cleaned", cleaned},
-                  {"failed", failed},      {"to_do", stale},
-                  {"frames", frames},      {"duration_s", duration_s},
-                  {"seconds", seconds},    {"spikes", spikes},
-                  {"gaps", gaps},          {"failures", std::move(failures)}};
+  return {{"kinemend", version()}, {"options_hash", options_hash},
+          {"takes", takes},        {"cleaned", cleaned},
+          {"failed", failed},      {"to_do", stale},
+          {"frames", frames},      {"duration_s", duration_s},
+          {"seconds", seconds},    {"spikes", spikes},
+          {"gaps", gaps},          {"failures", std::move(failures)}};
+}
+
+void write_summary(const std::string& folder, const Json& summary) {
   write_file(fs::path(folder) / "summary.json", json_text(summary), true);
-  return summary;
 }
 
 std::string summary_text(const BatchCounts& counts, const Json& summary, const Shard& shard) {

@@ -23,10 +23,12 @@ struct BatchCounts {
 /// `rows.jsonl`, or `rows.I-of-N.jsonl` for a part: a line a take, sorted by name.
 void write_rows(const std::string& folder, const Shard& shard, const std::vector<Json>& rows);
 
-/// `summary.json`: sums over the records of all takes of the batch, whichever run or shard made
-/// them, and what is still to be done. Returns what it wrote.
-Json write_summary(const std::string& folder, const std::vector<BatchItem>& all,
-                   const std::string& options_hash);
+/// Sums over the records of all takes of the batch, whichever run or shard made them, and what is
+/// still to be done.
+Json summary_of(const std::string& folder, const std::vector<BatchItem>& all,
+                const std::string& options_hash);
+/// As `summary.json`.
+void write_summary(const std::string& folder, const Json& summary);
 
 std::string summary_text(const BatchCounts& counts, const Json& summary, const Shard& shard);
 

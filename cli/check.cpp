@@ -309,6 +309,7 @@ int run(const Arguments& arguments) {
   if (!gaps_out.empty()) {
     if (arguments.positionals.size() > 1)
       throw Error(ErrorKind::usage, "--gaps-out takes the spans of one take, not of several");
+    check_is_no_input("--gaps-out", gaps_out, arguments.positionals);
     check_free(gaps_out, force);
   }
   Json takes = Json::array();

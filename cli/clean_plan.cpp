@@ -25,6 +25,13 @@ std::string output_of(const std::string& input, const std::string& folder) {
   return output.string();
 }
 
+/// Standard input by any name: `-`, /dev/stdin, and what a shell passes as /dev/fd/63.
+bool is_stream(const std::string& input) {
+  if (input == "-") return true;
+  const std::string name = fs::path(input).lexically_normal().string();
+  return name.starts_with("/dev/") || name.starts_with("/proc/");
+}
+
 std::vector<CleanJob> make_jobs(const Arguments& arguments) {
   const std::vector<std::string>& inputs = arguments.positionals;
   const std::string output = arguments.text("output");
@@ -36,10 +43,10 @@ std::vector<CleanJob> make_jobs(const Arguments& arguments) {
   std::vector<CleanJob> jobs;
   std::map<std::string, std::string> taken;
   for (const std::string& input : inputs) {
-    if (input == "-" && !folder.empty())
+    if (is_stream(input) && !folder.empty())
       throw Error(ErrorKind::usage, "clean: standard input has no name for --output-dir");
     std::string target = output;
-    if (target.empty()) target = input == "-" ? "-" : output_of(input, folder);
+    if (target.empty()) target = is_stream(input) ? "-" : output_of(input, folder);
     const auto [known, is_new] = taken.emplace(target, input);
     if (!is_new) {
       throw Error(ErrorKind::usage, fmt::format("clean: {} and {} would both be written to {}",
@@ -191,6 +198,11 @@ CleanPlan make_clean_plan(const Arguments& arguments) {
     if (!plan.dry_run) outputs.push_back(job.output);
   }
   check_single_use(inputs, outputs, plan.json);
+  if (!plan.dry_run) {
+    outputs.insert(outputs.end(), inputs.begin(), inputs.end());
+    outputs.erase(outputs.begin());
+    check_is_no_input("--report", plan.report_path, outputs);
+  }
   return plan;
 }
 

@@ -21,12 +21,12 @@ namespace {
 namespace fs = std::filesystem;
 
 void write_result(const CleanJob& job, const Take& take, const CleanPlan& plan) {
-  const std::string bytes = write_take(take, format_for(job.output, source_of(take)));
   std::error_code error;
   if (!plan.folder.empty()) fs::create_directories(plan.folder, error);
   if (error)
     throw Error(ErrorKind::cannot_write, fmt::format("{}: {}", plan.folder, error.message()));
-  write_output(job.output, bytes, plan.force || job.may_replace);
+  write_take_output(job.output, take, format_for(job.output, source_of(take)),
+                    plan.force || job.may_replace);
 }
 
 void refuse_warnings(const std::string& name, const std::vector<std::string>& warnings) {
@@ -138,6 +138,9 @@ Outcome try_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress&
   } catch (const std::bad_alloc&) {
     outcome.code = static_cast<int>(ErrorKind::unreadable_input);
     outcome.error = input_name(job.input) + ": out of memory";
+  } catch (const std::exception& error) {
+    outcome.code = static_cast<int>(ErrorKind::unreadable_input);
+    outcome.error = fmt::format("{}: internal error: {}", input_name(job.input), error.what());
   }
   outcome.json = outcome.report = std::make_shared<const Json>(
       Json{{"input", job.input}, {"error", outcome.error}, {"exit_code", outcome.code}});

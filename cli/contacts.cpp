@@ -31,6 +31,7 @@ int run(const Arguments& arguments) {
   std::string output = arguments.text("output");
   const bool json = arguments.flag("json"), force = arguments.flag("force");
   check_single_use({input}, {output}, json);
+  check_is_no_input("--output", output, {input});
   if (!output.empty()) check_free(output, force);
   const Clip clip = read_joints(input, read_options(arguments));
   Clip copy = clip;

@@ -9,6 +9,7 @@
 
 #include "commands.hpp"
 #include "kinemend/convert.hpp"
+#include "kinemend/frame_rate.hpp"
 #include "kinemend/io.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
@@ -129,14 +130,10 @@ Take fitted(Take take, const Format& format, const Arguments& arguments) {
 }
 
 /// AMC holds angles only; the skeleton goes to an ASF file beside it.
-std::optional<std::string> skeleton_output(const Take& take, const Format& format,
-                                           const std::string& output) {
-  if (format.name != "amc" || source_of(take).format == "amc") return std::nullopt;
-  if (output == "-") {
-    throw Error(ErrorKind::usage,
-                "convert: AMC needs a skeleton file beside it; name an output file");
-  }
-  return fs::path(output).replace_extension(".asf").string();
+void check_has_place(const Take& take, const Format& format, const std::string& output) {
+  if (format.name != "amc" || source_of(take).format == "amc" || output != "-") return;
+  throw Error(ErrorKind::usage,
+              "convert: AMC needs a skeleton file beside it; name an output file");
 }
 
 int run(const Arguments& arguments) {
@@ -154,20 +151,18 @@ int run(const Arguments& arguments) {
   if (arguments.given("fps")) take = resampled(take, arguments.number("fps"));
   if (arguments.given("up")) take = turned(take, arguments);
   if (arguments.given("unit")) take = in_unit(take, arguments.text("unit"));
-  const auto skeleton = skeleton_output(take, format, output);
+  check_has_place(take, format, output);
   take = fitted(std::move(take), format, arguments);
-  if (skeleton) check_free(*skeleton, force);
   for (const std::string& line :
        loss_lines(input_name(input), take, format.name, arguments.flag("strict")))
     say_warning(line);
-  const std::string bytes = write_take(take, format.name);
-  if (skeleton) write_output(*skeleton, write_take(take, "asf"), force);
-  write_output(output, bytes, force);
+  write_take_output(output, take, std::string(format.name), force);
   return 0;
 }
 
 std::vector<Flag> change_flags() {
-  Flag fps = number_flag("fps", "Hz", 0, 1e-3, 1e5, "Change", "bring the motion to this rate",
+  Flag fps = number_flag("fps", "Hz", 0, least_frame_rate_hz, most_frame_rate_hz, "Change",
+                         "bring the motion to this rate",
                          "Samples are interpolated, not averaged; clean a noisy take first.");
   fps.has_default = false;
   Flag up = text_flag("up", "", "Change", "turn the axes so that this one points up");

@@ -126,14 +126,19 @@ int run(const Arguments& arguments) {
     throw Error(ErrorKind::usage, "corrupt: --damage is missing (see kinemend corrupt -h)");
   check_single_use({input}, {output}, json);
   check_free(output, force);
-  ReadResult take = read_clip(std::filesystem::path(input), read_options(arguments));
-  warn_of_repairs(input_name(input), take.diagnostics);
+  TakeResult read = read_take(std::filesystem::path(input), read_options(arguments));
+  warn_of_repairs(input_name(input), read.diagnostics);
+  Clip* const clip = std::get_if<Clip>(&read.take);
+  if (clip == nullptr) {
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: holds markers; joints are wanted here", input_name(input)));
+  }
   Random random(static_cast<std::uint64_t>(arguments.whole("seed")));
   std::vector<DamageReport> reports;
   reports.reserve(requests.size());
   for (const DamageRequest& request : requests)
-    reports.push_back(apply_damage(take.clip, request.name, request.values, random));
-  write_output(output, write_clip(take.clip, take.clip.source.format), force);
+    reports.push_back(apply_damage(*clip, request.name, request.values, random));
+  write_take_output(output, read.take, clip->source.format, force);
   if (json) {
     Json list = Json::array();
     for (const DamageReport& report : reports) list.push_back(json_of_damage(report));

@@ -144,6 +144,8 @@ int run(const Arguments& arguments) {
   if (output.empty() && !dry_run)
     throw Error(ErrorKind::usage, "fill: --output is missing (see kinemend fill -h)");
   check_single_use({input, gap_file}, {output, report_path}, json);
+  check_is_no_input("--report", dry_run ? "" : report_path, {input, gap_file, output});
+  check_is_no_input("--output", output, {gap_file});
   if (!dry_run) check_free(output, force);
   if (!report_path.empty() && !dry_run) check_free(report_path, force);
 
@@ -167,7 +169,7 @@ int run(const Arguments& arguments) {
          loss_lines(take.input, read.take, format, arguments.flag("strict")))
       say_warning(line);
   }
-  if (!dry_run && !failed) write_output(output, write_take(read.take, format), force);
+  if (!dry_run && !failed) write_take_output(output, read.take, format, force);
   if (report_path == "-" || (!report_path.empty() && !dry_run && !failed)) {
     write_output(report_path, json_text(report_json(take, report)), force);
   }

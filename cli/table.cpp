@@ -66,6 +66,7 @@ std::string figure(double value) {
   if (!std::isfinite(value)) return value > 0 ? "infinite" : "undefined";
   const double size = std::fabs(value);
   if (size == 0) return "0";
+  if (size >= 1e9) return fmt::format("{:.3g}", value);
   if (size >= 100) return fmt::format("{:.0f}", value);
   if (size >= 10) return fmt::format("{:.1f}", value);
   if (size >= 0.01) return fmt::format("{:.2f}", value);

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "json.hpp"
+#include "kinemend/frame_rate.hpp"
 #include "table.hpp"
 #include "terminal.hpp"
 
@@ -16,6 +17,7 @@ namespace kinemend::cli {
 std::string input_name(const std::string& input) { return input == "-" ? "standard input" : input; }
 
 void check_free(const std::string& output, bool force) {
+  if (output == "-") check_out_is_open();
   std::error_code ignored;
   if (output == "-" || force || !std::filesystem::is_regular_file(output, ignored)) return;
   throw Error(ErrorKind::cannot_write,
@@ -23,9 +25,53 @@ void check_free(const std::string& output, bool force) {
 }
 
 void write_output(const std::string& output, std::string_view bytes, bool force) {
-  if (output == "-") return write_out(bytes);
   check_free(output, force);
+  if (output == "-") return write_out(bytes);
   write_file(output, bytes, force);
+}
+
+namespace {
+
+bool holds(const std::filesystem::path& path, std::string_view bytes) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored) && read_file(path) == bytes;
+}
+
+// Takes that are written at once may share a skeleton: whoever comes second finds it there.
+void write_side_file(const SideFile& file, bool force) {
+  try {
+    write_output(file.path.string(), file.bytes, force);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::cannot_write || !holds(file.path, file.bytes)) throw;
+  }
+}
+
+}  // namespace
+
+void write_take_output(const std::string& output, const Take& take, const std::string& format,
+                       bool force) {
+  const std::string bytes = write_take(take, format);
+  if (output != "-") {
+    check_free(output, force);
+    if (const auto beside = side_file(take, bytes, format, output)) write_side_file(*beside, force);
+  }
+  write_output(output, bytes, force);
+}
+
+void check_is_no_input(std::string_view option, const std::string& output,
+                       const std::vector<std::string>& inputs) {
+  if (output.empty() || output == "-") return;
+  const auto is_same = [&](const std::string& input) {
+    if (input.empty() || input == "-") return false;
+    std::error_code error;
+    return std::filesystem::equivalent(input, output, error) ||
+           std::filesystem::path(input).lexically_normal() ==
+               std::filesystem::path(output).lexically_normal();
+  };
+  const auto found = std::find_if(inputs.begin(), inputs.end(), is_same);
+  if (found == inputs.end()) return;
+  throw Error(ErrorKind::usage,
+              fmt::format("{}: {} is a take of this run and would be lost", option, output));
 }
 
 void check_single_use(const std::vector<std::string>& inputs,
@@ -50,6 +96,11 @@ int for_each_input(const std::vector<std::string>& inputs, Json& takes,
       const int failure = static_cast<int>(error.kind());
       code = std::max(code, failure);
       takes.push_back({{"input", input}, {"error", error.what()}, {"exit_code", failure}});
+    } catch (const std::bad_alloc&) {
+      throw Error(ErrorKind::unreadable_input, input_name(input) + ": out of memory");
+    } catch (const std::exception& error) {
+      throw Error(ErrorKind::unreadable_input,
+                  fmt::format("{}: internal error: {}", input_name(input), error.what()));
     }
   }
   return code;
@@ -158,7 +209,7 @@ std::vector<Flag> reading_flags(std::string strict_help) {
   Flag asf = text_flag("asf", "FILE", "Input", "skeleton of an AMC file",
                        "Without it: the ASF file that the AMC file names, or one beside it.");
   asf.completion = Completion::file;
-  Flag fps = number_flag("from_fps", "Hz", 120, 0.001, 100000, "Input",
+  Flag fps = number_flag("from_fps", "Hz", 120, least_frame_rate_hz, most_frame_rate_hz, "Input",
                          "frame rate of a file that does not state it",
                          "Formats that state one ignore it.");
   fps.has_default = false;

@@ -19,6 +19,14 @@ std::string input_name(const std::string& input);
 void check_free(const std::string& output, bool force);
 /// To a file, or to standard output for "-".
 void write_output(const std::string& output, std::string_view bytes, bool force);
+/// The take in `format`, with what must stand beside it (the skeleton of an AMC file).
+void write_take_output(const std::string& output, const Take& take, const std::string& format,
+                       bool force);
+/// Refuses an output that is one of the inputs, or another output, under any name; `--force` does
+/// not help. For reports and the like: what is meant to replace its input is not given here.
+/// Errors: `ErrorKind::usage`.
+void check_is_no_input(std::string_view option, const std::string& output,
+                       const std::vector<std::string>& inputs);
 /// Refuses a second use of standard input or standard output. Errors: `ErrorKind::usage`.
 void check_single_use(const std::vector<std::string>& inputs,
                       const std::vector<std::string>& outputs, bool json);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,8 +29,9 @@ struct ReadOptions {
   /// The ASF file of an AMC file. Empty: the ASF named inside the AMC, else one of the same stem
   /// beside it, else that of the subject (`35.asf` for `35_01.amc`), else the only one there.
   std::filesystem::path skeleton;
-  /// Rate of a format that has none (AMC, CSV without times), hertz; 0: the format's custom (120
-  /// for AMC), with a diagnostic `frame_rate_assumed`. Formats that have a rate ignore it.
+  /// Rate of a file that has none (AMC, CSV without times) or none that a take may have, hertz, 0.1
+  /// to 100,000; 0: the format's custom (120 for AMC), with a diagnostic `frame_rate_assumed`. A
+  /// file that states a usable rate keeps it.
   double frame_rate_hz = 0;
   /// Told how far reading is (0..1); formats whose files are never large tell nothing on the way.
   std::function<void(double done)> progress;
@@ -61,7 +63,8 @@ ReadResult read_clip(std::string bytes, std::string_view name, const ReadOptions
 
 /// The bytes of a file. A clip that was read in the same format is written in its source's own
 /// layout, and every sample that still has the value it was read with keeps its digits: an
-/// unchanged clip comes back to the byte. A changed rotation is written in the joint's own order,
+/// unchanged clip comes back to the byte, but for values of joints that were no finite numbers: what
+/// they are held by is written, and never a number that is not finite. A changed rotation is written in the joint's own order,
 /// continuing the frame before, and of it a joint's channels hold what they can (the nearest
 /// rotation; nothing where it has none). A clip with other frames than its source keeps the text of
 /// the hierarchy; one with another skeleton, or made in memory, gets a plain layout. Errors:
@@ -75,10 +78,23 @@ std::string write_take(const Take& take, std::string_view format);
 /// Names are stable (`analog_lost`). Errors: `usage` for an unknown format.
 Diagnostics lost_in_writing(const Take& take, std::string_view format);
 
+/// A file that another one needs beside it.
+struct SideFile {
+  std::filesystem::path path;
+  std::string bytes;
+};
+/// What else must stand in the folder of `output` so that `bytes`, the take as written in `format`,
+/// can be read from there: the skeleton of an AMC file, under the name of the source's skeleton
+/// where a reader would look for that, else under the take's own. Nothing where a reader would find
+/// the same skeleton already, and for other formats.
+std::optional<SideFile> side_file(const Take& take, std::string_view bytes, std::string_view format,
+                                  const std::filesystem::path& output);
+
 /// Writes `bytes` to a temporary file beside `path`, flushes it to the disk and renames it: `path`
 /// holds its old content or all of the new one, never half. A file that is replaced keeps its
-/// permissions, a symbolic link stays one, a device or a pipe is written to, and "-" is standard
-/// output. Errors: `cannot_write`, also when the file exists and `overwrite` is false.
+/// permissions, a symbolic link stays one and what it names is written, a device or a pipe is
+/// written to, and "-" is standard output. Errors: `cannot_write`, also when the file exists and
+/// `overwrite` is false.
 void write_file(const std::filesystem::path& path, std::string_view bytes, bool overwrite);
 /// All of a file, or of standard input for "-". Errors: `unreadable_input`.
 std::string read_file(const std::filesystem::path& path);

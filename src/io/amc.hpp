@@ -20,4 +20,8 @@ TakeResult read_amc(std::string bytes, std::string_view name, std::string asf_by
 /// the format cannot hold the clip.
 std::string write_amc(const Clip& clip);
 
+/// `side_file` of an AMC.
+std::optional<SideFile> amc_side_file(const Take& take, std::string_view bytes,
+                                      const std::filesystem::path& output);
+
 }  // namespace kinemend

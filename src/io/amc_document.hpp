@@ -12,7 +12,8 @@ namespace kinemend {
 
 /// An AMC file as it was read, with the ASF file it belongs to; of an ASF alone, `bytes` is empty.
 struct AmcDocument : MotionDocument {
-  std::string name;  ///< of the AMC
+  std::string name;           ///< of the AMC
+  std::string skeleton_name;  ///< of the ASF file, without its folder
   std::string asf_bytes;
   double metres_per_unit = 0;
   AmcLayout layout;

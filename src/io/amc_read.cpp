@@ -133,6 +133,7 @@ TakeResult read_amc(std::string bytes, std::string_view name, std::string asf_by
   document->bytes = std::move(bytes);
   document->asf_bytes = std::move(asf_bytes);
   document->name = name;
+  document->skeleton_name = std::filesystem::path(asf_name).filename().string();
   TakeResult result;
   const SourceText asf_text{asf_name, document->asf_bytes, options.strict};
   AsfSkeleton asf = parse_asf(asf_text, result.diagnostics, options.max_depth);

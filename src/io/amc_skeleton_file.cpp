@@ -88,4 +88,37 @@ fs::path find_skeleton_file(std::string_view amc_name, std::string_view named_in
           files.empty() ? "no other ASF file" : fmt::format("{} other ASF files", files.size())));
 }
 
+fs::path skeleton_place(const fs::path& output, std::string_view named_inside,
+                        std::string_view asf_bytes, const std::string& usual_name) {
+  const auto holds_it = [&](const fs::path& path) {
+    std::error_code error;
+    const auto size = fs::file_size(path, error);
+    return !error && size == asf_bytes.size() && read_file(path) == asf_bytes;
+  };
+  try {
+    if (holds_it(find_skeleton_file(output.string(), named_inside, {}))) return {};
+  } catch (const Error&) {
+    // There is none yet.
+  }
+  const fs::path parent = output.parent_path();
+  const std::string stem = output.stem().string();
+  const std::vector<fs::path> files = asf_files_in(parent.empty() ? fs::path(".") : parent);
+  const auto is_there = [&](const std::string& name) {
+    return std::any_of(files.begin(), files.end(), [&](const fs::path& file) {
+      return equal_ignoring_case(file.filename().string(), name);
+    });
+  };
+  // A reader takes the first of the likely names that is there: any before it is free, and would be
+  // found first.
+  const std::vector<std::string> names = likely_names(stem, named_inside);
+  const auto taken = std::find_if(names.begin(), names.end(), is_there);
+  for (const std::string& wanted : {usual_name, stem + ".asf"}) {
+    const auto found = std::find_if(names.begin(), taken, [&](const std::string& name) {
+      return equal_ignoring_case(name, wanted);
+    });
+    if (found != taken) return parent / *found;
+  }
+  return parent / *taken;
+}
+
 }  // namespace kinemend

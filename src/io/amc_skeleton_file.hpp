@@ -13,4 +13,11 @@ namespace kinemend {
 std::filesystem::path find_skeleton_file(std::string_view amc_name, std::string_view named_inside,
                                          const ReadOptions& options);
 
+/// Under which name the skeleton `asf_bytes` is to stand beside the AMC file `output`, so that
+/// `find_skeleton_file` finds it there; empty where it does already. `usual_name`: what the
+/// skeleton was called so far, which is kept where it can be.
+std::filesystem::path skeleton_place(const std::filesystem::path& output,
+                                     std::string_view named_inside, std::string_view asf_bytes,
+                                     const std::string& usual_name);
+
 }  // namespace kinemend

@@ -5,6 +5,8 @@
 
 #include "io/amc.hpp"
 #include "io/amc_document.hpp"
+#include "io/amc_skeleton_file.hpp"
+#include "io/asf.hpp"
 #include "io/asf_plan.hpp"
 #include "io/motion_rewrite.hpp"
 #include "io/motion_write.hpp"
@@ -105,6 +107,20 @@ bool has_positions_of(const Clip& clip, const Skeleton& skeleton) {
 }
 
 }  // namespace
+
+std::optional<SideFile> amc_side_file(const Take& take, std::string_view bytes,
+                                      const std::filesystem::path& output) {
+  const Clip& clip = std::get<Clip>(take);
+  const auto* document = dynamic_cast<const AmcDocument*>(clip.source.document.get());
+  Diagnostics ignored;
+  const std::string name = output.string();
+  const AmcHeader header = read_amc_header({name, bytes}, ignored);
+  SideFile skeleton{{}, write_asf(clip)};
+  skeleton.path = skeleton_place(output, header.skeleton_file, skeleton.bytes,
+                                 document != nullptr ? document->skeleton_name : "");
+  if (skeleton.path.empty()) return std::nullopt;
+  return skeleton;
+}
 
 std::string write_amc(const Clip& clip) {
   check_lengths(clip);

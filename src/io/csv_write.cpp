@@ -77,6 +77,7 @@ class Table {
 std::string write_plain(const Clip& clip) {
   Table table(80 * clip.local_rotations.size() + 4096);
   table.line("# rate_hz: " + number_text(clip.frame_rate_hz));
+  if (clip.frame_count() == 0) table.line("# frames: 0");
   if (clip.metres_per_unit > 0) {
     table.line("# metres_per_unit: " + number_text(clip.metres_per_unit));
   }
@@ -123,6 +124,7 @@ const CsvDocument* kept_layout(const MarkerClip& clip) {
 std::string write_plain(const MarkerClip& clip) {
   Table table(60 * clip.positions.size() + 4096);
   table.line("# rate_hz: " + number_text(clip.frame_rate_hz));
+  if (clip.frame_count() == 0) table.line("# frames: 0");
   if (!clip.unit.empty()) {
     if (clip.unit.find_first_of("\r\n") != clip.unit.npos) {
       throw Error(ErrorKind::usage, fmt::format("CSV cannot hold the unit {}", quote(clip.unit)));

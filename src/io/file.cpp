@@ -146,6 +146,19 @@ void flush_folder(const fs::path& file) {
   if (descriptor.get() >= 0) ::fsync(descriptor.get());
 }
 
+// A symbolic link stays one; what it points to is replaced, or made where it is not there.
+fs::path without_links(fs::path path) {
+  constexpr int most_links = 40;  // as the kernel has it
+  std::error_code error;
+  for (int links = 0; fs::is_symlink(path, error); ++links) {
+    if (links == most_links) fail_writing(path, reason(ELOOP));
+    const fs::path next = fs::read_symlink(path, error);
+    if (error) fail_writing(path, error.message());
+    path = path.parent_path() / next;
+  }
+  return path;
+}
+
 // A pipe, a terminal or /dev/null is written to, not replaced.
 void write_through(const fs::path& path, std::string_view bytes) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
@@ -165,17 +178,13 @@ void write_file(const fs::path& path, std::string_view bytes, bool overwrite) {
   const bool exists = ::stat(path.c_str(), &old) == 0;
   if (exists && S_ISDIR(old.st_mode)) fail_writing(path, reason(EISDIR));
   if (exists && !S_ISREG(old.st_mode)) return write_through(path, bytes);
-  std::error_code ignored;
-  const bool link = fs::is_symlink(path, ignored);
-  if ((exists || link) && !overwrite) fail_writing(path, "exists already and may not be replaced");
+  if (exists && !overwrite) fail_writing(path, "exists already and may not be replaced");
   if (exists && ::access(path.c_str(), W_OK) != 0) fail_writing(path, reason(errno));
-  // A symbolic link stays one; what it points to is replaced.
-  const fs::path target = link ? fs::weakly_canonical(path, ignored) : path;
-  if (target.empty()) fail_writing(path, "names no file");
+  const fs::path target = without_links(path);
   TemporaryFile file(target);
   if (exists) file.take_permissions(old);
   file.fill(bytes);
-  if (exists || link) {
+  if (exists) {
     file.replace_target();
   } else {
     file.become_target();

@@ -14,6 +14,7 @@
 #include "io/trc.hpp"
 #include "io/tsv.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/frame_rate.hpp"
 #include "kinemend/io.hpp"
 
 namespace kinemend {
@@ -153,6 +154,7 @@ TakeResult read_take(const std::filesystem::path& path, const ReadOptions& optio
 }
 
 TakeResult read_take(std::string bytes, std::string_view name, const ReadOptions& options) {
+  if (options.frame_rate_hz != 0) check_frame_rate(options.frame_rate_hz);
   const Format& format =
       options.format.empty() ? format_of(bytes, name) : format_called(options.format);
   if (format.read == nullptr) {
@@ -196,6 +198,12 @@ Diagnostics lost_in_writing(const Take& take, std::string_view format) {
   const std::string rest = csv_beside_markers(*clip, found.name == "csv");
   if (!rest.empty()) losses.add("rest_lost", rest + " are left out");
   return losses;
+}
+
+std::optional<SideFile> side_file(const Take& take, std::string_view bytes, std::string_view format,
+                                  const std::filesystem::path& output) {
+  if (format != "amc") return std::nullopt;
+  return amc_side_file(take, bytes, output);
 }
 
 }  // namespace kinemend

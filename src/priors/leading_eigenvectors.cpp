@@ -5,6 +5,10 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
+#include <exception>
+
+#include "kinemend/error.hpp"
 
 namespace kinemend {
 
@@ -35,9 +39,13 @@ EigenPairs leading_pairs(const MatrixView& matrix, Eigen::Index count, double to
   Spectra::DenseSymMatProd<double> product(matrix);
   Spectra::SymEigsSolver<Spectra::DenseSymMatProd<double>> solver(product, count,
                                                                   std::min(n, 2 * count + 10));
-  solver.init();
-  const Eigen::Index found =
-      solver.compute(Spectra::SortRule::LargestAlge, most_restarts, tolerance);
+  Eigen::Index found = 0;
+  try {
+    solver.init();
+    found = solver.compute(Spectra::SortRule::LargestAlge, most_restarts, tolerance);
+  } catch (const std::exception&) {
+    throw Error(ErrorKind::usage, "the values are too large, or too uneven, to find patterns in");
+  }
   if (found < count) return all_pairs(matrix);
   return {solver.eigenvalues(), solver.eigenvectors(count)};
 }
@@ -73,6 +81,9 @@ LeadingEigenvectors leading_eigenvectors(std::span<const double> matrix, std::si
   const MatrixView view(matrix.data(), side, side);
   const double trace = view.trace();
   if (!(trace > 0)) return result;
+  if (!std::isfinite(trace)) {
+    throw Error(ErrorKind::usage, "the values are too large, or too uneven, to find patterns in");
+  }
 
   const auto given = static_cast<Eigen::Index>(std::min(limits.count, n));
   Eigen::Index count = given > 0 ? given : std::min(first_count, side);

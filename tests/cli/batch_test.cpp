@@ -184,6 +184,58 @@ TEST_F(Batch, LeavesFilesThatItDidNotMakeAlone) {
   EXPECT_NE(contents(folder / "clean/a.bvh"), "dear");
 }
 
+TEST_F(Batch, AnOutputFolderThatCannotBeIsExitCode4) {
+  make_tree(2);
+  put(folder / "file", "dear");
+  for (const char* output : {"file", "file/deeper", "/proc/self/out"}) {
+    const Ran ran = run({"batch", "raw", "-o", output});
+    EXPECT_EQ(ran.code, 4) << output;
+    EXPECT_THAT(ran.err, IsOneLine());
+    EXPECT_THAT(ran.err, testing::Not(HasSubstr("internal error")));
+    EXPECT_THAT(ran.err, HasSubstr(output));
+  }
+  EXPECT_EQ(contents(folder / "file"), "dear");
+}
+
+TEST_F(Batch, ARefusedBatchLeavesNoSums) {
+  make_tree(1);
+  fs::create_directory(folder / "clean");
+  put(folder / "clean/a.bvh", "dear");
+  EXPECT_EQ(run({"batch", "raw/a.bvh", "missing.bvh", "-o", "out"}).code, 3);
+  EXPECT_TRUE(fs::exists(folder / "out/summary.json")) << "one of two was done";
+  fs::create_directories(folder / "one");
+  fs::copy_file(folder / "raw/a.bvh", folder / "one/a.bvh");
+  EXPECT_EQ(run({"batch", "one", "-o", "clean"}).code, 4);
+  EXPECT_EQ(run({"batch", "missing.bvh", "-o", "nothing"}).code, 3);
+  for (const char* name : {"clean", "nothing"}) {
+    EXPECT_FALSE(fs::exists(folder / name / "summary.json")) << name;
+    EXPECT_FALSE(fs::exists(folder / name / "rows.jsonl")) << name;
+    EXPECT_FALSE(fs::exists(folder / name / ".kinemend")) << name;
+  }
+  EXPECT_EQ(contents(folder / "clean/a.bvh"), "dear");
+}
+
+TEST_F(Batch, SeveralAtOnceDoNotDisturbEachOther) {
+  make_tree(6);
+  ASSERT_EQ(run({"batch", "raw", "-o", "alone"}).code, 0);
+  std::vector<pid_t> children;
+  for (int i = 0; i < 4; ++i) {
+    const pid_t child = fork();
+    if (child == 0) {
+      const int null = open("/dev/null", O_RDWR);
+      for (const int stream : {0, 1, 2}) dup2(null, stream);
+      execute({"batch", "raw", "-o", "clean"}, {});
+    }
+    children.push_back(child);
+  }
+  for (const pid_t child : children) EXPECT_EQ(wait_for(child).code, 0);
+  ASSERT_EQ(takes("clean"), takes("alone"));
+  const Ran again = run({"batch", "raw", "-o", "clean"});
+  EXPECT_THAT(again.out, HasSubstr("0 cleaned, 6 done already, 0 failed"));
+  EXPECT_EQ(lines_of(contents(folder / "clean/rows.jsonl")).size(), 6u);
+  EXPECT_EQ(Json::parse(contents(folder / "clean/summary.json")).at("cleaned"), 6);
+}
+
 TEST_F(Batch, TakesAListFromStandardInput) {
   make_tree(3);
   Setting setting;

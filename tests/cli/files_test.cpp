@@ -14,6 +14,126 @@ TEST_F(Files, AResultWithoutANameGoesBesideItsInput) {
   EXPECT_THAT(files(), ElementsAre("truth.bvh", "walk.bvh", "walk.clean.bvh"));
 }
 
+TEST_F(Files, ADanglingLinkLeadsToANewFile) {
+  noisy("walk.bvh");
+  fs::create_directory(folder / "deep");
+  fs::create_symlink("deep/target.bvh", folder / "link.bvh");
+  const Ran ran = run({"clean", "walk.bvh", "-o", "link.bvh"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_TRUE(fs::is_symlink(folder / "link.bvh"));
+  EXPECT_FALSE(fs::is_symlink(folder / "deep/target.bvh"));
+  EXPECT_THAT(contents(folder / "deep/target.bvh"), testing::StartsWith("HIERARCHY"));
+  EXPECT_EQ(run({"clean", "walk.bvh", "-o", "link.bvh"}).code, 4) << "now it is there";
+  fs::create_symlink("round.bvh", folder / "round.bvh");
+  EXPECT_EQ(run({"clean", "walk.bvh", "-o", "round.bvh"}).code, 4);
+}
+
+TEST_F(Files, AReportNeverReplacesAnInput) {
+  noisy("walk.bvh");
+  const std::string take = contents(folder / "walk.bvh");
+  fs::create_hard_link(folder / "walk.bvh", folder / "same.bvh");
+  put(folder / "gaps.csv", "Head,3,5\n");
+  put(folder / "lab.toml", "strength = 1\n");
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"clean", "walk.bvh", "-o", "out.bvh", "--report", "walk.bvh"},
+           {"clean", "walk.bvh", "-o", "out.bvh", "--report", "./walk.bvh"},
+           {"clean", "walk.bvh", "-o", "out.bvh", "--report", "same.bvh"},
+           {"clean", "walk.bvh", "-o", "out.bvh", "--report", "out.bvh"},
+           {"clean", "walk.bvh", "-o", "out.bvh", "--config", "lab.toml", "--report", "lab.toml"},
+           {"clean", "walk.bvh", "-o", "out.bvh", "--gaps", "gaps.csv", "--report", "gaps.csv"},
+           {"fill", "walk.bvh", "-o", "out.bvh", "--report", "walk.bvh"},
+           {"fill", "walk.bvh", "-o", "out.bvh", "--report", "out.bvh"},
+           {"fill", "walk.bvh", "-o", "out.bvh", "--gaps", "gaps.csv", "--report", "gaps.csv"},
+           {"check", "walk.bvh", "--gaps-out", "walk.bvh"},
+           {"contacts", "walk.bvh", "-o", "walk.bvh"},
+           {"train", "example", "walk.bvh", "-o", "walk.bvh"}}) {
+    std::vector<std::string> forced = words;
+    forced.push_back("--force");
+    const Ran ran = run(forced);
+    EXPECT_EQ(ran.code, 2) << ran.err;
+    EXPECT_THAT(ran.err, IsOneLine());
+    EXPECT_EQ(contents(folder / "walk.bvh"), take);
+    EXPECT_EQ(contents(folder / "gaps.csv"), "Head,3,5\n");
+    EXPECT_EQ(contents(folder / "lab.toml"), "strength = 1\n");
+    EXPECT_FALSE(fs::exists(folder / "out.bvh"));
+  }
+}
+
+TEST_F(Files, ATakeWithoutFramesConvertsToAFileThatCanBeRead) {
+  synth("walk.bvh");
+  std::string text = contents(folder / "walk.bvh");
+  text.resize(text.find("MOTION"));
+  put(folder / "still.bvh", text + "MOTION\nFrames: 0\nFrame Time: 0.0166667\n");
+  for (const char* format : {"bvh", "amc", "csv", "trc", "c3d"}) {
+    const std::string name = std::string("out.") + format;
+    const Ran ran = run({"convert", "still.bvh", "-o", name});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const Ran info = run({"info", name});
+    EXPECT_EQ(info.code, 0) << info.err;
+    EXPECT_THAT(info.out, HasSubstr("0 frames")) << format;
+    for (const char* to : {"csv", "trc"}) {
+      const std::string again = std::string("again.") + to;
+      EXPECT_EQ(run({"convert", name, "-o", again, "--force"}).code, 0) << format;
+      EXPECT_EQ(run({"info", again}).code, 0) << format << " to " << to;
+    }
+    EXPECT_EQ(run({"clean", name, "-o", std::string("clean.") + format}).code, 0) << format;
+  }
+}
+
+TEST_F(Files, AnAmcFileIsNeverLeftWithoutItsSkeleton) {
+  synth("walk.bvh");
+  synth("run.bvh", "run");
+  ASSERT_EQ(run({"convert", "walk.bvh", "-o", "walk.amc"}).code, 0);
+  put(folder / "other.asf", contents(folder / "walk.asf") + "# another\n");
+  const std::string skeleton = contents(folder / "walk.asf");
+  // Beside its source, where two skeletons are.
+  EXPECT_EQ(run({"clean", "walk.amc"}).code, 0);
+  EXPECT_EQ(run({"info", "walk.clean.amc"}).code, 0);
+  EXPECT_EQ(contents(folder / "walk.clean.asf"), skeleton);
+  // In a folder of its own, under the same name.
+  EXPECT_EQ(run({"clean", "walk.amc", "--output-dir", "out"}).code, 0);
+  EXPECT_EQ(contents(folder / "out/walk.asf"), skeleton);
+  EXPECT_EQ(run({"info", "out/walk.amc"}).code, 0);
+  EXPECT_EQ(run({"clean", "walk.amc", "--output-dir", "out", "--force"}).code, 0);
+  // By every command, and under another name.
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"fill", "walk.amc"},
+                                                {"convert", "walk.amc"},
+                                                {"corrupt", "walk.amc", "--damage", "gaussian"},
+                                                {"clean", "walk.amc", "--asf", "other.asf"}}) {
+    fs::create_directory(folder / words[0]);
+    std::vector<std::string> all = words;
+    all.insert(all.end(), {"-o", words[0] + "/named.amc"});
+    EXPECT_EQ(run(all).code, 0) << words[0];
+    EXPECT_EQ(run({"info", words[0] + "/named.amc"}).code, 0) << words[0];
+  }
+  EXPECT_EQ(contents(folder / "clean/named.asf"), contents(folder / "other.asf"));
+  // Another's skeleton is never replaced.
+  fs::create_directory(folder / "foreign");
+  put(folder / "foreign/walk.asf", "dear");
+  EXPECT_EQ(run({"clean", "walk.amc", "-o", "foreign/walk.amc"}).code, 4);
+  EXPECT_EQ(contents(folder / "foreign/walk.asf"), "dear");
+  EXPECT_FALSE(fs::exists(folder / "foreign/walk.amc"));
+}
+
+TEST_F(Files, TakesOfOneSubjectShareTheirSkeleton) {
+  synth("walk.bvh");
+  for (const char* name : {"35_01.bvh", "35_02.bvh", "35_03.bvh"})
+    fs::copy_file(folder / "walk.bvh", folder / name);
+  for (const char* take : {"35_01", "35_02", "35_03"}) {
+    ASSERT_EQ(run({"convert", take + std::string(".bvh"), "-o", take + std::string(".amc")}).code,
+              0);
+    // The first makes it, the others find it.
+    if (fs::exists(folder / "35_01.asf")) fs::rename(folder / "35_01.asf", folder / "35.asf");
+  }
+  EXPECT_FALSE(fs::exists(folder / "35_02.asf"));
+  EXPECT_EQ(run({"clean", "35_01.amc", "35_02.amc", "35_03.amc", "--output-dir", "out"}).code, 0);
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder / "out"))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  EXPECT_THAT(names, ElementsAre("35.asf", "35_01.amc", "35_02.amc", "35_03.amc"));
+}
+
 TEST_F(Files, AMissingFileIsExitCode3) {
   const Ran ran = run({"clean", "no.bvh"});
   EXPECT_EQ(ran.code, 3);
