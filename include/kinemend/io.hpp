@@ -63,12 +63,12 @@ ReadResult read_clip(std::string bytes, std::string_view name, const ReadOptions
 
 /// The bytes of a file. A clip that was read in the same format is written in its source's own
 /// layout, and every sample that still has the value it was read with keeps its digits: an
-/// unchanged clip comes back to the byte, but for values of joints that were no finite numbers: what
-/// they are held by is written, and never a number that is not finite. A changed rotation is written in the joint's own order,
-/// continuing the frame before, and of it a joint's channels hold what they can (the nearest
-/// rotation; nothing where it has none). A clip with other frames than its source keeps the text of
-/// the hierarchy; one with another skeleton, or made in memory, gets a plain layout. Errors:
-/// `usage` when the format cannot hold the clip.
+/// unchanged clip comes back to the byte, but for values of joints that were no finite numbers:
+/// what they are held by is written, and never a number that is not finite. A changed rotation is
+/// written in the joint's own order, continuing the frame before, and of it a joint's channels hold
+/// what they can (the nearest rotation; nothing where it has none). A clip with other frames than
+/// its source keeps the text of the hierarchy; one with another skeleton, or made in memory, gets a
+/// plain layout. Errors: `usage` when the format cannot hold the clip.
 std::string write_clip(const Clip& clip, std::string_view format = "bvh");
 /// The same for markers. A missing sample is written the way the format has for it.
 std::string write_markers(const MarkerClip& clip, std::string_view format);
