@@ -181,7 +181,7 @@ void bridge_gaps(Clip& clip, std::span<const std::size_t> joints, CleanTrace& tr
 }
 
 void hand_over(Clip& clip, Clip cleaned, const JointSink& sink, CleanTrace& trace) {
-  clip.root_positions = std::move(cleaned.root_positions);
+  clip.root_positions = cleaned.root_positions;  // which tell the number of frames
   clip.joint_translations = std::move(cleaned.joint_translations);
   clip.observed = std::move(cleaned.observed);
   clip.observed_positions = std::move(cleaned.observed_positions);

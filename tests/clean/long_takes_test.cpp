@@ -77,7 +77,7 @@ TEST_P(EveryOnLongTakes, TellsOfEachStageOnceFromBeginningToEnd) {
   }
   settings.fill.emplace();
   settings.feet.emplace();
-  EXPECT_THAT(stages(), ElementsAre("filling", "cleaning", "feet"));
+  EXPECT_THAT(stages(), ElementsAre("cleaning", "filling", "feet"));
 }
 
 TEST_P(EveryOnLongTakes, GivesTheSameJointByJoint) {
