@@ -18,17 +18,17 @@ void add(std::vector<Kept>& all, const AnyClip& truth, std::size_t tracks, std::
 }
 
 void expect_kept(const Figures& figures) {
-  EXPECT_GE(figures.gaps, 90U);
+  EXPECT_GE(figures.gaps, 70U);
   EXPECT_GE(figures.share_within_twice(), 0.9);
   EXPECT_EQ(figures.above_ten, 0U);
-  EXPECT_GE(figures.short_gaps, 40U);
+  EXPECT_GE(figures.short_gaps, 30U);
   EXPECT_EQ(figures.worse_than_spline, 0U);
 }
 
 TEST(Promise, HoldsForMarkers) {
   std::vector<Kept> all;
   for (const char* motion : {"walk", "stroll", "punch", "turn"}) {
-    for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
       MarkerClip truth = marker_take(motion, 4, 0.5);
       Random random(seed);
       for (Vec3& p : truth.positions) {
@@ -44,7 +44,7 @@ TEST(Promise, HoldsForMarkers) {
 TEST(Promise, HoldsForJoints) {
   std::vector<Kept> all;
   for (const char* motion : {"walk", "stroll", "punch", "turn"}) {
-    for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
       Clip truth = synthesize({.motion = motion, .duration_s = 4});
       Random random(seed);
       for (Quat& q : truth.local_rotations) {
