@@ -18,10 +18,10 @@ void add(std::vector<Kept>& all, const AnyClip& truth, std::size_t tracks, std::
 }
 
 void expect_kept(const Figures& figures) {
-  EXPECT_GE(figures.gaps, 70U);
+  EXPECT_GE(figures.gaps, 60U);
   EXPECT_GE(figures.share_within_twice(), 0.9);
   EXPECT_EQ(figures.above_ten, 0U);
-  EXPECT_GE(figures.short_gaps, 30U);
+  EXPECT_GE(figures.short_gaps, 25U);
   EXPECT_EQ(figures.worse_than_spline, 0U);
 }
 
