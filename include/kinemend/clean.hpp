@@ -46,8 +46,8 @@ struct CleanSettings {
   /// for markers, which are measured points: a warning says so.
   std::optional<FeetSettings> feet;
   /// Told what is being done and how far it is (0..1, never less than before), by one thread at a
-  /// time: "filling" and "feet" where asked for, and "cleaning" between them. Each stage comes
-  /// once, from 0 to 1.
+  /// time: "cleaning", then "filling" and "feet" where asked for. Each stage comes once, from 0 to
+  /// 1.
   std::function<void(std::string_view stage, double done)> progress;
 };
 
