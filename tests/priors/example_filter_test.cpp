@@ -150,7 +150,7 @@ TEST(ExampleFilter, SolvesTheLinearSystemWhereThereIsNoRobustness) {
     penalty.multiply(unit, image);
     for (std::size_t j = 0; j < size; ++j) system(j, i) = -image.values[j];
     const double w = observed[i] ? weights.data[i % 2] : 0.0;
-    system(i, i) += w + penalty.diagonal().values[i];
+    system(i, i) += w + penalty.diagonal(i / 2, i % 2);
     right[i] = w * (y.values[i] - mean[i % 2]);
   }
   const Eigen::VectorXd expected = system.ldlt().solve(right);
