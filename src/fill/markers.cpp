@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include "fill/beside_gap.hpp"
 #include "fill/marker_group.hpp"
@@ -188,8 +189,9 @@ class Filler {
     }
     const fill::Doubt doubt = doubt_of(samples, gap);
     if (doubt.any()) {
-      Filling filling = fill_without(doubt, samples, gap);
-      if (!filling.positions.empty()) return filling;
+      // No filling rests on what may be a spike, also where there is none without it.
+      if (std::optional<Filling> filling = fill_without(doubt, samples, gap))
+        return *std::move(filling);
     }
     return fill_span(samples, gap);
   }
@@ -212,9 +214,10 @@ class Filler {
                               spike_share * samples.radius, leap);
   }
 
-  // The filling of the gap with what is doubted beside it; refused where that bears a doubted
-  // sample out.
-  Filling fill_without(fill::Doubt doubt, const Samples& samples, const MarkerGap& gap) const {
+  // The filling of the gap with what is doubted beside it; none where that bears the doubted
+  // samples out.
+  std::optional<Filling> fill_without(fill::Doubt doubt, const Samples& samples,
+                                      const MarkerGap& gap) const {
     MarkerGap wider = gap;
     wider.span = doubt.widened(gap.span);
     Filling filling = fill_span(samples, wider);
@@ -228,7 +231,7 @@ class Filler {
     const bool spike_before = doubt.before > 0 && is_far(gap.span.first - 1);
     const bool spike_behind = doubt.behind > 0 && is_far(gap.span.last + 1);
     if (spike_before != (doubt.before > 0) || spike_behind != (doubt.behind > 0)) {
-      if (!spike_before && !spike_behind) return Filling::refused(name_, "");
+      if (!spike_before && !spike_behind) return std::nullopt;
       doubt = {spike_before ? doubt.before : 0, spike_behind ? doubt.behind : 0};
       wider.span = doubt.widened(gap.span);
       filling = fill_span(samples, wider);

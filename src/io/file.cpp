@@ -184,7 +184,8 @@ void write_file(const fs::path& path, std::string_view bytes, bool overwrite) {
   TemporaryFile file(target);
   if (exists) file.take_permissions(old);
   file.fill(bytes);
-  if (exists) {
+  // What may be replaced may also have come a moment ago.
+  if (overwrite) {
     file.replace_target();
   } else {
     file.become_target();

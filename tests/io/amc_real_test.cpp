@@ -35,7 +35,14 @@ TEST(RealAmc, EveryTakeIsValidAndComesBackToTheByte) {
     const std::string bytes = read_file(path);
     const Clip clip = read_clip(bytes, path.string()).clip;
     clip.validate();
-    EXPECT_TRUE(write_clip(clip, "amc") == bytes);
+    const std::string written = write_clip(clip, "amc");
+    if (bytes.find("nan") == bytes.npos) {
+      EXPECT_TRUE(written == bytes);
+    } else {
+      // Held values take the place of what is no number, once.
+      EXPECT_EQ(written.find("nan"), written.npos);
+      EXPECT_TRUE(write_clip(read_clip(written, path.string()).clip, "amc") == written);
+    }
     ++takes;
   }
   EXPECT_EQ(takes, 160u);

@@ -82,8 +82,9 @@ void expect_cost_by_frames(const std::function<void(std::size_t, double)>& run,
     for (const double rate_hz : rates_hz) {
       SCOPED_TRACE(testing::Message() << frames << " frames at " << rate_hz << " Hz");
       const Cost cost = cost_of([&] { run(frames, rate_hz); });
-      constexpr std::size_t slack = 1 << 18;
-      EXPECT_LE(cost.taken, usual.taken + usual.taken / 2 + slack);
+      // Rounds of iterations and trials differ; what goes by the rate differs a hundredfold.
+      constexpr std::size_t slack = 1 << 18, rounds = 6;
+      EXPECT_LE(cost.taken, rounds * usual.taken + slack);
       EXPECT_LE(cost.peak, usual.peak + usual.peak / 2 + slack);
     }
   }
