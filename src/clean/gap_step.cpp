@@ -24,14 +24,16 @@ bool holds_more_spikes(const std::vector<Action>& found, const std::vector<Actio
 // What the gaps are filled from: the cleaned take, or one that was cleaned without its spikes.
 Clip evidence_of(const Clip& measured, const Cleaner& cleaner, const Selection& selection,
                  const CleanTrace& trace, const Clip& cleaned) {
-  Clip despiked = measured;
-  bridge_positions(despiked);
-  const CleanTrace spikes = make_despiker()->clean(despiked, Selection::all(despiked));
+  Clip evidence = measured;
+  bridge_positions(evidence);
+  const CleanTrace spikes = make_despiker()->clean(evidence, Selection::all(evidence));
   const bool some_left = holds_more_spikes(spikes.actions, trace.actions) ||
                          holds_more_spikes(spikes.root_actions, trace.root_actions) ||
                          holds_more_spikes(spikes.translation_actions, trace.translation_actions);
-  if (some_left) cleaner.clean(despiked, selection);
-  Clip evidence = some_left ? std::move(despiked) : cleaned;
+  if (some_left)
+    cleaner.clean(evidence, selection);
+  else
+    evidence = cleaned;
   evidence.observed = measured.observed;
   evidence.observed_positions = measured.observed_positions;
   return evidence;
@@ -40,12 +42,14 @@ Clip evidence_of(const Clip& measured, const Cleaner& cleaner, const Selection& 
 MarkerClip evidence_of(const MarkerClip& measured, const Cleaner& cleaner,
                        const MarkerSelection& selection, const MarkerTrace& trace,
                        const MarkerClip& cleaned) {
-  MarkerClip despiked = measured;
+  MarkerClip evidence = measured;
   const MarkerTrace spikes =
-      make_despiker()->clean_markers(despiked, MarkerSelection::all(despiked));
+      make_despiker()->clean_markers(evidence, MarkerSelection::all(evidence));
   const bool some_left = holds_more_spikes(spikes.actions, trace.actions);
-  if (some_left) cleaner.clean_markers(despiked, selection);
-  MarkerClip evidence = some_left ? std::move(despiked) : cleaned;
+  if (some_left)
+    cleaner.clean_markers(evidence, selection);
+  else
+    evidence = cleaned;
   evidence.observed = measured.observed;
   return evidence;
 }

@@ -102,6 +102,7 @@ class Hampel final : public Cleaner {
     const std::size_t frames = clip.frame_count();
     if (trace.actions.empty()) trace.actions.assign(clip.local_rotations.size(), Action::kept);
     std::vector<ActionTrack> actions;
+    actions.reserve(positions.size());
     for (const PositionTrack& track : positions)
       actions.push_back(position_actions(clip, track, trace));
     const Rule turn = rotation_rule(clip), shift = position_rule(clip);
