@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace kinemend {
 
@@ -104,7 +105,7 @@ CellRows::CellRows(std::string_view text, std::size_t begin, CellStyle style)
       next_line_(line_),
       plain_starts_(
           std::max<std::ptrdiff_t>(0, end_ - begin_ - plain_number_lead - plain_number_reach + 1)),
-      style_(style) {}
+      style_(std::move(style)) {}
 
 bool CellRows::next() {
   for (line_ = next_line_; line_ != end_;) {
