@@ -19,6 +19,7 @@ namespace {
 
 using testing::ElementsAre;
 
+#if !defined(KINEMEND_SANITIZED)
 Clip noisy_stroll(double duration_s) {
   Clip clip = synthesize({"stroll", duration_s, 120, 1});
   Random random(7);
@@ -27,7 +28,6 @@ Clip noisy_stroll(double duration_s) {
   return clip;
 }
 
-#if !defined(KINEMEND_SANITIZED)
 // Beside the take itself, which is 32 bytes a rotation. What it takes: the vectors of all joints,
 // marks, and what two threads work on.
 TEST(LongTakes, AreCleanedInLittleMoreRoomThanTheyTake) {

@@ -99,7 +99,7 @@ class OfAnyMethod : public testing::TestWithParam<std::string> {
 // round is on a curve, which an average over a window cuts, and which strengths chosen by evidence
 // follow: the walk is up to two metres from the axis.
 TEST_P(OfAnyMethod, TheErrorDoesNotDependOnHowTheTakeTurns) {
-  Squares still, change;
+  Squares still;
   std::vector<Clip> truths = {about_its_middle(take("walk", 3)), about_its_middle(take("wave", 2)),
                               about_its_middle(take("run", 2))};
   std::vector<Clip> inputs, results;
