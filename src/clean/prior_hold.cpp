@@ -64,9 +64,10 @@ void hold_to_needs(PriorWork& work) {
 
 bool is_left_alone(const PriorWork& work, std::size_t part, bool fill) {
   if (work.needs[part] > 0) return false;
+  if (!fill) return true;
   const std::size_t channels = work.channels.poses.channels;
   for (std::size_t f = 0; f < work.channels.poses.frames; ++f) {
-    if (fill && work.channels.observed[f * channels + part_channels * part] == 0) return false;
+    if (work.channels.observed[f * channels + part_channels * part] == 0) return false;
   }
   return true;
 }
