@@ -4,7 +4,8 @@
 
 namespace kinemend {
 
-CellPatch::CellPatch(std::string_view bytes, std::size_t begin, CellStyle style, std::size_t width)
+CellPatch::CellPatch(std::string_view bytes, std::size_t begin, const CellStyle& style,
+                     std::size_t width)
     : bytes_(bytes),
       style_(style),
       width_(width),

@@ -18,7 +18,7 @@ inline constexpr unsigned most_fixed_decimals = 9;
 class CellPatch {
  public:
   /// `begin`: of the first row, all of which are `width` cells wide.
-  CellPatch(std::string_view bytes, std::size_t begin, CellStyle style, std::size_t width);
+  CellPatch(std::string_view bytes, std::size_t begin, const CellStyle& style, std::size_t width);
 
   /// Moves to the next row, and writes what was replaced in the one before; false at the end.
   bool next();
