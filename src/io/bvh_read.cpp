@@ -1,6 +1,9 @@
 #include <fmt/format.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -97,30 +100,59 @@ class MotionReader {
     return style;
   }
 
-  // Returns how many values are left over after the last whole frame.
+  struct Block {
+    std::vector<double> values;
+    std::size_t frames = 0;
+    bool with_gaps = false;
+    const char* end = nullptr;
+  };
+
+  // Numbers are read while those of the block before become rotations. Returns how many values are
+  // left over after the last whole frame.
   std::size_t read_rows(MotionRows& rows) {
-    const std::size_t width = columns_.count(), block = columns_.block_frames();
-    std::vector<double> values(block * width);
-    std::size_t filled = 0, gaps_before = 0, rest = 0;
-    do {
-      rest = rows.next(values.data() + filled * width, width);
-      if (rest == width) {
-        ++filled;
-        uneven_lines_ = uneven_lines_ || !(rows.at_line_start() || rows.at_end());
+    // A block is stored before the one that is so many behind it is read.
+    std::array<Block, 4> blocks;
+    std::size_t entered = 0, rest = columns_.count();
+    const auto read = [&](tbb::flow_control& control) -> Block* {
+      if (rest < columns_.count()) {
+        control.stop();
+        return nullptr;
       }
-      if (filled == block || (rest < width && filled > 0)) {
-        store(values.data(), filled, rows.gaps() > gaps_before);
-        progress_.reach(static_cast<double>(rows.position() - begin_) /
-                        static_cast<double>(end_ - begin_));
-        gaps_before = rows.gaps();
-        filled = 0;
-      }
-    } while (rest == width);
+      Block& block = blocks[entered++ % blocks.size()];
+      rest = read_block(rows, block);
+      return &block;
+    };
+    const auto store_block = [&](Block* block) { store(*block); };
+    using tbb::filter_mode;
+    tbb::this_task_arena::isolate([&] {
+      tbb::parallel_pipeline(
+          blocks.size(),
+          tbb::make_filter<void, Block*>(filter_mode::serial_in_order, read) &
+              tbb::make_filter<Block*, void>(filter_mode::serial_in_order, store_block));
+    });
     return rest;
   }
 
-  void store(double* values, std::size_t count, bool with_gaps) {
-    const std::size_t wanted = frames() + count;
+  // Returns how many values the last row has, which is fewer than there are columns at the end.
+  std::size_t read_block(MotionRows& rows, Block& block) {
+    const std::size_t width = columns_.count(), gaps_before = rows.gaps();
+    block.values.resize(columns_.block_frames() * width);
+    block.frames = 0;
+    std::size_t count = width;
+    while (block.frames < columns_.block_frames()) {
+      count = rows.next(block.values.data() + block.frames * width, width);
+      if (count < width) break;
+      ++block.frames;
+      uneven_lines_ = uneven_lines_ || !(rows.at_line_start() || rows.at_end());
+    }
+    block.with_gaps = rows.gaps() > gaps_before;
+    block.end = rows.position();
+    return count;
+  }
+
+  void store(Block& block) {
+    if (block.frames == 0) return;
+    const std::size_t wanted = frames() + block.frames;
     if (!clip_rows_.fits(wanted)) {
       throw text_.error_at(
           header_.data_begin,
@@ -131,7 +163,8 @@ class MotionReader {
     if (wanted * clip_.joint_count() > clip_.local_rotations.capacity()) {
       clip_rows_.reserve(std::numeric_limits<std::size_t>::max(), most_frames());
     }
-    clip_rows_.append(values, count, with_gaps);
+    clip_rows_.append(block.values.data(), block.frames, block.with_gaps);
+    progress_.reach(static_cast<double>(block.end - begin_) / static_cast<double>(end_ - begin_));
   }
 
   void check_end(const MotionRows& rows, std::size_t rest) {

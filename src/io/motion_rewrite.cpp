@@ -1,9 +1,13 @@
 #include "io/motion_rewrite.hpp"
 
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "io/motion_columns.hpp"
@@ -21,12 +25,13 @@ struct SourceTable {
   SourceTable(const Clip& clip, const MotionDocument& document) {
     const std::size_t joints = clip.joint_count();
     SourceFrames source(document);
+    SourceBlock block;
     width = source.columns().count();
-    while (source.next()) {
-      values.insert(values.end(), source.row(0), source.row(0) + source.count() * width);
-      const Quat* const now = clip.local_rotations.data() + source.first() * joints;
-      for (std::size_t i = 0; i < source.count() * joints; ++i) {
-        kept.push_back(now[i] == source.rotations(0)[i] ? 1 : 0);
+    while (source.next(block)) {
+      values.insert(values.end(), block.values.begin(), block.values.end());
+      const Quat* const now = clip.local_rotations.data() + block.first * joints;
+      for (std::size_t i = 0; i < block.count * joints; ++i) {
+        kept.push_back(now[i] == block.rotations(0)[i] ? 1 : 0);
       }
     }
   }
@@ -50,6 +55,36 @@ struct WrittenAngles {
   std::size_t frames = 0;
 };
 
+// A changed sample in the text.
+struct Replacement {
+  std::size_t column = 0;
+  double value = 0;
+  TokenSpan place;
+};
+
+// Some frames of the text on their way from the source to the output.
+struct Piece {
+  SourceBlock source;
+  std::string_view text;                  // of the source, from the end of the block before
+  std::vector<Replacement> replacements;  // in the order of the text
+  std::string rewritten;
+
+  void write(unsigned decimals, CommaStyle commas) {
+    TextBuffer out(text.size() + text.size() / 8 + fixed_number_room);
+    const char* copied = text.data();
+    const auto copy_until = [&](const char* place) {
+      out.append({copied, static_cast<std::size_t>(place - copied)});
+    };
+    for (const Replacement& replacement : replacements) {
+      copy_until(replacement.place.begin);
+      out.append_fixed(replacement.value, decimals, commas);
+      copied = replacement.place.end;
+    }
+    copy_until(text.data() + text.size());
+    rewritten = std::move(out).take();
+  }
+};
+
 class Rewriter {
  public:
   Rewriter(const Clip& clip, const MotionDocument& document)
@@ -60,35 +95,54 @@ class Rewriter {
         keep_below_(0.5 * std::pow(10.0, -static_cast<double>(decimals_))),
         written_(clip.joint_count()),
         row_before_(source_.columns().count()),
-        out_(document.bytes.size() + document.bytes.size() / 8 + 4096),
         copied_(document.bytes.data()) {}
 
+  // A frame's angles follow from those of the frame before; numbers are read and written beside
+  // that.
   std::string rewrite(const std::vector<DocumentEdit>& edits) {
+    constexpr std::size_t pieces_at_once = 16;
+    std::string out;
+    out.reserve(document_.bytes.size() + document_.bytes.size() / 8 + 4096);
     for (const DocumentEdit& edit : edits) {
-      copy_until(document_.bytes.data() + edit.place.begin);
-      out_.append(edit.text);
+      out.append(text_until(document_.bytes.data() + edit.place.begin));
+      out.append(edit.text);
       copied_ += edit.place.size;
     }
-    while (source_.next()) {
-      for (std::size_t f = 0; f < source_.count(); ++f) {
-        rewrite_frame(f);
-        if (document_.has_gaps) replace_position_gaps(f);
-        write_replacements(source_.tokens(f));
+    // A piece leaves before the one that is so many behind it enters.
+    std::vector<Piece> pieces(pieces_at_once);
+    std::size_t entered = 0;
+    const auto read = [&](tbb::flow_control& control) -> Piece* {
+      Piece& piece = pieces[entered++ % pieces.size()];
+      if (!source_.next(piece.source)) {
+        control.stop();
+        return nullptr;
       }
-      const double* const last = source_.row(source_.count() - 1);
-      row_before_.assign(last, last + row_before_.size());
-    }
-    const char* const end = document_.bytes.data() + document_.bytes.size();
-    out_.append({copied_, static_cast<std::size_t>(end - copied_)});
-    return std::move(out_).take();
+      piece.text = text_until(end_of(piece.source));
+      return &piece;
+    };
+    const auto choose = [&](Piece* piece) {
+      replace_samples(*piece);
+      return piece;
+    };
+    const auto write = [&](Piece* piece) {
+      piece->write(decimals_, document_.commas);
+      return piece;
+    };
+    const auto append = [&](const Piece* piece) { out.append(piece->rewritten); };
+    using tbb::filter_mode;
+    tbb::this_task_arena::isolate([&] {
+      tbb::parallel_pipeline(
+          pieces.size(),
+          tbb::make_filter<void, Piece*>(filter_mode::serial_in_order, read) &
+              tbb::make_filter<Piece*, Piece*>(filter_mode::serial_in_order, choose) &
+              tbb::make_filter<Piece*, Piece*>(filter_mode::parallel, write) &
+              tbb::make_filter<Piece*, void>(filter_mode::serial_in_order, append));
+    });
+    out.append(text_until(document_.bytes.data() + document_.bytes.size()));
+    return out;
   }
 
  private:
-  struct Replacement {
-    std::size_t column;
-    double value;
-  };
-
   // What is known when the angles of a changed sample are chosen; null where there is nothing.
   struct AngleContext {
     std::size_t frame = 0;
@@ -98,19 +152,42 @@ class Rewriter {
     const Angles* source = nullptr;
   };
 
-  void copy_until(const char* place) {
-    out_.append({copied_, static_cast<std::size_t>(place - copied_)});
-    copied_ = place;
+  std::string_view text_until(const char* place) {
+    const char* const begin = std::exchange(copied_, place);
+    return {begin, static_cast<std::size_t>(place - begin)};
   }
 
-  void rewrite_frame(std::size_t block_frame) {
-    const std::size_t frame = source_.first() + block_frame, joints = clip_.joint_count();
-    const double* const row = source_.row(block_frame);
+  const char* end_of(const SourceBlock& block) const {
+    if (block.width == 0) return copied_;
+    const TokenSpan* const last = block.tokens(block.count - 1);
+    return std::max_element(last, last + block.width,
+                            [](TokenSpan a, TokenSpan b) { return a.end < b.end; })
+        ->end;
+  }
+
+  void replace_samples(Piece& piece) {
+    const SourceBlock& source = piece.source;
+    piece.replacements.clear();
+    for (std::size_t f = 0; f < source.count; ++f) {
+      replacements_.clear();
+      rewrite_frame(source, f);
+      if (document_.has_gaps) replace_position_gaps(source, f);
+      put_in_order(source.tokens(f));
+      piece.replacements.insert(piece.replacements.end(), replacements_.begin(),
+                                replacements_.end());
+    }
+    const double* const last = source.row(source.count - 1);
+    row_before_.assign(last, last + source.width);
+  }
+
+  void rewrite_frame(const SourceBlock& source, std::size_t block_frame) {
+    const std::size_t frame = source.first + block_frame, joints = clip_.joint_count();
+    const double* const row = source.row(block_frame);
     replace_positions(frame, row);
-    const Quat* const before = source_.rotations(block_frame);
+    const Quat* const before = source.rotations(block_frame);
     const Quat* const now = clip_.local_rotations.data() + frame * joints;
     const double* const row_before =
-        block_frame > 0 ? row - row_before_.size() : row_before_.data();
+        block_frame > 0 ? source.row(block_frame - 1) : row_before_.data();
     for (std::size_t j = 0; j < joints; ++j) {
       if (!(now[j] == before[j]) || (document_.has_gaps && holds_gap(j, row)))
         replace_rotation(frame, j, row, row_before);
@@ -125,15 +202,15 @@ class Rewriter {
   }
 
   // The rows hold positions as repaired; only the text tells which were no numbers.
-  void replace_position_gaps(std::size_t block_frame) {
-    const double* const row = source_.row(block_frame);
-    const TokenSpan* const tokens = source_.tokens(block_frame);
+  void replace_position_gaps(const SourceBlock& source, std::size_t block_frame) {
+    const double* const row = source.row(block_frame);
+    const TokenSpan* const tokens = source.tokens(block_frame);
     for (const MotionColumns::Position& position : source_.columns().positions()) {
       const auto [begin, end] = tokens[position.column];
       if (read_sample(begin, end, document_.commas).kind != TokenKind::not_finite) continue;
       const auto is_here = [&](const Replacement& r) { return r.column == position.column; };
       if (std::none_of(replacements_.begin(), replacements_.end(), is_here))
-        replacements_.push_back({position.column, row[position.column]});
+        replacements_.push_back({position.column, row[position.column], {}});
     }
   }
 
@@ -233,24 +310,18 @@ class Rewriter {
   // of the file's numbers is worth.
   void replace(const double* row, std::size_t column, double value, double unit) {
     if (std::fabs(value - row[column]) <= keep_below_ * unit) return;
-    replacements_.push_back({column, value / unit});
+    replacements_.push_back({column, value / unit, {}});
   }
 
-  void write_replacements(const TokenSpan* tokens) {
-    if (replacements_.empty()) return;
-    // In the order of the text, which is not always that of the columns.
-    const auto by_place = [&](const Replacement& a, const Replacement& b) {
-      return tokens[a.column].begin < tokens[b.column].begin;
+  // In the order of the text, which is not always that of the columns.
+  void put_in_order(const TokenSpan* tokens) {
+    for (Replacement& replacement : replacements_) replacement.place = tokens[replacement.column];
+    const auto by_place = [](const Replacement& a, const Replacement& b) {
+      return a.place.begin < b.place.begin;
     };
     if (!std::is_sorted(replacements_.begin(), replacements_.end(), by_place)) {
       std::sort(replacements_.begin(), replacements_.end(), by_place);
     }
-    for (const Replacement& replacement : replacements_) {
-      copy_until(tokens[replacement.column].begin);
-      out_.append_fixed(replacement.value, decimals_, document_.commas);
-      copied_ = tokens[replacement.column].end;
-    }
-    replacements_.clear();
   }
 
   const Clip& clip_;
@@ -261,9 +332,8 @@ class Rewriter {
   std::vector<WrittenAngles> written_;
   std::optional<SourceTable> table_;
   std::vector<double> row_before_;
-  std::vector<Replacement> replacements_;
-  TextBuffer out_;
-  const char* copied_;
+  std::vector<Replacement> replacements_;  // of one frame
+  const char* copied_;                     // how far the source's text has been taken
 };
 
 }  // namespace

@@ -7,30 +7,33 @@ namespace kinemend {
 SourceFrames::SourceFrames(const MotionDocument& document)
     : document_(document),
       columns_(document.skeleton),
-      joints_(document.skeleton.joint_count()),
-      rows_(columns_.block_frames() * columns_.count()),
-      tokens_(rows_.size()),
-      rotations_(columns_.block_frames() * joints_),
       last_rotations_(document.first_rotations),
       last_positions_(document.first_positions),
       text_(document.rows()) {}
 
-bool SourceFrames::next() {
-  first_ += count_;
-  count_ = std::min(columns_.block_frames(), document_.frame_count - first_);
-  if (count_ == 0) return false;
-  text_->next(rows_.data(), count_, tokens_.data());
-  columns_.decode_rotations(rows_.data(), count_, rotations_.data());
-  if (document_.has_gaps) hold();
+bool SourceFrames::next(SourceBlock& block) {
+  block.first = next_;
+  block.count = std::min(columns_.block_frames(), document_.frame_count - next_);
+  block.width = columns_.count();
+  block.joints = document_.skeleton.joint_count();
+  if (block.count == 0) return false;
+  next_ += block.count;
+  block.values.resize(block.count * block.width);
+  block.places.resize(block.count * block.width);
+  block.turns.resize(block.count * block.joints);
+  text_->next(block.values.data(), block.count, block.places.data());
+  columns_.decode_rotations(block.values.data(), block.count, block.turns.data());
+  if (document_.has_gaps) hold(block);
   return true;
 }
 
-void SourceFrames::hold() {
-  hold_rotations(rotations_.data(), count_, joints_, last_rotations_.data(), nullptr);
-  hold_positions(rows_.data(), count_, columns_, last_positions_);
-  last_rotations_.assign(rotations(count_ - 1), rotations(count_ - 1) + joints_);
+void SourceFrames::hold(SourceBlock& block) {
+  hold_rotations(block.turns.data(), block.count, block.joints, last_rotations_.data(), nullptr);
+  hold_positions(block.values.data(), block.count, columns_, last_positions_);
+  const Quat* const last = block.rotations(block.count - 1);
+  last_rotations_.assign(last, last + block.joints);
   for (std::size_t i = 0; i < last_positions_.size(); ++i) {
-    last_positions_[i] = row(count_ - 1)[columns_.positions()[i].column];
+    last_positions_[i] = block.row(block.count - 1)[columns_.positions()[i].column];
   }
 }
 
@@ -42,10 +45,10 @@ unsigned MotionDocument::written_decimals() const {
 std::vector<double> MotionDocument::channel_values() const {
   std::vector<double> values;
   SourceFrames source(*this);
-  const std::size_t width = source.columns().count();
-  values.reserve(frame_count * width);
-  while (source.next()) {
-    values.insert(values.end(), source.row(0), source.row(0) + source.count() * width);
+  SourceBlock block;
+  values.reserve(frame_count * source.columns().count());
+  while (source.next(block)) {
+    values.insert(values.end(), block.values.begin(), block.values.end());
   }
   return values;
 }

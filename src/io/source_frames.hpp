@@ -9,6 +9,22 @@
 
 namespace kinemend {
 
+/// Some frames of a document's text. By frame within the block: position columns are repaired,
+/// angles are as the file has them, in degrees.
+struct SourceBlock {
+  std::size_t first = 0;  ///< frame
+  std::size_t count = 0;  ///< frames
+  std::size_t width = 0;  ///< values of a frame
+  std::size_t joints = 0;
+  std::vector<double> values;
+  std::vector<TokenSpan> places;
+  std::vector<Quat> turns;
+
+  const double* row(std::size_t frame) const { return values.data() + frame * width; }
+  const TokenSpan* tokens(std::size_t frame) const { return places.data() + frame * width; }
+  const Quat* rotations(std::size_t frame) const { return turns.data() + frame * joints; }
+};
+
 /// The frames of a document's text, decoded as its reader did, a block at a time.
 class SourceFrames {
  public:
@@ -16,30 +32,15 @@ class SourceFrames {
 
   const MotionColumns& columns() const { return columns_; }
 
-  /// Moves to the next block; false after the last.
-  bool next();
-
-  std::size_t first() const { return first_; }
-  std::size_t count() const { return count_; }
-  /// By frame within the block. Position columns are repaired, angles are as the file has them, in
-  /// degrees.
-  const double* row(std::size_t frame) const { return rows_.data() + frame * columns_.count(); }
-  const TokenSpan* tokens(std::size_t frame) const {
-    return tokens_.data() + frame * columns_.count();
-  }
-  const Quat* rotations(std::size_t frame) const { return rotations_.data() + frame * joints_; }
+  /// Reads the next block, whose memory is used again; false after the last.
+  bool next(SourceBlock& block);
 
  private:
-  void hold();
+  void hold(SourceBlock& block);
 
   const MotionDocument& document_;
   MotionColumns columns_;
-  std::size_t joints_;
-  std::size_t first_ = 0;
-  std::size_t count_ = 0;
-  std::vector<double> rows_;
-  std::vector<TokenSpan> tokens_;
-  std::vector<Quat> rotations_;
+  std::size_t next_ = 0;  // frame
   std::vector<Quat> last_rotations_;
   std::vector<double> last_positions_;
   std::unique_ptr<RowReader> text_;
