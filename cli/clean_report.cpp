@@ -58,11 +58,11 @@ std::vector<const ReportView::Row*> changed_rows(const ReportView& report) {
   return rows;
 }
 
-/// The middle one of the noises of what changed and has one; 0 without any.
+/// The middle one of the noises of what was smoothed and has one; 0 without any.
 double typical_noise(const ReportView& report, std::size_t& count) {
   std::vector<double> noises;
   for (const ReportView::Row& row : report.rows) {
-    if (row.frames_changed > 0 && row.noise > 0) noises.push_back(row.noise);
+    if (row.frames_changed > row.frames_repaired && row.noise > 0) noises.push_back(row.noise);
   }
   count = noises.size();
   if (noises.empty()) return 0;
@@ -138,6 +138,80 @@ std::string swap_text(const ReportView& report) {
   return text;
 }
 
+std::string leftovers_text(const ReportView& report) {
+  std::string text;
+  for (const Leftover& leftover : report.leftovers)
+    text += fmt::format("  left as they are: {} ({})\n", leftover.what, leftover.mend);
+  return text;
+}
+
+std::string name_of(const ReportView& report, std::int32_t track) {
+  return track < 0 ? "root position" : report.rows[track].name;
+}
+
+bool is_changed(const ReportView& report, std::int32_t track) {
+  return track < 0 ? report.root_max_change > 0 : report.rows[track].frames_changed > 0;
+}
+
+/// Of tracks that changed at all: what nobody touched fell back to nothing.
+std::string fall_backs_text(const ReportView& report, bool all_rows) {
+  constexpr std::size_t few = 4;
+  std::string text;
+  for (const FallBack& fall_back : report.fall_backs) {
+    std::vector<std::string> names;
+    double sum = 0;
+    for (std::size_t i = 0; i < fall_back.tracks.size(); ++i) {
+      if (!is_changed(report, fall_back.tracks[i])) continue;
+      names.push_back(printable(name_of(report, fall_back.tracks[i])));
+      sum += fall_back.shares[i];
+    }
+    if (names.empty()) continue;
+    const double share = sum / static_cast<double>(names.size());
+    text +=
+        fmt::format("  {} in place of {} for {}{}: {}", fall_back.method, report.method,
+                    counted(names.size(), report.noun()),
+                    share < 0.995 ? fmt::format(" ({:.0f} %)", 100 * share) : "", fall_back.reason);
+    if (all_rows || names.size() <= few) text += fmt::format(" ({})", fmt::join(names, ", "));
+    text += "\n";
+  }
+  return text;
+}
+
+/// Changed joints or markers that are more another method's than the one's that was asked for.
+std::size_t count_fallen_back(const ReportView& report) {
+  std::map<std::int32_t, double> shares;
+  for (const FallBack& fall_back : report.fall_backs) {
+    for (std::size_t i = 0; i < fall_back.tracks.size(); ++i) {
+      const std::int32_t track = fall_back.tracks[i];
+      if (track >= 0 && is_changed(report, track)) shares[track] += fall_back.shares[i];
+    }
+  }
+  return static_cast<std::size_t>(std::count_if(
+      shares.begin(), shares.end(), [](const auto& entry) { return entry.second > 0.5; }));
+}
+
+Json fall_backs_json(const ReportView& report) {
+  Json list = Json::array();
+  for (const FallBack& fall_back : report.fall_backs) {
+    Json tracks = Json::array();
+    for (std::size_t i = 0; i < fall_back.tracks.size(); ++i) {
+      tracks.push_back(
+          {{"name", name_of(report, fall_back.tracks[i])}, {"share", fall_back.shares[i]}});
+    }
+    list.push_back({{"method", fall_back.method},
+                    {"reason", fall_back.reason},
+                    {std::string(report.noun()) + "s", tracks}});
+  }
+  return list;
+}
+
+Json leftovers_json(const ReportView& report) {
+  Json list = Json::array();
+  for (const Leftover& leftover : report.leftovers)
+    list.push_back({{"what", leftover.what}, {"mend", leftover.mend}});
+  return list;
+}
+
 /// The keys of joints end in their unit; markers are in the file's, which `unit` names.
 Json row_json(const ReportView::Row& row, const ReportView& report) {
   const std::string unit = report.is_markers ? "" : "_deg";
@@ -204,9 +278,16 @@ std::string verdict(const ReportView& report) {
   const std::size_t spikes = count_spans(report, Action::despiked);
   const std::size_t gaps = count_spans(report, Action::filled);
   const std::size_t left = gaps_left(report);
-  const std::string unfilled = left > 0 ? counted(left, "gap") + " left" : "";
+  std::vector<std::string> left_over;
+  if (left > 0) left_over.push_back(counted(left, "gap") + " left");
+  for (const Leftover& leftover : report.leftovers) left_over.push_back(leftover.what + " left");
+  const std::string swaps =
+      report.swaps.empty() ? "" : counted(report.swaps.size(), "swap") + " of markers undone";
   if (changed == 0 && report.root_max_change == 0) {
-    return left > 0 ? "nothing changed: " + unfilled : "clean: nothing changed";
+    if (!swaps.empty()) left_over.insert(left_over.begin(), swaps);
+    if (left_over.empty()) return "clean: nothing changed";
+    const char* result = swaps.empty() ? "nothing changed" : "mended";
+    return fmt::format("{}: {}", result, fmt::join(left_over, ", "));
   }
   std::size_t noisy = 0;
   const double noise = typical_noise(report, noisy);
@@ -221,10 +302,14 @@ std::string verdict(const ReportView& report) {
   }
   if (spikes > 0) findings.push_back(counted(spikes, "spike"));
   if (gaps > 0) findings.push_back(counted(gaps, "gap"));
-  if (left > 0) findings.push_back(unfilled);
-  const std::string all = fmt::format("{}", fmt::join(findings, ", "));
+  if (!swaps.empty()) findings.push_back(swaps);
+  findings.insert(findings.end(), left_over.begin(), left_over.end());
+  std::string all = fmt::format("{}", fmt::join(findings, ", "));
+  if (const std::size_t count = count_fallen_back(report); count > 0)
+    all += fmt::format("; {} in place of {} for {}", report.fall_backs.front().method,
+                       report.method, counted(count, report.noun()));
   if (noise >= report.noticeable_noise) return "noisy: " + all;
-  if (spikes + gaps > 0) return "damaged: " + all;
+  if (spikes + gaps + report.swaps.size() > 0) return "damaged: " + all;
   return noise > 0 ? "nearly clean: " + all : "smoothed: " + all;
 }
 
@@ -255,7 +340,8 @@ std::string report_text(const ReportView& report, bool all_rows) {
     text += fmt::format("  root position: change rms {}, max {} (file units)\n",
                         figure(report.root_rms_change), figure(report.root_max_change));
   }
-  text += swap_text(report) + fill_text(report, all_rows);
+  text += fall_backs_text(report, all_rows) + swap_text(report) + fill_text(report, all_rows) +
+          leftovers_text(report);
   if (report.feet) text += feet_text(*report.feet, all_rows);
   text += fmt::format("  {} of {} changed, {} repaired", count_changed(report),
                       counted(report.rows.size(), report.noun()),
@@ -292,6 +378,8 @@ Json report_json(const CleanJob& job, const ReportView& report, const Diagnostic
   if (plan.fix_swaps && report.is_markers) json["swaps_undone"] = swaps_json(report);
   json["seconds"] = report.seconds;
   json["frames_per_second"] = frames_per_second(report);
+  json["fall_backs"] = fall_backs_json(report);
+  json["leftovers"] = leftovers_json(report);
   json["warnings"] = report.warnings;
   json["diagnostics"] = json_of(diagnostics);
   Json& rows = json[std::string(report.noun()) + "s"] = Json::array();

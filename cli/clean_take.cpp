@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "clean_leftovers.hpp"
 #include "clean_report.hpp"
 #include "kinemend/check.hpp"
 #include "kinemend/gaps.hpp"
@@ -61,8 +62,11 @@ void read_contacts(const MarkerClip& /*clip*/, const CleanPlan& /*plan*/,
                    CleanSettings& /*settings*/) {}
 
 // Cleans the take in place.
-ReportView clean_in_place(Take& take, const CleanPlan& plan, const TakeProgress& progress) {
+ReportView clean_in_place(Take& take, const std::string& input, const CleanPlan& plan,
+                          const TakeProgress& progress) {
   const std::vector<MarkerSwap> swaps = prepare(take, plan);
+  const std::vector<Finding> findings =
+      std::visit([](const auto& clip) { return find_beyond_cleaning(clip); }, take);
   return std::visit(
       [&](auto& clip) {
         CleanSettings settings = plan.settings;
@@ -75,6 +79,7 @@ ReportView clean_in_place(Take& take, const CleanPlan& plan, const TakeProgress&
         clip = std::move(result.clip);
         ReportView view = view_of(std::move(result.report));
         view.swaps = swaps;
+        view.leftovers = leftovers_of(findings, plan, input);
         return view;
       },
       take);
@@ -101,7 +106,7 @@ void clean_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& 
   });
   for (const Diagnostic& entry : read.diagnostics.entries())
     outcome.warnings.push_back(diagnostic_line(name, entry));
-  ReportView report = clean_in_place(read.take, plan, progress);
+  ReportView report = clean_in_place(read.take, job.input, plan, progress);
   report.contents = pointless_text(read.take);
   if (plan.strict) refuse_warnings(name, report.warnings);
   for (const std::string& warning : report.warnings)

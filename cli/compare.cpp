@@ -104,7 +104,8 @@ Json json_of_comparison(const Comparison& comparison, const Clip& reference) {
                               {"geodesic_rms_deg", joint.geodesic_rms_deg},
                               {"geodesic_max_deg", joint.geodesic_max_deg},
                               {"peak_speed_reference_deg_s", joint.peak_speed_reference_deg_s},
-                              {"peak_speed_other_deg_s", joint.peak_speed_other_deg_s}});
+                              {"peak_speed_other_deg_s", joint.peak_speed_other_deg_s},
+                              {"peak_frames", joint.peak_frames}});
   }
   return json;
 }

@@ -129,6 +129,11 @@ Take fitted(Take take, const Format& format, const Arguments& arguments) {
   return take;
 }
 
+/// Angles, forces, moments and powers go along as if they were markers.
+void take_all_points(Take& take) {
+  if (auto* markers = std::get_if<MarkerClip>(&take)) markers->is_position.clear();
+}
+
 /// AMC holds angles only; the skeleton goes to an ASF file beside it.
 void check_has_place(const Take& take, const Format& format, const std::string& output) {
   if (format.name != "amc" || source_of(take).format == "amc" || output != "-") return;
@@ -148,6 +153,7 @@ int run(const Arguments& arguments) {
   Take take = std::move(read.take);
   const Format& format = output_format(arguments, take);
   if (arguments.flag("plain")) drop_layout(source_of(take));
+  if (arguments.flag("all_points")) take_all_points(take);
   if (arguments.given("fps")) take = resampled(take, arguments.number("fps"));
   if (arguments.given("up")) take = turned(take, arguments);
   if (arguments.given("unit")) take = in_unit(take, arguments.text("unit"));
@@ -206,6 +212,10 @@ Command convert_command() {
                                       "For formats that could hold the joints themselves (csv)."));
   command.flags.push_back(
       switch_flag("end_sites", "Change", "with the positions of joints, those of end sites too"));
+  command.flags.push_back(
+      switch_flag("all_points", "Change",
+                  "write a C3D file's angles, forces, moments and powers as markers, too",
+                  "Without it they stay out of TRC, TSV and CSV, and are named."));
   command.flags.push_back(
       switch_flag("plain", "Output", "drop the source's layout and write anew",
                   "What the file holds stays: a C3D file keeps analog channels and parameters."));

@@ -14,6 +14,7 @@ void take_common(Report& report, ReportView& view) {
   view.frame_rate_hz = report.frame_rate_hz;
   view.spans = std::move(report.spans);
   view.fill = std::move(report.fill);
+  view.fall_backs = std::move(report.fall_backs);
   view.warnings = std::move(report.warnings);
   view.seconds = report.seconds;
 }

@@ -9,6 +9,12 @@
 
 namespace kinemend::cli {
 
+/// Something wrong with a take that cleaning leaves as it is.
+struct Leftover {
+  std::string what;  ///< "34 frozen or bridged spans"
+  std::string mend;  ///< the command or option that mends it
+};
+
 /// What the report of a take of either kind says, joints and markers in the same words.
 struct ReportView {
   /// A joint or a marker, in degrees or file units.
@@ -41,6 +47,8 @@ struct ReportView {
   FillReport fill;
   std::optional<FeetReport> feet;
   std::vector<MarkerSwap> swaps;  ///< undone
+  std::vector<Leftover> leftovers;
+  std::vector<FallBack> fall_backs;
   std::vector<std::string> warnings;
   double seconds = 0;
 

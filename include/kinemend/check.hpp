@@ -127,6 +127,12 @@ struct CheckReport {
 CheckReport check_take(const Clip& clip, const CheckSettings& settings = {});
 CheckReport check_take(const MarkerClip& clip, const CheckSettings& settings = {});
 
+/// What no cleaning mends, without the checks that take as long as cleaning: findings that are
+/// serious (of gaps, swaps, frames and the unit), and all frozen and bridged spans. In the order of
+/// `CheckReport::findings`. Errors: as of `check_take`.
+std::vector<Finding> find_beyond_cleaning(const Clip& clip);
+std::vector<Finding> find_beyond_cleaning(const MarkerClip& clip);
+
 /// The spans in which two labels are swapped, as far as the take itself proves it: at either end,
 /// exchanging the labels makes both tracks continuous in position and velocity, and between the
 /// ends the distances to the markers that keep theirs to both become what they are elsewhere. A

@@ -90,6 +90,7 @@ struct CleanReport {
   /// Of `CleanSettings::feet`; not set without. `before` is what the method made of the take,
   /// `after` the result; `changed` and `root_changed` say what the step did before blending.
   std::optional<FeetReport> feet;
+  std::vector<FallBack> fall_backs;  ///< of the method
   std::vector<std::string> warnings;
   double seconds = 0;  ///< time the cleaning took
 };
@@ -124,6 +125,7 @@ struct MarkerReport {
   std::vector<MarkerSummary> markers;  ///< M
   std::vector<ReportSpan> spans;       ///< by marker, then frame; spans of `kept` are left out
   FillReport fill;                     ///< of `CleanSettings::fill`
+  std::vector<FallBack> fall_backs;    ///< of the method
   std::vector<std::string> warnings;
   double seconds = 0;  ///< time the cleaning took
 };

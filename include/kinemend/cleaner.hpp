@@ -31,6 +31,14 @@ struct Selection {
   }
 };
 
+/// Where a cleaner gave what another method makes of the take instead of what it makes itself.
+struct FallBack {
+  std::string method = "auto";       ///< the other
+  std::string reason;                ///< "the model does not know them"
+  std::vector<std::int32_t> tracks;  ///< joints or markers; -1: the root position
+  std::vector<double> shares;        ///< how much of each is the other method's (0..1), over frames
+};
+
 /// What a cleaner says of its work beside the cleaned clip.
 struct CleanTrace {
   std::vector<Action>
@@ -41,6 +49,7 @@ struct CleanTrace {
   std::vector<double>
       noise_deg;  ///< J: estimated noise per axis before cleaning, degrees; else empty
   std::optional<double> root_noise;  ///< the same for the root position, file units
+  std::vector<FallBack> fall_backs;
   std::vector<std::string> warnings;
 };
 
@@ -58,6 +67,7 @@ struct MarkerSelection {
 struct MarkerTrace {
   std::vector<Action> actions;  ///< F x M where the cleaner tells samples apart; else empty
   std::vector<double> noise;    ///< M: estimated noise per axis, file units; else empty
+  std::vector<FallBack> fall_backs;
   std::vector<std::string> warnings;
 };
 

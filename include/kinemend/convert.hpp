@@ -37,6 +37,10 @@ Clip scale_lengths(const Clip& clip, double factor);
 /// The same for markers; `unit` is the name of the new one.
 MarkerClip scale_lengths(const MarkerClip& clip, double factor, std::string_view unit);
 
+/// The markers that are positions, without the angles, forces, moments and powers that a C3D file
+/// keeps among its points.
+MarkerClip positions_only(const MarkerClip& clip);
+
 /// Makes the take one to be written anew, in its format's plain layout.
 void drop_layout(SourceInfo& source);
 

@@ -70,7 +70,8 @@ ReadResult read_clip(std::string bytes, std::string_view name, const ReadOptions
 /// its source keeps the text of the hierarchy; one with another skeleton, or made in memory, gets a
 /// plain layout. Errors: `usage` when the format cannot hold the clip.
 std::string write_clip(const Clip& clip, std::string_view format = "bvh");
-/// The same for markers. A missing sample is written the way the format has for it.
+/// The same for markers. A missing sample is written the way the format has for it. Points that are
+/// no positions are written to C3D only.
 std::string write_markers(const MarkerClip& clip, std::string_view format);
 std::string write_take(const Take& take, std::string_view format);
 /// What a file that `write_take` makes of the take will not hold of what its source holds: analog

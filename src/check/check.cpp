@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "check/checks.hpp"
 #include "kinemend/error.hpp"
@@ -56,10 +59,8 @@ void report_left_out(const MarkerClip& clip, const std::vector<std::size_t>& mar
                              "points that are no positions (angles, forces, ...) are left out"});
 }
 
-}  // namespace
-
-CheckReport check_take(const Clip& clip, const CheckSettings& settings) {
-  validate(settings);
+// With a row for each joint.
+CheckReport report_on(const Clip& clip) {
   clip.validate();
   CheckReport report;
   report.frames = clip.frame_count();
@@ -67,10 +68,64 @@ CheckReport check_take(const Clip& clip, const CheckSettings& settings) {
   report.noise_unit = "deg";
   for (const std::string& name : clip.skeleton.names) report.tracks.push_back({name});
   report.calibration_frames = leading_calibration_frames(clip);
-  const Clip motion = slice(clip, report.calibration_frames, report.frames);
-  std::vector<std::int32_t> track_of(clip.joint_count());
+  return report;
+}
+
+// The clip itself where it has no calibration frames: a long one is not copied.
+const Clip& motion_of(const Clip& clip, const CheckReport& report, std::optional<Clip>& sliced) {
+  if (report.calibration_frames == 0) return clip;
+  return sliced.emplace(slice(clip, report.calibration_frames, report.frames));
+}
+
+void check_gaps_of(const Clip& motion, CheckReport& report) {
+  std::vector<std::int32_t> track_of(motion.joint_count());
   std::iota(track_of.begin(), track_of.end(), 0);
   check::check_gaps(find_gaps(motion), track_of, report);
+}
+
+// The marker of each row of a report, and the row of each marker, -1 for none.
+struct MarkerRows {
+  std::vector<std::size_t> markers;
+  std::vector<std::int32_t> track_of;
+};
+
+// With a row for each marker that is a position.
+CheckReport report_on(const MarkerClip& clip, MarkerRows& rows) {
+  clip.validate();
+  CheckReport report;
+  report.is_markers = true;
+  report.frames = clip.frame_count();
+  report.frame_rate_hz = clip.frame_rate_hz;
+  report.noise_unit = clip.unit;
+  rows.track_of.assign(clip.marker_count(), -1);
+  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+    if (!clip.is_position.empty() && clip.is_position[m] == 0) continue;
+    rows.track_of[m] = static_cast<std::int32_t>(rows.markers.size());
+    rows.markers.push_back(m);
+    report.tracks.push_back({clip.names[m]});
+  }
+  return report;
+}
+
+std::vector<Finding> beyond_cleaning(std::vector<Finding> findings) {
+  const auto is_less = [](const Finding& finding) {
+    const bool is_stale =
+        finding.kind == FindingKind::frozen || finding.kind == FindingKind::bridged;
+    return !is_stale && finding.severity != Severity::serious;
+  };
+  findings.erase(std::remove_if(findings.begin(), findings.end(), is_less), findings.end());
+  check::sort_worst_first(findings);
+  return findings;
+}
+
+}  // namespace
+
+CheckReport check_take(const Clip& clip, const CheckSettings& settings) {
+  validate(settings);
+  CheckReport report = report_on(clip);
+  std::optional<Clip> sliced;
+  const Clip& motion = motion_of(clip, report, sliced);
+  check_gaps_of(motion, report);
   check::check_noise_and_spikes(motion, settings, report);
   check::check_stale(motion, settings, report);
   check::check_lengths(motion, settings, report);
@@ -87,20 +142,9 @@ CheckReport check_take(const Clip& clip, const CheckSettings& settings) {
 
 CheckReport check_take(const MarkerClip& clip, const CheckSettings& settings) {
   validate(settings);
-  clip.validate();
-  CheckReport report;
-  report.is_markers = true;
-  report.frames = clip.frame_count();
-  report.frame_rate_hz = clip.frame_rate_hz;
-  report.noise_unit = clip.unit;
-  std::vector<std::size_t> markers;
-  std::vector<std::int32_t> track_of(clip.marker_count(), -1);
-  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
-    if (!clip.is_position.empty() && clip.is_position[m] == 0) continue;
-    track_of[m] = static_cast<std::int32_t>(markers.size());
-    markers.push_back(m);
-    report.tracks.push_back({clip.names[m]});
-  }
+  MarkerRows rows;
+  CheckReport report = report_on(clip, rows);
+  const auto& [markers, track_of] = rows;
   check::check_unit(clip, markers, settings, report);
   check::check_gaps(find_gaps(clip), track_of, report);
   check::check_swaps(clip, track_of, report);
@@ -115,6 +159,32 @@ CheckReport check_take(const MarkerClip& clip, const CheckSettings& settings) {
   report_left_out(clip, markers, report);
   check::sort_worst_first(report.findings);
   return report;
+}
+
+std::vector<Finding> find_beyond_cleaning(const Clip& clip) {
+  const CheckSettings settings;
+  CheckReport report = report_on(clip);
+  std::optional<Clip> sliced;
+  const Clip& motion = motion_of(clip, report, sliced);
+  check_gaps_of(motion, report);
+  check::check_stale(motion, settings, report);
+  check::check_frames(motion, report);
+  check::check_unit(clip, settings, report);
+  shift_frames(report, report.calibration_frames);
+  check::check_zero_frames(clip, report);
+  return beyond_cleaning(std::move(report.findings));
+}
+
+std::vector<Finding> find_beyond_cleaning(const MarkerClip& clip) {
+  const CheckSettings settings;
+  MarkerRows rows;
+  CheckReport report = report_on(clip, rows);
+  check::check_unit(clip, rows.markers, settings, report);
+  check::check_gaps(find_gaps(clip), rows.track_of, report);
+  check::check_swaps(clip, rows.track_of, report);
+  check::check_stale(clip, rows.markers, settings, report);
+  check::check_frames(clip, rows.markers, report);
+  return beyond_cleaning(std::move(report.findings));
 }
 
 }  // namespace kinemend

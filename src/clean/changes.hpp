@@ -53,7 +53,7 @@ TrackChanges blend_positions(std::span<const Vec3> before, std::span<Vec3> after
 struct JointReport {
   JointSummary summary;
   std::vector<ReportSpan> spans;
-  std::string warning;  ///< of a lost peak; empty when there is none
+  std::vector<std::string> warnings;  ///< of a lost peak, and of what smoothing should not do
 };
 JointReport report_joint(const std::string& name, std::size_t joint, const JointTracks& tracks,
                          const TrackChanges& changes, std::size_t first_frame, double frame_rate_hz,
@@ -81,7 +81,7 @@ struct MarkerScale {
 struct MarkerTrackReport {
   MarkerSummary summary;
   std::vector<ReportSpan> spans;
-  std::string warning;  ///< of a lost peak; empty when there is none
+  std::vector<std::string> warnings;  ///< of a lost peak, and of what smoothing should not do
 };
 MarkerTrackReport report_marker(const std::string& name, std::size_t marker,
                                 const MarkerTrack& track, const TrackChanges& changes,

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -99,7 +100,8 @@ void add_joints(std::vector<JointReport> parts, const CleanTrace& trace, CleanRe
     if (!trace.noise_deg.empty()) parts[j].summary.noise_deg = trace.noise_deg[j];
     report.joints.push_back(std::move(parts[j].summary));
     report.spans.insert(report.spans.end(), parts[j].spans.begin(), parts[j].spans.end());
-    if (!parts[j].warning.empty()) report.warnings.push_back(std::move(parts[j].warning));
+    std::move(parts[j].warnings.begin(), parts[j].warnings.end(),
+              std::back_inserter(report.warnings));
   }
 }
 
@@ -208,6 +210,7 @@ void clean_whole(Clip& motion, const Cleaner& cleaner, const Work& work, CleanRe
   const Stage cleaning(settings, "cleaning");
   CleanTrace trace = cleaner.clean(motion, work.selection);
   report.warnings = trace.warnings;
+  report.fall_backs = trace.fall_backs;
   cleaning.finish();
   if (settings.fill) {
     const Stage stage(settings, "filling");
@@ -261,6 +264,7 @@ void clean_joint_by_joint(Clip& motion, const Cleaner& cleaner, const Work& work
   const Stage stage(work.settings, "cleaning");
   const CleanTrace trace = cleaner.clean_joints(motion, work.selection, finish, stage.shares());
   report.warnings.insert(report.warnings.end(), trace.warnings.begin(), trace.warnings.end());
+  report.fall_backs = trace.fall_backs;
   for_each_parallel(joints, motion.local_rotations.size(), [&](std::size_t j) {
     if (finished[j] == 0) finish(j, joint_track(motion, j), {});
   });

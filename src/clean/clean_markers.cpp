@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "clean/changes.hpp"
@@ -76,6 +77,7 @@ MarkerResult clean_markers(const MarkerClip& clip, const Cleaner& cleaner,
   }
   const MarkerTrace trace = cleaner.clean_markers(result.clip, selection);
   report.warnings.insert(report.warnings.end(), trace.warnings.begin(), trace.warnings.end());
+  report.fall_backs = trace.fall_backs;
   if (settings.fill) {
     report.fill = fill_step(clip, cleaner, selection, weights, *settings.fill, trace, result.clip);
     add_fill_warnings(report);
@@ -99,7 +101,8 @@ MarkerResult clean_markers(const MarkerClip& clip, const Cleaner& cleaner,
     if (!trace.noise.empty()) parts[m].summary.noise = trace.noise[m];
     report.markers.push_back(std::move(parts[m].summary));
     report.spans.insert(report.spans.end(), parts[m].spans.begin(), parts[m].spans.end());
-    if (!parts[m].warning.empty()) report.warnings.push_back(std::move(parts[m].warning));
+    std::move(parts[m].warnings.begin(), parts[m].warnings.end(),
+              std::back_inserter(report.warnings));
   }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

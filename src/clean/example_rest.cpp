@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "base/quantiles.hpp"
+#include "clean/prior_fall_backs.hpp"
 #include "kinemend/signal.hpp"
 #include "signal/evidence.hpp"
 
@@ -58,17 +61,20 @@ double trimmed_mean(std::vector<double>& squares) {
 }
 
 // Where a part was measured, `share_at(frame)` of what `auto` makes of it takes the place of what
-// is there.
+// is there. Returns how much that is, over frames.
 template <class Shares>
-void blend_part(const PriorWork& work, std::size_t part, const Shares& share_at,
-                PoseMatrix& cleaned) {
+double blend_part(const PriorWork& work, std::size_t part, const Shares& share_at,
+                  PoseMatrix& cleaned) {
+  double sum = 0;
   for (std::size_t f = 0; f < cleaned.frames; ++f) {
     const double share = share_at(f);
+    sum += share;
     for (std::size_t c = part_channels * part; c < part_channels * (part + 1) && share > 0; ++c) {
       if (work.channels.observed[f * cleaned.channels + c] != 0)
         cleaned(f, c) += share * (work.fallback(f, c) - cleaned(f, c));
     }
   }
+  return sum / static_cast<double>(cleaned.frames);
 }
 
 // 0 up to `none`, 1 from `all` on.
@@ -166,16 +172,18 @@ void smooth_rest(const PriorWork& work, const PoseMatrix& weights, LinearExample
     cleaned.values[i] = expressed.values[i] + rest.values[i];
 }
 
-void fall_back(const PriorWork& work, double strangeness, PoseMatrix& cleaned) {
+void fall_back(PriorWork& work, double strangeness, PoseMatrix& cleaned) {
   const double share =
       ramp(std::log(strangeness), std::log(known_motion), std::log(unknown_motion));
   for (std::size_t part = 0; part_channels * part < cleaned.channels; ++part)
     blend_part(
         work, part, [share](std::size_t) { return share; }, cleaned);
+  add_fall_back(work, "the motion is unlike what the model was learned from",
+                std::vector<double>(work.needs.size(), share));
 }
 
-void fall_back_where_rejected(const PriorWork& work, const PoseMatrix& weights,
-                              PoseMatrix& cleaned) {
+void fall_back_where_rejected(PriorWork& work, const PoseMatrix& weights, PoseMatrix& cleaned) {
+  std::vector<double> shares(work.needs.size(), 0);
   for (std::size_t first = 0; first + part_channels <= cleaned.channels; first += part_channels) {
     double rejected = 0, count = 0;
     for (std::size_t f = 0; f < cleaned.frames; ++f) {
@@ -188,12 +196,14 @@ void fall_back_where_rejected(const PriorWork& work, const PoseMatrix& weights,
     }
     if (count == 0) continue;
     const double share = ramp(rejected / count, believable_rejected, unbelievable_rejected);
-    blend_part(
+    shares[first / part_channels] = blend_part(
         work, first / part_channels, [share](std::size_t) { return share; }, cleaned);
   }
+  add_fall_back(work, "the filter rejects much that auto finds nothing wrong with",
+                std::move(shares));
 }
 
-void fall_back_where_biased(const PriorWork& work, const std::vector<double>& noise,
+void fall_back_where_biased(PriorWork& work, const std::vector<double>& noise,
                             PoseMatrix& cleaned) {
   PoseMatrix bias = work.channels.poses;
   for (std::size_t i = 0; i < bias.values.size(); ++i) {
@@ -203,6 +213,7 @@ void fall_back_where_biased(const PriorWork& work, const std::vector<double>& no
   const double half =
       std::max(least_half_window, std::round(0.5 * window_s * work.channels.frame_rate_hz));
   median_filter(bias, static_cast<std::size_t>(std::min(half, static_cast<double>(bias.frames))));
+  std::vector<double> shares(work.needs.size(), 0);
   for (std::size_t part = 0; part_channels * (part + 1) <= cleaned.channels; ++part) {
     const auto share_at = [&](std::size_t f) {
       double squares = 0;
@@ -210,8 +221,9 @@ void fall_back_where_biased(const PriorWork& work, const std::vector<double>& no
         squares += bias(f, c) * bias(f, c);
       return ramp(std::sqrt(squares / part_channels), believable_bias, unbelievable_bias);
     };
-    blend_part(work, part, share_at, cleaned);
+    shares[part] = blend_part(work, part, share_at, cleaned);
   }
+  add_fall_back(work, "the filter moves them off what was measured", std::move(shares));
 }
 
 }  // namespace kinemend

@@ -31,18 +31,16 @@ void smooth_rest(const PriorWork& work, const PoseMatrix& weights, LinearExample
 
 /// The stranger the take, the more of what `auto` made of its measurements: none of it below a
 /// strangeness of 1.5, nothing else from 5 on. Gaps stay as the bases fill them.
-void fall_back(const PriorWork& work, double strangeness, PoseMatrix& cleaned);
+void fall_back(PriorWork& work, double strangeness, PoseMatrix& cleaned);
 
 /// A part of which the filter rejects what `auto` finds nothing wrong with is one that the bases
 /// are wrong about: from 35 % of rejected measurements on it becomes what `auto` made of it, wholly
 /// at 55 %. `weights` is F x D, those of the filter.
-void fall_back_where_rejected(const PriorWork& work, const PoseMatrix& weights,
-                              PoseMatrix& cleaned);
+void fall_back_where_rejected(PriorWork& work, const PoseMatrix& weights, PoseMatrix& cleaned);
 
 /// What is measured scatters about the motion: where the median of what the filter leaves of a part
 /// within a fifth of a second (15 frames at least) is far from zero, the motion is the bases', not
 /// the take's. From a deviation of the noise on it becomes what `auto` made of it, wholly at two.
-void fall_back_where_biased(const PriorWork& work, const std::vector<double>& noise,
-                            PoseMatrix& cleaned);
+void fall_back_where_biased(PriorWork& work, const std::vector<double>& noise, PoseMatrix& cleaned);
 
 }  // namespace kinemend

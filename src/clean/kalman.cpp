@@ -5,9 +5,9 @@
 #include "clean/marker_tracks.hpp"
 #include "clean/method_list.hpp"
 #include "clean/track_kalman.hpp"
-#include "clean/track_noise.hpp"
 #include "clean/tracks.hpp"
 #include "kinemend/methods.hpp"
+#include "metrics/track_noise.hpp"
 
 namespace kinemend {
 

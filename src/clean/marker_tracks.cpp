@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "clean/track_noise.hpp"
 #include "clean/tracks.hpp"
 #include "kinemend/frame_rate.hpp"
+#include "metrics/track_noise.hpp"
 
 namespace kinemend {
 

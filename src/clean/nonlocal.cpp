@@ -10,11 +10,11 @@
 #include "clean/nonlocal_causal.hpp"
 #include "clean/nonlocal_filter.hpp"
 #include "clean/rotation_track.hpp"
-#include "clean/track_noise.hpp"
 #include "clean/tracks.hpp"
 #include "clean/whole_markers.hpp"
 #include "kinemend/frame_rate.hpp"
 #include "kinemend/methods.hpp"
+#include "metrics/track_noise.hpp"
 
 namespace kinemend {
 

@@ -10,6 +10,7 @@
 #include "base/file_bytes.hpp"
 #include "base/quantiles.hpp"
 #include "clean/auto_markers.hpp"
+#include "clean/prior_fall_backs.hpp"
 #include "clean/prior_hold.hpp"
 #include "clean/tracks.hpp"
 #include "clean/vector_tracks.hpp"
@@ -152,9 +153,11 @@ constexpr std::size_t flip_half_frames = 3;
 constexpr double most_turns = 0.98;  // a few are noise
 
 // A joint that turns away from the model's mean as far as its channels can say, or flips, is
-// nothing that the model knows: to the filter it is missing, and `auto` keeps it.
-void leave_far_turns_to_auto(PriorWork& work, const JointRun& run,
-                             std::vector<std::uint8_t>& chosen) {
+// nothing that the model knows: to the filter it is missing, and `auto` keeps it. Returns how much
+// of each part that is.
+std::vector<double> leave_far_turns_to_auto(PriorWork& work, const JointRun& run,
+                                            std::vector<std::uint8_t>& chosen) {
+  std::vector<double> left(work.needs.size(), 0);
   // Spikes that `auto` left go there and back; a flip stays.
   PoseMatrix steady = work.fallback;
   median_filter(steady, flip_half_frames);
@@ -178,11 +181,13 @@ void leave_far_turns_to_auto(PriorWork& work, const JointRun& run,
     const double farthest = quantile_of(turns, most_turns);
     if (farthest <= degrees_per_radian * tangent_limit_rad && fastest <= flip) continue;
     chosen[part] = 0;
+    left[part] = 1;
     for (std::size_t f = 0; f < work.fallback.frames; ++f) {
       for (std::size_t axis = 0; axis < 3; ++axis)
         work.channels.observed[f * work.fallback.channels + 3 * part + axis] = 0;
     }
   }
+  return left;
 }
 
 // What `auto` made of the joints and positions that the model does not know, or that are clean;
@@ -234,18 +239,20 @@ CleanTrace trace_of(const Clip& clip, const JointRun& run, const PriorWork& work
       Action& action = trace.actions[f * joints + joint];
       if (!clip.is_observed(f, joint)) {
         action = Action::filled;
-      } else {
+      } else if (!is_fallen_back(work, part)) {
         action = is_rejected(work, f, part) ? Action::despiked : Action::kept;
       }
     }
   }
   if (!run.selection.root_position) trace.root_actions.clear();
-  if (chosen[run.place_part()] != 0 && !work.rejected.empty()) {
+  if (chosen[run.place_part()] != 0 && !work.rejected.empty() &&
+      !is_fallen_back(work, run.place_part())) {
     trace.root_actions.assign(frames, Action::kept);
     for (std::size_t f = 0; f < frames; ++f) {
       if (is_rejected(work, f, run.place_part())) trace.root_actions[f] = Action::despiked;
     }
   }
+  trace.fall_backs = fall_backs_of(work, selected, run.is_chosen_place());
   if (!run.match.missing.empty()) trace.warnings.push_back(lacking(run.match));
   trace.warnings.insert(trace.warnings.end(), work.warnings.begin(), work.warnings.end());
   return trace;
@@ -302,7 +309,7 @@ MarkerTrace trace_of(const MarkerClip& clip, const MarkerSelection& selection, c
     if (selection.markers[i % markers] == 0) trace.actions[i] = Action::kept;
   }
   for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
-    if (chosen[part] == 0) continue;
+    if (chosen[part] == 0 || is_fallen_back(work, part)) continue;
     const auto marker = static_cast<std::size_t>(run.match.parts[part]);
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
       trace.actions[f * markers + marker] =
@@ -310,6 +317,7 @@ MarkerTrace trace_of(const MarkerClip& clip, const MarkerSelection& selection, c
                                                                     : Action::kept;
     }
   }
+  trace.fall_backs = fall_backs_of(work, selection.markers, false);
   if (!run.match.missing.empty()) trace.warnings.push_back(lacking(run.match));
   trace.warnings.insert(trace.warnings.end(), work.warnings.begin(), work.warnings.end());
   return trace;
@@ -346,9 +354,11 @@ Clip cleaned_with_prior(const Clip& clip, const Selection& selection, const Body
   std::vector<std::uint8_t> chosen = chosen_parts(match, selection.joints);
   const JointRun run = run_auto(clip, layout, match, selection);
   PriorWork work = work_of(clip, run);
-  leave_far_turns_to_auto(work, run, chosen);
+  std::vector<double> far_turns = leave_far_turns_to_auto(work, run, chosen);
   filter(work);
   hold_to_needs(work);
+  add_fall_back(work, "they turn farther or leap more than the model can say",
+                std::move(far_turns));
   chosen.push_back(run.is_chosen_place() ? 1 : 0);
   leave_alone(work, fill, chosen);
 

@@ -14,6 +14,12 @@
 // and they go back into the take.
 namespace kinemend {
 
+/// Parts whose result is not the filter's but what `auto` makes of the take.
+struct PartFallBack {
+  std::string reason;
+  std::vector<double> shares;  ///< D / 3: how much of each part, over frames (0..1)
+};
+
 /// A take as such a method sees it.
 struct PriorWork {
   const Skeleton* skeleton = nullptr;  ///< null for markers
@@ -29,7 +35,8 @@ struct PriorWork {
   PoseMatrix fallback;
   /// Set by the filter, F x D: 1 where a measurement counted for next to nothing. Empty: none.
   std::vector<std::uint8_t> rejected;
-  std::vector<std::string> warnings;  ///< of the filter
+  std::vector<PartFallBack> fall_backs;  ///< of the filter, and of what it is kept from
+  std::vector<std::string> warnings;     ///< of the filter
 };
 
 /// Cleans `work.channels.poses` in place.

@@ -1,6 +1,9 @@
 #include "clean/prior_hold.hpp"
 
 #include <algorithm>
+#include <utility>
+
+#include "clean/prior_fall_backs.hpp"
 
 namespace kinemend {
 
@@ -46,6 +49,9 @@ void hold_to_needs(PriorWork& work) {
   PoseMatrix& poses = work.channels.poses;
   const std::size_t frames = poses.frames;
   if (has_dense_spikes(work)) std::fill(work.needs.begin(), work.needs.end(), 1.0);
+  std::vector<double> left_alone;
+  for (const double need : work.needs) left_alone.push_back(1 - std::min(need, 1.0));
+  add_fall_back(work, "auto finds little or no noise in them", std::move(left_alone));
   std::vector<double> offsets(frames);
   std::vector<std::uint8_t> held(frames);
   for (std::size_t c = 0; c < poses.channels; ++c) {

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "clean/changes.hpp"
-#include "clean/peaks.hpp"
-#include "clean/track_noise.hpp"
 #include "clean/tracks.hpp"
+#include "metrics/peaks.hpp"
+#include "metrics/track_noise.hpp"
 
 namespace kinemend {
 
@@ -17,6 +17,7 @@ namespace {
 constexpr std::size_t noise_samples = 1024;
 constexpr double slow_deg_s = 60;
 constexpr double slow_heights_s = 0.25;  // of markers, statures a second
+constexpr double small_change_deg = 5, small_change_heights = 0.02;
 
 // A foot that is held is moved, not repaired: how fast it goes counts.
 bool repaired(Action action) { return action == Action::despiked || action == Action::filled; }
@@ -30,6 +31,27 @@ std::string peak_warning(const std::string& name, const Peaks& peaks, double sca
   return fmt::format("{}: peak speed falls from {:.4g} to {:.4g} {} ({:.0f} %, limit {:.0f} %)",
                      name, peaks.before * scale, peaks.after * scale, unit, 100 * loss,
                      100 * limit);
+}
+
+// Smoothing takes noise away; what it changes by far more than the largest noise there may be was a
+// spike to everybody but the method, or motion. `least` is no event.
+std::string change_warning(const std::string& name, const TrackChanges& changes, double noise,
+                           std::string_view unit, double least, std::size_t first_frame) {
+  constexpr double clearly = 2;
+  const double limit = std::max(least, clearly * longest_of_noise(changes.amounts.size()) * noise);
+  std::size_t largest = 0, count = 0;
+  for (std::size_t f = 0; f < changes.amounts.size(); ++f) {
+    if (changes.actions[f] != Action::denoised || changes.amounts[f] <= limit) continue;
+    if (count++ == 0 || changes.amounts[f] > changes.amounts[largest]) largest = f;
+  }
+  if (count == 0) return {};
+  return fmt::format("{}: smoothing changes frame {} by {:.3g} {}, its noise is {:.2g}{}", name,
+                     first_frame + largest + 1, changes.amounts[largest], unit, noise,
+                     count > 1 ? fmt::format(" ({} such frames)", count) : "");
+}
+
+void add(std::string warning, std::vector<std::string>& warnings) {
+  if (!warning.empty()) warnings.push_back(std::move(warning));
 }
 
 }  // namespace
@@ -72,13 +94,17 @@ JointReport report_joint(const std::string& name, std::size_t joint, const Joint
     left_out[f] = repaired(changes.actions[f]) || !seen;
   }
   if (frames > 0) summary.rms_change_deg = std::sqrt(squares / static_cast<double>(frames));
-  const Peaks peaks = measure_peaks(tracks.before, tracks.after, std::move(left_out),
-                                    track_noise(tracks.before, noise_samples), frame_rate_hz);
+  const double noise = track_noise(tracks.before, noise_samples);
+  const Peaks peaks =
+      measure_peaks(tracks.before, tracks.after, std::move(left_out), noise, frame_rate_hz);
   summary.peak_speed_before_deg_s = peaks.before * degrees_per_radian;
   summary.peak_speed_after_deg_s = peaks.after * degrees_per_radian;
   summary.peak_frames = peaks.frames;
-  report.warning =
-      peak_warning(name, peaks, degrees_per_radian, "deg/s", slow_deg_s, peak_loss_limit);
+  add(peak_warning(name, peaks, degrees_per_radian, "deg/s", slow_deg_s, peak_loss_limit),
+      report.warnings);
+  add(change_warning(name, changes, noise * degrees_per_radian, "deg", small_change_deg,
+                     first_frame),
+      report.warnings);
   report.spans = spans_of(static_cast<std::int32_t>(joint), changes, first_frame);
   return report;
 }
@@ -111,13 +137,18 @@ MarkerTrackReport report_marker(const std::string& name, std::size_t marker,
     return report;
   }
   summary.rms_change = std::sqrt(squares / static_cast<double>(seen.size()));
-  const Peaks peaks = measure_peaks(track.before, track.after, std::move(left_out),
-                                    track_noise(seen, noise_samples), scale.frame_rate_hz);
+  const double noise = track_noise(seen, noise_samples);
+  const Peaks peaks =
+      measure_peaks(track.before, track.after, std::move(left_out), noise, scale.frame_rate_hz);
   summary.peak_speed_before = peaks.before;
   summary.peak_speed_after = peaks.after;
   summary.peak_frames = peaks.frames;
-  report.warning = peak_warning(name, peaks, 1, scale.unit.empty() ? "units/s" : scale.unit + "/s",
-                                slow_heights_s * scale.body_height, peak_loss_limit);
+  const std::string unit = scale.unit.empty() ? "units" : scale.unit;
+  add(peak_warning(name, peaks, 1, unit + "/s", slow_heights_s * scale.body_height,
+                   peak_loss_limit),
+      report.warnings);
+  add(change_warning(name, changes, noise, unit, small_change_heights * scale.body_height, 0),
+      report.warnings);
   report.spans = spans_of(static_cast<std::int32_t>(marker), changes, 0);
   return report;
 }

@@ -75,8 +75,9 @@ CleanedTracks clean_tracks(VectorTracks& tracks, const SampleMarks& suspects,
   } else {
     verdicts.noise = noise_levels(tracks, always_missing);
   }
-  for (double& level : verdicts.noise) level *= options.sensitivity;
-  verdicts.shares = cleaning_shares(verdicts.noise, frame_rate_hz);
+  std::vector<double> assumed = verdicts.noise;
+  for (double& level : assumed) level *= options.sensitivity;
+  verdicts.shares = cleaning_shares(assumed, frame_rate_hz);
   const SampleMarks missing = either(verdicts.marked, always_missing);
   // A track that was hardly seen keeps its bridges.
   for (std::size_t n = 0; n < tracks.tracks(); ++n) {
@@ -84,7 +85,7 @@ CleanedTracks clean_tracks(VectorTracks& tracks, const SampleMarks& suspects,
     for (std::size_t t = 0; t < tracks.frames(); ++t) seen += missing(t, n) == 0;
     if (seen < 2 * fewest_clean_frames) verdicts.shares[n] = 0;
   }
-  smooth_tracks(tracks, missing, verdicts.noise, verdicts.shares, frame_rate_hz, progress);
+  smooth_tracks(tracks, missing, assumed, verdicts.shares, frame_rate_hz, progress);
   undo_round(tracks, shapes);
   give_travel_back(tracks, travels);
   return verdicts;

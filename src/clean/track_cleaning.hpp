@@ -15,7 +15,7 @@ inline constexpr std::size_t fewest_clean_frames = 4;
 
 struct CleanedTracks {
   SampleMarks marked;          ///< spikes
-  std::vector<double> noise;   ///< of each track, degrees, times the sensitivity
+  std::vector<double> noise;   ///< of each track, degrees, as measured
   std::vector<double> shares;  ///< how far each track was smoothed
 };
 

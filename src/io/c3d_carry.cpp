@@ -7,6 +7,7 @@
 #include <string>
 
 #include "io/c3d_events.hpp"
+#include "io/c3d_facts.hpp"
 #include "io/c3d_rewrite.hpp"
 #include "io/text.hpp"
 
@@ -142,6 +143,8 @@ Diagnostics c3d_losses(const MarkerClip& clip, const C3dOrigin& origin) {
   Diagnostics losses;
   if (origin.document == nullptr || goes_in_place(clip, origin)) return losses;
   add_analog_losses(clip, origin, losses);
+  if (const std::string encoding = c3d_encoding(*origin.document); encoding != "Intel reals")
+    losses.add("encoding_changed", encoding + " become Intel reals");
   const C3dParameters& parameters = origin.document->parameters;
   if (parameters.has_group("ROTATION")) {
     losses.add("rotations_lost", fmt::format("rotations of {} segments are left out",

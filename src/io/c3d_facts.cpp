@@ -27,12 +27,6 @@ std::string counted(std::size_t count, std::string_view word) {
   return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
 }
 
-std::string encoding_text(const C3dDocument& document) {
-  if (document.layout.is_float) return fmt::format("{} reals", processor_name(document.processor));
-  return fmt::format("{} integers in steps of {:.4g}", processor_name(document.processor),
-                     document.layout.scale);
-}
-
 std::string plates_text(const C3dParameters& parameters, std::size_t count) {
   std::string text = std::to_string(count);
   const std::vector<double> types = parameters.numbers("FORCE_PLATFORM", "TYPE");
@@ -65,10 +59,16 @@ std::string software_text(const C3dParameters& parameters) {
 
 }  // namespace
 
+std::string c3d_encoding(const C3dDocument& document) {
+  if (document.layout.is_float) return fmt::format("{} reals", processor_name(document.processor));
+  return fmt::format("{} integers in steps of {:.4g}", processor_name(document.processor),
+                     document.layout.scale);
+}
+
 std::vector<SourceFact> c3d_facts(const C3dDocument& document, const C3dPointCounts& counts) {
   const C3dParameters& parameters = document.parameters;
   const C3dLayout& layout = document.layout;
-  std::vector<SourceFact> facts{{"encoding", encoding_text(document)}};
+  std::vector<SourceFact> facts{{"encoding", c3d_encoding(document)}};
   const auto add = [&](const char* name, const std::string& text) {
     if (!text.empty()) facts.push_back({name, text});
   };

@@ -13,6 +13,7 @@
 #include "io/text.hpp"
 #include "io/trc.hpp"
 #include "io/tsv.hpp"
+#include "kinemend/convert.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/frame_rate.hpp"
 #include "kinemend/io.hpp"
@@ -57,6 +58,11 @@ const Format& format_of(std::string_view bytes, std::string_view name) {
       name, 1, fmt::format("not a motion file of a known format ({})", known_formats(true)));
 }
 
+bool all_positions(const MarkerClip& clip) {
+  const auto& marks = clip.is_position;
+  return std::find(marks.begin(), marks.end(), 0) == marks.end();
+}
+
 // Of what a C3D file can hold, in a format that has a place for points only.
 Diagnostics lost_beside_points(const MarkerClip& clip, std::string_view format) {
   std::vector<std::string> parts = c3d_beside_points(clip.source);
@@ -67,8 +73,8 @@ Diagnostics lost_beside_points(const MarkerClip& clip, std::string_view format) 
   std::size_t others = 0;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) others += clip.holds_positions(m) ? 0 : 1;
   if (others > 0) {
-    parts.push_back(others == 1 ? "that a point is no position"
-                                : fmt::format("that {} points are no positions", others));
+    parts.push_back(others == 1 ? "a point that is no position"
+                                : fmt::format("{} points that are no positions", others));
   }
   const bool has_gaps =
       std::find(clip.observed.begin(), clip.observed.end(), 0) != clip.observed.end();
@@ -180,8 +186,16 @@ std::string write_clip(const Clip& clip, std::string_view format) {
 
 std::string write_markers(const MarkerClip& clip, std::string_view format) {
   const Format& found = format_called(format);
-  if (found.write_markers != nullptr) return found.write_markers(clip);
-  throw Error(ErrorKind::usage, fmt::format("{} files hold joints, not markers", found.name));
+  if (found.write_markers == nullptr)
+    throw Error(ErrorKind::usage, fmt::format("{} files hold joints, not markers", found.name));
+  if (found.name == "c3d" || all_positions(clip)) return found.write_markers(clip);
+  const MarkerClip markers = positions_only(clip);
+  if (markers.marker_count() == 0) {
+    throw Error(ErrorKind::usage,
+                fmt::format("none of the points is a position, and {} files hold nothing else",
+                            found.name));
+  }
+  return found.write_markers(markers);
 }
 
 std::string write_take(const Take& take, std::string_view format) {

@@ -1,22 +1,44 @@
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "kinemend/metrics.hpp"
 #include "metrics/pairing.hpp"
+#include "metrics/peaks.hpp"
+#include "metrics/track_noise.hpp"
 
 namespace kinemend {
 
 namespace {
+
+std::vector<Quat> rotations_of(const Clip& clip, std::size_t joint, std::size_t first_frame) {
+  std::vector<Quat> track;
+  track.reserve(clip.frame_count() - first_frame);
+  for (std::size_t f = first_frame; f < clip.frame_count(); ++f)
+    track.push_back(clip.rotation(f, joint));
+  return track;
+}
+
+// Either of the two may be the noisy one, and the one with spikes.
+Peaks peaks_of(const std::vector<Quat>& reference, const std::vector<Quat>& other,
+               double frame_rate_hz) {
+  const double noise = std::max(track_noise(reference), track_noise(other));
+  std::vector<std::uint8_t> spikes(reference.size());
+  peaks::leave_out_spikes(other, noise, spikes);
+  return measure_peaks(reference, other, std::move(spikes), noise, frame_rate_hz);
+}
 
 void fill_joints(const Clip& reference, const Clip& other, std::size_t first_frame,
                  Comparison& result) {
   const std::size_t joints = reference.joint_count();
   if (joints == 0) return;
   const auto rms = geodesic_rms_deg_per_joint(reference, other, first_frame);
-  const auto speed = peak_angular_speed_deg_s(reference, first_frame);
-  const auto other_speed = peak_angular_speed_deg_s(other, first_frame);
   result.joints.resize(joints);
   for (std::size_t j = 0; j < joints; ++j) {
-    result.joints[j] = {rms[j], 0, speed[j], other_speed[j]};
+    const Peaks peaks = peaks_of(rotations_of(reference, j, first_frame),
+                                 rotations_of(other, j, first_frame), reference.frame_rate_hz);
+    result.joints[j] = {rms[j], 0, degrees_per_radian * peaks.before,
+                        degrees_per_radian * peaks.after, peaks.frames};
   }
   const auto angles = metrics::geodesic_angles(reference, other, first_frame);
   for (std::size_t i = 0; i < angles.size(); ++i) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "kinemend/convert.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/frame_rate.hpp"
 
@@ -72,6 +73,28 @@ MarkerClip make_marker_clip(std::vector<std::string> names, std::size_t frames,
   clip.observed.resize(samples, 0);
   clip.is_position.assign(clip.names.size(), 1);
   return clip;
+}
+
+MarkerClip positions_only(const MarkerClip& clip) {
+  std::vector<std::size_t> kept;
+  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+    if (clip.holds_positions(m)) kept.push_back(m);
+  }
+  MarkerClip result = clip;
+  const auto keep = [&](auto& values, std::size_t rows) {
+    if (values.empty()) return;
+    auto out = values.begin();
+    for (std::size_t row = 0; row < rows; ++row) {
+      for (const std::size_t m : kept) *out++ = values[row * clip.marker_count() + m];
+    }
+    values.erase(out, values.end());
+  };
+  keep(result.names, 1);
+  keep(result.is_position, 1);
+  keep(result.positions, clip.frame_count());
+  keep(result.observed, clip.frame_count());
+  keep(result.residuals, clip.frame_count());
+  return result;
 }
 
 MarkerClip slice(const MarkerClip& clip, std::size_t first, std::size_t last) {

@@ -108,5 +108,36 @@ TEST(CheckMarkers, AcceptsTakesOfAnyLengthAndWithoutSamples) {
   EXPECT_EQ(check_take(make_marker_clip({}, 0, 100)).tracks.size(), 0u);
 }
 
+// A hint costs less than a check, and says the same.
+TEST(FindBeyondCleaning, FindsWhatACheckWouldCallSeriousAndStaleSpans) {
+  const auto expected = [](const CheckReport& report) {
+    std::vector<std::string> texts;
+    for (const Finding& f : report.findings) {
+      const bool is_stale = f.kind == FindingKind::frozen || f.kind == FindingKind::bridged;
+      if (is_stale || f.severity == Severity::serious) texts.push_back(f.track + f.words);
+    }
+    return texts;
+  };
+  const auto found = [](const auto& clip) {
+    std::vector<std::string> texts;
+    for (const Finding& f : find_beyond_cleaning(clip)) texts.push_back(f.track + f.words);
+    return texts;
+  };
+  MarkerClip markers = with_random_swaps(synthetic_markers("walk"), 3, 2, 2).clip;
+  const std::vector<NamedGap> gaps{{"Head", 30, 89}};
+  mark_gaps(markers, gaps);
+  for (std::size_t f = 201; f <= 230; ++f) markers.position(f, 5) = markers.position(200, 5);
+  EXPECT_EQ(found(markers), expected(check_take(markers)));
+  EXPECT_GE(found(markers).size(), 4u);
+  Clip joints = synthetic_clip("walk");
+  const std::size_t arm = joint_of(joints, "LeftArm");
+  for (std::size_t f = 201; f <= 230; ++f) joints.rotation(f, arm) = joints.rotation(200, arm);
+  for (std::size_t i = 0; i < joints.joint_count(); ++i) joints.rotation(300, i) = {};
+  joints.root_positions[300] = {};
+  EXPECT_EQ(found(joints), expected(check_take(joints)));
+  EXPECT_GE(found(joints).size(), 1u);
+  EXPECT_TRUE(found(synthetic_clip("run")).empty());
+}
+
 }  // namespace
 }  // namespace kinemend::test

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "clean/takes.hpp"
-#include "clean/track_noise.hpp"
+#include "metrics/track_noise.hpp"
 #include "kinemend/clean.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/random.hpp"

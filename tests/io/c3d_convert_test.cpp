@@ -80,7 +80,7 @@ TEST(C3dConversions, NameWhatOtherFormatsCannotHold) {
     EXPECT_EQ(lost.entries()[0].message,
               std::string(format) +
                   " files cannot hold 3 analog channels at 200 Hz; 2 force plates; the parameters "
-                  "of SUBJECTS, PROCESSING; 2 events; that a point is no position");
+                  "of SUBJECTS, PROCESSING; 2 events; a point that is no position");
   }
   EXPECT_TRUE(lost_in_writing(make_marker_clip({"A"}, 1, 100), "trc").empty());
 }
@@ -107,6 +107,19 @@ TEST(C3dConversions, LeaveAMarkerThatStandsAtTheOrigin) {
       expect_there(written(again));
     }
   }
+}
+
+TEST(C3dConversions, WriteOtherFormatsWithoutPointsThatAreNoPositions) {
+  const MarkerClip clip = read_good_c3d("laboratory");
+  const MarkerClip kept = positions_only(clip);
+  EXPECT_LT(kept.marker_count(), clip.marker_count());
+  for (const char* const format : {"trc", "csv", "tsv"}) {
+    const Take take = read_take(write_markers(clip, format), std::string("take.") + format).take;
+    EXPECT_EQ(std::get<MarkerClip>(take).names, kept.names) << format;
+  }
+  MarkerClip angles = clip;
+  angles.is_position.assign(clip.marker_count(), 0);
+  EXPECT_THROW(write_markers(angles, "trc"), Error);
 }
 
 }  // namespace

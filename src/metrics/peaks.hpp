@@ -6,12 +6,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "clean/track_noise.hpp"
-#include "clean/tracks.hpp"
 #include "kinemend/frame_rate.hpp"
 #include "kinemend/rotation.hpp"
+#include "metrics/track_noise.hpp"
 
-// Peak speeds of a track before and after cleaning, in radians or the points' unit.
+// Peak speeds of two versions of a track, in radians or the points' unit.
 namespace kinemend {
 
 struct Peaks {
@@ -20,6 +19,18 @@ struct Peaks {
   std::size_t frames = 1;  ///< the step over which they are measured
   double noise = 0;        ///< by how much noise may have raised the first
 };
+
+/// How long the longest of `count` vectors of white noise may well be, of a standard deviation of 1
+/// along each of their three axes: one in twenty such sets holds a longer one.
+inline double longest_of_noise(std::size_t count) {
+  constexpr double chance = 0.05;
+  const double expected = static_cast<double>(std::max<std::size_t>(count, 1)) / chance;
+  // P(length > r) = sqrt(2 / pi) r exp(-r^2 / 2) where r is large.
+  double length = 4;
+  for (int i = 0; i < 4; ++i)
+    length = std::sqrt(2 * std::log(expected * std::sqrt(2 / pi) * length));
+  return length;
+}
 
 namespace peaks {
 
@@ -62,18 +73,19 @@ double peak_speed(const std::vector<Sample>& track, const std::vector<std::uint8
 
 }  // namespace peaks
 
-/// The peaks of a track with white noise of this size; `left_out` marks samples that do not count.
-/// They are measured over the shortest step (one frame to 50 ms) in which noise adds less than a
-/// tenth.
+/// The peaks of a track with white noise of this size; `left_out` marks samples that do not count,
+/// and nor do spikes. They are measured over the shortest step (one frame to 50 ms) in which noise
+/// adds less than a tenth.
 template <class Sample>
 Peaks measure_peaks(const std::vector<Sample>& before, const std::vector<Sample>& after,
                     std::vector<std::uint8_t> left_out, double noise, double rate_hz) {
   constexpr double longest_s = 0.05;
   constexpr double noise_share = 0.1;
-  // Four standard deviations of the difference of two samples: the largest of many.
-  const double largest_noise = 4 * std::sqrt(2.0) * noise;
+  // Of the difference of two samples.
+  const double largest_noise = longest_of_noise(before.size()) * std::sqrt(2.0) * noise;
   peaks::leave_out_spikes(before, noise, left_out);
-  const std::size_t most = frames_in(longest_s, window_rate_hz(rate_hz), 1);
+  const auto most =
+      static_cast<std::size_t>(std::max(1.0, std::round(longest_s * window_rate_hz(rate_hz))));
   Peaks result;
   for (std::size_t gap = 1; gap <= most; ++gap) {
     const double peak = peaks::peak_speed(before, left_out, gap, rate_hz);

@@ -1,4 +1,4 @@
-#include "clean/track_noise.hpp"
+#include "metrics/track_noise.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -1,0 +1,139 @@
+// What `clean` and `convert` say of a take is what there is to say.
+#include <gmock/gmock.h>
+
+#include <sstream>
+
+#include "cli/program.hpp"
+
+namespace kinemend::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class ReportWords : public Program {
+ protected:
+  std::string fixture(const std::string& name) {
+    fs::copy_file(fs::path(KINEMEND_TEST_FIXTURES) / "c3d/good" / (name + ".c3d"),
+                  folder / (name + ".c3d"));
+    return name + ".c3d";
+  }
+};
+
+TEST_F(ReportWords, NameTheMethodThatDidTheWork) {
+#if defined(KINEMEND_SANITIZED)
+  GTEST_SKIP() << "learned methods take minutes";
+#endif
+  noisy("noisy.bvh", "3");
+  const Ran ran = run({"clean", "noisy.bvh", "-m", "example", "-o", "e.bvh", "--report", "e.json"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("; auto in place of example for "),
+                             HasSubstr("  auto in place of example for 4 joints: the model does "
+                                       "not know them (LeftHandIndex2, ")));
+  const Json report = Json::parse(contents(folder / "e.json"));
+  EXPECT_THAT(report.dump(), HasSubstr("\"fall_backs\":[{"));
+  EXPECT_THAT(run({"clean", "noisy.bvh", "--dry-run"}).out, Not(HasSubstr("in place of")));
+}
+
+TEST_F(ReportWords, FrozenSpansAreNotNothing) {
+  synth("walk.bvh", "walk", "6");
+  ASSERT_EQ(run({"corrupt", "walk.bvh", "-o", "frozen.bvh", "--damage",
+                 "frozen:share=0.1,joints=LeftArm", "--seed", "3"})
+                .code,
+            0);
+  const Ran ran = run({"clean", "frozen.bvh"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out,
+              AllOf(HasSubstr("frozen or bridged span"), Not(HasSubstr("clean: nothing changed")),
+                    HasSubstr("kinemend check frozen.bvh --gaps-out gaps.csv; kinemend clean "
+                              "frozen.bvh --gaps gaps.csv --fill auto")));
+  // What is said mends it.
+  ASSERT_EQ(run({"check", "frozen.bvh", "--gaps-out", "gaps.csv"}).code, 0);
+  const Ran mended =
+      run({"clean", "frozen.bvh", "--gaps", "gaps.csv", "--fill", "auto", "-o", "mended.bvh"});
+  ASSERT_EQ(mended.code, 0) << mended.err;
+  EXPECT_THAT(mended.out, AllOf(HasSubstr("filled"), Not(HasSubstr("frozen or bridged"))));
+  EXPECT_THAT(run({"clean", "walk.bvh"}).out, HasSubstr("clean: nothing changed"));
+}
+
+// Two markers bear each other's label in the frames named, counted from 1.
+std::string with_swap(const std::string& trc, std::size_t a, std::size_t b, int first, int last) {
+  std::istringstream lines(trc);
+  std::string result;
+  for (std::string line; std::getline(lines, line);) {
+    const int frame = std::atoi(line.c_str());
+    if (frame >= first && frame <= last) {
+      std::vector<std::string> cells;
+      std::istringstream row(line);
+      for (std::string cell; std::getline(row, cell, '\t');) cells.push_back(cell);
+      for (std::size_t i = 0; i < 3; ++i) std::swap(cells[2 + 3 * a + i], cells[2 + 3 * b + i]);
+      line = cells[0];
+      for (std::size_t i = 1; i < cells.size(); ++i) line += "\t" + cells[i];
+    }
+    result += line + "\n";
+  }
+  return result;
+}
+
+TEST_F(ReportWords, SwapsThatAreUndoneAreAChangeAndOthersAreLeftOver) {
+  synth("walk.bvh", "walk", "6");
+  ASSERT_EQ(run({"convert", "walk.bvh", "-o", "walk.trc"}).code, 0);
+  put(folder / "swapped.trc", with_swap(contents(folder / "walk.trc"), 3, 8, 120, 180));
+  const Ran left = run({"clean", "swapped.trc", "-o", "left.trc"});
+  ASSERT_EQ(left.code, 0) << left.err;
+  EXPECT_THAT(left.out, HasSubstr("1 swap of markers left"));
+  EXPECT_THAT(left.out, HasSubstr("1 swap of markers (--fix-swaps undoes them)"));
+  const Ran undone = run({"clean", "swapped.trc", "--fix-swaps", "-o", "undone.trc"});
+  ASSERT_EQ(undone.code, 0) << undone.err;
+  EXPECT_THAT(undone.out,
+              AllOf(HasSubstr("1 swap of markers undone"), Not(HasSubstr("nothing changed"))));
+}
+
+TEST_F(ReportWords, StrictPassesNoGreatChangeUnnoticed) {
+  synth("walk.bvh", "walk", "4");
+  ASSERT_EQ(run({"corrupt", "walk.bvh", "-o", "spiky.bvh", "--damage",
+                 "outliers:share=0.004,std_deg=40,joints=LeftForeArm", "--seed", "3"})
+                .code,
+            0);
+  const Ran ran = run({"clean", "spiky.bvh", "-m", "gaussian", "--joints", "LeftForeArm",
+                       "--strict", "-o", "g.bvh"});
+  EXPECT_EQ(ran.code, 1);
+  EXPECT_THAT(ran.err, HasSubstr("LeftForeArm: smoothing changes frame "));
+  EXPECT_FALSE(fs::exists(folder / "g.bvh"));
+  EXPECT_EQ(run({"clean", "spiky.bvh", "--strict", "-o", "a.bvh"}).code, 0);  // repairs are told
+}
+
+TEST_F(ReportWords, PointsThatAreNoPositionsBecomeMarkersOnlyWhereAskedFor) {
+  const std::string take = fixture("laboratory");
+  const Ran ran = run({"convert", take, "-o", "markers.trc"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("a point that is no position"));
+  const Ran all = run({"convert", take, "-o", "all.trc", "--all-points"});
+  ASSERT_EQ(all.code, 0) << all.err;
+  EXPECT_THAT(all.err, Not(HasSubstr("no position")));
+  const auto count = [&](const char* name) {
+    return Json::parse(run({"info", name, "--json"}).out).dump();
+  };
+  EXPECT_NE(count("markers.trc"), count("all.trc"));
+  EXPECT_GT(contents(folder / "all.trc").size(), contents(folder / "markers.trc").size());
+}
+
+TEST_F(ReportWords, NumbersInAnotherEncodingAreNamedAndNoLoss) {
+  const std::string take = fixture("laboratory_integer");
+  const Ran ran = run({"convert", take, "-o", "new.c3d", "--plain", "--strict"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("become Intel reals"));
+  EXPECT_EQ(run({"convert", take, "-o", "same.c3d"}).err, "");
+}
+
+TEST_F(ReportWords, AJointThatWasOnlyFilledHasNoJitter) {
+  synth("walk.bvh", "walk", "4");
+  put(folder / "gaps.csv", "LeftArm,101,106\n");
+  const Ran ran = run({"clean", "walk.bvh", "--gaps", "gaps.csv", "--fill", "auto"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("1 gap"), Not(HasSubstr("jitter"))));
+}
+
+}  // namespace
+}  // namespace kinemend::test

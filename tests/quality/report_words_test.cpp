@@ -1,0 +1,113 @@
+// What a report says is what happened.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "kinemend/methods.hpp"
+#include "kinemend/synth.hpp"
+#include "quality/quality.hpp"
+
+namespace kinemend::quality {
+namespace {
+
+using testing::Each;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+Clip take(const char* motion, double duration_s) {
+  return synthesize({.motion = motion, .duration_s = duration_s, .frame_rate_hz = 60});
+}
+
+TEST(ReportWords, NoiseAloneLosesNoPeakOfSpeed) {
+  for (const char* motion : {"wave", "walk", "turn", "stroll"}) {
+    for (const double noise_deg : {0.5, 3.0}) {
+      const Clip noisy = damaged(take(motion, 20), noise_deg, 0, 11);
+      EXPECT_THAT(clean_clip(noisy, *make_cleaner("auto")).report.warnings, IsEmpty())
+          << motion << " " << noise_deg;
+    }
+  }
+}
+
+TEST(ReportWords, NoiseIsTheMeasuredOneAtAnySensitivity) {
+  const Clip noisy = damaged(take("walk", 3), 1.5, 0, 5);
+  const CleanReport usual = clean_clip(noisy, *make_cleaner("auto")).report;
+  for (const double sensitivity : {0.0, 0.5, 3.0}) {
+    const CleanReport other =
+        clean_clip(noisy, *make_cleaner("auto", {{"sensitivity", sensitivity}})).report;
+    for (std::size_t j = 0; j < usual.joints.size(); ++j)
+      EXPECT_EQ(other.joints[j].noise_deg, usual.joints[j].noise_deg) << sensitivity;
+  }
+}
+
+TEST(ReportWords, SmoothingThatIsFarMoreThanNoiseIsSaid) {
+  Clip clip = damaged(take("walk", 3), 1.5, 0, 5);
+  const auto elbow = static_cast<std::size_t>(clip.skeleton.find("LeftForeArm"));
+  clip.rotation(90, elbow) = clip.rotation(90, elbow) * exp({1.1, 0, 0});
+  for (const char* method : {"gaussian", "butterworth", "weighted-mean"}) {
+    EXPECT_THAT(clean_clip(clip, *make_cleaner(method)).report.warnings,
+                testing::Contains(HasSubstr("LeftForeArm: smoothing changes frame 91 by ")))
+        << method;
+  }
+  for (const char* method : {"auto", "hampel"}) {
+    const CleanReport report = clean_clip(clip, *make_cleaner(method)).report;
+    EXPECT_THAT(report.warnings, Each(Not(HasSubstr("smoothing changes")))) << method;
+    EXPECT_GE(report.joints[elbow].frames_repaired, 1u) << method;
+  }
+}
+
+class FallBacks : public testing::TestWithParam<const char*> {};
+
+// Where the general model has nothing to say the result is `auto`'s, and so is what the report says
+// of it; and wherever it is, the report names it.
+TEST_P(FallBacks, AreNamedAndReportedAsWhatTheyAre) {
+  std::size_t fallen_back = 0;
+  for (const char* motion : {"walk", "wave"}) {
+    const Clip noisy = damaged(take(motion, 4), 1.5, 0.004, 3);
+    const CleanResult other = clean_clip(noisy, *make_cleaner("auto"));
+    const CleanResult result = clean_clip(noisy, *make_cleaner(GetParam()));
+    std::map<std::int32_t, double> shares;
+    for (const FallBack& fall_back : result.report.fall_backs) {
+      EXPECT_EQ(fall_back.method, "auto");
+      EXPECT_NE(fall_back.reason, "");
+      ASSERT_EQ(fall_back.shares.size(), fall_back.tracks.size());
+      for (std::size_t i = 0; i < fall_back.tracks.size(); ++i)
+        shares[fall_back.tracks[i]] += fall_back.shares[i];
+    }
+    for (std::size_t j = 0; j < noisy.joint_count(); ++j) {
+      std::size_t equal = 0;
+      for (std::size_t f = 0; f < noisy.frame_count(); ++f)
+        equal += angle_between(result.clip.rotation(f, j), other.clip.rotation(f, j)) < 1e-6;
+      const double share = shares[static_cast<std::int32_t>(j)];
+      const bool is_changed = other.report.joints[j].frames_changed > 0;
+      EXPECT_LE(share, 1 + 1e-9);
+      if (share > 1 - 1e-9) {
+        ++fallen_back;
+        EXPECT_EQ(equal, noisy.frame_count()) << noisy.skeleton.names[j];
+        EXPECT_EQ(result.report.joints[j].frames_repaired, other.report.joints[j].frames_repaired);
+      } else if (is_changed) {
+        EXPECT_LT(equal, noisy.frame_count()) << noisy.skeleton.names[j];
+      }
+    }
+  }
+  EXPECT_GT(fallen_back, 0u);  // joints of fingers, which no model that ships knows
+}
+
+#if !defined(KINEMEND_SANITIZED)
+INSTANTIATE_TEST_SUITE_P(Learned, FallBacks, testing::Values("example", "wiener"));
+#else
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(FallBacks);
+#endif
+
+TEST(FallBack, IsNoneOfAMethodThatDoesWhatItSays) {
+  const Clip noisy = damaged(take("walk", 2), 1.5, 0.004, 3);
+  for (const Method& method : methods()) {
+    if (method.learned) continue;
+    EXPECT_THAT(clean_clip(noisy, *make_cleaner(method.name)).report.fall_backs, IsEmpty())
+        << method.name;
+  }
+}
+
+}  // namespace
+}  // namespace kinemend::quality
