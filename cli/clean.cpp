@@ -59,9 +59,8 @@ class Announcer {
     if (outcomes_.size() > 1 && failed > 0)
       say_error(fmt::format("{} of {} failed", failed, counted(outcomes_.size(), "take")));
     if (plan_.json) write_out(json_text({{"kinemend", version()}, {"takes", std::move(files)}}));
-    // Bad input leaves nothing behind; a dry run writes no file.
-    const bool is_wanted = plan_.report_path == "-" || !plan_.dry_run;
-    if (!plan_.report_path.empty() && is_wanted && failed < outcomes_.size()) {
+    // Bad input leaves nothing behind.
+    if (!plan_.report_path.empty() && failed < outcomes_.size()) {
       write_output(plan_.report_path,
                    json_text({{"kinemend", version()}, {"takes", std::move(reports)}}),
                    plan_.force);
@@ -135,7 +134,7 @@ int run(const Arguments& arguments) {
   if (arguments.positionals.empty())
     throw Error(ErrorKind::usage, "clean: IN is missing (see kinemend clean -h)");
   const CleanPlan plan = make_clean_plan(arguments);
-  if (!plan.report_path.empty() && !plan.dry_run) check_free(plan.report_path, plan.force);
+  if (!plan.report_path.empty()) check_free(plan.report_path, plan.force);
   Announcer announcer(plan);
   clean_all(plan, announcer);
   return announcer.finish();

@@ -198,11 +198,9 @@ CleanPlan make_clean_plan(const Arguments& arguments) {
     if (!plan.dry_run) outputs.push_back(job.output);
   }
   check_single_use(inputs, outputs, plan.json);
-  if (!plan.dry_run) {
-    outputs.insert(outputs.end(), inputs.begin(), inputs.end());
-    outputs.erase(outputs.begin());
-    check_is_no_input("--report", plan.report_path, outputs);
-  }
+  // What a dry run would write is not replaced by its report either.
+  for (const CleanJob& job : plan.jobs) inputs.push_back(job.output);
+  check_is_no_input("--report", plan.report_path, inputs);
   return plan;
 }
 

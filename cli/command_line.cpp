@@ -6,6 +6,11 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "kinemend/io.hpp"
+#include "matching_choice.hpp"
 
 namespace kinemend::cli {
 
@@ -42,6 +47,50 @@ std::vector<std::pair<std::string, bool>> distinct_group_options(const Command& 
   return names;
 }
 
+/// `--` ends the options: takes it and what follows off the words, which are inputs whatever they
+/// begin with.
+std::vector<std::string> take_behind_dashes(std::vector<std::string>& words) {
+  const auto dashes = std::find(words.begin(), words.end(), "--");
+  if (dashes == words.end()) return {};
+  std::vector<std::string> behind(dashes + 1, words.end());
+  words.erase(dashes, words.end());
+  return behind;
+}
+
+bool is_option(const std::string& word) { return word.size() > 1 && word[0] == '-'; }
+
+/// Whether a word can be nothing but a name that was meant for the list before it.
+bool is_stray_name(const Command& command, const std::string& word) {
+  std::error_code ignored;
+  if (word.empty() || word == "-" || std::filesystem::exists(word, ignored)) return false;
+  if (word.find('/') != std::string::npos || format_of_path(word) != nullptr) return false;
+  return std::none_of(
+      command.positionals.begin(), command.positionals.end(), [&](const Positional& positional) {
+        const std::vector<std::string>& choices = positional.choices;
+        return std::find(choices.begin(), choices.end(), word) != choices.end();
+      });
+}
+
+/// `--joints A B`: B would be taken for an input that is not there.
+void refuse_names_beside_lists(const Command& command, const std::vector<std::string>& words) {
+  for (const Flag& flag : command.flags) {
+    if (flag.takes != Takes::list) continue;
+    const std::string name = "--" + dashed(flag.spec.name);
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      const bool is_joined = words[i].starts_with(name + "=");
+      const std::size_t value = is_joined ? i : i + 1;
+      const std::size_t next = value + 1;
+      if ((words[i] != name && !is_joined) || next >= words.size() || is_option(words[next]))
+        continue;
+      if (!is_stray_name(command, words[next])) continue;
+      const std::string first = is_joined ? words[i].substr(name.size() + 1) : words[value];
+      refuse(command, fmt::format("{1} behind {0} is neither a file nor part of the list: names "
+                                  "are separated by commas, as in {0} {2},{1}",
+                                  name, words[next], first));
+    }
+  }
+}
+
 /// CLI11 under the tables: it splits the words; what they mean is decided here.
 class Parser {
  public:
@@ -63,6 +112,8 @@ class Parser {
   }
 
   Request parse(std::vector<std::string> words) {
+    const std::vector<std::string> behind = take_behind_dashes(words);
+    refuse_names_beside_lists(command_, words);
     // CLI11 takes the words from the back.
     std::reverse(words.begin(), words.end());
     try {
@@ -79,6 +130,7 @@ class Parser {
     if (app_.count("-h") > 0) request.kind = Request::Kind::short_help;
     if (request.kind != Request::Kind::run) return request;
     refuse_unknown();
+    words_.insert(words_.end(), behind.begin(), behind.end());
     collect(request.arguments);
     return request;
   }
@@ -127,6 +179,7 @@ class Parser {
     }
     arguments.positionals = words_;
     check_positionals(arguments);
+    match_choices(arguments.positionals);
   }
 
   void check_positionals(const Arguments& arguments) const {
@@ -141,6 +194,15 @@ class Parser {
     if (count > maximum) refuse(command_, "unexpected argument " + arguments.positionals[maximum]);
   }
 
+  /// Names of a list are known in any capitals.
+  void match_choices(std::vector<std::string>& words) const {
+    std::size_t next = 0;
+    for (const Positional& positional : command_.positionals) {
+      for (std::size_t i = 0; i < positional.maximum && next < words.size(); ++i, ++next)
+        words[next] = matching_choice(words[next], positional.choices);
+    }
+  }
+
   const Command& command_;
   CLI::App app_;
   std::vector<std::string> words_;
@@ -153,7 +215,7 @@ Request parse_program_flag(const std::string& word) {
   Request request;
   if (word == "--version" || word == "-V") {
     request.kind = Request::Kind::version;
-  } else if (word == "--help" || word == "help") {
+  } else if (word == "--help") {
     request.kind = Request::Kind::long_help;
   } else if (word == "-h") {
     request.kind = Request::Kind::short_help;
@@ -165,9 +227,10 @@ Request parse_program_flag(const std::string& word) {
 
 }  // namespace
 
-OptionValue parse_flag_value(const OptionSpec& spec, const std::string& text) {
+OptionValue parse_flag_value(const OptionSpec& spec, const std::string& given) {
   OptionSpec typed = spec;
   typed.name = "--" + dashed(spec.name);
+  const std::string text = matching_choice(given, spec.choices);
   const auto& choices = spec.choices;
   if (!choices.empty() && std::find(choices.begin(), choices.end(), text) == choices.end()) {
     const std::string guess = nearest_name(text, choices);
@@ -196,12 +259,6 @@ Request parse_command_line(const std::vector<std::string>& words) {
   if (words.empty()) throw Error(ErrorKind::usage, "a command is missing (see kinemend -h)");
   const std::string& first = words.front();
   if (first.empty() || first[0] == '-') return parse_program_flag(first);
-  if (first == "help") {
-    Request request;
-    request.kind = Request::Kind::long_help;
-    if (words.size() > 1) request.arguments.command = find_command(words[1]);
-    return request;
-  }
   const Command* command = find_command(first);
   if (!command) {
     std::vector<std::string> names;

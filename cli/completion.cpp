@@ -132,14 +132,23 @@ std::string bash_command(const Command& command) {
 
 std::string bash_script() {
   std::string text = fmt::format(
-      "# bash completion of kinemend\n_kinemend() {{\n"
+      "# bash completion of kinemend\n_kinemend_words() {{\n"
       "  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}}\n"
+      // bash takes --name=value apart at the = where that is among COMP_WORDBREAKS.
+      "  if [[ $word == '=' ]]; then\n    word=\n"
+      "  elif [[ $before == '=' && $COMP_CWORD -gt 2 ]]; then\n"
+      "    before=${{COMP_WORDS[COMP_CWORD-2]}}\n"
+      "  elif [[ $word == --*=* ]]; then\n"
+      "    before=${{word%%=*}} word=${{word#*=}}\n    joined=$before=\n  fi\n"
       "  if [[ $COMP_CWORD == 1 ]]; then\n"
       "    COMPREPLY=($(compgen -W '{} --help --version' -- \"$word\"))\n    return\n  fi\n"
       "  case ${{COMP_WORDS[1]}} in\n",
       all_command_names(" "));
   for (const Command& command : commands()) text += bash_command(command);
-  return text + "  esac\n}\ncomplete -o filenames -F _kinemend kinemend\n";
+  return text +
+         "  esac\n}\n_kinemend() {\n  local joined=\n  _kinemend_words\n"
+         "  [[ $joined ]] && COMPREPLY=(\"${COMPREPLY[@]/#/$joined}\")\n  return 0\n}\n"
+         "complete -o filenames -F _kinemend kinemend\n";
 }
 
 /// Help inside the brackets of zsh's _arguments.
@@ -170,7 +179,8 @@ std::string zsh_command(const Command& command) {
     const std::string rest =
         fmt::format("[{}]{}", zsh_help(flag.help),
                     flag.takes_value ? fmt::format(":value:{}", zsh_action(flag)) : "");
-    text += fmt::format("        {} \\\n", single_quoted("*" + flag.name + rest));
+    const std::string joined = flag.takes_value ? "=" : "";
+    text += fmt::format("        {} \\\n", single_quoted("*" + flag.name + joined + rest));
     if (flag.letter)
       text +=
           fmt::format("        {} \\\n", single_quoted(fmt::format("*-{}{}", flag.letter, rest)));

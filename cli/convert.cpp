@@ -27,10 +27,23 @@ const Format& format_named(std::string_view name) {
   throw Error(ErrorKind::usage, fmt::format("unknown format {}", name));
 }
 
+/// OUT, or --output.
+std::string output_of(const Arguments& arguments) {
+  const std::string named = arguments.text("output");
+  if (arguments.positionals.size() == 1) {
+    if (!named.empty()) return named;
+    throw Error(ErrorKind::usage, "convert: OUT is missing (see kinemend convert -h)");
+  }
+  if (named.empty()) return arguments.positionals[1];
+  throw Error(ErrorKind::usage,
+              fmt::format("convert: {} and --output {} are two outputs; give one",
+                          arguments.positionals[1], named));
+}
+
 /// --to, else by the output's extension, else the input's own.
-const Format& output_format(const Arguments& arguments, const Take& take) {
+const Format& output_format(const Arguments& arguments, const std::string& output,
+                            const Take& take) {
   if (const std::string format = arguments.text("to"); !format.empty()) return format_named(format);
-  const std::string output = arguments.text("output");
   if (output == "-") return format_named(source_of(take).format);
   if (const Format* format = format_of_path(output)) return *format;
   throw Error(
@@ -143,15 +156,13 @@ void check_has_place(const Take& take, const Format& format, const std::string& 
 
 int run(const Arguments& arguments) {
   const std::string input = arguments.positionals[0];
-  const std::string output = arguments.text("output");
+  const std::string output = output_of(arguments);
   const bool force = arguments.flag("force");
-  if (output.empty())
-    throw Error(ErrorKind::usage, "convert: --output is missing (see kinemend convert -h)");
   check_free(output, force);
   TakeResult read = read_take(fs::path(input), read_options(arguments));
   warn_of_repairs(input_name(input), read.diagnostics);
   Take take = std::move(read.take);
-  const Format& format = output_format(arguments, take);
+  const Format& format = output_format(arguments, output, take);
   if (arguments.flag("plain")) drop_layout(source_of(take));
   if (arguments.flag("all_points")) take_all_points(take);
   if (arguments.given("fps")) take = resampled(take, arguments.number("fps"));
@@ -187,7 +198,10 @@ std::vector<Flag> change_flags() {
 Command convert_command() {
   Flag to =
       text_flag("to", "", "Output", "format to write, where the output's extension does not tell");
-  to.spec.choices = format_names();
+  for (const Format& format : formats()) {
+    if (format.write != nullptr || format.write_markers != nullptr)
+      to.spec.choices.emplace_back(format.name);
+  }
   Command command;
   command.name = "convert";
   command.summary = "write a take in another format, or anew in its own";
@@ -204,8 +218,9 @@ Command convert_command() {
       "for it; what stays behind is said, and an error under --strict.\n\n"
       "Joints that go to a format of markers (c3d, trc) become the joints' positions. An AMC file "
       "gets its skeleton beside it, as an ASF file of the same name.";
-  command.positionals = {{"IN", "take to read; - is standard input", 1, 1, {}}};
-  command.flags = {output_flag("where to write; - is standard output"), to};
+  command.positionals = {{"IN", "take to read; - is standard input", 1, 1, {}},
+                         {"OUT", "where to write; - is standard output", 0, 1, {}}};
+  command.flags = {output_flag("the same as OUT"), to};
   append(command.flags, change_flags());
   command.flags.push_back(switch_flag("positions", "Change",
                                       "write the positions of joints as markers",
@@ -222,11 +237,11 @@ Command convert_command() {
   command.flags.push_back(force_flag());
   append(command.flags, reading_flags("what needs a repair, or would be lost, becomes an error"));
   command.examples = {
-      {"kinemend convert odd.bvh --plain -o plain.bvh",
+      {"kinemend convert odd.bvh plain.bvh --plain",
        "a file that other programs cannot read, in its plainest form"},
-      {"kinemend convert 35_01.amc -o 35_01.bvh", "with the skeleton of 35.asf beside it"},
-      {"kinemend convert walk.c3d --up y --unit m -o walk.trc", "for OpenSim"},
-      {"kinemend convert walk.bvh -o walk.glb", "for viewers and game engines"}};
+      {"kinemend convert 35_01.amc 35_01.bvh", "with the skeleton of 35.asf beside it"},
+      {"kinemend convert walk.c3d walk.trc --up y --unit m", "for OpenSim"},
+      {"kinemend convert walk.bvh walk.glb", "for viewers and game engines"}};
   command.run = run;
   return command;
 }

@@ -5,6 +5,7 @@
 #include "kinemend/version.hpp"
 #include "table.hpp"
 #include "terminal.hpp"
+#include "topics.hpp"
 
 namespace kinemend::cli {
 
@@ -38,29 +39,36 @@ std::string flags_text(const Command& command, bool is_long) {
   return text;
 }
 
+std::string group_title(const Command& command, std::string_view name) {
+  std::string title = command.group_heading;
+  return title.replace(title.find('%'), 1, name);
+}
+
+std::string group_text(const Command& command, const OptionGroup& group) {
+  std::string text =
+      wrap(fmt::format("{} {}", group.summary,
+                       group.paper.empty() ? "" : fmt::format("({})", group.paper)),
+           2);
+  for (const OptionSpec& spec : group.options)
+    text += entry(group_option_name(command, spec), group_option_line(spec));
+  return text;
+}
+
 std::string groups_text(const Command& command) {
   std::string text;
-  for (const OptionGroup& group : command.groups) {
-    std::string title = command.group_heading;
-    title.replace(title.find('%'), 1, group.name);
-    text += heading(title);
-    text += wrap(fmt::format("{} {}", group.summary,
-                             group.paper.empty() ? "" : fmt::format("({})", group.paper)),
-                 2);
-    for (const OptionSpec& spec : group.options)
-      text += entry(group_option_name(command, spec), group_option_line(spec));
-  }
+  for (const OptionGroup& group : command.groups)
+    text += heading(group_title(command, group.name)) + group_text(command, group);
   return text;
 }
 
 std::string group_names_text(const Command& command) {
   if (command.groups.empty()) return "";
-  std::string title = command.group_heading;
-  title.replace(title.find('%'), 1, "NAME");
-  std::string text = heading(title + ", NAME being one of");
+  std::string text = heading(group_title(command, "NAME") + ", NAME being one of");
   for (const OptionGroup& group : command.groups) text += entry(group.name, group.summary, 18);
   return text;
 }
+
+}  // namespace
 
 std::string description_text(const std::string& description) {
   std::string text;
@@ -73,8 +81,6 @@ std::string description_text(const std::string& description) {
   }
   return text;
 }
-
-}  // namespace
 
 const std::vector<ExitCode>& exit_codes() {
   static const std::vector<ExitCode> codes = {
@@ -144,7 +150,33 @@ std::string program_help(bool is_long) {
     for (const ExitCode& code : exit_codes())
       text += entry(fmt::format("{}", code.code), code.meaning, 8);
   }
-  return text + "\nkinemend COMMAND -h tells more of a command, --help all.\n";
+  if (is_long) {
+    text += heading("Topics of kinemend help");
+    for (const Topic& topic : topics()) text += entry(topic.name, topic.summary, 16);
+  }
+  return text +
+         "\nkinemend COMMAND -h tells more of a command, --help all; kinemend help NAME tells of a "
+         "method or topic.\n";
+}
+
+std::string group_help(std::string_view name) {
+  std::string text;
+  for (const Command& command : commands()) {
+    // What it says of methods is what clean says.
+    if (command.name == "batch") continue;
+    for (const OptionGroup& group : command.groups) {
+      if (group.name != name) continue;
+      const std::string title = group_title(command, name);
+      const std::size_t option = title.find("--");
+      text += fmt::format("{}{}\n", text.empty() ? "" : "\n",
+                          Colours::of_out().paint(
+                              Paint::bold, fmt::format("kinemend {} {}", command.name,
+                                                       option == title.npos ? std::string(name)
+                                                                            : title.substr(option))));
+      text += group_text(command, group);
+    }
+  }
+  return text;
 }
 
 std::string command_help(const Command& command, bool is_long) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "command.hpp"
 
@@ -10,6 +12,13 @@ namespace kinemend::cli {
 std::string program_help(bool is_long);
 /// `-h`: a line a flag. `--help`: with details, the options of every method or damage, examples.
 std::string command_help(const Command& command, bool is_long);
+
+/// What `kinemend help NAME` prints of a method, a damage or the like: its options in every command
+/// that has it. Empty where there is none of that name.
+std::string group_help(std::string_view name);
+
+/// Paragraphs, each behind an empty line.
+std::string description_text(const std::string& description);
 
 /// "clean [OPTIONS] IN..."
 std::string usage_line(const Command& command);

@@ -7,6 +7,7 @@
 #include "help.hpp"
 #include "kinemend/version.hpp"
 #include "terminal.hpp"
+#include "topics.hpp"
 
 namespace kinemend::cli {
 
@@ -91,6 +92,11 @@ std::string page() {
   text += ".SH COMMANDS\n";
   for (const Command& command : commands()) text += item(command.name, command.summary);
   for (const Command& command : commands()) text += command_section(command);
+  text += ".SH TOPICS\n";
+  for (const Topic& topic : topics()) {
+    if (topic.name == "exit-codes") continue;
+    text += fmt::format(".SS {}\n", roff(topic.name)) + paragraphs(topic.text);
+  }
   text += ".SH EXIT STATUS\n";
   for (const ExitCode& code : exit_codes())
     text += item(fmt::format("{}", code.code), code.meaning + ".");

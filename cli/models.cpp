@@ -62,6 +62,8 @@ int export_model(const std::string& method, const Arguments& arguments) {
 int write_map(const std::string& model_name, const Arguments& arguments) {
   if (arguments.positionals.empty())
     throw Error(ErrorKind::usage, "models: --map needs a TAKE (see kinemend models -h)");
+  const std::string output = arguments.text("output");
+  check_is_no_input("--output", output, {arguments.positionals.front(), model_name});
   const std::vector<ShippedModel> models = shipped_models();
   const ShippedModel* shipped = find_shipped(models, model_name);
   const Model model =
@@ -70,7 +72,6 @@ int write_map(const std::string& model_name, const Arguments& arguments) {
       read_take(std::filesystem::path(arguments.positionals.front()), read_options(arguments));
   const std::string text =
       std::visit([&](const auto& clip) { return name_map_text(model.layout, clip); }, read.take);
-  const std::string output = arguments.text("output");
   write_output(output.empty() ? "-" : output, text, arguments.flag("force"));
   return 0;
 }

@@ -58,6 +58,17 @@ void write_take_output(const std::string& output, const Take& take, const std::s
   write_output(output, bytes, force);
 }
 
+namespace {
+
+/// The one path of a file, whether it exists yet or not.
+std::filesystem::path whole_path(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::path canonical = std::filesystem::weakly_canonical(path, error);
+  return error ? std::filesystem::path(path).lexically_normal() : canonical;
+}
+
+}  // namespace
+
 void check_is_no_input(std::string_view option, const std::string& output,
                        const std::vector<std::string>& inputs) {
   if (output.empty() || output == "-") return;
@@ -65,13 +76,12 @@ void check_is_no_input(std::string_view option, const std::string& output,
     if (input.empty() || input == "-") return false;
     std::error_code error;
     return std::filesystem::equivalent(input, output, error) ||
-           std::filesystem::path(input).lexically_normal() ==
-               std::filesystem::path(output).lexically_normal();
+           whole_path(input) == whole_path(output);
   };
   const auto found = std::find_if(inputs.begin(), inputs.end(), is_same);
   if (found == inputs.end()) return;
   throw Error(ErrorKind::usage,
-              fmt::format("{}: {} is a take of this run and would be lost", option, output));
+              fmt::format("{}: {} is read or written by this run already, and would be lost", option, output));
 }
 
 void check_single_use(const std::vector<std::string>& inputs,
@@ -187,7 +197,9 @@ Flag seed_flag(std::string help) {
 Flag from_flag() {
   Flag flag =
       text_flag("from", "", "Input", "format of the input, where its content does not tell");
-  flag.spec.choices = format_names();
+  for (const Format& format : formats()) {
+    if (format.read != nullptr) flag.spec.choices.emplace_back(format.name);
+  }
   return flag;
 }
 
@@ -199,12 +211,6 @@ Flag strict_flag(std::string help) {
 void append(std::vector<Flag>& list, std::vector<Flag> more) {
   list.insert(list.end(), std::make_move_iterator(more.begin()),
               std::make_move_iterator(more.end()));
-}
-
-std::vector<std::string> format_names() {
-  std::vector<std::string> names;
-  for (const Format& format : formats()) names.emplace_back(format.name);
-  return names;
 }
 
 std::vector<Flag> reading_flags(std::string strict_help) {

@@ -66,7 +66,6 @@ Flag strict_flag(std::string help);
 std::vector<Flag> reading_flags(std::string strict_help);
 /// Puts `more` behind `list`.
 void append(std::vector<Flag>& list, std::vector<Flag> more);
-std::vector<std::string> format_names();
 /// Of the flags that the command has.
 ReadOptions read_options(const Arguments& arguments);
 /// The format to write: that of the output's extension, else the input's own.

@@ -171,8 +171,11 @@ Training training_of(const Arguments& arguments) {
       arguments.text("title"), arguments.text("data"), arguments.text("licence"),
       command.empty() ? command_text(arguments) : command, arguments.text("figures")};
   training.takes = inputs_of(arguments);
-  check_is_no_input("--output", training.output, training.takes);
-  check_is_no_input("--card", training.card, training.takes);
+  const std::string list = arguments.text("list");
+  for (const std::vector<std::string>& inputs : {training.takes, {list}}) {
+    check_is_no_input("--output", training.output, inputs);
+    check_is_no_input("--card", training.card, inputs);
+  }
   check_is_no_input("--card", training.card, {training.output});
   return training;
 }
