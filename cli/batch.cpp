@@ -9,6 +9,7 @@
 #include <atomic>
 #include <filesystem>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -42,6 +43,7 @@ struct Batch {
   std::string options_hash;
   Shard shard;
   bool quiet = false;
+  bool verbose = false;  ///< says every error and warning
 };
 
 /// What came of one file.
@@ -74,6 +76,11 @@ std::string learned_text(const CleanPlan& plan) {
   std::string text;
   for (const std::string& path : option_files(find_method(plan.method), plan.options))
     text += content_hash(read_file(path)) + "\n";
+  if (plan.gaps) text += content_hash(plan.gaps->first) + "\n";
+  if (plan.settings.feet) {
+    for (const auto& [known, name] : plan.settings.feet->names)
+      text += fmt::format("{},{}\n", known, name);
+  }
   for (const ShippedModel& model : shipped_models()) {
     if (model.method == plan.method) text += model_checksum(model.bytes) + "\n";
   }
@@ -136,6 +143,7 @@ Done clean_item(const BatchItem& item, const std::string& output, const Batch& b
   done.error = outcome.error;
   done.warnings = outcome.warnings;
   done.row = row_of(item, *outcome.json, outcome.code == 0 ? "cleaned" : "failed");
+  if (!outcome.warnings.empty()) done.row["warnings"] = outcome.warnings;
   const std::string result = outcome.code == 0 ? content_hash(read_file(output)) : std::string();
   write_record(batch.folder, item.name, {key, result, done.row});
   return done;
@@ -174,7 +182,9 @@ Done try_item(const BatchItem& item, const Batch& batch) {
   Done done;
   done.is_new = true;
   try {
-    return do_item(item, batch);
+    done = do_item(item, batch);
+    if (done.is_new && !item.is_copied) append_row(batch.folder, batch.shard, done.row);
+    return done;
   } catch (const Error& error) {
     done.code = static_cast<int>(error.kind());
     done.error = error.what();
@@ -194,6 +204,77 @@ Done try_item(const BatchItem& item, const Batch& batch) {
   return done;
 }
 
+/// How much work a take is, about.
+double size_of(const BatchItem& item) {
+  std::error_code error;
+  const auto bytes = fs::file_size(item.input, error);
+  return error ? 1.0 : 1.0 + static_cast<double>(bytes);
+}
+
+/// Errors as they come, the first ten: thousands of lines say no more.
+class Sayer {
+ public:
+  Sayer(const Batch& batch, ProgressBar& bar) : batch_(batch), bar_(bar) {}
+
+  void say_of(const Done& done) {
+    const std::lock_guard lock(mutex_);
+    const bool warns = batch_.verbose && !batch_.quiet && !done.warnings.empty();
+    const bool fails = !done.error.empty() && (++failed_ <= most || batch_.verbose);
+    if (!fails && !warns) return;
+    bar_.clear();
+    if (fails) say_error(done.error);
+    for (const std::string& warning : done.warnings) {
+      if (warns) say_warning(warning);
+    }
+  }
+
+  void finish() const {
+    if (failed_ <= most || batch_.verbose) return;
+    say_error(fmt::format("and {} more failed; the rows in {} say how", grouped(failed_ - most),
+                          batch_.folder));
+  }
+
+ private:
+  static constexpr std::size_t most = 10;
+  const Batch& batch_;
+  ProgressBar& bar_;
+  std::mutex mutex_;
+  std::size_t failed_ = 0;
+};
+
+/// Inputs that hold nothing to do are mistakes: 3, or an error where there is nothing else.
+int refuse_empty(const std::vector<std::string>& inputs, const std::vector<BatchItem>& all,
+                 const Arguments& arguments) {
+  const std::string pattern = arguments.text("files");
+  const std::string what =
+      pattern.empty() ? "no take" : fmt::format("no take that matches {}", pattern);
+  const std::vector<std::string> empty =
+      empty_folders(inputs, arguments.text("output_dir"), pattern);
+  const bool has_takes =
+      std::any_of(all.begin(), all.end(), [](const BatchItem& item) { return !item.is_copied; });
+  if (!has_takes) {
+    const std::string where = empty.empty() ? "batch" : empty.front();
+    throw Error(ErrorKind::unreadable_input, fmt::format("{}: holds {}", where, what));
+  }
+  for (const std::string& folder : empty) say_error(fmt::format("{}: holds {}", folder, what));
+  return empty.empty() ? 0 : static_cast<int>(ErrorKind::unreadable_input);
+}
+
+std::vector<std::string> inputs_of(const Arguments& arguments) {
+  std::vector<std::string> inputs = arguments.positionals;
+  const std::string list = arguments.text("list");
+  if (list.empty() && inputs.empty())
+    throw Error(ErrorKind::usage, "batch: IN or --list is missing (see kinemend batch -h)");
+  if (list.empty()) return inputs;
+  const std::vector<std::string> listed = listed_inputs(read_file(list));
+  if (listed.empty()) {
+    throw Error(ErrorKind::unreadable_input,
+                fmt::format("{}: lists no take", input_name(list)));
+  }
+  inputs.insert(inputs.end(), listed.begin(), listed.end());
+  return inputs;
+}
+
 std::vector<Done> do_all(const std::vector<BatchItem>& items, const Batch& batch) {
   std::optional<tbb::global_control> limit;
   if (batch.plan.threads > 0) {
@@ -201,24 +282,20 @@ std::vector<Done> do_all(const std::vector<BatchItem>& items, const Batch& batch
                   static_cast<std::size_t>(batch.plan.threads));
   }
   std::vector<Done> done(items.size());
-  ProgressBar bar(items.size());
-  std::mutex mutex;
+  std::vector<double> sizes;
+  for (const BatchItem& item : items) sizes.push_back(size_of(item));
+  ProgressBar bar(items.size(), std::accumulate(sizes.begin(), sizes.end(), 0.0));
+  Sayer sayer(batch, bar);
   std::atomic<std::size_t> next{0};
   tbb::parallel_for(0, tbb::this_task_arena::max_concurrency(), [&](int) {
     for (std::size_t i = next++; i < items.size(); i = next++) {
       done[i] = try_item(items[i], batch);
-      {
-        const std::lock_guard lock(mutex);
-        if (!done[i].error.empty() || !done[i].warnings.empty()) bar.clear();
-        if (!done[i].error.empty()) say_error(done[i].error);
-        for (const std::string& warning : done[i].warnings) {
-          if (!batch.quiet) say_warning(warning);
-        }
-      }
-      bar.step();
+      sayer.say_of(done[i]);
+      bar.step(sizes[i], done[i].is_new);
     }
   });
   bar.clear();
+  sayer.finish();
   return done;
 }
 
@@ -227,22 +304,17 @@ int run(const Arguments& arguments) {
   batch.folder = arguments.text("output_dir");
   if (batch.folder.empty())
     throw Error(ErrorKind::usage, "batch: --output-dir is missing (see kinemend batch -h)");
-  std::vector<std::string> inputs = arguments.positionals;
-  if (const std::string list = arguments.text("list"); !list.empty()) {
-    const std::vector<std::string> listed = listed_inputs(read_file(list));
-    inputs.insert(inputs.end(), listed.begin(), listed.end());
-  }
-  if (inputs.empty()) {
-    throw Error(ErrorKind::usage, "batch: IN or --list is missing (see kinemend batch -h)");
-  }
+  const std::vector<std::string> inputs = inputs_of(arguments);
   batch.plan = make_cleaning(arguments);
   batch.plan.json = true;
   batch.quiet = arguments.flag("quiet");
+  batch.verbose = arguments.flag("verbose");
   batch.options_hash = content_hash(options_text(arguments) + learned_text(batch.plan));
   if (const std::string shard = arguments.text("shard"); !shard.empty())
     batch.shard = parse_shard(shard);
 
   const std::vector<BatchItem> all = find_items(inputs, batch.folder, arguments.text("files"));
+  const int empty_code = refuse_empty(inputs, all, arguments);
   std::vector<BatchItem> mine;
   std::copy_if(all.begin(), all.end(), std::back_inserter(mine),
                [&](const BatchItem& item) { return in_shard(item.name, batch.shard); });
@@ -264,15 +336,15 @@ int run(const Arguments& arguments) {
       });
   const Json summary = summary_of(batch.folder, all, batch.options_hash);
   if (!is_refused) {
-    write_rows(batch.folder, batch.shard, rows);
+    write_rows(batch.folder, batch.shard, all, rows);
     write_summary(batch.folder, summary);
   }
   if (arguments.flag("json")) {
     write_out(json_text(summary));
   } else if (!batch.quiet) {
-    write_out(summary_text(counts, summary, batch.shard));
+    write_out(summary_text(counts, summary, batch.shard, worst_rows(rows)));
   }
-  return counts.exit_code;
+  return std::max(counts.exit_code, empty_code);
 }
 
 std::vector<Flag> batch_flags() {
@@ -288,6 +360,8 @@ std::vector<Flag> batch_flags() {
       force_flag(),
       json_flag("print the merged summary as JSON instead of text"),
       switch_flag("quiet", "Output", "print errors only"),
+      switch_flag("verbose", "Output", "print every error and every warning as it comes",
+                  "Else the first ten errors, and of the rest how many there are."),
       std::move(list),
       text_flag("files", "PATTERN", "Input", "of a folder only files of such names",
                 "In PATTERN * is any text and ? any character; quote it."),
@@ -298,6 +372,7 @@ std::vector<Flag> batch_flags() {
   flags.push_back(jobs_flag());
   for (Flag& flag : flags) {
     if (flag.spec.name == "quiet") flag.letter = 'q';
+    if (flag.spec.name == "verbose") flag.letter = 'v';
   }
   return flags;
 }
@@ -317,9 +392,10 @@ Command batch_command() {
       "which settings and by which version it was made. A second run does only what is missing, "
       "has "
       "changed or has failed. A run that is killed leaves whole files only.\n\n"
-      "rows.jsonl there holds a line for each take (rows.I-of-N.jsonl for a shard), summary.json "
-      "the "
-      "sums over all takes of all shards so far. Skeleton files (ASF) are copied along.";
+      "rows.jsonl there holds a line for each take (rows.I-of-N.jsonl for a shard), written as "
+      "takes are done, summary.json the sums over all takes in the folder so far. Printed are the "
+      "sums and the ten takes that most should be looked at. Skeleton files (ASF) are copied "
+      "along.";
   command.positionals = {{"IN", "folder or take", 0, 1000000, {}}};
   command.flags = batch_flags();
   command.group_heading = "With --method %";

@@ -69,6 +69,11 @@ void add_folder(const fs::path& folder, const fs::path& output, const std::strin
 
 void add_file(const std::string& input, std::vector<BatchItem>& items) {
   const fs::path name = fs::path(input).lexically_normal();
+  std::error_code error;
+  if (name.is_absolute() && !fs::exists(name, error)) {
+    throw Error(ErrorKind::unreadable_input,
+                fmt::format("{}: No such file or directory", input));
+  }
   if (name.is_absolute() || name.empty() || *name.begin() == "..") {
     throw Error(
         ErrorKind::usage,
@@ -101,6 +106,20 @@ bool in_shard(std::string_view name, const Shard& shard) {
   std::uint64_t value = 0;
   std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
   return value % shard.count == shard.index - 1;
+}
+
+std::vector<std::string> empty_folders(const std::vector<std::string>& inputs,
+                                       const std::string& output, const std::string& pattern) {
+  std::vector<std::string> empty;
+  for (const std::string& input : inputs) {
+    std::error_code error;
+    if (!fs::is_directory(input, error)) continue;
+    std::vector<BatchItem> items;
+    add_folder(input, output, pattern, items);
+    if (std::all_of(items.begin(), items.end(), [](const BatchItem& i) { return i.is_copied; }))
+      empty.push_back(input);
+  }
+  return empty;
 }
 
 std::vector<BatchItem> find_items(const std::vector<std::string>& inputs, const std::string& output,

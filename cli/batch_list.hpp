@@ -27,6 +27,10 @@ Shard parse_shard(const std::string& text);
 /// alike whatever else lies in it.
 bool in_shard(std::string_view name, const Shard& shard);
 
+/// The folders among the inputs that hold no take of that pattern.
+std::vector<std::string> empty_folders(const std::vector<std::string>& inputs,
+                                       const std::string& output, const std::string& pattern);
+
 /// The takes in folders (all that lies below, hidden files and `output` itself left out, and of
 /// tables only those that hold a take), and files by name. The name of a take is its path below its
 /// folder; of a file that was named it is the path as it was given, which then is relative and does

@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <chrono>
@@ -62,6 +63,28 @@ std::optional<BatchRecord> read_record(const std::string& folder, const std::str
   } catch (const Error&) {
     return std::nullopt;
   }
+}
+
+std::vector<std::string> recorded_names(const std::string& folder) {
+  const fs::path records = fs::path(folder) / records_folder;
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::recursive_directory_iterator entries(records, error), end; !error && entries != end;
+       entries.increment(error)) {
+    std::error_code ignored;
+    const fs::path& path = entries->path();
+    if (path.extension() != ".json" || !entries->is_regular_file(ignored)) continue;
+    const std::string name = path.lexically_relative(records).generic_string();
+    names.push_back(name.substr(0, name.size() - path.extension().string().size()));
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+bool still_counts(const std::string& folder, const std::string& name, const BatchRecord& record) {
+  std::error_code ignored;
+  if (!record.output.empty()) return fs::is_regular_file(fs::path(folder) / name, ignored);
+  return fs::exists(record.row.value("input", ""), ignored);
 }
 
 void make_folder(const fs::path& folder) {

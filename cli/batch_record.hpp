@@ -31,6 +31,12 @@ std::string record_path(const std::string& folder, const std::string& name);
 std::optional<BatchRecord> read_record(const std::string& folder, const std::string& name);
 void write_record(const std::string& folder, const std::string& name, const BatchRecord& record);
 
+/// The names of all takes that a folder holds records of, sorted.
+std::vector<std::string> recorded_names(const std::string& folder);
+/// Whether a take of another batch into the same folder is still one: its result stands there, or
+/// it failed and its input is still there.
+bool still_counts(const std::string& folder, const std::string& name, const BatchRecord& record);
+
 /// Makes a folder and those above it. Errors: `ErrorKind::cannot_write`, also where a file stands
 /// in its place.
 void make_folder(const std::filesystem::path& folder);

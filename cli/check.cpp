@@ -13,6 +13,7 @@
 #include "commands.hpp"
 #include "json.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/frame_numbers.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/version.hpp"
 #include "table.hpp"
@@ -28,6 +29,8 @@ struct Checked {
   CheckReport report;
   Diagnostics diagnostics;
   std::string contents;  ///< of a file without markers
+  std::int64_t first_frame = 1;
+  SourceInfo source;
 };
 
 /// One figure, defined once for table, JSON and limit.
@@ -124,12 +127,14 @@ std::string with_unit(double value, std::string_view unit) {
   return unit.empty() ? text : fmt::format("{} {}", text, unit);
 }
 
-std::string frames_text(const Finding& finding, const CheckReport& report) {
+std::string frames_text(const Finding& finding, const Checked& take) {
+  const CheckReport& report = take.report;
   if (finding.first_frame == finding.last_frame)
-    return fmt::format("frame {}", finding.first_frame + 1);
+    return fmt::format("frame {}", frame_number(finding.first_frame, take.first_frame));
   if (finding.last_frame - finding.first_frame + 1 + report.calibration_frames >= report.frames)
     return "throughout";
-  return fmt::format("frames {}-{}", finding.first_frame + 1, finding.last_frame + 1);
+  return fmt::format("frames {}-{}", frame_number(finding.first_frame, take.first_frame),
+                     frame_number(finding.last_frame, take.first_frame));
 }
 
 std::string dashes_to_spaces(std::string_view name) {
@@ -138,8 +143,8 @@ std::string dashes_to_spaces(std::string_view name) {
   return text;
 }
 
-std::string finding_sentence(const Finding& finding, const CheckReport& report) {
-  std::string text = frames_text(finding, report) + ": ";
+std::string finding_sentence(const Finding& finding, const Checked& take) {
+  std::string text = frames_text(finding, take) + ": ";
   if (!finding.track.empty()) text += printable(finding.track) + " ";
   text += printable(finding.words);
   const bool says_all = finding.figure == 0 || finding.kind == FindingKind::calibration;
@@ -156,7 +161,8 @@ std::string summary_text(const CheckReport& report) {
 }
 
 // The first few of each kind: a hundred spikes say no more than five.
-std::string findings_text(const CheckReport& report, bool all) {
+std::string findings_text(const Checked& take, bool all) {
+  const CheckReport& report = take.report;
   constexpr std::size_t most_of_a_kind = 5;
   std::map<FindingKind, std::size_t> shown;
   std::string text;
@@ -168,7 +174,7 @@ std::string findings_text(const CheckReport& report, bool all) {
       continue;
     }
     table.add({std::string(to_string(finding.severity)), dashes_to_spaces(to_string(finding.kind)),
-               finding_sentence(finding, report)});
+               finding_sentence(finding, take)});
   }
   if (!table.empty()) text += "\n" + table.text();
   if (left_out > 0)
@@ -191,6 +197,19 @@ std::string tracks_text(const CheckReport& report) {
   return "\n" + table.text();
 }
 
+/// Of several people what the feet of each do.
+std::string subjects_text(const CheckReport& report) {
+  if (report.subjects.empty()) return "";
+  const auto length = [](const Value& value) { return value ? cli::figure(*value) : "-"; };
+  Table table({Align::left, Align::right, Align::right, Align::right});
+  table.add({"subject", "markers", "slide cm", "depth cm"});
+  for (const SubjectHealth& subject : report.subjects) {
+    table.add({subject.name.empty() ? "(none)" : printable(subject.name), grouped(subject.markers),
+               length(subject.slide_cm), length(subject.sink_cm)});
+  }
+  return "\n" + table.text();
+}
+
 std::string take_text(const Checked& take, bool verbose) {
   const CheckReport& report = take.report;
   if (!take.contents.empty()) {
@@ -209,18 +228,18 @@ std::string take_text(const Checked& take, bool verbose) {
     table.add({entry.label, with_unit(*value, unit_of(entry, report))});
   }
   for (const Diagnostic& entry : take.diagnostics.entries())
-    table.add({"repaired", printable(diagnostic_line("line", entry))});
-  text += table.text() + findings_text(report, verbose);
+    table.add({"repaired", printable(diagnostic_text(take.source, entry))});
+  text += table.text() + subjects_text(report) + findings_text(take, verbose);
   if (verbose) text += tracks_text(report);
   return text;
 }
 
-Json finding_json(const Finding& finding) {
+Json finding_json(const Finding& finding, std::int64_t first_frame) {
   return {{"kind", to_string(finding.kind)},
           {"severity", to_string(finding.severity)},
           {"track", finding.track.empty() ? Json() : Json(finding.track)},
-          {"first_frame", finding.first_frame + 1},
-          {"last_frame", finding.last_frame + 1},
+          {"first_frame", frame_number(finding.first_frame, first_frame)},
+          {"last_frame", frame_number(finding.last_frame, first_frame)},
           {"figure", finding.figure},
           {"unit", finding.unit},
           {"words", finding.words}};
@@ -245,6 +264,7 @@ Json take_json(const Checked& take) {
       {"input", take.name},
       {"kind", report.is_markers ? "markers" : "joints"},
       {"frames", report.frames},
+      {"first_frame", take.first_frame},
       {"frame_rate_hz", report.frame_rate_hz},
       {"calibration_frames", report.calibration_frames},
       {"metres_per_unit", report.metres_per_unit > 0 ? Json(report.metres_per_unit) : Json()},
@@ -252,13 +272,19 @@ Json take_json(const Checked& take) {
       {"figures", Json::object()},
       {"findings", Json::array()},
       {"tracks", Json::array()},
-      {"diagnostics", json_of(take.diagnostics)}};
+      {"diagnostics", json_of(take.diagnostics, take.source.format)}};
   for (const Figure& entry : figures()) {
     const Value value = entry.get(report.figures);
     json["figures"][entry.name] = value ? Json(*value) : Json();
   }
-  for (const Finding& finding : report.findings) json["findings"].push_back(finding_json(finding));
+  for (const Finding& finding : report.findings) json["findings"].push_back(finding_json(finding, take.first_frame));
   for (const TrackHealth& track : report.tracks) json["tracks"].push_back(track_json(track));
+  for (const SubjectHealth& subject : report.subjects) {
+    json["subjects"].push_back({{"name", subject.name},
+                                {"markers", subject.markers},
+                                {"slide_cm", subject.slide_cm ? Json(*subject.slide_cm) : Json()},
+                                {"sink_cm", subject.sink_cm ? Json(*subject.sink_cm) : Json()}});
+  }
   return json;
 }
 
@@ -277,7 +303,7 @@ int check_limits(const Checked& take, const Arguments& arguments) {
     const auto worst = std::find_if(findings.begin(), findings.end(), [&](const Finding& finding) {
       return std::find(entry.kinds.begin(), entry.kinds.end(), finding.kind) != entry.kinds.end();
     });
-    if (worst != findings.end()) line += "; " + finding_sentence(*worst, take.report);
+    if (worst != findings.end()) line += "; " + finding_sentence(*worst, take);
     say_error(line);
     code = 1;
   }
@@ -290,6 +316,7 @@ CheckSettings check_settings(const Arguments& arguments) {
     settings.up = up == "x" ? Axis::x : up == "z" ? Axis::z : Axis::y;
   if (arguments.given("metres_per_unit"))
     settings.metres_per_unit = arguments.number("metres_per_unit");
+  settings.names = names_of_map(arguments.text("map"));
   return settings;
 }
 
@@ -299,7 +326,7 @@ Checked check_file(const std::string& input, const Arguments& arguments) {
   CheckReport report =
       std::visit([&](const auto& take) { return check_take(take, settings); }, read.take);
   return {input_name(input), std::move(report), std::move(read.diagnostics),
-          pointless_text(read.take)};
+          pointless_text(read.take), first_frame_of(read.take), source_of(read.take)};
 }
 
 int run(const Arguments& arguments) {
@@ -310,12 +337,13 @@ int run(const Arguments& arguments) {
     if (arguments.positionals.size() > 1)
       throw Error(ErrorKind::usage, "--gaps-out takes the spans of one take, not of several");
     check_is_no_input("--gaps-out", gaps_out, arguments.positionals);
+    check_is_no_input("--gaps-out", gaps_out, {arguments.text("map")});
     check_free(gaps_out, force);
   }
   Json takes = Json::array();
   const int code = for_each_input(arguments.positionals, takes, [&](const std::string& input) {
     const Checked take = check_file(input, arguments);
-    if (!gaps_out.empty()) write_output(gaps_out, gaps_text(take.report.stale), force);
+    if (!gaps_out.empty()) write_output(gaps_out, gaps_text(take.report.stale, take.first_frame), force);
     if (json) {
       takes.push_back(take_json(take));
     } else if (gaps_out != "-") {
@@ -349,6 +377,7 @@ std::vector<Flag> flags() {
       without_default(number_flag("metres_per_unit", "m", 0, 1e-9, 1e6, "Checks",
                                   "length of a file unit, where the take does not tell")),
   };
+  list.push_back(map_flag());
   append(list, reading_flags("what needs a repair becomes an error"));
   for (const Figure& entry : figures()) {
     list.push_back(without_default(
@@ -372,7 +401,8 @@ Command check_command() {
       "changed.\n\n"
       "Each --max option sets a limit; where a figure passes one, the exit code is 1 and the worst "
       "finding is named. A figure that a take does not have, such as the slide of feet that nobody "
-      "finds, passes none.";
+      "finds or that never stand, passes none. --map names feet whose names are not known; of "
+      "several people in a file of markers (Ann:LTOE, Bob:LTOE) each is judged by itself.";
   command.positionals = {{"FILE", "take to check; - is standard input", 1, 1000000, {}}};
   command.flags = flags();
   command.examples = {

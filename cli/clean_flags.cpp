@@ -80,7 +80,8 @@ Flag feet_flag() {
   Flag flag = text_flag(
       "feet", "", "Cleaning", "stop feet that stand from sliding, after everything else",
       "auto holds what slides by error and leaves an intended slide alone; force holds whatever "
-      "stands. Joints only; it moves legs and lowers the root, so that nothing does it unasked.");
+      "stands. Joints only; it moves legs and lowers the root, so that nothing does it unasked. Where "
+      "names do not tell of feet, --map FILE does, with lines known name,name in the take.");
   flag.spec.default_value = std::string("off");
   flag.spec.choices = {"off", "auto", "force"};
   flag.has_default = true;
@@ -153,11 +154,12 @@ std::vector<Flag> cleaning_flags() {
        root_position_flag(),
        text_flag(
            "range", "FIRST:LAST", "Where",
-           "what may change: frames 121:240, counted from 1, or seconds 1s:2.5s",
+           "what may change: frames 121:240, as the file numbers them, or seconds 1s:2.5s",
            "Either end may be left out. The method sees all of the take; the result is blended "
            "in over 0.1 s."),
        file_flag("gaps", "FILE", "Input", "samples that count as missing: lines name,first,last",
-                 "Frames from 1; for formats that cannot hold a gap. The name * means all."),
+                 "Frames as the file numbers them; for formats that cannot hold a gap. The name * "
+                 "means all."),
        seed_flag("seed of the methods that draw random numbers")});
   append(list, reading_flags("what needs a repair or a warning becomes an error"));
   for (Flag& flag : list) {

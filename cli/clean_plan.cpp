@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 
+#include "kinemend/frame_numbers.hpp"
 #include "kinemend/io.hpp"
 #include "method_options.hpp"
 #include "takes.hpp"
@@ -15,21 +17,39 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// `walk.bvh` to `walk.clean.bvh`, beside it or in another folder under its own name.
+/// Beside the input, or in another folder under its own name.
 std::string output_of(const std::string& input, const std::string& folder) {
-  const fs::path path(input);
-  if (!folder.empty()) return (fs::path(folder) / path.filename()).string();
-  const std::string extension = path.extension().string();
-  fs::path output = path;
-  output.replace_filename(path.stem().string() + ".clean" + extension);
-  return output.string();
+  if (!folder.empty()) return (fs::path(folder) / fs::path(input).filename()).string();
+  return output_beside(input, "clean");
 }
 
-/// Standard input by any name: `-`, /dev/stdin, and what a shell passes as /dev/fd/63.
-bool is_stream(const std::string& input) {
-  if (input == "-") return true;
-  const std::string name = fs::path(input).lexically_normal().string();
-  return name.starts_with("/dev/") || name.starts_with("/proc/");
+/// Whose form is right; whether the frames are those of a take turns out there.
+std::pair<std::string, std::string> read_gaps(const std::string& path) {
+  constexpr std::int64_t any_frame = -(std::int64_t{1} << 53);
+  std::pair<std::string, std::string> gaps(read_file(path), input_name(path));
+  parse_gaps(gaps.first, gaps.second, any_frame);
+  return gaps;
+}
+
+bool has_option(const Method& method, std::string_view name) {
+  return std::any_of(method.options.begin(), method.options.end(),
+                     [&](const OptionSpec& spec) { return spec.name == name; });
+}
+
+/// --map names the parts of a learned model, and the feet of --feet: with a method that has no such
+/// option it is about the feet alone.
+bool map_is_of_feet(const Arguments& arguments, const Settings& settings, const Method& method) {
+  const bool has_feet = std::get<std::string>(settings.values.find("feet")->second) != "off" ||
+                        arguments.given("contacts");
+  return has_feet && !has_option(method, "map") && arguments.group_texts.count("map") > 0;
+}
+
+/// The file of --map, wherever it was given; empty: none.
+std::string map_path(const Arguments& arguments, const OptionValues& options) {
+  if (const auto given = arguments.group_texts.find("map"); given != arguments.group_texts.end())
+    return given->second;
+  const auto option = options.find("map");
+  return option == options.end() ? std::string() : std::get<std::string>(option->second);
 }
 
 std::vector<CleanJob> make_jobs(const Arguments& arguments) {
@@ -46,7 +66,7 @@ std::vector<CleanJob> make_jobs(const Arguments& arguments) {
     if (is_stream(input) && !folder.empty())
       throw Error(ErrorKind::usage, "clean: standard input has no name for --output-dir");
     std::string target = output;
-    if (target.empty()) target = is_stream(input) ? "-" : output_of(input, folder);
+    if (target.empty()) target = output_of(input, folder);
     const auto [known, is_new] = taken.emplace(target, input);
     if (!is_new) {
       throw Error(ErrorKind::usage, fmt::format("clean: {} and {} would both be written to {}",
@@ -148,7 +168,9 @@ Settings merged_settings(const Arguments& arguments) {
     put_over(settings, parse_settings(*arguments.command, read_file(path), input_name(path)));
   put_over(settings, command_line_settings(arguments));
   const Method& method = find_method(std::get<std::string>(settings.values.find("method")->second));
-  const OptionValues given = parse_method_options(method, arguments.group_texts);
+  auto texts = arguments.group_texts;
+  if (map_is_of_feet(arguments, settings, method)) texts.erase("map");
+  const OptionValues given = parse_method_options(method, texts);
   if (!given.empty()) put_over(settings, {{}, {}, {{method.name, given}}});
   return settings;
 }
@@ -162,13 +184,16 @@ CleanPlan make_cleaning(const Arguments& arguments) {
   pass_seed(arguments, method, plan.options);
   plan.cleaner = make_cleaner(method.name, plan.options);
   plan.settings = clean_settings(settings);
+  if (arguments.given("contacts") && !plan.settings.feet) plan.settings.feet.emplace();
+  if (plan.settings.feet)
+    plan.settings.feet->names = names_of_map(map_path(arguments, plan.options));
   if (const std::string range = arguments.text("range"); !range.empty())
     plan.range = parse_range(range);
   plan.strict = std::get<bool>(settings.values.find("strict")->second);
   plan.reading = read_options(arguments);
   plan.reading.strict = plan.strict;
   if (const std::string path = arguments.text("gaps"); !path.empty())
-    plan.gaps = parse_gaps(read_file(path), input_name(path));
+    plan.gaps = read_gaps(path);
   plan.fix_swaps = std::get<bool>(settings.values.find("fix_swaps")->second);
   plan.force = arguments.flag("force");
   plan.threads = static_cast<int>(arguments.whole("jobs"));
@@ -182,7 +207,6 @@ CleanPlan make_clean_plan(const Arguments& arguments) {
     if (plan.jobs.size() > 1)
       throw Error(ErrorKind::usage, "clean: --contacts are of one take, not of several");
     plan.contacts.emplace(read_file(path), input_name(path));
-    if (!plan.settings.feet) plan.settings.feet.emplace();
   }
   plan.folder = arguments.text("output_dir");
   plan.report_path = arguments.text("report");

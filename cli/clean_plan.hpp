@@ -10,7 +10,6 @@
 #include "config.hpp"
 #include "frame_range.hpp"
 #include "kinemend/clean.hpp"
-#include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
 
 namespace kinemend::cli {
@@ -31,9 +30,8 @@ struct CleanPlan {
   CleanSettings settings;
   std::optional<FrameRange> range;
   ReadOptions reading;
-  std::vector<NamedGap> gaps;  ///< of --gaps
-  /// Of --contacts: bytes and name. Legs and frames are those of a take.
-  std::optional<std::pair<std::string, std::string>> contacts;
+  /// Of --gaps and --contacts: bytes and name. Names and frames are those of a take.
+  std::optional<std::pair<std::string, std::string>> gaps, contacts;
   bool fix_swaps = false;
   std::string folder;       ///< --output-dir; made where it does not exist
   std::string report_path;  ///< empty: none

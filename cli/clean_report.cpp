@@ -111,7 +111,7 @@ std::string fill_text(const ReportView& report, bool all_rows) {
     if (++listed > short_list && !all_rows) continue;
     refused +=
         fmt::format("    {}, frames {} to {}: {}\n", printable(report.rows[outcome.gap.track].name),
-                    outcome.gap.first_frame + 1, outcome.gap.last_frame + 1, outcome.reason);
+                    frame_number(outcome.gap.first_frame, report.first_frame), frame_number(outcome.gap.last_frame, report.first_frame), outcome.reason);
   }
   std::vector<std::string> methods;
   methods.reserve(filled.size());
@@ -132,8 +132,8 @@ std::string swap_text(const ReportView& report) {
   for (const MarkerSwap& swap : report.swaps) {
     text += fmt::format("  {} and {} were swapped in frames {} to {}\n",
                         printable(report.rows[swap.first_marker].name),
-                        printable(report.rows[swap.second_marker].name), swap.first_frame + 1,
-                        swap.last_frame + 1);
+                        printable(report.rows[swap.second_marker].name), frame_number(swap.first_frame, report.first_frame),
+                        frame_number(swap.last_frame, report.first_frame));
   }
   return text;
 }
@@ -238,8 +238,8 @@ Json span_json(const ReportSpan& span, const ReportView& report) {
   const std::string unit = is_root || report.is_markers ? "" : "_deg";
   return {{report.noun(), is_root ? Json() : Json(report.rows[span.joint].name)},
           {"index", span.joint},
-          {"first_frame", span.first_frame + 1},
-          {"last_frame", span.last_frame + 1},
+          {"first_frame", frame_number(span.first_frame, report.first_frame)},
+          {"last_frame", frame_number(span.last_frame, report.first_frame)},
           {"action", to_string(span.action)},
           {"max_change" + unit, span.max_change},
           {"rms_change" + unit, span.rms_change}};
@@ -249,8 +249,8 @@ Json fill_json(const ReportView& report) {
   Json gaps = Json::array();
   for (const GapOutcome& outcome : report.fill.gaps) {
     Json gap = {{report.noun(), report.rows[outcome.gap.track].name},
-                {"first_frame", outcome.gap.first_frame + 1},
-                {"last_frame", outcome.gap.last_frame + 1},
+                {"first_frame", frame_number(outcome.gap.first_frame, report.first_frame)},
+                {"last_frame", frame_number(outcome.gap.last_frame, report.first_frame)},
                 {"filled", outcome.filled},
                 {"method", outcome.method}};
     if (!outcome.filled) gap["reason"] = outcome.reason;
@@ -264,8 +264,8 @@ Json swaps_json(const ReportView& report) {
   for (const MarkerSwap& swap : report.swaps) {
     swaps.push_back(
         {{"markers", {report.rows[swap.first_marker].name, report.rows[swap.second_marker].name}},
-         {"first_frame", swap.first_frame + 1},
-         {"last_frame", swap.last_frame + 1}});
+         {"first_frame", frame_number(swap.first_frame, report.first_frame)},
+         {"last_frame", frame_number(swap.last_frame, report.first_frame)}});
   }
   return swaps;
 }
@@ -342,7 +342,7 @@ std::string report_text(const ReportView& report, bool all_rows) {
   }
   text += fall_backs_text(report, all_rows) + swap_text(report) + fill_text(report, all_rows) +
           leftovers_text(report);
-  if (report.feet) text += feet_text(*report.feet, all_rows);
+  if (report.feet) text += feet_text(*report.feet, report.first_frame, all_rows);
   text += fmt::format("  {} of {} changed, {} repaired", count_changed(report),
                       counted(report.rows.size(), report.noun()),
                       counted(frames_repaired(report), "frame"));
@@ -374,14 +374,14 @@ Json report_json(const CleanJob& job, const ReportView& report, const Diagnostic
     json["root_max_change"] = report.root_max_change;
   }
   if (!report.fill.gaps.empty()) json["fill"] = fill_json(report);
-  if (report.feet) json["feet"] = feet_json(*report.feet);
+  if (report.feet) json["feet"] = feet_json(*report.feet, report.first_frame);
   if (plan.fix_swaps && report.is_markers) json["swaps_undone"] = swaps_json(report);
   json["seconds"] = report.seconds;
   json["frames_per_second"] = frames_per_second(report);
   json["fall_backs"] = fall_backs_json(report);
   json["leftovers"] = leftovers_json(report);
   json["warnings"] = report.warnings;
-  json["diagnostics"] = json_of(diagnostics);
+  json["diagnostics"] = json_of(diagnostics, report.format);
   Json& rows = json[std::string(report.noun()) + "s"] = Json::array();
   for (const ReportView::Row& row : report.rows) rows.push_back(row_json(row, report));
   if (with_spans) {

@@ -11,6 +11,7 @@
 #include "clean_leftovers.hpp"
 #include "clean_report.hpp"
 #include "kinemend/check.hpp"
+#include "kinemend/frame_numbers.hpp"
 #include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
 #include "takes.hpp"
@@ -43,7 +44,14 @@ std::vector<MarkerSwap> prepare(Take& take, const CleanPlan& plan) {
     swaps = find_swaps(*markers);
     undo_swaps(*markers, swaps);
   }
-  if (!plan.gaps.empty()) std::visit([&](auto& clip) { mark_gaps(clip, plan.gaps); }, take);
+  if (plan.gaps) {
+    std::visit(
+        [&](auto& clip) {
+          mark_gaps(clip,
+                    parse_gaps(plan.gaps->first, plan.gaps->second, first_frame_number(clip)));
+        },
+        take);
+  }
   return swaps;
 }
 
@@ -56,7 +64,8 @@ MarkerResult run_cleaner(MarkerClip& clip, const CleanPlan& plan, const CleanSet
 
 void read_contacts(const Clip& clip, const CleanPlan& plan, CleanSettings& settings) {
   if (plan.contacts)
-    settings.feet->contacts = parse_contacts(plan.contacts->first, plan.contacts->second, clip);
+    settings.feet->contacts = parse_contacts(plan.contacts->first, plan.contacts->second, clip,
+                                             settings.feet->names);
 }
 void read_contacts(const MarkerClip& /*clip*/, const CleanPlan& /*plan*/,
                    CleanSettings& /*settings*/) {}
@@ -72,7 +81,8 @@ ReportView clean_in_place(Take& take, const std::string& input, const CleanPlan&
         CleanSettings settings = plan.settings;
         settings.progress = progress;
         if (plan.range)
-          settings.range = frames_of(*plan.range, clip.frame_count(), clip.frame_rate_hz);
+          settings.range = frames_of(*plan.range, clip.frame_count(), clip.frame_rate_hz,
+                                     first_frame_number(clip));
         read_contacts(clip, plan, settings);
         auto result =
             tbb::this_task_arena::isolate([&] { return run_cleaner(clip, plan, settings); });
@@ -80,6 +90,8 @@ ReportView clean_in_place(Take& take, const std::string& input, const CleanPlan&
         ReportView view = view_of(std::move(result.report));
         view.swaps = swaps;
         view.leftovers = leftovers_of(findings, plan, input);
+        view.first_frame = first_frame_number(clip);
+        view.format = clip.source.format;
         return view;
       },
       take);
@@ -105,7 +117,7 @@ void clean_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& 
     return read_take(fs::path(job.input), options);
   });
   for (const Diagnostic& entry : read.diagnostics.entries())
-    outcome.warnings.push_back(diagnostic_line(name, entry));
+    outcome.warnings.push_back(diagnostic_line(source_of(read.take), entry));
   ReportView report = clean_in_place(read.take, job.input, plan, progress);
   report.contents = pointless_text(read.take);
   if (plan.strict) refuse_warnings(name, report.warnings);

@@ -28,6 +28,11 @@ struct Figure {
 
 using Value = std::optional<double>;
 
+/// None where no foot was found to stand.
+Value slide_of(const FootSlide& slide) {
+  return slide.contact_steps > 0 ? Value(slide.per_frame) : std::nullopt;
+}
+
 const std::vector<Figure>& figures() {
   static const std::vector<Figure> table = {
       {"rms_deg", "deg", "joint-angle channels, mean over frames (Mall et al.)", false,
@@ -57,9 +62,9 @@ const std::vector<Figure>& figures() {
       {"mse_rad2", "rad2", "squared angle, mean over joints (Courty)", false,
        [](const Comparison& c) -> Value { return c.mse_rad2; }},
       {"foot_slide", "units", "travel per frame of feet in contact, of OTHER", false,
-       [](const Comparison& c) -> Value { return c.foot_slide.per_frame; }},
+       [](const Comparison& c) { return slide_of(c.foot_slide); }},
       {"foot_slide_reference", "units", "the same of REFERENCE, for comparison", false,
-       [](const Comparison& c) -> Value { return c.foot_slide_reference.per_frame; }}};
+       [](const Comparison& c) { return slide_of(c.foot_slide_reference); }}};
   return table;
 }
 
@@ -119,8 +124,10 @@ int check_limits(const Comparison& comparison, const Arguments& arguments) {
     const double limit = arguments.number(name);
     const auto value = entry.get(comparison);
     if (!value) {
-      say_error(fmt::format("{} is unknown, for the unit of length is: --{} cannot hold",
-                            entry.name, dashed(name)));
+      const bool is_of_feet = entry.name.starts_with("foot_slide");
+      say_error(fmt::format("{} is unknown, for {}: --{} cannot hold", entry.name,
+                            is_of_feet ? "no foot was found to stand" : "the unit of length is",
+                            dashed(name)));
       code = 1;
     } else if (entry.more_is_better ? !(*value >= limit) : !(*value <= limit)) {
       say_error(fmt::format("{} {:.4g} is {} the limit {:.4g}", entry.name, *value,
@@ -149,8 +156,8 @@ int run(const Arguments& arguments) {
   const ReadResult reference =
       read_clip(std::filesystem::path(reference_name), read_options(arguments));
   const ReadResult other = read_clip(std::filesystem::path(other_name), read_options(arguments));
-  warn_of_repairs(input_name(reference_name), reference.diagnostics);
-  warn_of_repairs(input_name(other_name), other.diagnostics);
+  warn_of_repairs(reference.clip.source, reference.diagnostics);
+  warn_of_repairs(other.clip.source, other.diagnostics);
   const Comparison comparison =
       compare_clips(reference.clip, other.clip, comparison_settings(arguments, reference.clip));
   if (arguments.flag("json")) {

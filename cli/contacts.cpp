@@ -8,6 +8,7 @@
 #include "feet_report.hpp"
 #include "json.hpp"
 #include "kinemend/feet.hpp"
+#include "kinemend/frame_numbers.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/version.hpp"
 #include "takes.hpp"
@@ -19,7 +20,7 @@ namespace {
 
 Clip read_joints(const std::string& input, const ReadOptions& options) {
   TakeResult read = read_take(std::filesystem::path(input), options);
-  warn_of_repairs(input_name(input), read.diagnostics);
+  warn_of_repairs(source_of(read.take), read.diagnostics);
   if (Clip* clip = std::get_if<Clip>(&read.take)) return std::move(*clip);
   throw Error(
       ErrorKind::usage,
@@ -30,17 +31,24 @@ int run(const Arguments& arguments) {
   const std::string input = arguments.positionals.front();
   std::string output = arguments.text("output");
   const bool json = arguments.flag("json"), force = arguments.flag("force");
-  check_single_use({input}, {output}, json);
-  check_is_no_input("--output", output, {input});
+  const std::string map = arguments.text("map");
+  check_single_use({input, map}, {output}, json);
+  check_is_no_input("--output", output, {input, map});
   if (!output.empty()) check_free(output, force);
   const Clip clip = read_joints(input, read_options(arguments));
   Clip copy = clip;
-  const FeetReport report = clean_feet(copy);
+  FeetSettings settings;
+  settings.names = names_of_map(map);
+  const FeetReport report = clean_feet(copy, settings);
+  if (report.sides.empty()) {
+    say_warning(fmt::format("{}: no legs are found by their names (--map FILE says what they are)",
+                            input_name(input)));
+  }
   for (const std::string& warning : report.warnings)
     say_warning(fmt::format("{}: {}", input_name(input), warning));
   const std::string text = contacts_text(clip, report);
   if (json) {
-    Json take = feet_json(report);
+    Json take = feet_json(report, first_frame_number(clip));
     take["input"] = input;
     write_out(json_text({{"kinemend", version()}, {"takes", Json::array({std::move(take)})}}));
   } else if (output.empty()) {
@@ -58,15 +66,17 @@ Command contacts_command() {
   command.summary = "say when feet stand, as a file to edit";
   command.description =
       "Finds the times in which heels and toes stand and writes them one a line: side, part, first "
-      "and last frame from 1. A slide that clean --feet auto would take for intended stands in a "
+      "and last frame as the file numbers them. A slide that clean --feet auto would take for intended stands in a "
       "comment that says why. Edit the file and give it to clean with --contacts: it holds what is "
       "listed.";
   command.positionals = {{"IN", "take of joints; - is standard input", 1, 1, {}}};
   command.flags = {output_flag("where to write; standard output where it is left out"),
-                   force_flag(), json_flag("print the contacts as JSON instead of text")};
+                   force_flag(), json_flag("print the contacts as JSON instead of text"), map_flag()};
   append(command.flags, reading_flags("what needs a repair becomes an error"));
   command.examples = {
       {"kinemend contacts dance.bvh -o dance.contacts", "to look at and edit"},
+      {"kinemend contacts rig.bvh --map names.csv -o rig.contacts",
+       "joints whose names are not known"},
       {"kinemend clean dance.bvh --contacts dance.contacts", "holds what it lists"}};
   command.run = run;
   return command;

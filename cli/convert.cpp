@@ -160,7 +160,7 @@ int run(const Arguments& arguments) {
   const bool force = arguments.flag("force");
   check_free(output, force);
   TakeResult read = read_take(fs::path(input), read_options(arguments));
-  warn_of_repairs(input_name(input), read.diagnostics);
+  warn_of_repairs(source_of(read.take), read.diagnostics);
   Take take = std::move(read.take);
   const Format& format = output_format(arguments, output, take);
   if (arguments.flag("plain")) drop_layout(source_of(take));

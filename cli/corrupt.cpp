@@ -127,7 +127,7 @@ int run(const Arguments& arguments) {
   check_single_use({input}, {output}, json);
   check_free(output, force);
   TakeResult read = read_take(std::filesystem::path(input), read_options(arguments));
-  warn_of_repairs(input_name(input), read.diagnostics);
+  warn_of_repairs(source_of(read.take), read.diagnostics);
   Clip* const clip = std::get_if<Clip>(&read.take);
   if (clip == nullptr) {
     throw Error(ErrorKind::usage,
@@ -138,7 +138,11 @@ int run(const Arguments& arguments) {
   reports.reserve(requests.size());
   for (const DamageRequest& request : requests)
     reports.push_back(apply_damage(*clip, request.name, request.values, random));
-  write_take_output(output, read.take, clip->source.format, force);
+  const std::string format = format_for(output, clip->source);
+  for (const std::string& line :
+       loss_lines(input_name(input), read.take, format, arguments.flag("strict")))
+    say_warning(line);
+  write_take_output(output, read.take, format, force);
   if (json) {
     Json list = Json::array();
     for (const DamageReport& report : reports) list.push_back(json_of_damage(report));

@@ -12,13 +12,15 @@ namespace kinemend::cli {
 
 namespace {
 
-std::string contact_text(const FeetReport& report, const FootContact& contact) {
+std::string contact_text(const FeetReport& report, const FootContact& contact,
+                         std::int64_t first_frame) {
   return fmt::format("{} {}, frames {} to {}", printable(report.sides[contact.leg]),
-                     to_string(contact.part), contact.first_frame + 1, contact.last_frame + 1);
+                     to_string(contact.part), frame_number(contact.first_frame, first_frame),
+                     frame_number(contact.last_frame, first_frame));
 }
 
 // Contacts that stand still already are no news.
-std::string left_alone_text(const FeetReport& report, bool all_rows) {
+std::string left_alone_text(const FeetReport& report, std::int64_t first_frame, bool all_rows) {
   constexpr std::size_t short_list = 8;
   std::string text;
   std::size_t listed = 0;
@@ -26,8 +28,8 @@ std::string left_alone_text(const FeetReport& report, bool all_rows) {
     const bool is_news = report.held[i] == 0 && report.still[i] == 0;
     if (!is_news && !(all_rows && report.held[i] == 0)) continue;
     if (++listed > short_list && !all_rows) continue;
-    text +=
-        fmt::format("    {}: {}\n", contact_text(report, report.contacts[i]), report.reasons[i]);
+    text += fmt::format("    {}: {}\n", contact_text(report, report.contacts[i], first_frame),
+                        report.reasons[i]);
   }
   if (listed == 0) return text;
   text = fmt::format("  {} left alone:\n", counted(listed, "contact")) + text;
@@ -58,7 +60,7 @@ Json figures_json(const FeetFigures& figures) {
 
 }  // namespace
 
-std::string feet_text(const FeetReport& report, bool all_rows) {
+std::string feet_text(const FeetReport& report, std::int64_t first_frame, bool all_rows) {
   const auto held = std::count(report.held.begin(), report.held.end(), 1);
   std::string text =
       fmt::format("  feet: {} of {} held", held, counted(report.contacts.size(), "contact"));
@@ -78,17 +80,19 @@ std::string feet_text(const FeetReport& report, bool all_rows) {
         length(a.slide), length(b.slide), unit, length(a.most_slide), length(b.most_slide), unit,
         length(a.sink), length(b.sink), unit, figure(a.knee_pop_deg), figure(b.knee_pop_deg));
   }
-  return text + "\n" + left_alone_text(report, all_rows);
+  return text + "\n" + left_alone_text(report, first_frame, all_rows);
 }
 
-Json feet_json(const FeetReport& report) {
+Json feet_json(const FeetReport& report, std::int64_t first_frame) {
   Json contacts = Json::array();
+  // Feet that never stand neither slide nor sink.
+  const bool has_contact = !report.contacts.empty();
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
     const FootContact& contact = report.contacts[i];
     Json entry = {{"side", report.sides[contact.leg]},
                   {"part", to_string(contact.part)},
-                  {"first_frame", contact.first_frame + 1},
-                  {"last_frame", contact.last_frame + 1},
+                  {"first_frame", frame_number(contact.first_frame, first_frame)},
+                  {"last_frame", frame_number(contact.last_frame, first_frame)},
                   {"held", report.held[i] != 0}};
     if (report.held[i] == 0) entry["reason"] = report.reasons[i];
     contacts.push_back(std::move(entry));
@@ -96,8 +100,8 @@ Json feet_json(const FeetReport& report) {
   return {{"metres_per_unit", report.metres_per_unit > 0 ? Json(report.metres_per_unit) : Json()},
           {"held", std::count(report.held.begin(), report.held.end(), 1)},
           {"frames_adjusted", frames_adjusted(report)},
-          {"before", figures_json(report.before)},
-          {"after", figures_json(report.after)},
+          {"before", has_contact ? figures_json(report.before) : Json()},
+          {"after", has_contact ? figures_json(report.after) : Json()},
           {"contacts", std::move(contacts)}};
 }
 

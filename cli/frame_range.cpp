@@ -32,7 +32,7 @@ End parse_end(std::string text, const std::string& whole) {
   }
   OptionSpec spec;
   spec.name = "range";
-  spec.minimum = end.in_seconds ? 0 : 1;
+  spec.minimum = end.in_seconds ? 0 : -1e12;
   spec.maximum = 1e12;
   spec.default_value = end.in_seconds ? OptionValue(0.0) : OptionValue(std::int64_t{1});
   try {
@@ -59,7 +59,7 @@ FrameRange parse_range(const std::string& text) {
 }
 
 std::pair<std::size_t, std::size_t> frames_of(const FrameRange& range, std::size_t frame_count,
-                                              double frame_rate_hz) {
+                                              double frame_rate_hz, std::int64_t first_frame) {
   const auto frames = static_cast<double>(frame_count);
   double first = 0;
   double last = frames - 1;
@@ -71,10 +71,15 @@ std::pair<std::size_t, std::size_t> frames_of(const FrameRange& range, std::size
     if (range.first) first = std::ceil(*range.first * frame_rate_hz - slack);
     if (range.last) last = std::min(last, std::floor(*range.last * frame_rate_hz + slack));
   } else {
-    if (range.last && *range.last > frames)
-      refuse(fmt::format("frame {} is outside 1 to {}", *range.last, frames));
-    if (range.first) first = *range.first - 1;
-    if (range.last) last = *range.last - 1;
+    const auto start = static_cast<double>(first_frame);
+    for (const std::optional<double>& end : {range.first, range.last}) {
+      if (end && (*end < start || *end > start + frames - 1)) {
+        refuse(fmt::format("frame {} is outside {} to {}", *end, first_frame,
+                           first_frame + static_cast<std::int64_t>(frame_count) - 1));
+      }
+    }
+    if (range.first) first = *range.first - start;
+    if (range.last) last = *range.last - start;
   }
   if (first > last || first >= frames)
     refuse(fmt::format("holds none of the {} frames", frame_count));

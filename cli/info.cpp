@@ -7,9 +7,11 @@
 #include "commands.hpp"
 #include "json.hpp"
 #include "kinemend/clean.hpp"
+#include "kinemend/frame_numbers.hpp"
 #include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/metrics.hpp"
+#include "kinemend/subjects.hpp"
 #include "kinemend/version.hpp"
 #include "model_view.hpp"
 #include "table.hpp"
@@ -20,7 +22,7 @@ namespace kinemend::cli {
 
 namespace {
 
-struct Subject {
+struct Looked {
   std::string name;
   TakeResult read;
   /// With --noise: what the method auto finds of each joint or marker.
@@ -75,10 +77,10 @@ std::string tree_text(const Skeleton& skeleton) {
   return text + table.text();
 }
 
-std::string noise_text(const Subject& subject, const std::string& kind, const std::string& unit) {
+std::string noise_text(const Looked& subject, const std::string& kind, const std::string& unit) {
   Table table({Align::left, Align::right, Align::right}, 4);
   table.add({kind, "noise " + unit, "samples to repair"});
-  for (const Subject::Noise& track : subject.noise)
+  for (const Looked::Noise& track : subject.noise)
     table.add({printable(track.name), figure(track.level), grouped(track.to_repair)});
   return "\n" + table.text();
 }
@@ -95,28 +97,55 @@ std::string unit_text(const Clip& clip) {
                      figure(height * unit->metres));
 }
 
-void add_facts(const Subject& subject, const SourceInfo& source, Table& table) {
+/// `has_subjects`: they stand in the table already.
+void add_facts(const Looked& subject, const SourceInfo& source, bool has_subjects, Table& table) {
   for (const SourceFact& fact : source.facts) {
-    if (fact.name != "analog frames") table.add({printable(fact.name), printable(fact.text)});
+    const bool is_said = fact.name == "analog frames" || fact.name == "first frame" ||
+                         (fact.name == "subjects" && has_subjects);
+    if (!is_said) table.add({printable(fact.name), printable(fact.text)});
   }
   for (const Diagnostic& entry : subject.read.diagnostics.entries())
-    table.add({"repaired", printable(diagnostic_line(entry.first_line > 0 ? "line" : "", entry))});
+    table.add({"repaired", printable(diagnostic_text(source, entry))});
 }
 
-std::string clip_text(const Subject& subject, const Clip& clip, bool with_tree) {
+template <class AnyClip>
+std::string numbered_length(const AnyClip& clip) {
+  const std::string length = length_text(clip.frame_count(), clip.frame_rate_hz);
+  const std::int64_t first = first_frame_number(clip);
+  return first == 1 ? length : fmt::format("{}, from frame {}", length, first);
+}
+
+/// "Ann (41 markers), Bob (39 markers)" of a take of several people.
+std::string people_text(const MarkerClip& clip) {
+  const std::vector<Subject> people = subjects_of(clip);
+  if (people.size() < 2) return "";
+  std::vector<std::string> parts;
+  parts.reserve(people.size());
+  for (const Subject& person : people) {
+    parts.push_back(fmt::format("{} ({})",
+                                person.name.empty() ? "nobody's" : printable(person.name),
+                                counted(person.markers.size(), "marker")));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string clip_text(const Looked& subject, const Clip& clip, bool with_tree) {
   Table table({Align::left, Align::left});
   table.add({"format", format_text(clip.source)});
   table.add({"joints", fmt::format("{} ({}, {})", clip.joint_count(),
                                    counted(channel_count(clip.skeleton), "channel"),
                                    counted(clip.skeleton.end_sites.size(), "end site"))});
-  table.add({"length", length_text(clip.frame_count(), clip.frame_rate_hz)});
+  const std::int64_t first = first_frame_number(clip);
+  table.add({"length", numbered_length(clip)});
   table.add({"unit", unit_text(clip)});
   if (clip.frame_count() > 0) {
     table.add({"calibration", leading_calibration_frames(clip) > 0
-                                  ? "frame 1 is a calibration pose and no part of the motion"
+                                  ? fmt::format("frame {} is a calibration pose and no part of "
+                                                "the motion",
+                                                first)
                                   : "none"});
   }
-  add_facts(subject, clip.source, table);
+  add_facts(subject, clip.source, false, table);
   std::string text = table.text();
   if (with_tree) text += tree_text(clip.skeleton);
   if (!subject.noise.empty()) text += noise_text(subject, "joint", "deg");
@@ -160,7 +189,7 @@ std::size_t position_count(const MarkerClip& clip) {
   return count;
 }
 
-std::string markers_text(const Subject& subject, const MarkerClip& clip, bool with_tree) {
+std::string markers_text(const Looked& subject, const MarkerClip& clip, bool with_tree) {
   const Missing missing = missing_of(clip);
   const std::size_t positions = position_count(clip);
   Table table({Align::left, Align::left});
@@ -172,12 +201,12 @@ std::string markers_text(const Subject& subject, const MarkerClip& clip, bool wi
   }
   table.add({"markers", markers});
   const std::string contents = pointless_text(subject.read.take);
-  std::string length = length_text(clip.frame_count(), clip.frame_rate_hz);
-  if (clip.first_frame != 1) length += fmt::format(", from frame {}", clip.first_frame);
-  table.add({"length", contents.empty() ? length : contents});
+  table.add({"length", contents.empty() ? numbered_length(clip) : contents});
   table.add({"unit", clip.unit.empty() ? "not stated" : printable(clip.unit)});
   if (contents.empty()) table.add({"missing", missing_text(missing, clip.frame_rate_hz)});
-  add_facts(subject, clip.source, table);
+  const std::string people = people_text(clip);
+  if (!people.empty()) table.add({"subjects", people});
+  add_facts(subject, clip.source, !people.empty(), table);
   std::string text = table.text();
   if (!subject.noise.empty()) text += noise_text(subject, "marker", clip.unit);
   if (!with_tree) return text;
@@ -191,14 +220,14 @@ std::string markers_text(const Subject& subject, const MarkerClip& clip, bool wi
   return text + "\n" + list.text();
 }
 
-std::string subject_text(const Subject& subject, bool with_tree) {
+std::string subject_text(const Looked& subject, bool with_tree) {
   const std::string name = Colours::of_out().paint(Paint::bold, printable(subject.name)) + "\n";
   if (const Clip* clip = std::get_if<Clip>(&subject.read.take))
     return name + clip_text(subject, *clip, with_tree);
   return name + markers_text(subject, std::get<MarkerClip>(subject.read.take), with_tree);
 }
 
-Json joints_json(const Subject& subject, const Skeleton& skeleton) {
+Json joints_json(const Looked& subject, const Skeleton& skeleton) {
   Json joints = Json::array();
   for (std::size_t j = 0; j < skeleton.joint_count(); ++j) {
     Json joint = {{"name", skeleton.names[j]},
@@ -219,7 +248,7 @@ Json facts_json(const SourceInfo& source) {
   return facts;
 }
 
-Json clip_json(const Subject& subject, const Clip& clip) {
+Json clip_json(const Looked& subject, const Clip& clip) {
   const auto unit = guess_length_unit(clip.skeleton);
   const double stated = clip.metres_per_unit;
   return {{"input", subject.name},
@@ -229,6 +258,7 @@ Json clip_json(const Subject& subject, const Clip& clip) {
           {"channel_count", channel_count(clip.skeleton)},
           {"end_site_count", clip.skeleton.end_sites.size()},
           {"frames", clip.frame_count()},
+          {"first_frame", first_frame_number(clip)},
           {"frame_rate_hz", clip.frame_rate_hz},
           {"duration_s", clip.duration_s()},
           {"calibration_frames", leading_calibration_frames(clip)},
@@ -238,11 +268,11 @@ Json clip_json(const Subject& subject, const Clip& clip) {
                               : unit     ? Json(unit->metres)
                                          : Json()},
           {"facts", facts_json(clip.source)},
-          {"diagnostics", json_of(subject.read.diagnostics)},
+          {"diagnostics", json_of(subject.read.diagnostics, clip.source.format)},
           {"joints", joints_json(subject, clip.skeleton)}};
 }
 
-Json markers_json(const Subject& subject, const MarkerClip& clip) {
+Json markers_json(const Looked& subject, const MarkerClip& clip) {
   const Missing missing = missing_of(clip);
   const double metres = metres_per_unit(clip.unit);
   Json markers = Json::array();
@@ -256,6 +286,9 @@ Json markers_json(const Subject& subject, const MarkerClip& clip) {
     }
     markers.push_back(std::move(marker));
   }
+  Json people = Json::array();
+  for (const Subject& person : subjects_of(clip))
+    people.push_back({{"name", person.name}, {"markers", person.markers.size()}});
   Json events = Json::array();
   for (const MarkerEvent& event : clip.events) {
     events.push_back(
@@ -275,17 +308,18 @@ Json markers_json(const Subject& subject, const MarkerClip& clip) {
           {"gaps", missing.gaps},
           {"longest_gap_frames", missing.longest},
           {"facts", facts_json(clip.source)},
+          {"subjects", std::move(people)},
           {"events", std::move(events)},
-          {"diagnostics", json_of(subject.read.diagnostics)},
+          {"diagnostics", json_of(subject.read.diagnostics, clip.source.format)},
           {"markers", std::move(markers)}};
 }
 
-Json subject_json(const Subject& subject) {
+Json subject_json(const Looked& subject) {
   if (const Clip* clip = std::get_if<Clip>(&subject.read.take)) return clip_json(subject, *clip);
   return markers_json(subject, std::get<MarkerClip>(subject.read.take));
 }
 
-void measure_noise(Subject& subject) {
+void measure_noise(Looked& subject) {
   const auto cleaner = make_cleaner("auto");
   if (const Clip* clip = std::get_if<Clip>(&subject.read.take)) {
     for (const JointSummary& joint : clean_clip(*clip, *cleaner).report.joints)
@@ -311,7 +345,7 @@ int run(const Arguments& arguments) {
       }
       return 0;
     }
-    Subject subject{input_name(input),
+    Looked subject{input_name(input),
                     read_take(std::filesystem::path(input), read_options(arguments))};
     if (arguments.flag("noise")) measure_noise(subject);
     if (json) {

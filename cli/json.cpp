@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "takes.hpp"
+
 namespace kinemend::cli {
 
 std::string json_text(const Json& json) {
@@ -29,12 +31,13 @@ Json json_of(const OptionSpec& spec) {
   return json;
 }
 
-Json json_of(const Diagnostics& diagnostics) {
+Json json_of(const Diagnostics& diagnostics, std::string_view format) {
+  const char* const place = places_are_bytes(format) ? "first_byte" : "first_line";
   Json list = Json::array();
   for (const Diagnostic& entry : diagnostics.entries()) {
     list.push_back({{"name", entry.name},
                     {"message", entry.message},
-                    {"first_line", entry.first_line},
+                    {place, entry.first_line},
                     {"count", entry.count}});
   }
   return list;

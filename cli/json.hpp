@@ -15,6 +15,7 @@ std::string json_text(const Json& json);
 Json json_of(const OptionValue& value);
 Json json_of(const OptionValues& values);
 Json json_of(const OptionSpec& spec);
-Json json_of(const Diagnostics& diagnostics);
+/// `first_line` of each, or `first_byte` of a format whose places are bytes.
+Json json_of(const Diagnostics& diagnostics, std::string_view format);
 
 }  // namespace kinemend::cli

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +39,8 @@ struct ReportView {
   double noticeable_noise = 0;  ///< below this much jitter a take is not called noisy
   std::string method;
   std::size_t frames = 0;
+  std::int64_t first_frame = 1;  ///< the number that the file gives to the first
+  std::string format;            ///< of the file that was read
   std::size_t calibration_frames = 0;
   double frame_rate_hz = 0;
   std::vector<Row> rows;

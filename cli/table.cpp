@@ -69,8 +69,14 @@ std::string figure(double value) {
   if (size >= 1e9) return fmt::format("{:.3g}", value);
   if (size >= 100) return fmt::format("{:.0f}", value);
   if (size >= 10) return fmt::format("{:.1f}", value);
-  if (size >= 0.01) return fmt::format("{:.2f}", value);
-  return fmt::format("{:.1g}", value);
+  if (size >= 1) return fmt::format("{:.2f}", value);
+  if (size < 1e-6) return fmt::format("{:.3g}", value);
+  // Three digits that count, whatever the unit: lengths in metres are small.
+  const int decimals = 2 - static_cast<int>(std::floor(std::log10(size)));
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  // Not more zeros than figures from 1 on have.
+  for (int d = decimals; d > 2 && text.back() == '0'; --d) text.pop_back();
+  return text;
 }
 
 }  // namespace kinemend::cli

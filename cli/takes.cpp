@@ -8,6 +8,8 @@
 #include <limits>
 
 #include "json.hpp"
+#include "kinemend/body.hpp"
+#include "kinemend/frame_numbers.hpp"
 #include "kinemend/frame_rate.hpp"
 #include "table.hpp"
 #include "terminal.hpp"
@@ -15,6 +17,20 @@
 namespace kinemend::cli {
 
 std::string input_name(const std::string& input) { return input == "-" ? "standard input" : input; }
+
+bool is_stream(const std::string& input) {
+  if (input == "-") return true;
+  const std::string name = std::filesystem::path(input).lexically_normal().string();
+  return name.starts_with("/dev/") || name.starts_with("/proc/");
+}
+
+std::string output_beside(const std::string& input, std::string_view word) {
+  if (is_stream(input)) return "-";
+  std::filesystem::path output(input);
+  output.replace_filename(
+      fmt::format("{}.{}{}", output.stem().string(), word, output.extension().string()));
+  return output.string();
+}
 
 void check_free(const std::string& output, bool force) {
   if (output == "-") check_out_is_open();
@@ -116,18 +132,41 @@ int for_each_input(const std::vector<std::string>& inputs, Json& takes,
   return code;
 }
 
-std::string diagnostic_line(const std::string& name, const Diagnostic& diagnostic) {
-  std::string line = name;
-  if (diagnostic.first_line > 0) line += fmt::format(":{}", diagnostic.first_line);
-  if (!line.empty()) line += ": ";
-  line += diagnostic.message;
-  if (diagnostic.count > 1) line += fmt::format(" ({} times)", grouped(diagnostic.count));
-  return line;
+namespace {
+
+std::string counted_message(const Diagnostic& diagnostic) {
+  const std::string times =
+      diagnostic.count > 1 ? fmt::format(" ({} times)", grouped(diagnostic.count)) : "";
+  return diagnostic.message + times;
 }
 
-void warn_of_repairs(const std::string& name, const Diagnostics& diagnostics) {
+}  // namespace
+
+bool places_are_bytes(std::string_view format) { return format == "c3d"; }
+
+std::string diagnostic_text(const SourceInfo& source, const Diagnostic& diagnostic) {
+  if (diagnostic.first_line == 0) return counted_message(diagnostic);
+  return fmt::format("{} {}: {}", places_are_bytes(source.format) ? "byte" : "line",
+                     diagnostic.first_line, counted_message(diagnostic));
+}
+
+std::string diagnostic_line(const SourceInfo& source, const Diagnostic& diagnostic) {
+  if (diagnostic.first_line == 0 || places_are_bytes(source.format))
+    return source.name + ": " + diagnostic_text(source, diagnostic);
+  return fmt::format("{}:{}: {}", source.name, diagnostic.first_line, counted_message(diagnostic));
+}
+
+void warn_of_repairs(const SourceInfo& source, const Diagnostics& diagnostics) {
   for (const Diagnostic& diagnostic : diagnostics.entries())
-    say_warning(diagnostic_line(name, diagnostic));
+    say_warning(diagnostic_line(source, diagnostic));
+}
+
+std::int64_t first_frame_of(const Take& take) {
+  return std::visit([](const auto& clip) { return first_frame_number(clip); }, take);
+}
+
+std::int64_t frame_number(std::size_t frame, std::int64_t first) {
+  return static_cast<std::int64_t>(frame) + first;
 }
 
 std::vector<std::string> loss_lines(const std::string& name, const Take& take,
@@ -135,7 +174,7 @@ std::vector<std::string> loss_lines(const std::string& name, const Take& take,
   std::vector<std::string> lines;
   const Diagnostics losses = lost_in_writing(take, format);
   for (const Diagnostic& loss : losses.entries()) {
-    lines.push_back(diagnostic_line(name, loss));
+    lines.push_back(name + ": " + counted_message(loss));
     // Numbers in another encoding are no loss.
     if (strict && loss.name != "encoding_changed")
       throw Error(ErrorKind::quality_limit, lines.back() + " (an error under --strict)");
@@ -211,6 +250,20 @@ Flag strict_flag(std::string help) {
 void append(std::vector<Flag>& list, std::vector<Flag> more) {
   list.insert(list.end(), std::make_move_iterator(more.begin()),
               std::make_move_iterator(more.end()));
+}
+
+Flag map_flag() {
+  Flag flag = text_flag("map", "FILE", "Input",
+                        "what feet are called in the take: lines known name,name in the take",
+                        "For takes whose names mean nothing to the program: LeftFoot,bone_17 or "
+                        "LTOE,M3. Lines about other parts do no harm, so that the file of a "
+                        "learned model serves too.");
+  flag.completion = Completion::file;
+  return flag;
+}
+
+KnownNames names_of_map(const std::string& path) {
+  return path.empty() ? KnownNames() : parse_name_map(read_file(path), input_name(path));
 }
 
 std::vector<Flag> reading_flags(std::string strict_help) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -9,12 +10,17 @@
 
 #include "command.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/known_names.hpp"
 
 // What the commands that read and write takes have in common.
 namespace kinemend::cli {
 
 /// "standard input" for "-".
 std::string input_name(const std::string& input);
+/// Standard input by any name: `-`, /dev/stdin, and what a shell passes as /dev/fd/63.
+bool is_stream(const std::string& input);
+/// `walk.bvh` to `walk.clean.bvh` for the word "clean"; standard input to standard output.
+std::string output_beside(const std::string& input, std::string_view word);
 /// Refuses an output that exists, before work is spent on it. Errors: `ErrorKind::cannot_write`.
 void check_free(const std::string& output, bool force);
 /// To a file, or to standard output for "-".
@@ -35,9 +41,14 @@ void check_single_use(const std::vector<std::string>& inputs,
 /// stops all.
 int for_each_input(const std::vector<std::string>& inputs, nlohmann::ordered_json& takes,
                    const std::function<int(const std::string&)>& visit);
+/// "walk.bvh:12: ...", or "walk.c3d: byte 12: ..." of a format whose places are bytes.
+std::string diagnostic_line(const SourceInfo& source, const Diagnostic& diagnostic);
+/// The same without the name of the take: "line 12: ...", "byte 12: ...".
+std::string diagnostic_text(const SourceInfo& source, const Diagnostic& diagnostic);
 /// A line a kind of repair, as a warning.
-std::string diagnostic_line(const std::string& name, const Diagnostic& diagnostic);
-void warn_of_repairs(const std::string& name, const Diagnostics& diagnostics);
+void warn_of_repairs(const SourceInfo& source, const Diagnostics& diagnostics);
+/// Whether places in files of a format are byte offsets, not lines.
+bool places_are_bytes(std::string_view format);
 
 /// What a file of this format will not hold of the take, a line each. Errors: `quality_limit` with
 /// the first of them when `strict`.
@@ -47,6 +58,11 @@ std::vector<std::string> loss_lines(const std::string& name, const Take& take,
 /// "4,564 analog frames, no points": what a marker file without markers holds; empty for any other
 /// take.
 std::string pointless_text(const Take& take);
+
+/// The number of the first frame, as the file counts.
+std::int64_t first_frame_of(const Take& take);
+/// The number of a frame of a take whose first has the number `first`.
+std::int64_t frame_number(std::size_t frame, std::int64_t first);
 
 /// "1 frame", "2 frames", "2,404 frames".
 std::string counted(std::size_t count, std::string_view noun);
@@ -62,6 +78,10 @@ Flag output_flag(std::string help);
 Flag seed_flag(std::string help);
 Flag from_flag();
 Flag strict_flag(std::string help);
+/// --map, for feet whose names are not known.
+Flag map_flag();
+/// What --map names; nothing where it is not given.
+KnownNames names_of_map(const std::string& path);
 /// All flags that `read_options` understands: --from, --asf, --from-fps, --strict.
 std::vector<Flag> reading_flags(std::string strict_help);
 /// Puts `more` behind `list`.

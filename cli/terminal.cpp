@@ -147,16 +147,26 @@ std::string printable(std::string_view whole) {
   return result;
 }
 
-ProgressBar::ProgressBar(std::size_t total)
-    : total_(total), on_(total > 1 && isatty(STDERR_FILENO)) {
+std::string duration_text(double seconds) {
+  if (seconds < 90) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 90 * 60) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+ProgressBar::ProgressBar(std::size_t total, double work)
+    : total_(total),
+      work_(work > 0 ? work : static_cast<double>(total)),
+      start_(std::chrono::steady_clock::now()),
+      on_(total > 1 && isatty(STDERR_FILENO)) {
   draw();
 }
 
 ProgressBar::~ProgressBar() { clear(); }
 
-void ProgressBar::step() {
+void ProgressBar::step(double work, bool is_new) {
   const std::lock_guard lock(mutex_);
   ++done_;
+  (is_new ? work_done_ : work_) += is_new ? work : -work;
   draw();
 }
 
@@ -167,7 +177,13 @@ void ProgressBar::clear() {
 void ProgressBar::draw() {
   if (!on_) return;
   const double share = static_cast<double>(done_) / static_cast<double>(total_);
-  write_err(fmt::format("{} {}/{} takes", bar_text(share), done_, total_));
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
+  std::string left;
+  if (work_done_ > 0 && done_ < total_) {
+    left = fmt::format(", {} left",
+                       duration_text(spent.count() * (work_ - work_done_) / work_done_));
+  }
+  write_err(fmt::format("{} {}/{} takes{}", bar_text(share), done_, total_, left));
 }
 
 ProgressLine::ProgressLine() : on_(isatty(STDERR_FILENO)) {}

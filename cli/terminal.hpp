@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <mutex>
@@ -50,12 +51,14 @@ std::string printable(std::string_view text);
 /// A bar on standard error, on a terminal only. Calls may come from any thread.
 class ProgressBar {
  public:
-  explicit ProgressBar(std::size_t total);
+  /// `work`: how much there is to do, in any unit; 0: a take is as much as another.
+  explicit ProgressBar(std::size_t total, double work = 0);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  void step();
+  /// One more is done, which was so much of the work; nothing of it where `is_new` is false.
+  void step(double work = 1, bool is_new = true);
   /// Takes the bar off the line so that other text can be printed; `step` draws it again.
   void clear();
 
@@ -65,8 +68,13 @@ class ProgressBar {
   std::mutex mutex_;
   std::size_t total_;
   std::size_t done_ = 0;
+  double work_, work_done_ = 0;  ///< `work_` shrinks by what was done already
+  std::chrono::steady_clock::time_point start_;
   bool on_;
 };
+
+/// "45 s", "12 min", "3.5 h".
+std::string duration_text(double seconds);
 
 /// A bar for work of one thread whose length is known as a share, on a terminal only.
 class ProgressLine {

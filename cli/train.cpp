@@ -43,7 +43,7 @@ struct Training {
 
 Take read_training_take(const Training& training, const std::string& path, bool warns) {
   TakeResult read = read_take(std::filesystem::path(path), training.reading);
-  if (warns && !training.quiet) warn_of_repairs(path, read.diagnostics);
+  if (warns && !training.quiet) warn_of_repairs(source_of(read.take), read.diagnostics);
   if (!training.fill.empty()) {
     FillSettings settings;
     settings.method = training.fill;

@@ -35,7 +35,7 @@ PUBLIC = {
     "io": "io", "representation": "representation", "metrics": "metrics", "corrupt": "corrupt",
     "synth": "synth", "signal": "signal", "cleaner": "clean", "methods": "clean", "clean": "clean",
     "stream": "stream", "tensor": "nn", "body": "representation", "model": "priors", "train": "priors",
-    "feet": "feet",
+    "feet": "feet", "frame_numbers": "motion", "known_names": "motion", "subjects": "motion",
 }
 
 # Folders of programs: they see include/ (and their own folder) only.

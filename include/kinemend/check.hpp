@@ -9,6 +9,7 @@
 
 #include "kinemend/clip.hpp"
 #include "kinemend/gaps.hpp"
+#include "kinemend/known_names.hpp"
 #include "kinemend/marker_clip.hpp"
 
 // The health of a take before cleaning.
@@ -87,7 +88,7 @@ struct CheckFigures {
   std::size_t spikes = 0;
   std::size_t swaps = 0;
   std::size_t frozen = 0;            ///< spans that are frozen or bridged
-  std::optional<double> slide_cm;    ///< largest of any contact; none without feet or scale
+  std::optional<double> slide_cm;    ///< largest of any contact; none without contact or scale
   std::optional<double> sink_cm;     ///< largest depth
   double length_change_percent = 0;  ///< largest of any bone or rigid pair
   std::size_t flips = 0;
@@ -105,6 +106,14 @@ struct CheckSettings {
   std::optional<Axis> up;             ///< empty: found from the feet and the body above them
   /// Metres in a file unit. Empty: what the take says, else what makes the body a person.
   std::optional<double> metres_per_unit;
+  KnownNames names;  ///< what joints or markers of feet are called where names do not tell
+};
+
+/// One of several people in a take of markers.
+struct SubjectHealth {
+  std::string name;
+  std::size_t markers = 0;
+  std::optional<double> slide_cm, sink_cm;  ///< as in `CheckFigures`
 };
 
 struct CheckReport {
@@ -116,7 +125,9 @@ struct CheckReport {
   std::string noise_unit;              ///< "deg", or the markers' unit
   CheckFigures figures;
   std::vector<TrackHealth> tracks;  ///< J, or the markers that are positions
-  std::vector<Finding> findings;    ///< worst first
+  std::vector<SubjectHealth> subjects;  ///< of a take of several; their feet, lengths and size are
+                                        ///< judged one by one
+  std::vector<Finding> findings;        ///< worst first
   std::vector<MarkerSwap> swaps;
   std::vector<NamedGap> stale;  ///< frozen and bridged spans, by track, then frame: what a gap side
                                 ///< file holds

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "kinemend/clip.hpp"
@@ -19,6 +21,8 @@ struct FillSettings {
   std::string donor;               ///< of `pattern`: the marker whose movement is copied
   double longest_gap_s = 0;        ///< longer gaps are refused; 0: what the method's rules say
   bool fill_all = false;           ///< also where the rules refuse: the best guess there is
+  /// First and last frame, from 0: gaps that do not lie within stay, and are not listed.
+  std::optional<std::pair<std::size_t, std::size_t>> range;
 };
 
 /// What became of one gap.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "check/checks.hpp"
 #include "check/feet.hpp"
@@ -10,6 +11,10 @@
 namespace kinemend::check {
 
 namespace {
+
+void put_largest(double value, std::optional<double>& largest) {
+  largest = std::max(value, largest.value_or(value));
+}
 
 void report_feet(const BodyPoints& body, Up up, const CheckSettings& settings,
                  CheckReport& report) {
@@ -32,8 +37,10 @@ void report_feet(const BodyPoints& body, Up up, const CheckSettings& settings,
     if (slide > settings.slide_cm) report_cm(FindingKind::slide, slide, "slides while it stands");
     if (sink > settings.sink_cm) report_cm(FindingKind::sink, sink, "stands below the floor");
   }
-  report.figures.slide_cm = slide_cm;
-  if (!depths.empty() || contacts.empty()) report.figures.sink_cm = sink_cm;
+  // Feet that never stand neither slide nor sink.
+  if (contacts.empty()) return;
+  put_largest(slide_cm, report.figures.slide_cm);
+  if (!depths.empty()) put_largest(sink_cm, report.figures.sink_cm);
 }
 
 // Acceleration of the least-squares parabola through heights, m/s^2, downwards.
@@ -92,13 +99,32 @@ void check_points(const BodyPoints& body, const CheckSettings& settings, CheckRe
 
 void check_body(const Clip& clip, const CheckSettings& settings, CheckReport& report) {
   if (report.metres_per_unit > 0)
-    check_points(body_points(clip, report.metres_per_unit), settings, report);
+    check_points(body_points(clip, report.metres_per_unit, settings.names), settings, report);
 }
 
-void check_body(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+void check_body(const MarkerClip& clip, const std::vector<Subject>& subjects,
                 const CheckSettings& settings, CheckReport& report) {
-  if (report.metres_per_unit > 0)
-    check_points(body_points(clip, markers, report.metres_per_unit), settings, report);
+  if (!(report.metres_per_unit > 0)) return;
+  bool has_rate = false;
+  for (const Subject& subject : subjects) {
+    CheckReport own;
+    own.frame_rate_hz = report.frame_rate_hz;
+    check_points(body_points(clip, subject.markers, report.metres_per_unit, settings.names),
+                 settings, own);
+    for (Finding& finding : own.findings) {
+      // One person tells of the rate as well as another.
+      const bool is_rate = finding.kind == FindingKind::rate;
+      if (is_rate && std::exchange(has_rate, true)) continue;
+      if (!is_rate && !subject.name.empty()) finding.track = subject.name + " " + finding.track;
+      report.findings.push_back(std::move(finding));
+    }
+    if (own.figures.slide_cm) put_largest(*own.figures.slide_cm, report.figures.slide_cm);
+    if (own.figures.sink_cm) put_largest(*own.figures.sink_cm, report.figures.sink_cm);
+    if (subjects.size() > 1) {
+      report.subjects.push_back({subject.name, subject.markers.size(), own.figures.slide_cm,
+                                 own.figures.sink_cm});
+    }
+  }
 }
 
 }  // namespace kinemend::check

@@ -31,9 +31,11 @@ std::vector<std::size_t> points_below(const Skeleton& skeleton, std::size_t join
 }
 
 // Ankles with what hangs on them: the ankle itself rolls over the foot.
-std::vector<Foot> feet_of(const Skeleton& skeleton) {
+std::vector<Foot> feet_of(const Skeleton& skeleton, const KnownNames& names) {
   std::vector<Foot> feet;
-  for (const std::size_t ankle : feet::ankles_of(skeleton)) {
+  Skeleton known = skeleton;
+  known.names = known_names(skeleton.names, names);
+  for (const std::size_t ankle : feet::ankles_of(known)) {
     Foot foot{skeleton.names[ankle], points_below(skeleton, ankle)};
     if (foot.points.empty()) foot.points.push_back(ankle);
     feet.push_back(std::move(foot));
@@ -55,13 +57,15 @@ std::string upper_case(std::string_view name) {
   return upper;
 }
 
-std::vector<Foot> feet_of(const MarkerClip& clip, const std::vector<std::size_t>& markers) {
+std::vector<Foot> feet_of(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+                          const KnownNames& names) {
   std::vector<Foot> feet;
+  const std::vector<std::string> known = known_names(clip.names, names);
   for (const auto& [letter, word, name] :
        {std::tuple('L', "LEFT", "left foot"), std::tuple('R', "RIGHT", "right foot")}) {
     Foot foot{name, {}};
     for (std::size_t i = 0; i < markers.size(); ++i) {
-      const std::string marker = upper_case(without_subject(clip.names[markers[i]]));
+      const std::string marker = upper_case(without_subject(known[markers[i]]));
       const bool on_side =
           !marker.empty() && (marker.front() == letter || marker.find(word) != std::string::npos);
       if (on_side && names_a_sole(marker)) foot.points.push_back(i);
@@ -73,12 +77,12 @@ std::vector<Foot> feet_of(const MarkerClip& clip, const std::vector<std::size_t>
 
 }  // namespace
 
-BodyPoints body_points(const Clip& clip, double metres_per_unit) {
+BodyPoints body_points(const Clip& clip, double metres_per_unit, const KnownNames& names) {
   BodyPoints body;
   body.frames = clip.frame_count();
   body.points = clip.joint_count() + clip.skeleton.end_sites.size();
   body.frame_rate_hz = clip.frame_rate_hz;
-  body.feet = feet_of(clip.skeleton);
+  body.feet = feet_of(clip.skeleton, names);
   body.height = metres_per_unit * skeleton_height(clip.skeleton);
   if (body.feet.empty()) return body;
   body.positions = joint_positions(clip, true);
@@ -88,12 +92,12 @@ BodyPoints body_points(const Clip& clip, double metres_per_unit) {
 }
 
 BodyPoints body_points(const MarkerClip& clip, const std::vector<std::size_t>& markers,
-                       double metres_per_unit) {
+                       double metres_per_unit, const KnownNames& names) {
   BodyPoints body;
   body.frames = clip.frame_count();
   body.points = markers.size();
   body.frame_rate_hz = clip.frame_rate_hz;
-  body.feet = feet_of(clip, markers);
+  body.feet = feet_of(clip, markers, names);
   if (body.feet.empty()) return body;
   for (std::size_t f = 0; f < body.frames; ++f) {
     Vec3 sum;

@@ -107,6 +107,16 @@ CheckReport report_on(const MarkerClip& clip, MarkerRows& rows) {
   return report;
 }
 
+// Several people span more than one: the markers of whoever has most, or all without anybody.
+const std::vector<std::size_t>& largest_of(const std::vector<Subject>& subjects,
+                                           const std::vector<std::size_t>& markers) {
+  const auto largest =
+      std::max_element(subjects.begin(), subjects.end(), [](const Subject& a, const Subject& b) {
+        return a.markers.size() < b.markers.size();
+      });
+  return largest == subjects.end() ? markers : largest->markers;
+}
+
 std::vector<Finding> beyond_cleaning(std::vector<Finding> findings) {
   const auto is_less = [](const Finding& finding) {
     const bool is_stale =
@@ -145,7 +155,8 @@ CheckReport check_take(const MarkerClip& clip, const CheckSettings& settings) {
   MarkerRows rows;
   CheckReport report = report_on(clip, rows);
   const auto& [markers, track_of] = rows;
-  check::check_unit(clip, markers, settings, report);
+  const std::vector<Subject> subjects = subjects_of(clip);
+  check::check_unit(clip, largest_of(subjects, markers), settings, report);
   check::check_gaps(find_gaps(clip), track_of, report);
   check::check_swaps(clip, track_of, report);
   // Every other check would see an exchange of labels twice in each of two tracks.
@@ -153,9 +164,10 @@ CheckReport check_take(const MarkerClip& clip, const CheckSettings& settings) {
   undo_swaps(labelled, report.swaps);
   check::check_noise_and_spikes(labelled, markers, settings, report);
   check::check_stale(labelled, markers, settings, report);
-  check::check_lengths(labelled, markers, settings, report);
+  for (const Subject& subject : subjects)
+    check::check_lengths(labelled, subject.markers, settings, report);
   check::check_frames(labelled, markers, report);
-  check::check_body(labelled, markers, settings, report);
+  check::check_body(labelled, subjects, settings, report);
   report_left_out(clip, markers, report);
   check::sort_worst_first(report.findings);
   return report;
@@ -179,7 +191,8 @@ std::vector<Finding> find_beyond_cleaning(const MarkerClip& clip) {
   const CheckSettings settings;
   MarkerRows rows;
   CheckReport report = report_on(clip, rows);
-  check::check_unit(clip, rows.markers, settings, report);
+  const std::vector<Subject> subjects = subjects_of(clip);
+  check::check_unit(clip, largest_of(subjects, rows.markers), settings, report);
   check::check_gaps(find_gaps(clip), rows.track_of, report);
   check::check_swaps(clip, rows.track_of, report);
   check::check_stale(clip, rows.markers, settings, report);

@@ -5,6 +5,7 @@
 
 #include "check/findings.hpp"
 #include "kinemend/check.hpp"
+#include "kinemend/subjects.hpp"
 
 // One function a check. Each adds to a report whose `tracks` are named already; frames count from
 // the first frame of the clip it is given.
@@ -51,7 +52,8 @@ void check_unit(const MarkerClip& clip, const std::vector<std::size_t>& markers,
 /// Feet that slide or sink, and a rate at which the body would fall too fast or too slowly.
 /// `check_unit` comes before.
 void check_body(const Clip& clip, const CheckSettings& settings, CheckReport& report);
-void check_body(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+/// Each subject by itself.
+void check_body(const MarkerClip& clip, const std::vector<Subject>& subjects,
                 const CheckSettings& settings, CheckReport& report);
 
 }  // namespace kinemend::check

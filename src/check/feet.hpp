@@ -12,11 +12,11 @@ namespace kinemend::check {
 using feet::along, feet::BodyPoints, feet::find_up, feet::Foot, feet::Up;
 
 /// Joints with end sites, in metres. Feet are found by names and by what hangs on them.
-BodyPoints body_points(const Clip& clip, double metres_per_unit);
+BodyPoints body_points(const Clip& clip, double metres_per_unit, const KnownNames& names = {});
 /// Markers, in metres. Feet are found by the names of the marker sets in use (LTOE, RHEE, L_MT5,
 /// ...).
 BodyPoints body_points(const MarkerClip& clip, const std::vector<std::size_t>& markers,
-                       double metres_per_unit);
+                       double metres_per_unit, const KnownNames& names = {});
 
 /// A time in which a foot stands.
 struct Contact {

@@ -1,12 +1,11 @@
 #include "clean/selection.hpp"
 
 #include <fmt/format.h>
-#include <fnmatch.h>
 
 #include <limits>
 
 #include "kinemend/error.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "motion/name_pattern.hpp"
 
 namespace kinemend {
 
@@ -15,25 +14,6 @@ namespace {
 void check_number(const char* name, double value, double maximum) {
   if (value >= 0 && value <= maximum) return;
   throw Error(ErrorKind::usage, fmt::format("{}: {} is outside 0 to {}", name, value, maximum));
-}
-
-bool matches(const std::string& pattern, std::string_view name) {
-  return name == pattern || fnmatch(pattern.c_str(), std::string(name).c_str(), 0) == 0;
-}
-
-// Sets the marks of what a name or shell pattern means.
-void mark(const std::vector<std::string>& names, const std::string& pattern, std::string_view kind,
-          std::uint8_t value, std::vector<std::uint8_t>& marks) {
-  bool matched = false;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (!matches(pattern, names[i]) && !matches(pattern, without_subject(names[i]))) continue;
-    marks[i] = value;
-    matched = true;
-  }
-  if (!matched) {
-    throw Error(ErrorKind::usage, fmt::format("no {} matches \"{}\" (the {}s are {})", kind,
-                                              pattern, kind, fmt::join(names, ", ")));
-  }
 }
 
 }  // namespace
@@ -57,9 +37,10 @@ void check_settings(const CleanSettings& settings, std::size_t frames) {
 
 std::vector<std::uint8_t> select_names(const std::vector<std::string>& names,
                                        const CleanSettings& settings, std::string_view kind) {
-  std::vector<std::uint8_t> marks(names.size(), settings.joints.empty() ? 1 : 0);
-  for (const auto& pattern : settings.joints) mark(names, pattern, kind, 1, marks);
-  for (const auto& pattern : settings.exclude) mark(names, pattern, kind, 0, marks);
+  std::vector<std::uint8_t> marks = names_meant(names, settings.joints, kind);
+  if (settings.exclude.empty()) return marks;
+  const std::vector<std::uint8_t> excluded = names_meant(names, settings.exclude, kind);
+  for (std::size_t i = 0; i < marks.size(); ++i) marks[i] = excluded[i] != 0 ? 0 : marks[i];
   return marks;
 }
 

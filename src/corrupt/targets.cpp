@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "kinemend/error.hpp"
+#include "motion/name_pattern.hpp"
 
 namespace kinemend::corrupt {
 
@@ -23,13 +24,21 @@ std::vector<std::string_view> split(std::string_view list) {
 std::vector<std::uint8_t> named_joints(const Skeleton& skeleton, std::string_view list) {
   std::vector<std::uint8_t> named(skeleton.joint_count(), list.empty());
   for (const std::string_view pattern : split(list)) {
-    bool any = false;
-    for (std::size_t j = 0; j < skeleton.joint_count(); ++j) {
-      if (!matches_pattern(skeleton.names[j], pattern)) continue;
-      named[j] = 1;
-      any = true;
-    }
-    if (!any)
+    const auto mark = [&](const auto& is_meant) {
+      bool any = false;
+      for (std::size_t j = 0; j < skeleton.joint_count(); ++j) {
+        if (!is_meant(skeleton.names[j])) continue;
+        named[j] = 1;
+        any = true;
+      }
+      return any;
+    };
+    const auto matches = [&](const std::string& name) { return matches_pattern(name, pattern); };
+    // Capitals count only where that very name is there.
+    const auto matches_lower = [&, lower = small_letters(pattern)](const std::string& name) {
+      return matches_pattern(small_letters(name), lower);
+    };
+    if (!mark(matches) && !mark(matches_lower))
       throw Error(ErrorKind::usage, fmt::format("joints: no joint matches \"{}\"", pattern));
   }
   return named;

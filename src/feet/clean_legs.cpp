@@ -234,8 +234,28 @@ class FeetCleaning {
 
 }  // namespace
 
+namespace {
+
+/// Joints bear other names while it lives.
+class Renamed {
+ public:
+  Renamed(Skeleton& skeleton, std::vector<std::string> names)
+      : names_(skeleton.names), own_(std::exchange(names_, std::move(names))) {}
+  ~Renamed() { names_ = std::move(own_); }
+  Renamed(const Renamed&) = delete;
+  Renamed& operator=(const Renamed&) = delete;
+
+ private:
+  std::vector<std::string>& names_;
+  std::vector<std::string> own_;
+};
+
+}  // namespace
+
 FeetReport clean_legs(Clip& motion, const FeetSettings& settings, const FeetLimits& limits) {
   check_settings(settings);
+  if (settings.names.empty()) return FeetCleaning(motion, settings, limits).run();
+  const Renamed renamed(motion.skeleton, known_names(motion.skeleton.names, settings.names));
   return FeetCleaning(motion, settings, limits).run();
 }
 

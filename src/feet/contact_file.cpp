@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -9,28 +10,41 @@
 #include "base/quote.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/feet.hpp"
+#include "kinemend/frame_numbers.hpp"
+#include "motion/name_pattern.hpp"
 
 namespace kinemend {
 
 namespace {
 
 constexpr std::string_view heading =
-    "# Times in which a foot stands: side, heel or toe, first and last frame (from 1).\n"
+    "# Times in which a foot stands: side, heel or toe, first and last frame, numbered as in the take.\n"
     "# What is listed is held in place; lines that start with # are not.\n";
 
-std::string line_of(const std::vector<Leg>& legs, const FootContact& contact) {
+std::string line_of(std::string side, const FootContact& contact,
+                    std::int64_t first_frame) {
+  const auto number = [&](std::size_t frame) {
+    return static_cast<std::int64_t>(frame) + first_frame;
+  };
   // A name with a space would be two words.
-  std::string side = legs[contact.leg].side;
   std::replace_if(
       side.begin(), side.end(), [](char c) { return c == ' ' || c == '\t' || c == '#'; }, '_');
-  return fmt::format("{} {} {} {}", side, to_string(contact.part), contact.first_frame + 1,
-                     contact.last_frame + 1);
+  return fmt::format("{} {} {} {}", side, to_string(contact.part), number(contact.first_frame),
+                     number(contact.last_frame));
+}
+
+std::vector<Leg> legs_of(Skeleton skeleton, const KnownNames& names) {
+  skeleton.names = known_names(skeleton.names, names);
+  return find_legs(skeleton);
 }
 
 class ContactReader {
  public:
-  ContactReader(std::string_view name, const Clip& clip)
-      : name_(name), frames_(clip.frame_count()), legs_(find_legs(clip.skeleton)) {}
+  ContactReader(std::string_view name, const Clip& clip, const KnownNames& names)
+      : name_(name),
+        frames_(static_cast<std::int64_t>(clip.frame_count())),
+        first_frame_(first_frame_number(clip)),
+        legs_(legs_of(clip.skeleton, names)) {}
 
   void read(std::string_view line, std::size_t number) {
     number_ = number;
@@ -43,8 +57,8 @@ class ContactReader {
     contact.first_frame = frame(word(), "first frame");
     contact.last_frame = frame(word(), "last frame");
     if (contact.last_frame < contact.first_frame) {
-      fail(fmt::format("expected a last frame from {} on, found {}", contact.first_frame + 1,
-                       contact.last_frame + 1));
+      fail(fmt::format("expected a last frame from {} on, found {}",
+                       numbered(contact.first_frame), numbered(contact.last_frame)));
     }
     if (const std::string_view more = word(); !more.empty())
       fail(fmt::format("expected the end of the line, found {}", quote(more)));
@@ -64,7 +78,7 @@ class ContactReader {
             line.contact.first_frame <= before.last_frame) {
           number_ = line.number;
           fail(fmt::format("expected frames of their own, found some of {} to {} again",
-                           before.first_frame + 1, before.last_frame + 1));
+                           numbered(before.first_frame), numbered(before.last_frame)));
         }
       }
       contacts.push_back(line.contact);
@@ -95,9 +109,9 @@ class ContactReader {
   std::size_t leg(std::string_view side) const {
     std::string names;
     for (std::size_t l = 0; l < legs_.size(); ++l) {
-      const std::string line = line_of(legs_, {l, FootPart::heel, 0, 0});
+      const std::string line = line_of(legs_[l].side, {l, FootPart::heel, 0, 0}, 1);
       const std::string own = line.substr(0, line.find(' '));
-      if (side == own) return l;
+      if (same_but_for_case(side, own)) return l;
       names += (l == 0 ? "" : " or ") + own;
     }
     if (legs_.empty()) fail("expected no contact: the skeleton has no legs");
@@ -105,21 +119,28 @@ class ContactReader {
   }
 
   FootPart part(std::string_view name) const {
-    if (name == "heel") return FootPart::heel;
-    if (name == "toe") return FootPart::toe;
+    if (same_but_for_case(name, "heel")) return FootPart::heel;
+    if (same_but_for_case(name, "toe")) return FootPart::toe;
     fail(fmt::format("expected heel or toe, found {}", quote(name)));
   }
 
   std::size_t frame(std::string_view text, std::string_view what) const {
-    std::size_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc{} || end != text.data() + text.size() || number < 1 || number > frames_)
-      fail(fmt::format("expected a {} of 1 to {}, found {}", what, frames_, quote(text)));
-    return number - 1;
+    std::int64_t found = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), found);
+    const std::int64_t last = first_frame_ + frames_ - 1;
+    const bool is_number = error == std::errc{} && end == text.data() + text.size();
+    if (!is_number || found < first_frame_ || found > last)
+      fail(fmt::format("expected a {} of {} to {}, found {}", what, first_frame_, last,
+                       quote(text)));
+    return static_cast<std::size_t>(found - first_frame_);
+  }
+
+  std::int64_t numbered(std::size_t frame) const {
+    return static_cast<std::int64_t>(frame) + first_frame_;
   }
 
   std::string_view name_;
-  std::size_t frames_;
+  std::int64_t frames_, first_frame_;
   std::vector<Leg> legs_;
   std::size_t number_ = 0;
   std::string_view rest_;
@@ -131,15 +152,16 @@ class ContactReader {
 std::string contacts_text(const Clip& clip, const std::vector<FootContact>& contacts) {
   const std::vector<Leg> legs = find_legs(clip.skeleton);
   std::string text(heading);
-  for (const FootContact& contact : contacts) text += line_of(legs, contact) + "\n";
+  for (const FootContact& contact : contacts)
+    text += line_of(legs[contact.leg].side, contact, first_frame_number(clip)) + "\n";
   return text;
 }
 
 std::string contacts_text(const Clip& clip, const FeetReport& report) {
-  const std::vector<Leg> legs = find_legs(clip.skeleton);
   std::string text(heading);
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
-    const std::string line = line_of(legs, report.contacts[i]);
+    const std::string line = line_of(report.sides[report.contacts[i].leg], report.contacts[i],
+                                     first_frame_number(clip));
     text += report.held[i] != 0 || report.still[i] != 0
                 ? line + "\n"
                 : fmt::format("# {}  {}\n", line, report.reasons[i]);
@@ -148,11 +170,11 @@ std::string contacts_text(const Clip& clip, const FeetReport& report) {
 }
 
 std::vector<FootContact> parse_contacts(std::string_view text, std::string_view name,
-                                        const Clip& clip) {
+                                        const Clip& clip, const KnownNames& names) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (text.substr(0, byte_order_mark.size()) == byte_order_mark)
     text.remove_prefix(byte_order_mark.size());
-  ContactReader reader(name, clip);
+  ContactReader reader(name, clip, names);
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     reader.read(text.substr(0, end), number);

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fnmatch.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -7,9 +6,11 @@
 #include <tuple>
 
 #include "fill/beside_gap.hpp"
+#include "fill/gap_range.hpp"
 #include "fill/joint_trials.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/fill.hpp"
+#include "motion/name_pattern.hpp"
 
 namespace kinemend {
 
@@ -35,24 +36,6 @@ std::vector<const JointMethod*> chosen_methods(const std::string& name) {
   if (chosen.empty()) {
     throw Error(ErrorKind::usage,
                 fmt::format("fill: expected a method for joints ({}), found \"{}\"", known, name));
-  }
-  return chosen;
-}
-
-std::vector<std::uint8_t> chosen_joints(const Clip& clip, const std::vector<std::string>& names) {
-  std::vector<std::uint8_t> chosen(clip.joint_count(), names.empty() ? 1 : 0);
-  for (const std::string& pattern : names) {
-    bool found = false;
-    for (std::size_t j = 0; j < clip.joint_count(); ++j) {
-      const std::string& name = clip.skeleton.names[j];
-      if (name != pattern && fnmatch(pattern.c_str(), name.c_str(), 0) != 0) continue;
-      chosen[j] = 1;
-      found = true;
-    }
-    if (!found) {
-      throw Error(ErrorKind::usage, fmt::format("fill: no joint matches \"{}\" (the take has {})",
-                                                pattern, fmt::join(clip.skeleton.names, ", ")));
-    }
   }
   return chosen;
 }
@@ -233,7 +216,10 @@ struct Task {
   JointTrack filled;
 };
 
-std::vector<Task> tasks_of(const Clip& clip, const std::vector<std::uint8_t>& chosen) {
+// `first`: the frame of the take that the clip begins with.
+std::vector<Task> tasks_of(const Clip& clip, const FillSettings& settings, std::size_t first) {
+  const std::vector<std::uint8_t> chosen =
+      names_meant(clip.skeleton.names, settings.names, "joint");
   std::vector<Task> tasks;
   const auto append = [&](const std::vector<Gap>& gaps, bool is_position) {
     for (const Gap& gap : gaps) {
@@ -241,7 +227,7 @@ std::vector<Task> tasks_of(const Clip& clip, const std::vector<std::uint8_t>& ch
           !is_position || gap.track == 0
               ? gap.track
               : static_cast<std::size_t>(clip.translated_joints[gap.track - 1]);
-      if (!chosen[joint]) continue;
+      if (!chosen[joint] || !fill::lies_within(gap, first, settings)) continue;
       const bool is_new = tasks.empty() || tasks.back().track != gap.track ||
                           tasks.back().is_position != is_position;
       if (is_new) tasks.push_back({gap.track, is_position, {}, {}, {}});
@@ -267,8 +253,8 @@ void run_task(Task& task, const Clip& clip, const std::vector<const JointMethod*
 }
 
 FillReport fill_motion(Clip& clip, const std::vector<const JointMethod*>& methods,
-                       const FillSettings& settings) {
-  std::vector<Task> tasks = tasks_of(clip, chosen_joints(clip, settings.names));
+                       const FillSettings& settings, std::size_t first) {
+  std::vector<Task> tasks = tasks_of(clip, settings, first);
   FillReport report;
   if (tasks.empty()) return report;
   // Every gap is filled from what was observed, whatever the order.
@@ -288,7 +274,7 @@ FillReport fill_motion(Clip& clip, const std::vector<const JointMethod*>& method
 
 // The gaps of the calibration pose, which is no part of the motion.
 void refuse_gaps(const Clip& calibration, const FillSettings& settings, FillReport& report) {
-  for (Task& task : tasks_of(calibration, chosen_joints(calibration, settings.names))) {
+  for (Task& task : tasks_of(calibration, settings, 0)) {
     for (Gap gap : task.gaps) {
       if (task.is_position && gap.track > 0) {
         gap.track = static_cast<std::size_t>(calibration.translated_joints[gap.track - 1]);
@@ -312,10 +298,10 @@ FillReport fill_gaps(Clip& clip, const FillSettings& settings) {
   const std::size_t calibration = leading_calibration_frames(clip);
   FillReport report;
   if (calibration == 0) {
-    report = fill_motion(clip, methods, settings);
+    report = fill_motion(clip, methods, settings, 0);
   } else {
     Clip motion = slice(clip, calibration, clip.frame_count());
-    report = fill_motion(motion, methods, settings);
+    report = fill_motion(motion, methods, settings, calibration);
     put_back(motion.root_positions, clip.root_positions);
     put_back(motion.local_rotations, clip.local_rotations);
     put_back(motion.joint_translations, clip.joint_translations);

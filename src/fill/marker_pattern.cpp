@@ -15,7 +15,8 @@ Filling fill_by_pattern(const Samples& samples, const MarkerGap& gap,
   for (std::size_t f = first; f <= last; ++f) {
     if (samples.sees(f, donor)) continue;
     Filling refused =
-        Filling::refused(name, fmt::format("the donor is missing in frame {}", f + 1));
+        Filling::refused(name, fmt::format("the donor is missing in frame {}",
+                                           static_cast<std::int64_t>(f) + samples.first_frame));
     refused.may_wait = true;
     return refused;
   }

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fnmatch.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -7,10 +6,12 @@
 #include <optional>
 
 #include "fill/beside_gap.hpp"
+#include "fill/gap_range.hpp"
 #include "fill/marker_group.hpp"
 #include "fill/marker_methods.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/fill.hpp"
+#include "motion/name_pattern.hpp"
 
 namespace kinemend {
 
@@ -50,35 +51,17 @@ const NamedMethod& method_of(std::string_view name) {
                           fmt::join(known, ", "), name));
 }
 
-// The markers that the names or shell patterns mean.
-std::vector<std::uint8_t> chosen_markers(const MarkerClip& clip,
-                                         const std::vector<std::string>& names) {
-  std::vector<std::uint8_t> chosen(clip.marker_count(), names.empty() ? 1 : 0);
-  for (const std::string& pattern : names) {
-    bool found = false;
-    const std::int32_t exact = clip.find(pattern);
-    for (std::size_t m = 0; m < clip.marker_count(); ++m) {
-      if (static_cast<std::int32_t>(m) != exact &&
-          fnmatch(pattern.c_str(), clip.names[m].c_str(), 0) != 0) {
-        continue;
-      }
-      chosen[m] = 1;
-      found = true;
-    }
-    if (!found) {
-      throw Error(ErrorKind::usage, fmt::format("fill: no marker matches \"{}\" (the take has {})",
-                                                pattern, fmt::join(clip.names, ", ")));
-    }
-  }
-  return chosen;
-}
-
 std::size_t donor_of(const MarkerClip& clip, const FillSettings& settings) {
   if (settings.donor.empty()) {
     if (settings.method != "pattern") return MarkerRequest::no_marker;
     throw Error(ErrorKind::usage, "fill: the method pattern needs a donor");
   }
-  const std::int32_t donor = clip.find(settings.donor);
+  std::int32_t donor = clip.find(settings.donor);
+  if (donor < 0) {
+    const std::vector<std::uint8_t> meant = names_meant(clip.names, settings.donor);
+    if (std::count(meant.begin(), meant.end(), 1) == 1)
+      donor = static_cast<std::int32_t>(std::find(meant.begin(), meant.end(), 1) - meant.begin());
+  }
   if (donor < 0) {
     throw Error(ErrorKind::usage, fmt::format("fill: there is no donor \"{}\" (the take has {})",
                                               settings.donor, fmt::join(clip.names, ", ")));
@@ -91,6 +74,7 @@ Samples samples_of(const MarkerClip& clip, const std::vector<std::uint8_t>& seen
   samples.frames = clip.frame_count();
   samples.markers = clip.marker_count();
   samples.frame_rate_hz = clip.frame_rate_hz;
+  samples.first_frame = clip.first_frame;
   samples.positions = clip.positions;
   samples.measured = clip.observed;
   samples.seen = seen;
@@ -291,10 +275,12 @@ class Filler {
 FillReport fill_gaps(MarkerClip& clip, const FillSettings& settings) {
   clip.validate();
   const NamedMethod& method = method_of(settings.method);
-  const std::vector<std::uint8_t> chosen = chosen_markers(clip, settings.names);
+  const std::vector<std::uint8_t> chosen = names_meant(clip.names, settings.names, "marker");
   const MarkerRequest request{donor_of(clip, settings), settings.longest_gap_s, settings.fill_all};
   std::vector<Gap> gaps = find_gaps(clip);
-  std::erase_if(gaps, [&](const Gap& gap) { return chosen[gap.track] == 0; });
+  std::erase_if(gaps, [&](const Gap& gap) {
+    return chosen[gap.track] == 0 || !fill::lies_within(gap, 0, settings);
+  });
   Filler filler(clip, method, request, std::move(gaps));
   filler.run();
   filler.refine();

@@ -20,6 +20,7 @@ struct Samples {
   std::span<const std::uint8_t> measured;  ///< 1 where the take has a position
   std::span<const std::uint8_t> seen;      ///< 1 there, and where one was filled on good grounds
   std::vector<std::size_t> bodies;         ///< the markers that are positions at all
+  std::int64_t first_frame = 1;            ///< the number of frame 0, for messages
   double radius = 0;  ///< of the body, by which errors are judged (`body_radius`)
 
   bool measures(std::size_t frame, std::size_t marker) const {

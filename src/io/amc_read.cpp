@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -12,6 +13,8 @@
 #include "io/asf_scanner.hpp"
 #include "io/clip_rows.hpp"
 #include "io/text.hpp"
+#include "kinemend/error.hpp"
+#include "motion/frame_numbers.hpp"
 
 namespace kinemend {
 
@@ -37,6 +40,13 @@ void note_repairs(const SourceText& text, Diagnostics& diagnostics, const AmcRow
        "a value is no finite number: held from a neighbouring frame");
   note(rows.first_number_jump(), rows.number_jumps(), "frame_number_jump",
        "the number of a frame is not one more than that before: frames are taken as they come");
+}
+
+// Said where it is not 1, as everybody expects.
+void note_first_frame(Clip& clip, double number) {
+  constexpr double most = 9e15;
+  if (number == 1 || number != std::floor(number) || !(std::fabs(number) < most)) return;
+  clip.source.facts.push_back({std::string(first_frame_fact), fmt::format("{:.0f}", number)});
 }
 
 void read_frames(const SourceText& text, Diagnostics& diagnostics, Clip& clip,
@@ -70,6 +80,7 @@ void read_frames(const SourceText& text, Diagnostics& diagnostics, Clip& clip,
   }
   note_repairs(text, diagnostics, rows);
   clip_rows.finish(document, rows.gaps() > 0);
+  note_first_frame(clip, rows.first_frame_number());
   document.data_end = rows.last_end();
   document.decimals = rows.most_decimals();
 }
@@ -153,7 +164,9 @@ TakeResult read_amc(std::string bytes, std::string_view name, std::string asf_by
   document->skeleton = clip.skeleton;
   document->frame_rate_hz = clip.frame_rate_hz;
   document->frame_count = clip.frame_count();
-  clip.source = {std::string(name), "amc", document, {{"skeleton", std::string(asf_name)}}};
+  std::vector<SourceFact> facts = std::move(clip.source.facts);
+  facts.insert(facts.begin(), {"skeleton", std::string(asf_name)});
+  clip.source = {std::string(name), "amc", document, std::move(facts)};
   return result;
 }
 

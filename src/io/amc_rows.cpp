@@ -65,6 +65,7 @@ bool AmcRows::read_frame_number() {
   if (has_frame_number_ && token.value != frame_number_ + 1 && number_jumps_++ == 0) {
     first_number_jump_ = p;
   }
+  if (!has_frame_number_) first_frame_number_ = token.value;
   frame_number_ = token.value;
   has_frame_number_ = true;
   position_ = p + word.size();

@@ -29,6 +29,8 @@ class AmcRows {
   unsigned most_decimals() const { return most_decimals_; }
   std::size_t gaps() const { return gaps_; }  ///< values that are not finite
   const char* first_gap() const { return first_gap_; }
+  /// Of the first frame that was read.
+  double first_frame_number() const { return first_frame_number_; }
   /// Frames whose number is not one more than that of the frame before.
   std::size_t number_jumps() const { return number_jumps_; }
   const char* first_number_jump() const { return first_number_jump_; }
@@ -56,7 +58,7 @@ class AmcRows {
   const std::vector<std::uint8_t>& is_angle_;
   double degrees_per_value_;
   std::unordered_map<std::string_view, std::size_t> index_of_;
-  double frame_number_ = 0;
+  double frame_number_ = 0, first_frame_number_ = 1;
   bool has_frame_number_ = false;
   unsigned most_decimals_ = 0;
   std::size_t gaps_ = 0;

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cstdint>
 #include <optional>
 #include <string>
 
 #include "kinemend/error.hpp"
+#include "kinemend/frame_numbers.hpp"
 #include "kinemend/gaps.hpp"
 
 namespace kinemend {
@@ -72,29 +74,37 @@ std::vector<std::string> cells_of(std::string_view line, std::string_view name,
   }
 }
 
-std::optional<std::size_t> frame_number(std::string_view text) {
-  std::size_t value = 0;
+// From `least` on.
+std::optional<std::int64_t> frame_number(std::string_view text, std::int64_t least) {
+  // Far more than any take has, and far from where sums of two overflow.
+  constexpr std::int64_t most = std::int64_t{1} << 53;
+  std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value == 0) return std::nullopt;
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  if (value < least || value > most) return std::nullopt;
   return value;
 }
 
 bool starts_with_digit(std::string_view text) {
+  if (!text.empty() && text.front() == '-') text.remove_prefix(1);
   return !text.empty() && text.front() >= '0' && text.front() <= '9';
 }
 
-NamedGap gap_of(const std::vector<std::string>& cells, std::string_view name, std::size_t number) {
-  const auto first = frame_number(cells[1]), last = frame_number(cells[2]);
+NamedGap gap_of(const std::vector<std::string>& cells, std::string_view name, std::size_t number,
+                std::int64_t first_frame) {
+  const auto first = frame_number(cells[1], first_frame);
+  const auto last = frame_number(cells[2], first_frame);
   if (!first || !last) {
-    throw Error::at_line(
-        name, number,
-        fmt::format("expected a frame number from 1, found \"{}\"", first ? cells[2] : cells[1]));
+    throw Error::at_line(name, number,
+                         fmt::format("expected a frame number from {}, found \"{}\"", first_frame,
+                                     first ? cells[2] : cells[1]));
   }
   if (*last < *first) {
     throw Error::at_line(name, number,
                          fmt::format("the last frame, {}, is before the first, {}", *last, *first));
   }
-  return {cells[0], *first - 1, *last - 1};
+  return {cells[0], static_cast<std::size_t>(*first - first_frame),
+          static_cast<std::size_t>(*last - first_frame)};
 }
 
 std::string quoted(const std::string& name) {
@@ -111,6 +121,11 @@ std::string quoted(const std::string& name) {
 }  // namespace
 
 std::vector<NamedGap> parse_gaps(std::string_view text, std::string_view name) {
+  return parse_gaps(text, name, 1);
+}
+
+std::vector<NamedGap> parse_gaps(std::string_view text, std::string_view name,
+                                 std::int64_t first_frame) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (text.compare(0, byte_order_mark.size(), byte_order_mark) == 0) {
     text.remove_prefix(byte_order_mark.size());
@@ -129,15 +144,19 @@ std::vector<NamedGap> parse_gaps(std::string_view text, std::string_view name) {
     const bool is_heading =
         may_be_heading && !starts_with_digit(cells[1]) && !starts_with_digit(cells[2]);
     may_be_heading = false;
-    if (!is_heading) gaps.push_back(gap_of(cells, name, number));
+    if (!is_heading) gaps.push_back(gap_of(cells, name, number, first_frame));
   }
   return gaps;
 }
 
-std::string gaps_text(std::span<const NamedGap> gaps) {
+std::string gaps_text(std::span<const NamedGap> gaps) { return gaps_text(gaps, 1); }
+
+std::string gaps_text(std::span<const NamedGap> gaps, std::int64_t first_frame) {
   std::string text = fmt::format("{}\n", heading);
   for (const NamedGap& gap : gaps) {
-    text += fmt::format("{},{},{}\n", quoted(gap.name), gap.first_frame + 1, gap.last_frame + 1);
+    text += fmt::format("{},{},{}\n", quoted(gap.name),
+                        static_cast<std::int64_t>(gap.first_frame) + first_frame,
+                        static_cast<std::int64_t>(gap.last_frame) + first_frame);
   }
   return text;
 }

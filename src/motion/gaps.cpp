@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "kinemend/error.hpp"
+#include "kinemend/frame_numbers.hpp"
+#include "motion/name_pattern.hpp"
 
 namespace kinemend {
 
@@ -29,17 +31,25 @@ void append_gaps(std::size_t track, std::size_t frames, IsMissing is_missing,
 // Calls `mark(track, first, last)` for every track that each gap means.
 template <class Mark>
 void for_each_named(std::span<const NamedGap> gaps, const std::vector<std::string>& names,
-                    std::size_t frames, std::string_view kind, Mark mark) {
+                    std::size_t frames, std::int64_t first_number, std::string_view kind,
+                    Mark mark) {
+  const auto number = [&](std::size_t frame) {
+    return static_cast<std::int64_t>(frame) + first_number;
+  };
   for (const NamedGap& gap : gaps) {
     if (gap.first_frame > gap.last_frame || gap.last_frame >= frames) {
       throw Error(
           ErrorKind::usage,
-          fmt::format("gap of {} \"{}\": frames {} to {} are not in a take of frames 1 to {}", kind,
-                      gap.name, gap.first_frame + 1, gap.last_frame + 1, frames));
+          fmt::format("gap of {} \"{}\": frames {} to {} are not in a take of frames {} to {}", kind,
+                      gap.name, number(gap.first_frame), number(gap.last_frame), first_number,
+                      number(frames) - 1));
     }
+    const bool has_name = std::find(names.begin(), names.end(), gap.name) != names.end();
     bool found = false;
     for (std::size_t n = 0; n < names.size(); ++n) {
-      if (gap.name != "*" && gap.name != names[n]) continue;
+      const bool is_meant =
+          has_name ? gap.name == names[n] : same_but_for_case(gap.name, names[n]);
+      if (gap.name != "*" && !is_meant) continue;
       mark(n, gap.first_frame, gap.last_frame);
       found = true;
     }
@@ -95,7 +105,7 @@ std::vector<Gap> find_gaps(const MarkerClip& clip) {
 
 void mark_gaps(Clip& clip, std::span<const NamedGap> gaps) {
   const std::size_t joints = clip.joint_count(), positions = 1 + clip.translated_joints.size();
-  for_each_named(gaps, clip.skeleton.names, clip.frame_count(), "joint",
+  for_each_named(gaps, clip.skeleton.names, clip.frame_count(), first_frame_number(clip), "joint",
                  [&](std::size_t joint, std::size_t first, std::size_t last) {
                    if (clip.observed.empty()) clip.observed.assign(clip.local_rotations.size(), 1);
                    for (std::size_t f = first; f <= last; ++f)
@@ -111,7 +121,7 @@ void mark_gaps(Clip& clip, std::span<const NamedGap> gaps) {
 
 void mark_gaps(MarkerClip& clip, std::span<const NamedGap> gaps) {
   const std::size_t markers = clip.marker_count();
-  for_each_named(gaps, clip.names, clip.frame_count(), "marker",
+  for_each_named(gaps, clip.names, clip.frame_count(), first_frame_number(clip), "marker",
                  [&](std::size_t marker, std::size_t first, std::size_t last) {
                    for (std::size_t f = first; f <= last; ++f) {
                      clip.observed[f * markers + marker] = 0;

@@ -23,19 +23,38 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int format_version = 1;
+constexpr int format_version = 2;
+constexpr int first_with_checksum = 2;
 constexpr std::string_view format_key = "kinemend.model";
+constexpr std::string_view checksum_key = "kinemend.checksum";
+constexpr std::size_t checksum_digits = 32;
 // Tensors of the body, not of the method.
 constexpr std::string_view layout_prefix = "layout.";
 constexpr int most_json_depth = 3;
 
+// Where the checksum stands in a file that has one: its digits. A text of the metadata that looked
+// like this would have its quotes escaped.
+std::size_t checksum_place(std::string_view bytes) {
+  const std::string key = fmt::format("\"{}\":\"", checksum_key);
+  const std::size_t found = bytes.find(key);
+  return found == bytes.npos ? found : found + key.size();
+}
+
+// Of the file with zeros in place of the checksum.
+std::string checksum_of(std::string bytes, std::size_t place) {
+  bytes.replace(place, checksum_digits, checksum_digits, '0');
+  return content_hash(bytes);
+}
+
 // Reads what a model's metadata and tensors hold; every error names the file.
 class ModelReader {
  public:
-  ModelReader(TensorFile file, std::string_view name) : file_(std::move(file)), name_(name) {}
+  ModelReader(TensorFile file, std::string_view bytes, std::string_view name)
+      : file_(std::move(file)), bytes_(bytes), name_(name) {}
 
   Model read() {
     check_format();
+    check_checksum();
     Model model;
     model.method = text("method");
     model.version = whole<int>("version", 1);
@@ -73,6 +92,21 @@ class ModelReader {
     if (version > format_version) {
       refuse(fmt::format("the model is of format {}, and this program reads up to {}", version,
                          format_version));
+    }
+  }
+
+  // A number that is wrong is still a number: nothing else tells that a file was damaged.
+  void check_checksum() const {
+    const bool is_stated = file_.metadata.contains(checksum_key);
+    if (!is_stated && whole<int>(format_key, 1) < first_with_checksum) return;
+    const std::string& stated = text(checksum_key);
+    const std::size_t place = checksum_place(bytes_);
+    const bool has_place = place != bytes_.npos && place + checksum_digits <= bytes_.size() &&
+                           stated.size() == checksum_digits;
+    const std::string found = has_place ? checksum_of(std::string(bytes_), place) : "";
+    if (found != stated) {
+      refuse(fmt::format("the file is damaged: its checksum is {}, that of what it holds {}",
+                         quote(stated), found.empty() ? "another" : found));
     }
   }
 
@@ -196,7 +230,7 @@ class ModelReader {
   }
 
   TensorFile file_;
-  std::string_view name_;
+  std::string_view bytes_, name_;
 };
 
 Tensor tensor_of(std::vector<std::size_t> shape, TensorType type = TensorType::f64) {
@@ -263,7 +297,7 @@ void check_writable(const Model& model) {
 }  // namespace
 
 Model parse_model(std::string_view bytes, std::string_view name) {
-  return ModelReader(parse_tensors(bytes, name), name).read();
+  return ModelReader(parse_tensors(bytes, name), bytes, name).read();
 }
 
 Model read_model(const std::filesystem::path& path) {
@@ -275,6 +309,7 @@ std::string write_model(const Model& model) {
   TensorFile file;
   file.tensors = model.tensors;
   file.metadata = {{std::string(format_key), fmt::format("{}", format_version)},
+                   {std::string(checksum_key), std::string(checksum_digits, '0')},
                    {"method", model.method},
                    {"version", fmt::format("{}", model.version)},
                    {"rate_hz", fmt::format("{}", model.rate_hz)},
@@ -291,7 +326,9 @@ std::string write_model(const Model& model) {
   } catch (const Json::exception&) {
     refuse_to_write("a name is not UTF-8");
   }
-  return write_tensors(file);
+  std::string bytes = write_tensors(file);
+  const std::size_t place = checksum_place(bytes);
+  return bytes.replace(place, checksum_digits, checksum_of(bytes, place));
 }
 
 std::string model_checksum(std::string_view bytes) { return content_hash(bytes); }

@@ -11,12 +11,6 @@
 // What is summed up of a set of takes on the way to a layout.
 namespace kinemend::representation {
 
-/// 1 for the names that patterns mean; all where there are none. Errors: `ErrorKind::usage` for a
-/// pattern that means nothing.
-std::vector<std::uint8_t> names_meant(const std::vector<std::string>& names,
-                                      const std::vector<std::string>& patterns,
-                                      std::string_view noun);
-
 class JointLearning {
  public:
   JointLearning(std::vector<std::string> patterns, double trend_s);

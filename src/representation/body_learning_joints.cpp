@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +6,7 @@
 #include <utility>
 
 #include "kinemend/error.hpp"
+#include "motion/name_pattern.hpp"
 #include "representation/body_alignment.hpp"
 #include "representation/body_frame.hpp"
 #include "representation/body_learning.hpp"
@@ -48,27 +48,6 @@ std::size_t body_root(const Clip& clip) {
 Vec3 lower(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
 
 }  // namespace
-
-std::vector<std::uint8_t> names_meant(const std::vector<std::string>& names,
-                                      const std::vector<std::string>& patterns,
-                                      std::string_view noun) {
-  std::vector<std::uint8_t> meant(names.size(), patterns.empty() ? 1 : 0);
-  for (const std::string& pattern : patterns) {
-    bool any = false;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      const std::string name(without_subject(names[i]));
-      if (names[i] != pattern && fnmatch(pattern.c_str(), names[i].c_str(), 0) != 0 &&
-          fnmatch(pattern.c_str(), name.c_str(), 0) != 0)
-        continue;
-      meant[i] = 1;
-      any = true;
-    }
-    if (any) continue;
-    throw Error(ErrorKind::usage, fmt::format("no {} matches \"{}\" (the {}s are {})", noun,
-                                              pattern, noun, fmt::join(names, ", ")));
-  }
-  return meant;
-}
 
 JointLearning::JointLearning(std::vector<std::string> patterns, double trend_s)
     : patterns_(std::move(patterns)) {

@@ -7,6 +7,7 @@
 
 #include "kinemend/convert.hpp"
 #include "kinemend/error.hpp"
+#include "motion/name_pattern.hpp"
 #include "representation/body_anchors.hpp"
 #include "representation/body_frame.hpp"
 #include "representation/body_learning.hpp"

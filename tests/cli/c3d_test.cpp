@@ -87,6 +87,32 @@ TEST_F(C3dFiles, WithoutPointsAreToldAsSuch) {
   EXPECT_THAT(table.err, AllOf(HasSubstr("plates_only.c3d: " + what), IsOneLine()));
 }
 
+// Places in a C3D file are bytes, and there are no lines; lines of text stay lines.
+TEST_F(C3dFiles, NameTheByteOfWhatWasRepaired) {
+  const std::string take = fixture("header_scale");
+  const std::string place = "header_scale.c3d: byte 12: the header's scale is 0.5";
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"clean", take, "-o", "a.c3d"},
+        {"fill", take, "-o", "b.c3d"},
+        {"convert", take, "c.c3d"}}) {
+    EXPECT_THAT(run(words).err, HasSubstr(place)) << words[0];
+  }
+  for (const char* const command : {"info", "check"}) {
+    EXPECT_THAT(run({command, take}).out,
+                AllOf(HasSubstr(" byte 12: the header's scale"), Not(HasSubstr("line"))))
+        << command;
+    const Json json = Json::parse(run({command, take, "--json"}).out);
+    const Json& repair = json["takes"][0]["diagnostics"][0];
+    EXPECT_EQ(repair["first_byte"], 12);
+    EXPECT_FALSE(repair.contains("first_line"));
+  }
+  EXPECT_THAT(run({"clean", take, "--strict", "-o", "d.c3d"}).err, HasSubstr(": byte 12: "));
+  put(folder / "cut.bvh", std::string(hand_take()).replace(
+                              std::string(hand_take()).find("Frames: 10"), 10, "Frames: 12"));
+  EXPECT_THAT(run({"info", "cut.bvh"}).out, testing::ContainsRegex("repaired +line [0-9]+: "));
+  EXPECT_THAT(run({"convert", "cut.bvh", "out.bvh"}).err, HasSubstr("cut.bvh:"));
+}
+
 // A marker on a force plate's corner, in every command and format.
 TEST_F(C3dFiles, AMarkerAtTheOriginComesBack) {
   const std::string take = fixture("laboratory");

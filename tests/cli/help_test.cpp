@@ -10,9 +10,9 @@ namespace {
 using Help = Program;
 using testing::HasSubstr;
 
-const std::vector<std::string> commands = {"clean",   "fill",       "info",   "check",   "compare",
-                                           "methods", "train",      "models", "convert", "corrupt",
-                                           "synth",   "completion", "man"};
+const std::vector<std::string> commands = {
+    "clean",  "batch",   "fill",    "info",  "check",      "contacts", "compare", "methods", "train",
+    "models", "convert", "corrupt", "synth", "completion", "man",      "help"};
 
 /// Every `--name` in a command's long help; `--[no-]name` stands for two.
 std::set<std::string> options_in(const std::string& help) {

@@ -267,5 +267,33 @@ TEST_F(Train, WhatShipsIsListedAndExported) {
   EXPECT_EQ(run({"models", "--map", "m.kmodel"}).code, 2);
 }
 
+TEST_F(Train, AModelWithAFlippedByteIsRefusedByItsChecksum) {
+  noisy("a.bvh", "2");
+  ASSERT_EQ(run({"train", "wiener", "truth.bvh", "-o", "walk.kmodel"}).code, 0);
+  std::string bytes = contents(folder / "walk.kmodel");
+  // A number stays a number.
+  bytes[bytes.size() - 11] = static_cast<char>(bytes[bytes.size() - 11] ^ 0x01);
+  put(folder / "flipped.kmodel", bytes);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"info", "flipped.kmodel"},
+        {"clean", "a.bvh", "-m", "wiener", "--model", "flipped.kmodel", "--dry-run"},
+        {"models", "--map", "flipped.kmodel", "a.bvh"}}) {
+    const Ran ran = run(words);
+    EXPECT_EQ(ran.code, 3) << words[0];
+    EXPECT_THAT(ran.err, HasSubstr("flipped.kmodel: the file is damaged: its checksum is "));
+  }
+}
+
+TEST_F(Train, ShippedModelsBearChecksums) {
+  for (const char* method : {"example", "wiener"}) {
+    const std::string name = std::string(method) + ".kmodel";
+    ASSERT_EQ(run({"models", "--export", method, "-o", name}).code, 0);
+    std::string bytes = contents(folder / name);
+    bytes[bytes.size() - 11] = static_cast<char>(bytes[bytes.size() - 11] ^ 0x01);
+    put(folder / "flipped.kmodel", bytes);
+    EXPECT_THAT(run({"info", "flipped.kmodel"}).err, HasSubstr("the file is damaged")) << method;
+  }
+}
+
 }  // namespace
 }  // namespace kinemend::test

@@ -335,7 +335,7 @@ TEST(FillJoints, SaysWhatThereIsNot) {
   settings = {};
   settings.names = {"tail"};
   EXPECT_EQ(complaint(settings),
-            "fill: no joint matches \"tail\" (the take has root, joint1, joint2)");
+            "no joint matches \"tail\" (the joints are root, joint1, joint2)");
 }
 
 TEST(FillJoints, EveryMethodOfTheTableExistsForJoints) {

@@ -92,9 +92,17 @@ std::string error_of(const std::function<void()>& action, ErrorKind kind) {
 }
 
 /// The message for a model file with something changed in its tensors and metadata.
+/// The model as a file of format 1, which has no checksum.
+TensorFile without_checksum(const Model& model) {
+  TensorFile file = parse_tensors(write_model(model), "source");
+  file.metadata["kinemend.model"] = "1";
+  file.metadata.erase("kinemend.checksum");
+  return file;
+}
+
 std::string message_with(const std::function<void(TensorFile&)>& change,
                          const Model& model = joints_model()) {
-  TensorFile file = parse_tensors(write_model(model), "source");
+  TensorFile file = without_checksum(model);
   change(file);
   const std::string bytes = write_tensors(file);
   return error_of([&] { parse_model(bytes, "walk.kmodel"); }, ErrorKind::unreadable_input);
@@ -119,14 +127,41 @@ TEST(ModelFile, IsLaidOutAsTheReferenceLaysItOut) {
   };
   expect_same(read_model(fixture("joints.kmodel")), joints_model());
   expect_same(read_model(fixture("markers.kmodel")), markers_model());
-  EXPECT_EQ(write_model(joints_model()), file_bytes(fixture("joints.kmodel")));
-  EXPECT_EQ(write_model(markers_model()), file_bytes(fixture("markers.kmodel")));
+  EXPECT_EQ(write_tensors(without_checksum(joints_model())),
+            file_bytes(fixture("joints.kmodel")));
+  EXPECT_EQ(write_tensors(without_checksum(markers_model())),
+            file_bytes(fixture("markers.kmodel")));
 }
 
 TEST(ModelFile, IsTheSameBytesForTheSameModel) {
   const std::string bytes = write_model(joints_model());
   EXPECT_EQ(write_model(joints_model()), bytes);
   EXPECT_EQ(write_model(parse_model(bytes, "a")), bytes);
+}
+
+TEST(ModelFile, IsRefusedWhateverByteIsFlipped) {
+  for (const Model& model : {joints_model(), markers_model()}) {
+    const std::string bytes = write_model(model);
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+      for (const int bit : {0x01, 0x20, 0x80}) {
+        std::string flipped = bytes;
+        flipped[i] = static_cast<char>(flipped[i] ^ bit);
+        EXPECT_THROW(parse_model(flipped, "walk.kmodel"), Error) << "byte " << i << " bit " << bit;
+      }
+    }
+  }
+}
+
+TEST(ModelFile, HoldsTheHashOfItselfWithZerosInItsPlace) {
+  std::string bytes = write_model(joints_model());
+  const std::string key = "\"kinemend.checksum\":\"";
+  const std::size_t place = bytes.find(key) + key.size();
+  const std::string stated = bytes.substr(place, 32);
+  bytes.replace(place, 32, 32, '0');
+  EXPECT_EQ(content_hash(bytes), stated);
+  EXPECT_EQ(error_of([&] { parse_model(bytes, "walk.kmodel"); }, ErrorKind::unreadable_input),
+            "walk.kmodel: the file is damaged: its checksum is \"" + std::string(32, '0') +
+                "\", that of what it holds " + stated);
 }
 
 TEST(ModelFile, IsReadFromDisk) {
@@ -146,8 +181,8 @@ TEST(ModelFile, RefusesOtherTensorFiles) {
 }
 
 TEST(ModelFile, RefusesNewerVersionsWithBothNumbers) {
-  EXPECT_EQ(message_with("kinemend.model", "2"),
-            "walk.kmodel: the model is of format 2, and this program reads up to 1");
+  EXPECT_EQ(message_with("kinemend.model", "3"),
+            "walk.kmodel: the model is of format 3, and this program reads up to 2");
   EXPECT_EQ(message_with("version", "99"),
             "walk.kmodel: the model is version 99 of wiener, and this program reads up to 1");
   EXPECT_EQ(message_with("method", "oracle"),

@@ -1,0 +1,72 @@
+#include "motion/name_pattern.hpp"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+
+#include "kinemend/error.hpp"
+#include "kinemend/marker_clip.hpp"
+
+namespace kinemend {
+
+namespace {
+
+char small(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+bool is_meant(const std::string& name, const std::string& pattern) {
+  return name == pattern || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+}
+
+bool mark(const std::vector<std::string>& names, const std::string& pattern,
+          std::vector<std::uint8_t>& marks) {
+  bool any = false;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!is_meant(names[i], pattern) && !is_meant(std::string(without_subject(names[i])), pattern))
+      continue;
+    marks[i] = 1;
+    any = true;
+  }
+  return any;
+}
+
+}  // namespace
+
+std::string small_letters(std::string_view text) {
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(), small);
+  return lower;
+}
+
+bool same_but_for_case(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return small(x) == small(y); });
+}
+
+std::vector<std::uint8_t> names_meant(const std::vector<std::string>& names,
+                                      const std::string& pattern) {
+  std::vector<std::uint8_t> marks(names.size(), 0);
+  if (mark(names, pattern, marks)) return marks;
+  std::vector<std::string> lower;
+  lower.reserve(names.size());
+  for (const std::string& name : names) lower.push_back(small_letters(name));
+  mark(lower, small_letters(pattern), marks);
+  return marks;
+}
+
+std::vector<std::uint8_t> names_meant(const std::vector<std::string>& names,
+                                      const std::vector<std::string>& patterns,
+                                      std::string_view kind) {
+  std::vector<std::uint8_t> meant(names.size(), patterns.empty() ? 1 : 0);
+  for (const std::string& pattern : patterns) {
+    const std::vector<std::uint8_t> marks = names_meant(names, pattern);
+    if (std::find(marks.begin(), marks.end(), 1) == marks.end()) {
+      throw Error(ErrorKind::usage, fmt::format("no {} matches \"{}\" (the {}s are {})", kind,
+                                                pattern, kind, fmt::join(names, ", ")));
+    }
+    for (std::size_t i = 0; i < names.size(); ++i) meant[i] |= marks[i];
+  }
+  return meant;
+}
+
+}  // namespace kinemend

@@ -1,0 +1,213 @@
+#include <set>
+
+#include "cli/program.hpp"
+
+// What is typed is taken for what was meant, or refused with what is wrong.
+namespace kinemend::test {
+namespace {
+
+using CommandLine = Program;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+TEST_F(CommandLine, ConvertTakesItsOutputAsASecondWordToo) {
+  put(folder / "a.bvh", hand_take());
+  ASSERT_EQ(run({"convert", "a.bvh", "word.csv"}).code, 0);
+  ASSERT_EQ(run({"convert", "a.bvh", "-o", "option.csv"}).code, 0);
+  EXPECT_EQ(contents(folder / "word.csv"), contents(folder / "option.csv"));
+  EXPECT_EQ(run({"convert", "a.bvh", "word.csv"}).code, 4) << "what exists stays";
+  const Ran both = run({"convert", "a.bvh", "x.csv", "-o", "y.csv"});
+  EXPECT_EQ(both.code, 2);
+  EXPECT_EQ(both.err, "kinemend: convert: x.csv and --output y.csv are two outputs; give one\n");
+  const Ran none = run({"convert", "a.bvh"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_EQ(none.err, "kinemend: convert: OUT is missing (see kinemend convert -h)\n");
+}
+
+TEST_F(CommandLine, TwoDashesEndTheOptionsOfEveryCommand) {
+  put(folder / "-a.bvh", hand_take());
+  put(folder / "--json", hand_take());
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"info", "--", "-a.bvh"},
+        {"info", "--tree", "--", "-a.bvh", "--json"},
+        {"check", "--", "-a.bvh"},
+        {"clean", "--dry-run", "--", "-a.bvh"},
+        {"fill", "--dry-run", "--", "-a.bvh"},
+        {"compare", "--", "-a.bvh", "--json"},
+        {"contacts", "--", "-a.bvh"},
+        {"convert", "-o", "-", "--", "-a.bvh"},
+        {"methods", "--", "auto"},
+        {"batch", "-o", "out", "--", "-a.bvh"}}) {
+    const Ran ran = run(words);
+    EXPECT_EQ(ran.code, 0) << words[0] << ": " << ran.err;
+  }
+  EXPECT_TRUE(fs::exists(folder / "out/-a.bvh"));
+  EXPECT_THAT(run({"info", "--", "-o"}).err, HasSubstr("-o: No such file"));
+}
+
+TEST_F(CommandLine, HelpTellsOfEveryCommandMethodDamageAndTopic) {
+  const Json methods = Json::parse(run({"methods", "--json"}).out)["methods"];
+  for (const Json& method : methods) {
+    const Ran ran = run({"help", method["name"]});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_THAT(ran.out, HasSubstr("kinemend clean --method " + method["name"].get<std::string>()));
+    for (const Json& option : method["options"]) {
+      std::string name = option["name"];
+      std::replace(name.begin(), name.end(), '_', '-');
+      EXPECT_THAT(ran.out, HasSubstr(name)) << method["name"];
+    }
+  }
+  for (const char* topic :
+       {"frames", "names", "formats", "presets", "gaps", "contacts", "exit-codes"}) {
+    EXPECT_THAT(run({"help", topic}).out, StartsWith("kinemend, " + std::string(topic) + ": "));
+    EXPECT_THAT(run({"help"}).out, HasSubstr("\n  " + std::string(topic)));
+    EXPECT_THAT(run({"man"}).out, HasSubstr("TOPICS"));
+  }
+  EXPECT_THAT(run({"help", "rigid-body"}).out, HasSubstr("kinemend fill --method rigid-body"));
+  EXPECT_THAT(run({"help", "outliers"}).out, HasSubstr("kinemend corrupt --damage outliers"));
+  const std::string gaussian = run({"help", "gaussian"}).out;
+  EXPECT_THAT(gaussian, HasSubstr("kinemend clean --method gaussian"));
+  EXPECT_THAT(gaussian, HasSubstr("kinemend corrupt --damage gaussian"));
+  EXPECT_EQ(run({"help"}).out, run({"--help"}).out);
+}
+
+TEST_F(CommandLine, HelpForAnUnknownNameFailsWithTheNearest) {
+  const Ran near = run({"help", "buterworth"});
+  EXPECT_EQ(near.code, 2);
+  EXPECT_EQ(near.out, "");
+  EXPECT_EQ(near.err,
+            "kinemend: help: unknown command, method or topic buterworth (did you mean "
+            "butterworth?)\n");
+  const Ran far = run({"help", "xyzzy-plugh"});
+  EXPECT_EQ(far.code, 2);
+  EXPECT_EQ(far.err,
+            "kinemend: help: unknown command, method or topic xyzzy-plugh (see kinemend help)\n");
+  EXPECT_EQ(run({"help", "clean", "twice"}).code, 2);
+}
+
+TEST_F(CommandLine, NamesBehindAListAreToldFromInputs) {
+  put(folder / "a.bvh", hand_take());
+  put(folder / "LeftFinger1", hand_take());
+  const auto message = [](const std::string& command, const std::string& flag) {
+    return "kinemend: " + command + ": LeftFinger2 behind " + flag +
+           " is neither a file nor part of the list: names are separated by commas, as in " + flag +
+           " LeftArm,LeftFinger2 (see kinemend " + command + " -h)\n";
+  };
+  for (const auto& [command, flag] : std::vector<std::pair<std::string, std::string>>{
+           {"clean", "--joints"}, {"clean", "--exclude"}, {"clean", "--markers"},
+           {"fill", "--names"},   {"batch", "--joints"},  {"train", "--joints"}}) {
+    const Ran ran = run({command, "a.bvh", flag, "LeftArm", "LeftFinger2"});
+    EXPECT_EQ(ran.code, 2) << command;
+    EXPECT_EQ(ran.err, message(command, flag));
+    EXPECT_EQ(run({command, "a.bvh", flag + "=LeftArm", "LeftFinger2"}).err,
+              message(command, flag));
+  }
+  EXPECT_EQ(run({"clean", "--dry-run", "--joints", "LeftArm", "LeftFinger1"}).code, 0)
+      << "a file of such a name is an input";
+  EXPECT_THAT(run({"clean", "--joints", "LeftArm", "b.bvh"}).err, HasSubstr("b.bvh: No such file"));
+}
+
+TEST_F(CommandLine, NamesOfListsAreKnownInAnyCapitals) {
+  put(folder / "a.bvh", hand_take());
+  EXPECT_EQ(run({"clean", "a.bvh", "--dry-run", "--method", "Butterworth"}).code, 0);
+  EXPECT_EQ(run({"methods", "AUTO"}).out, run({"methods", "auto"}).out);
+  EXPECT_EQ(run({"help", "Frames"}).out, run({"help", "frames"}).out);
+  EXPECT_EQ(run({"info", "a.bvh", "--from", "BVH"}).code, 0);
+}
+
+/// Every option of a command that names a file to write, beside `-o`.
+TEST_F(CommandLine, NoTwoOutputsAreOneFileUnderAnyOfItsNames) {
+  noisy("a.bvh", "1");
+  synth("b.bvh", "walk", "2");
+  put(folder / "gaps.csv", "LeftArm,20,22\n");
+  fs::create_directory(folder / "deep");
+  const auto before = files();
+  const std::vector<std::vector<std::string>> commands = {
+      {"clean", "a.bvh", "-o", "x", "--report"},
+      {"clean", "a.bvh", "-o", "x", "--dry-run", "--report"},
+      {"fill", "a.bvh", "--gaps", "gaps.csv", "-o", "x", "--report"},
+      {"fill", "a.bvh", "--gaps", "gaps.csv", "-o", "x", "--dry-run", "--report"},
+      {"train", "wiener", "b.bvh", "-o", "x", "--card"}};
+  for (const std::vector<std::string>& command : commands) {
+    for (const std::string& name :
+         {std::string("x"), std::string("./x"), std::string("deep/../x"),
+          (folder / "x").string()}) {
+      std::vector<std::string> words = command;
+      words.push_back(name);
+      words.push_back("--force");
+      const Ran ran = run(words);
+      EXPECT_EQ(ran.code, 2) << command[0] << " " << name << ": " << ran.err;
+      EXPECT_THAT(ran.err, HasSubstr("would be lost")) << command[0] << " " << name;
+      EXPECT_EQ(files(), before) << command[0] << " " << name;
+    }
+  }
+}
+
+TEST_F(CommandLine, ADryRunWritesItsReportAndNothingElse) {
+  noisy("a.bvh");
+  put(folder / "gaps.csv", "LeftArm,20,22\n");
+  ASSERT_EQ(run({"clean", "a.bvh", "--dry-run", "--report", "clean.json"}).code, 0);
+  ASSERT_EQ(run({"fill", "a.bvh", "--gaps", "gaps.csv", "--dry-run", "--report", "fill.json"}).code,
+            0);
+  EXPECT_THAT(files(),
+              ElementsAre("a.bvh", "clean.json", "fill.json", "gaps.csv", "truth.bvh"));
+  const Json clean = Json::parse(contents(folder / "clean.json"))["takes"][0];
+  EXPECT_TRUE(clean["output"].is_null());
+  EXPECT_FALSE(clean["spans"].empty());
+  const Json fill = Json::parse(contents(folder / "fill.json"));
+  EXPECT_TRUE(fill["output"].is_null());
+  EXPECT_EQ(fill["gaps"].size(), 1u);
+  EXPECT_EQ(run({"clean", "a.bvh", "--dry-run", "--report", "clean.json"}).code, 4) << "exists";
+  EXPECT_EQ(run({"clean", "a.bvh", "--dry-run", "--report", "a.bvh", "--force"}).code, 2);
+}
+
+TEST_F(CommandLine, FromOffersOnlyWhatIsReadAndToOnlyWhatIsWritten) {
+  put(folder / "a.bvh", hand_take());
+  const auto choices = [&](const std::string& option) {
+    const Ran ran = run({"convert", "a.bvh", "b.bvh", option, "zzzzzzzz"});
+    EXPECT_EQ(ran.code, 2);
+    return ran.err;
+  };
+  EXPECT_THAT(choices("--from"), testing::Not(HasSubstr("glb")));
+  EXPECT_THAT(choices("--to"), HasSubstr("glb"));
+  const std::string help = run({"info", "-h"}).out;
+  EXPECT_THAT(help, HasSubstr("--from bvh|"));
+  EXPECT_THAT(help, testing::Not(HasSubstr("|glb")));
+}
+
+TEST_F(CommandLine, BashCompletesValuesBehindAnEqualsSignAndNamesOfHelp) {
+  put(folder / "kinemend.bash", run({"completion", "bash"}).out);
+  put(folder / "try.bash",
+      ". ./kinemend.bash\n"
+      "complete_words() { COMP_WORDS=(\"$@\"); COMP_CWORD=$(($# - 1)); COMPREPLY=(); _kinemend; "
+      "echo \"${COMPREPLY[*]}\"; }\n"
+      // As bash takes words apart, and as it does without = among COMP_WORDBREAKS.
+      "complete_words kinemend clean --method = butter\n"
+      "complete_words kinemend clean --method=butter\n"
+      "complete_words kinemend clean --preset =\n"
+      "complete_words kinemend clean --config = try\n"
+      "complete_words kinemend help butter\n"
+      "complete_words kinemend help fra\n"
+      "complete_words kinemend help corr\n"
+      "complete_words kinemend he\n"
+      "complete_words kinemend info --from gl\n"
+      "complete_words kinemend convert --to gl\n");
+  const std::string command = "cd '" + folder.string() + "' && bash --norc try.bash > said 2>&1";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(contents(folder / "said"),
+            "butterworth\n--method=butterworth\nwalk sport dance hands live biomech\ntry.bash\n"
+            "butterworth\nframes\ncorrupt\nhelp\n\nglb\n");
+}
+
+TEST_F(CommandLine, OtherShellsCompleteValuesBehindAnEqualsSignToo) {
+  const std::string zsh = run({"completion", "zsh"}).out;
+  EXPECT_THAT(zsh, HasSubstr("'*--method=["));
+  EXPECT_THAT(zsh, HasSubstr("    help)\n"));
+  const std::string fish = run({"completion", "fish"}).out;
+  EXPECT_THAT(fish, testing::ContainsRegex("__fish_seen_subcommand_from help' -a '[^\n]*frames"));
+}
+
+}  // namespace
+}  // namespace kinemend::test

@@ -1,0 +1,82 @@
+#include "cli/program.hpp"
+
+// Joints and markers by names as people type them.
+namespace kinemend::test {
+namespace {
+
+using Names = Program;
+using testing::HasSubstr;
+
+/// All commands that take names of joints.
+std::vector<std::vector<std::string>> commands_of(const std::string& name) {
+  return {{"clean", "a.bvh", "-m", "gaussian", "--joints", name, "-o", "out.bvh", "--force"},
+          {"clean", "a.bvh", "-m", "gaussian", "--exclude", name, "-o", "out.bvh", "--force"},
+          {"fill", "a.bvh", "--gaps", "gaps.csv", "--names", name, "-o", "out.bvh", "--force"},
+          {"corrupt", "a.bvh", "--damage", "gaussian:joints=" + name, "-o", "out.bvh", "--force"}};
+}
+
+TEST_F(Names, MatchInAnyCapitalsWhereNothingMatchesExactly) {
+  put(folder / "a.bvh", hand_take());
+  put(folder / "gaps.csv", "LeftArm,4,5\nLeftFinger1,7,8\n");
+  const std::size_t count = commands_of("").size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto result = [&](const std::string& name) {
+      const Ran ran = run(commands_of(name)[i]);
+      EXPECT_EQ(ran.code, 0) << name << ": " << ran.err;
+      return contents(folder / "out.bvh");
+    };
+    EXPECT_EQ(result("leftarm"), result("LeftArm")) << i;
+    EXPECT_EQ(result("LEFTF*"), result("LeftFinger?")) << i;
+    EXPECT_NE(result("leftarm"), result("LeftFinger1")) << i;
+    EXPECT_EQ(run(commands_of("Tail")[i]).code, 2);
+  }
+}
+
+TEST_F(Names, AnExactMatchIsTheOnlyOne) {
+  std::string take = hand_take();
+  take.replace(take.find("LeftFinger2"), 11, "LEFTFINGER1");
+  put(folder / "a.bvh", take);
+  ASSERT_EQ(run({"clean", "a.bvh", "-m", "gaussian", "--joints", "LeftFinger1", "-o", "b.bvh",
+                 "--report", "r.json"})
+                .code,
+            0);
+  for (const Json& span : Json::parse(contents(folder / "r.json"))["takes"][0]["spans"]) {
+    if (!span["joint"].is_null()) EXPECT_EQ(span["joint"], "LeftFinger1");
+  }
+}
+
+TEST_F(Names, OfSideFilesMatchInAnyCapitalsToo) {
+  put(folder / "a.bvh", hand_take());
+  put(folder / "gaps.csv", "leftarm,4,5\n");
+  EXPECT_THAT(run({"fill", "a.bvh", "--gaps", "gaps.csv", "--dry-run"}).out,
+              HasSubstr("1 gap: "));
+  synth("walk.bvh", "walk", "2");
+  put(folder / "walk.contacts", "Left Toe 20 40\n");
+  EXPECT_THAT(run({"clean", "walk.bvh", "--contacts", "walk.contacts", "--dry-run"}).out,
+              HasSubstr("feet: 1 of 1 contact held"));
+}
+
+TEST_F(Names, LengthsInMetresHaveTheDigitsOfLengthsInMillimetres) {
+  synth("walk.bvh", "walk", "2");
+  ASSERT_EQ(run({"convert", "walk.bvh", "mm.trc"}).code, 0);
+  ASSERT_EQ(run({"convert", "mm.trc", "m.trc", "--unit", "m"}).code, 0);
+  put(folder / "gaps.csv", "LeftHand,40,60\n");
+  const auto expected_error = [&](const std::string& take) {
+    const Ran ran =
+        run({"fill", take, "--gaps", "gaps.csv", "--method", "pchip", "--fill-all", "--dry-run"});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    for (const std::string& line : lines_of(ran.out)) {
+      if (line.find("pchip") == std::string::npos || line.find("40-60") == std::string::npos)
+        continue;
+      return std::stod(line.substr(line.find("pchip") + 5));
+    }
+    ADD_FAILURE() << ran.out;
+    return 0.0;
+  };
+  const double in_mm = expected_error("mm.trc"), in_m = expected_error("m.trc");
+  ASSERT_GT(in_mm, 0.1);
+  EXPECT_NEAR(in_m * 1000, in_mm, 0.006 * in_mm) << "three digits";
+}
+
+}  // namespace
+}  // namespace kinemend::test
