@@ -47,8 +47,9 @@ const std::vector<Topic>& topics() {
       {"frames", "how frames are counted",
        "A frame has the number that its file gives it, wherever the program reads or writes one: "
        "in --range, in reports and findings, in JSON, in side files of gaps and of contacts. A C3D "
-       "file states the number of its first frame, TRC and CSV tables and AMC files number theirs; "
-       "frames of other files, and of takes whose numbers leave some out, count from 1.\n\n"
+       "file states the number of its first frame, a TRC, TSV or CSV table and an AMC file that of "
+       "their first row; takes that state none, as BVH, count from 1. Frames follow one another: "
+       "where a table leaves numbers out, they are counted on from the first.\n\n"
        "Both ends of a span belong to it. A calibration pose at the start counts as a frame. "
        "Seconds (--range 1s:2.5s) count from the first frame, which is at 0 s."},
       {"names", "how joints and markers are named",

@@ -24,7 +24,7 @@ class FeetNames : public Program {
     synth("walk.bvh", "walk", "3");
     std::string text = contents(folder / "walk.bvh"), map = "# known,here\n";
     int number = 7;
-    for (const std::string& name : {"LeftToeBase", "LeftFoot", "RightToeBase", "RightFoot"}) {
+    for (const std::string name : {"LeftToeBase", "LeftFoot", "RightToeBase", "RightFoot"}) {
       const std::string other = "bone_" + std::to_string(number++);
       ASSERT_NE(text.find(name), std::string::npos) << name;
       text = replaced(text, name, other);

@@ -54,7 +54,9 @@ class FrameNumbers : public Program, public testing::WithParamInterface<Numberin
  protected:
   FrameNumbers() {
     put(folder / "plate.trc", numbered_plate(first));
-    if (take != "plate.trc") EXPECT_EQ(run({"convert", "plate.trc", take}).code, 0);
+    if (take != "plate.trc") {
+      EXPECT_EQ(run({"convert", "plate.trc", take}).code, 0);
+    }
   }
   const std::string take = GetParam().file;
   const int first = GetParam().first;
