@@ -113,6 +113,15 @@ std::string text_of_damages(const std::vector<DamageReport>& reports) {
   return table.text() + notes;
 }
 
+void check_holds_joints(const std::string& name, const std::string& format) {
+  for (const Format& known : formats()) {
+    if (known.name != format || known.write != nullptr) continue;
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: holds joints; {} files hold markers (kinemend convert makes them)",
+                            name, format));
+  }
+}
+
 int run(const Arguments& arguments) {
   const std::string input = arguments.positionals[0];
   const std::string output = arguments.text("output");
@@ -139,6 +148,7 @@ int run(const Arguments& arguments) {
   for (const DamageRequest& request : requests)
     reports.push_back(apply_damage(*clip, request.name, request.values, random));
   const std::string format = format_for(output, clip->source);
+  check_holds_joints(input_name(input), format);
   for (const std::string& line :
        loss_lines(input_name(input), read.take, format, arguments.flag("strict")))
     say_warning(line);

@@ -79,7 +79,8 @@ namespace {
 /// The one path of a file, whether it exists yet or not.
 std::filesystem::path whole_path(const std::string& path) {
   std::error_code error;
-  const std::filesystem::path canonical = std::filesystem::weakly_canonical(path, error);
+  const std::filesystem::path canonical =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
   return error ? std::filesystem::path(path).lexically_normal() : canonical;
 }
 

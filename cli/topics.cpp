@@ -64,9 +64,6 @@ const std::vector<Topic>& topics() {
        "Lines NAME,FIRST,LAST: a joint or marker (* for all) and its first and last missing frame. "
        "A heading, # comments, blank lines and quoted names are understood. kinemend check "
        "--gaps-out writes one."},
-      {"contacts", "the side file of contacts, for --contacts",
-       "Lines SIDE PART FIRST LAST: left or right, heel or toe, first and last frame of a time in "
-       "which that part of the foot stands; # starts a comment. kinemend contacts writes one."},
       {"exit-codes", "what the exit code means", exit_codes_text()}};
   return table;
 }

@@ -159,5 +159,22 @@ TEST_F(Commands, NumbersDoNotDependOnTheLocale) {
   EXPECT_EQ(run({"info", "hand.bvh"}, german).out, run({"info", "hand.bvh"}).out);
 }
 
+TEST_F(Commands, CorruptWritesTheFormatOfItsOutputAndNamesWhatThatLoses) {
+  synth("walk.bvh");
+  for (const std::string format : {"bvh", "csv", "amc"}) {
+    const std::string damaged = "damaged." + format, converted = "converted." + format;
+    const Ran corrupt = run({"corrupt", "walk.bvh", "-o", damaged, "--damage", "gaussian"});
+    ASSERT_EQ(corrupt.code, 0) << corrupt.err;
+    EXPECT_EQ(corrupt.err, run({"convert", "walk.bvh", converted}).err);
+    const Ran info = run({"info", damaged, "--json"});
+    ASSERT_EQ(info.code, 0) << info.err;
+    EXPECT_EQ(Json::parse(info.out)["takes"][0]["format"], format);
+  }
+  const Ran markers = run({"corrupt", "walk.bvh", "-o", "x.trc", "--damage", "gaussian"});
+  EXPECT_EQ(markers.code, 2);
+  EXPECT_THAT(markers.err, testing::HasSubstr("walk.bvh: holds joints; trc files hold markers"));
+  EXPECT_FALSE(fs::exists(folder / "x.trc"));
+}
+
 }  // namespace
 }  // namespace kinemend::test
