@@ -268,8 +268,7 @@ std::vector<std::string> inputs_of(const Arguments& arguments) {
   if (list.empty()) return inputs;
   const std::vector<std::string> listed = listed_inputs(read_file(list));
   if (listed.empty()) {
-    throw Error(ErrorKind::unreadable_input,
-                fmt::format("{}: lists no take", input_name(list)));
+    throw Error(ErrorKind::unreadable_input, fmt::format("{}: lists no take", input_name(list)));
   }
   inputs.insert(inputs.end(), listed.begin(), listed.end());
   return inputs;

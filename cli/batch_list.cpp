@@ -71,8 +71,7 @@ void add_file(const std::string& input, std::vector<BatchItem>& items) {
   const fs::path name = fs::path(input).lexically_normal();
   std::error_code error;
   if (name.is_absolute() && !fs::exists(name, error)) {
-    throw Error(ErrorKind::unreadable_input,
-                fmt::format("{}: No such file or directory", input));
+    throw Error(ErrorKind::unreadable_input, fmt::format("{}: No such file or directory", input));
   }
   if (name.is_absolute() || name.empty() || *name.begin() == "..") {
     throw Error(

@@ -169,12 +169,12 @@ Json summary_of(const std::string& folder, const std::vector<BatchItem>& all,
     const auto record = own.count(name) > 0 ? std::nullopt : read_record(folder, name);
     if (record && still_counts(folder, name, *record)) sums.add(name, record, true);
   }
-  return {{"kinemend", version()},     {"options_hash", options_hash},
-          {"takes", sums.takes},       {"cleaned", sums.cleaned},
-          {"failed", sums.failed},     {"to_do", sums.to_do},
-          {"frames", sums.frames},     {"duration_s", sums.duration_s},
-          {"seconds", sums.seconds},   {"spikes", sums.spikes},
-          {"gaps", sums.gaps},         {"failures", std::move(sums.failures)}};
+  return {{"kinemend", version()},   {"options_hash", options_hash},
+          {"takes", sums.takes},     {"cleaned", sums.cleaned},
+          {"failed", sums.failed},   {"to_do", sums.to_do},
+          {"frames", sums.frames},   {"duration_s", sums.duration_s},
+          {"seconds", sums.seconds}, {"spikes", sums.spikes},
+          {"gaps", sums.gaps},       {"failures", std::move(sums.failures)}};
 }
 
 void write_summary(const std::string& folder, const Json& summary) {

@@ -21,8 +21,8 @@ struct BatchCounts {
   void add(const Json& row, bool is_new, int code);
 };
 
-/// Puts a row behind those of `rows.jsonl`, or `rows.I-of-N.jsonl` for a part, at once: what is done
-/// is known whenever the run ends.
+/// Puts a row behind those of `rows.jsonl`, or `rows.I-of-N.jsonl` for a part, at once: what is
+/// done is known whenever the run ends.
 void append_row(const std::string& folder, const Shard& shard, const Json& row);
 /// The rows anew: a line a take, sorted by name. Rows of takes that are not of this batch stay as
 /// long as they count (`still_counts`).

@@ -277,7 +277,8 @@ Json take_json(const Checked& take) {
     const Value value = entry.get(report.figures);
     json["figures"][entry.name] = value ? Json(*value) : Json();
   }
-  for (const Finding& finding : report.findings) json["findings"].push_back(finding_json(finding, take.first_frame));
+  for (const Finding& finding : report.findings)
+    json["findings"].push_back(finding_json(finding, take.first_frame));
   for (const TrackHealth& track : report.tracks) json["tracks"].push_back(track_json(track));
   for (const SubjectHealth& subject : report.subjects) {
     json["subjects"].push_back({{"name", subject.name},
@@ -325,7 +326,7 @@ Checked check_file(const std::string& input, const Arguments& arguments) {
   const CheckSettings settings = check_settings(arguments);
   CheckReport report =
       std::visit([&](const auto& take) { return check_take(take, settings); }, read.take);
-  return {input_name(input), std::move(report), std::move(read.diagnostics),
+  return {input_name(input),         std::move(report),         std::move(read.diagnostics),
           pointless_text(read.take), first_frame_of(read.take), source_of(read.take)};
 }
 
@@ -343,7 +344,8 @@ int run(const Arguments& arguments) {
   Json takes = Json::array();
   const int code = for_each_input(arguments.positionals, takes, [&](const std::string& input) {
     const Checked take = check_file(input, arguments);
-    if (!gaps_out.empty()) write_output(gaps_out, gaps_text(take.report.stale, take.first_frame), force);
+    if (!gaps_out.empty())
+      write_output(gaps_out, gaps_text(take.report.stale, take.first_frame), force);
     if (json) {
       takes.push_back(take_json(take));
     } else if (gaps_out != "-") {

@@ -80,7 +80,8 @@ Flag feet_flag() {
   Flag flag = text_flag(
       "feet", "", "Cleaning", "stop feet that stand from sliding, after everything else",
       "auto holds what slides by error and leaves an intended slide alone; force holds whatever "
-      "stands. Joints only; it moves legs and lowers the root, so that nothing does it unasked. Where "
+      "stands. Joints only; it moves legs and lowers the root, so that nothing does it unasked. "
+      "Where "
       "names do not tell of feet, --map FILE does, with lines known name,name in the take.");
   flag.spec.default_value = std::string("off");
   flag.spec.choices = {"off", "auto", "force"};
@@ -112,8 +113,9 @@ std::vector<Flag> clean_output_flags() {
        file_flag("output_dir", "DIR", "Output", "folder for the results, under the inputs' names",
                  "It is made where it does not exist. Several takes are cleaned in parallel.",
                  Completion::folder),
-       force_flag(), switch_flag("dry_run", "Output", "clean and report, but write no take",
-                               "A --report that is asked for is written."),
+       force_flag(),
+       switch_flag("dry_run", "Output", "clean and report, but write no take",
+                   "A --report that is asked for is written."),
        file_flag("report", "FILE", "Output",
                  "write what was done to each span of samples, as JSON"),
        json_flag("print the summary as JSON instead of text"),

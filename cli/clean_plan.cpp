@@ -192,8 +192,7 @@ CleanPlan make_cleaning(const Arguments& arguments) {
   plan.strict = std::get<bool>(settings.values.find("strict")->second);
   plan.reading = read_options(arguments);
   plan.reading.strict = plan.strict;
-  if (const std::string path = arguments.text("gaps"); !path.empty())
-    plan.gaps = read_gaps(path);
+  if (const std::string path = arguments.text("gaps"); !path.empty()) plan.gaps = read_gaps(path);
   plan.fix_swaps = std::get<bool>(settings.values.find("fix_swaps")->second);
   plan.force = arguments.flag("force");
   plan.threads = static_cast<int>(arguments.whole("jobs"));

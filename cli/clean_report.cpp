@@ -111,7 +111,8 @@ std::string fill_text(const ReportView& report, bool all_rows) {
     if (++listed > short_list && !all_rows) continue;
     refused +=
         fmt::format("    {}, frames {} to {}: {}\n", printable(report.rows[outcome.gap.track].name),
-                    frame_number(outcome.gap.first_frame, report.first_frame), frame_number(outcome.gap.last_frame, report.first_frame), outcome.reason);
+                    frame_number(outcome.gap.first_frame, report.first_frame),
+                    frame_number(outcome.gap.last_frame, report.first_frame), outcome.reason);
   }
   std::vector<std::string> methods;
   methods.reserve(filled.size());
@@ -132,7 +133,8 @@ std::string swap_text(const ReportView& report) {
   for (const MarkerSwap& swap : report.swaps) {
     text += fmt::format("  {} and {} were swapped in frames {} to {}\n",
                         printable(report.rows[swap.first_marker].name),
-                        printable(report.rows[swap.second_marker].name), frame_number(swap.first_frame, report.first_frame),
+                        printable(report.rows[swap.second_marker].name),
+                        frame_number(swap.first_frame, report.first_frame),
                         frame_number(swap.last_frame, report.first_frame));
   }
   return text;

@@ -64,8 +64,8 @@ MarkerResult run_cleaner(MarkerClip& clip, const CleanPlan& plan, const CleanSet
 
 void read_contacts(const Clip& clip, const CleanPlan& plan, CleanSettings& settings) {
   if (plan.contacts)
-    settings.feet->contacts = parse_contacts(plan.contacts->first, plan.contacts->second, clip,
-                                             settings.feet->names);
+    settings.feet->contacts =
+        parse_contacts(plan.contacts->first, plan.contacts->second, clip, settings.feet->names);
 }
 void read_contacts(const MarkerClip& /*clip*/, const CleanPlan& /*plan*/,
                    CleanSettings& /*settings*/) {}

@@ -64,11 +64,11 @@ bool is_stray_name(const Command& command, const std::string& word) {
   std::error_code ignored;
   if (word.empty() || word == "-" || std::filesystem::exists(word, ignored)) return false;
   if (word.find('/') != std::string::npos || format_of_path(word) != nullptr) return false;
-  return std::none_of(
-      command.positionals.begin(), command.positionals.end(), [&](const Positional& positional) {
-        const std::vector<std::string>& choices = positional.choices;
-        return std::find(choices.begin(), choices.end(), word) != choices.end();
-      });
+  return std::none_of(command.positionals.begin(), command.positionals.end(),
+                      [&](const Positional& positional) {
+                        const std::vector<std::string>& choices = positional.choices;
+                        return std::find(choices.begin(), choices.end(), word) != choices.end();
+                      });
 }
 
 /// `--joints A B`: B would be taken for an input that is not there.

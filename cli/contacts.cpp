@@ -66,13 +66,15 @@ Command contacts_command() {
   command.summary = "say when feet stand, as a file to edit";
   command.description =
       "Finds the times in which heels and toes stand and writes them one a line: side, part, first "
-      "and last frame as the file numbers them. A slide that clean --feet auto would take for intended stands in a "
+      "and last frame as the file numbers them. A slide that clean --feet auto would take for "
+      "intended stands in a "
       "comment that says why. Lines are SIDE PART FIRST LAST, as in left heel 12 40; # starts a "
       "comment. Edit the file and give it to clean with --contacts: it holds what is "
       "listed.";
   command.positionals = {{"IN", "take of joints; - is standard input", 1, 1, {}}};
   command.flags = {output_flag("where to write; standard output where it is left out"),
-                   force_flag(), json_flag("print the contacts as JSON instead of text"), map_flag()};
+                   force_flag(), json_flag("print the contacts as JSON instead of text"),
+                   map_flag()};
   append(command.flags, reading_flags("what needs a repair becomes an error"));
   command.examples = {
       {"kinemend contacts dance.bvh -o dance.contacts", "to look at and edit"},

@@ -35,9 +35,8 @@ std::string output_of(const Arguments& arguments) {
     throw Error(ErrorKind::usage, "convert: OUT is missing (see kinemend convert -h)");
   }
   if (named.empty()) return arguments.positionals[1];
-  throw Error(ErrorKind::usage,
-              fmt::format("convert: {} and --output {} are two outputs; give one",
-                          arguments.positionals[1], named));
+  throw Error(ErrorKind::usage, fmt::format("convert: {} and --output {} are two outputs; give one",
+                                            arguments.positionals[1], named));
 }
 
 /// --to, else by the output's extension, else the input's own.

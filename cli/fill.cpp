@@ -114,10 +114,9 @@ std::string filled_table(const TakeFacts& take, const FillReport& report, bool a
     filled.resize(most_filled);
     std::sort(filled.begin(), filled.end());
   }
-  Table table(
-      {Align::left, Align::right, Align::right, Align::right, Align::left, Align::right});
-  table.add({take.joints ? "joint" : "marker", "frames", "length", "s", "method",
-             "expected error"});
+  Table table({Align::left, Align::right, Align::right, Align::right, Align::left, Align::right});
+  table.add(
+      {take.joints ? "joint" : "marker", "frames", "length", "s", "method", "expected error"});
   for (const GapOutcome* outcome : filled) {
     std::vector<std::string> cells = gap_cells(take, *outcome);
     cells.insert(cells.end(), {outcome->method, expected_text(take, *outcome)});
@@ -151,10 +150,9 @@ std::string report_text(const TakeFacts& take, const FillReport& report, bool al
   const std::string written = take.output.empty()  ? "; nothing written (dry run)"
                               : take.output == "-" ? ""
                                                    : "; written to " + printable(take.output);
-  const std::string beyond =
-      take.beyond == 0 ? ""
-                       : fmt::format("; {} not within --range left alone",
-                                     counted(take.beyond, "gap"));
+  const std::string beyond = take.beyond == 0 ? ""
+                                              : fmt::format("; {} not within --range left alone",
+                                                            counted(take.beyond, "gap"));
   std::string text = Colours::of_out().paint(Paint::bold, printable(take.input)) + ": ";
   if (!take.contents.empty()) return text + take.contents + ": nothing to fill" + written + "\n";
   if (report.gaps.empty()) return text + "no gaps" + beyond + written + "\n";
@@ -316,10 +314,11 @@ Flag method_flag() {
 }
 
 Flag gaps_flag() {
-  Flag gaps = text_flag("gaps", "FILE", "Input", "gaps that the take's own format cannot hold",
-                        "Lines NAME,FIRST,LAST: a joint or marker (* for all), and frames as the "
-                        "file numbers them, last included. A joint's gap is one of its position too, where it has "
-                        "position channels. What stands in a gap is not looked at.");
+  Flag gaps = text_flag(
+      "gaps", "FILE", "Input", "gaps that the take's own format cannot hold",
+      "Lines NAME,FIRST,LAST: a joint or marker (* for all), and frames as the "
+      "file numbers them, last included. A joint's gap is one of its position too, where it has "
+      "position channels. What stands in a gap is not looked at.");
   gaps.completion = Completion::file;
   return gaps;
 }
@@ -374,7 +373,8 @@ Command fill_command() {
       "what does best there.\n\n"
       "Each method has rules for what it accepts. A gap that they refuse is listed with the reason "
       "and stays missing (in BVH and AMC, which know no gaps: as the file had it), unless "
-      "--fill-all is given. The report lists the longest gaps and apart from them what was refused, "
+      "--fill-all is given. The report lists the longest gaps and apart from them what was "
+      "refused, "
       "30 lines at most; --verbose lists all.";
   command.positionals = {{"TAKE", "take to read; - is standard input", 1, 1, {}}};
   command.flags = fill_flags();

@@ -8,8 +8,8 @@
 
 namespace kinemend::cli {
 
-/// `--range`: "121:240" are frames as the file numbers them, "1.5s:2s" seconds from the start; either
-/// end may be left out.
+/// `--range`: "121:240" are frames as the file numbers them, "1.5s:2s" seconds from the start;
+/// either end may be left out.
 struct FrameRange {
   bool in_seconds = false;
   std::optional<double> first;
@@ -19,8 +19,8 @@ struct FrameRange {
 /// Errors: `ErrorKind::usage`.
 FrameRange parse_range(const std::string& text);
 
-/// Frames [first, last] of a take, counted from 0; `first_frame` is the number of its first. Errors:
-/// `ErrorKind::usage` when the range leaves the take or holds no frame.
+/// Frames [first, last] of a take, counted from 0; `first_frame` is the number of its first.
+/// Errors: `ErrorKind::usage` when the range leaves the take or holds no frame.
 std::pair<std::size_t, std::size_t> frames_of(const FrameRange& range, std::size_t frame_count,
                                               double frame_rate_hz, std::int64_t first_frame);
 

@@ -45,10 +45,9 @@ std::string group_title(const Command& command, std::string_view name) {
 }
 
 std::string group_text(const Command& command, const OptionGroup& group) {
-  std::string text =
-      wrap(fmt::format("{} {}", group.summary,
-                       group.paper.empty() ? "" : fmt::format("({})", group.paper)),
-           2);
+  std::string text = wrap(fmt::format("{} {}", group.summary,
+                                      group.paper.empty() ? "" : fmt::format("({})", group.paper)),
+                          2);
   for (const OptionSpec& spec : group.options)
     text += entry(group_option_name(command, spec), group_option_line(spec));
   return text;
@@ -168,11 +167,12 @@ std::string group_help(std::string_view name) {
       if (group.name != name) continue;
       const std::string title = group_title(command, name);
       const std::size_t option = title.find("--");
-      text += fmt::format("{}{}\n", text.empty() ? "" : "\n",
-                          Colours::of_out().paint(
-                              Paint::bold, fmt::format("kinemend {} {}", command.name,
-                                                       option == title.npos ? std::string(name)
-                                                                            : title.substr(option))));
+      text += fmt::format(
+          "{}{}\n", text.empty() ? "" : "\n",
+          Colours::of_out().paint(
+              Paint::bold,
+              fmt::format("kinemend {} {}", command.name,
+                          option == title.npos ? std::string(name) : title.substr(option))));
       text += group_text(command, group);
     }
   }

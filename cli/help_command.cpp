@@ -36,14 +36,13 @@ int run(const Arguments& arguments) {
     text += part;
   }
   if (text.empty()) {
-    const std::string guess =
-        nearest_name(name, arguments.command->positionals.front().choices);
-    throw Error(ErrorKind::usage,
-                guess.empty()
-                    ? fmt::format("help: unknown command, method or topic {} (see kinemend help)",
-                                  name)
-                    : fmt::format("help: unknown command, method or topic {} (did you mean {}?)",
-                                  name, guess));
+    const std::string guess = nearest_name(name, arguments.command->positionals.front().choices);
+    throw Error(
+        ErrorKind::usage,
+        guess.empty()
+            ? fmt::format("help: unknown command, method or topic {} (see kinemend help)", name)
+            : fmt::format("help: unknown command, method or topic {} (did you mean {}?)", name,
+                          guess));
   }
   write_out(text);
   return 0;
@@ -58,7 +57,8 @@ Command help_command(const std::vector<Command>& others) {
   command.description =
       "NAME is a command, a method of cleaning, filling or training, a damage, or one of the "
       "topics that kinemend help lists. What several things are called is told of each.";
-  Positional positional{"NAME", "what to tell of; the whole program where it is left out", 0, 1, {}};
+  Positional positional{
+      "NAME", "what to tell of; the whole program where it is left out", 0, 1, {}};
   std::vector<std::string>& names = positional.choices;
   const auto add = [&](const std::string& name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);

@@ -346,7 +346,7 @@ int run(const Arguments& arguments) {
       return 0;
     }
     Looked subject{input_name(input),
-                    read_take(std::filesystem::path(input), read_options(arguments))};
+                   read_take(std::filesystem::path(input), read_options(arguments))};
     if (arguments.flag("noise")) measure_noise(subject);
     if (json) {
       takes.push_back(subject_json(subject));

@@ -98,7 +98,8 @@ void check_is_no_input(std::string_view option, const std::string& output,
   const auto found = std::find_if(inputs.begin(), inputs.end(), is_same);
   if (found == inputs.end()) return;
   throw Error(ErrorKind::usage,
-              fmt::format("{}: {} is read or written by this run already, and would be lost", option, output));
+              fmt::format("{}: {} is read or written by this run already, and would be lost",
+                          option, output));
 }
 
 void check_single_use(const std::vector<std::string>& inputs,

@@ -180,8 +180,8 @@ void ProgressBar::draw() {
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
   std::string left;
   if (work_done_ > 0 && done_ < total_) {
-    left = fmt::format(", {} left",
-                       duration_text(spent.count() * (work_ - work_done_) / work_done_));
+    left =
+        fmt::format(", {} left", duration_text(spent.count() * (work_ - work_done_) / work_done_));
   }
   write_err(fmt::format("{} {}/{} takes{}", bar_text(share), done_, total_, left));
 }

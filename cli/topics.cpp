@@ -11,8 +11,9 @@ namespace kinemend::cli {
 namespace {
 
 std::string formats_text() {
-  std::string text = "A file's format is found by its content, then by its extension; --from and "
-                     "--to name it where neither tells.";
+  std::string text =
+      "A file's format is found by its content, then by its extension; --from and "
+      "--to name it where neither tells.";
   for (const Format& format : formats()) {
     const bool is_read = format.read != nullptr;
     const bool is_written = format.write != nullptr || format.write_markers != nullptr;
@@ -26,8 +27,9 @@ std::string formats_text() {
 }
 
 std::string presets_text() {
-  std::string text = "--preset NAME of clean and batch chooses settings for a kind of motion. "
-                     "They go under --config and the command line.";
+  std::string text =
+      "--preset NAME of clean and batch chooses settings for a kind of motion. "
+      "They go under --config and the command line.";
   for (const Preset& preset : presets())
     text += fmt::format("\n\n{}: {}.", preset.name, preset_summary(preset));
   return text;

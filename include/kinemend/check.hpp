@@ -124,7 +124,7 @@ struct CheckReport {
   double metres_per_unit = 0;          ///< as used; 0: unknown
   std::string noise_unit;              ///< "deg", or the markers' unit
   CheckFigures figures;
-  std::vector<TrackHealth> tracks;  ///< J, or the markers that are positions
+  std::vector<TrackHealth> tracks;      ///< J, or the markers that are positions
   std::vector<SubjectHealth> subjects;  ///< of a take of several; their feet, lengths and size are
                                         ///< judged one by one
   std::vector<Finding> findings;        ///< worst first

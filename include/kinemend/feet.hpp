@@ -57,12 +57,12 @@ struct ContactSettings {
 /// this by as much as their noise asks for. None where no direction is clearly up.
 std::vector<FootContact> find_contacts(const Clip& clip, const ContactSettings& settings = {});
 
-/// Contacts as text, one a line: `left heel 12 40`, frames by `first_frame_number`; `#` starts a comment. Edited by
-/// hand and read back.
+/// Contacts as text, one a line: `left heel 12 40`, frames by `first_frame_number`; `#` starts a
+/// comment. Edited by hand and read back.
 std::string contacts_text(const Clip& clip, const std::vector<FootContact>& contacts);
 /// Sorted by leg, part, then frame. `names`: as `FeetSettings::names`. Errors:
-/// `ErrorKind::unreadable_input`, `<name>:<line>: ...`, for legs, parts or frames that there are not,
-/// and contacts of one part that overlap.
+/// `ErrorKind::unreadable_input`, `<name>:<line>: ...`, for legs, parts or frames that there are
+/// not, and contacts of one part that overlap.
 std::vector<FootContact> parse_contacts(std::string_view text, std::string_view name,
                                         const Clip& clip, const KnownNames& names = {});
 
@@ -77,7 +77,7 @@ struct FeetSettings {
   ContactSettings contact;
   /// Instead of those found, and all held; frames of the whole take.
   std::optional<std::vector<FootContact>> contacts;
-  KnownNames names;  ///< what joints of legs and feet are called where names do not tell
+  KnownNames names;       ///< what joints of legs and feet are called where names do not tell
   double blend_s = 0.12;  ///< in which a correction fades out beside a contact (0.02 to 1)
   /// Share of a leg's length short of full stretch from which on the root gives way rather than the
   /// knee, which would pop (0.001 to 0.2). A leg that is straighter in the take may stay so up to a

@@ -7,8 +7,8 @@
 // Takes whose names mean nothing to the program.
 namespace kinemend {
 
-/// Names that are known ("LeftFoot", "LTOE") to names in a take ("bone_17", "M3"); an empty one: the
-/// take has no such part. What `parse_name_map` reads.
+/// Names that are known ("LeftFoot", "LTOE") to names in a take ("bone_17", "M3"); an empty one:
+/// the take has no such part. What `parse_name_map` reads.
 using KnownNames = std::map<std::string, std::string, std::less<>>;
 
 /// The names of a take, those of the map by what they are known as. A subject stays: "Ann:M3" of

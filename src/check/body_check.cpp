@@ -121,8 +121,8 @@ void check_body(const MarkerClip& clip, const std::vector<Subject>& subjects,
     if (own.figures.slide_cm) put_largest(*own.figures.slide_cm, report.figures.slide_cm);
     if (own.figures.sink_cm) put_largest(*own.figures.sink_cm, report.figures.sink_cm);
     if (subjects.size() > 1) {
-      report.subjects.push_back({subject.name, subject.markers.size(), own.figures.slide_cm,
-                                 own.figures.sink_cm});
+      report.subjects.push_back(
+          {subject.name, subject.markers.size(), own.figures.slide_cm, own.figures.sink_cm});
     }
   }
 }

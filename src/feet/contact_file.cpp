@@ -18,11 +18,11 @@ namespace kinemend {
 namespace {
 
 constexpr std::string_view heading =
-    "# Times in which a foot stands: side, heel or toe, first and last frame, numbered as in the take.\n"
+    "# Times in which a foot stands: side, heel or toe, first and last frame, numbered as in the "
+    "take.\n"
     "# What is listed is held in place; lines that start with # are not.\n";
 
-std::string line_of(std::string side, const FootContact& contact,
-                    std::int64_t first_frame) {
+std::string line_of(std::string side, const FootContact& contact, std::int64_t first_frame) {
   const auto number = [&](std::size_t frame) {
     return static_cast<std::int64_t>(frame) + first_frame;
   };
@@ -57,8 +57,8 @@ class ContactReader {
     contact.first_frame = frame(word(), "first frame");
     contact.last_frame = frame(word(), "last frame");
     if (contact.last_frame < contact.first_frame) {
-      fail(fmt::format("expected a last frame from {} on, found {}",
-                       numbered(contact.first_frame), numbered(contact.last_frame)));
+      fail(fmt::format("expected a last frame from {} on, found {}", numbered(contact.first_frame),
+                       numbered(contact.last_frame)));
     }
     if (const std::string_view more = word(); !more.empty())
       fail(fmt::format("expected the end of the line, found {}", quote(more)));
@@ -160,8 +160,8 @@ std::string contacts_text(const Clip& clip, const std::vector<FootContact>& cont
 std::string contacts_text(const Clip& clip, const FeetReport& report) {
   std::string text(heading);
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
-    const std::string line = line_of(report.sides[report.contacts[i].leg], report.contacts[i],
-                                     first_frame_number(clip));
+    const std::string line =
+        line_of(report.sides[report.contacts[i].leg], report.contacts[i], first_frame_number(clip));
     text += report.held[i] != 0 || report.still[i] != 0
                 ? line + "\n"
                 : fmt::format("# {}  {}\n", line, report.reasons[i]);

@@ -40,15 +40,14 @@ void for_each_named(std::span<const NamedGap> gaps, const std::vector<std::strin
     if (gap.first_frame > gap.last_frame || gap.last_frame >= frames) {
       throw Error(
           ErrorKind::usage,
-          fmt::format("gap of {} \"{}\": frames {} to {} are not in a take of frames {} to {}", kind,
-                      gap.name, number(gap.first_frame), number(gap.last_frame), first_number,
+          fmt::format("gap of {} \"{}\": frames {} to {} are not in a take of frames {} to {}",
+                      kind, gap.name, number(gap.first_frame), number(gap.last_frame), first_number,
                       number(frames) - 1));
     }
     const bool has_name = std::find(names.begin(), names.end(), gap.name) != names.end();
     bool found = false;
     for (std::size_t n = 0; n < names.size(); ++n) {
-      const bool is_meant =
-          has_name ? gap.name == names[n] : same_but_for_case(gap.name, names[n]);
+      const bool is_meant = has_name ? gap.name == names[n] : same_but_for_case(gap.name, names[n]);
       if (gap.name != "*" && !is_meant) continue;
       mark(n, gap.first_frame, gap.last_frame);
       found = true;

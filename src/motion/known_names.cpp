@@ -21,11 +21,11 @@ std::size_t part_called(const std::vector<std::string>& names, const std::string
   const auto count = std::count(meant.begin(), meant.end(), 1);
   if (count == 1)
     return static_cast<std::size_t>(std::find(meant.begin(), meant.end(), 1) - meant.begin());
-  throw Error(ErrorKind::usage,
-              count == 0 ? fmt::format("names: the take has no \"{}\" (it has {})", name,
-                                       fmt::join(names, ", "))
-                         : fmt::format("names: \"{}\" is the name of {} parts of the take", name,
-                                       count));
+  throw Error(
+      ErrorKind::usage,
+      count == 0
+          ? fmt::format("names: the take has no \"{}\" (it has {})", name, fmt::join(names, ", "))
+          : fmt::format("names: \"{}\" is the name of {} parts of the take", name, count));
 }
 
 /// With the subject of the part, unless it has one of its own.
@@ -44,7 +44,8 @@ std::vector<std::string> known_names(const std::vector<std::string>& names, cons
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!known[i].empty()) {
       known[i] = with_subject(known[i], names[i]);
-    } else if (map.find(names[i]) == map.end() && map.find(without_subject(names[i])) == map.end()) {
+    } else if (map.find(names[i]) == map.end() &&
+               map.find(without_subject(names[i])) == map.end()) {
       known[i] = names[i];
     } else {
       known[i] = fmt::format("part {}", i + 1);

@@ -107,8 +107,9 @@ TEST_F(C3dFiles, NameTheByteOfWhatWasRepaired) {
     EXPECT_FALSE(repair.contains("first_line"));
   }
   EXPECT_THAT(run({"clean", take, "--strict", "-o", "d.c3d"}).err, HasSubstr(": byte 12: "));
-  put(folder / "cut.bvh", std::string(hand_take()).replace(
-                              std::string(hand_take()).find("Frames: 10"), 10, "Frames: 12"));
+  put(folder / "cut.bvh",
+      std::string(hand_take())
+          .replace(std::string(hand_take()).find("Frames: 10"), 10, "Frames: 12"));
   EXPECT_THAT(run({"info", "cut.bvh"}).out, testing::ContainsRegex("repaired +line [0-9]+: "));
   EXPECT_THAT(run({"convert", "cut.bvh", "out.bvh"}).err, HasSubstr("cut.bvh:"));
 }

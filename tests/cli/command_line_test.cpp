@@ -27,17 +27,16 @@ TEST_F(CommandLine, ConvertTakesItsOutputAsASecondWordToo) {
 TEST_F(CommandLine, TwoDashesEndTheOptionsOfEveryCommand) {
   put(folder / "-a.bvh", hand_take());
   put(folder / "--json", hand_take());
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"info", "--", "-a.bvh"},
-        {"info", "--tree", "--", "-a.bvh", "--json"},
-        {"check", "--", "-a.bvh"},
-        {"clean", "--dry-run", "--", "-a.bvh"},
-        {"fill", "--dry-run", "--", "-a.bvh"},
-        {"compare", "--", "-a.bvh", "--json"},
-        {"contacts", "--", "-a.bvh"},
-        {"convert", "-o", "-", "--", "-a.bvh"},
-        {"methods", "--", "auto"},
-        {"batch", "-o", "out", "--", "-a.bvh"}}) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"info", "--", "-a.bvh"},
+                                                {"info", "--tree", "--", "-a.bvh", "--json"},
+                                                {"check", "--", "-a.bvh"},
+                                                {"clean", "--dry-run", "--", "-a.bvh"},
+                                                {"fill", "--dry-run", "--", "-a.bvh"},
+                                                {"compare", "--", "-a.bvh", "--json"},
+                                                {"contacts", "--", "-a.bvh"},
+                                                {"convert", "-o", "-", "--", "-a.bvh"},
+                                                {"methods", "--", "auto"},
+                                                {"batch", "-o", "out", "--", "-a.bvh"}}) {
     const Ran ran = run(words);
     EXPECT_EQ(ran.code, 0) << words[0] << ": " << ran.err;
   }
@@ -57,8 +56,7 @@ TEST_F(CommandLine, HelpTellsOfEveryCommandMethodDamageAndTopic) {
       EXPECT_THAT(ran.out, HasSubstr(name)) << method["name"];
     }
   }
-  for (const char* topic :
-       {"frames", "names", "formats", "presets", "gaps", "exit-codes"}) {
+  for (const char* topic : {"frames", "names", "formats", "presets", "gaps", "exit-codes"}) {
     EXPECT_THAT(run({"help", topic}).out, HasSubstr("kinemend, " + std::string(topic) + ": "));
     EXPECT_THAT(run({"help"}).out, HasSubstr("\n  " + std::string(topic)));
     EXPECT_THAT(run({"man"}).out, HasSubstr("TOPICS"));
@@ -93,9 +91,13 @@ TEST_F(CommandLine, NamesBehindAListAreToldFromInputs) {
            " is neither a file nor part of the list: names are separated by commas, as in " + flag +
            " LeftArm,LeftFinger2 (see kinemend " + command + " -h)\n";
   };
-  for (const auto& [command, flag] : std::vector<std::pair<std::string, std::string>>{
-           {"clean", "--joints"}, {"clean", "--exclude"}, {"clean", "--markers"},
-           {"fill", "--names"},   {"batch", "--joints"},  {"train", "--joints"}}) {
+  for (const auto& [command, flag] :
+       std::vector<std::pair<std::string, std::string>>{{"clean", "--joints"},
+                                                        {"clean", "--exclude"},
+                                                        {"clean", "--markers"},
+                                                        {"fill", "--names"},
+                                                        {"batch", "--joints"},
+                                                        {"train", "--joints"}}) {
     const Ran ran = run({command, "a.bvh", flag, "LeftArm", "LeftFinger2"});
     EXPECT_EQ(ran.code, 2) << command;
     EXPECT_EQ(ran.err, message(command, flag));
@@ -129,9 +131,8 @@ TEST_F(CommandLine, NoTwoOutputsAreOneFileUnderAnyOfItsNames) {
       {"fill", "a.bvh", "--gaps", "gaps.csv", "-o", "x", "--dry-run", "--report"},
       {"train", "wiener", "b.bvh", "-o", "x", "--card"}};
   for (const std::vector<std::string>& command : commands) {
-    for (const std::string& name :
-         {std::string("x"), std::string("./x"), std::string("deep/../x"),
-          (folder / "x").string()}) {
+    for (const std::string& name : {std::string("x"), std::string("./x"), std::string("deep/../x"),
+                                    (folder / "x").string()}) {
       std::vector<std::string> words = command;
       words.push_back(name);
       words.push_back("--force");
@@ -149,8 +150,7 @@ TEST_F(CommandLine, ADryRunWritesItsReportAndNothingElse) {
   ASSERT_EQ(run({"clean", "a.bvh", "--dry-run", "--report", "clean.json"}).code, 0);
   ASSERT_EQ(run({"fill", "a.bvh", "--gaps", "gaps.csv", "--dry-run", "--report", "fill.json"}).code,
             0);
-  EXPECT_THAT(files(),
-              ElementsAre("a.bvh", "clean.json", "fill.json", "gaps.csv", "truth.bvh"));
+  EXPECT_THAT(files(), ElementsAre("a.bvh", "clean.json", "fill.json", "gaps.csv", "truth.bvh"));
   const Json clean = Json::parse(contents(folder / "clean.json"))["takes"][0];
   EXPECT_TRUE(clean["output"].is_null());
   EXPECT_FALSE(clean["spans"].empty());

@@ -80,9 +80,11 @@ TEST_F(FeetNames, AMapServesTheFeetOfCleanAndBatchAsNamesDo) {
   EXPECT_EQ(feet({"unnamed.bvh", "--feet", "force", "--map", "names.csv"}), named);
   std::string back = contents(folder / "out.bvh");
   EXPECT_THAT(back, HasSubstr("bone_7")) << "the names of the take stay";
-  for (const auto& [other, name] : std::vector<std::pair<std::string, std::string>>{
-           {"bone_7", "LeftToeBase"}, {"bone_8", "LeftFoot"},
-           {"bone_9", "RightToeBase"}, {"bone_10", "RightFoot"}})
+  for (const auto& [other, name] :
+       std::vector<std::pair<std::string, std::string>>{{"bone_7", "LeftToeBase"},
+                                                        {"bone_8", "LeftFoot"},
+                                                        {"bone_9", "RightToeBase"},
+                                                        {"bone_10", "RightFoot"}})
     back = replaced(back, other, name);
   EXPECT_EQ(replaced(back, "LeftToeBase0", "RightFoot"), out);
   EXPECT_EQ(feet({"unnamed.bvh", "--feet", "force"})["held"], 0);
@@ -95,8 +97,8 @@ TEST_F(FeetNames, AMapServesTheFeetOfCleanAndBatchAsNamesDo) {
   EXPECT_EQ(alone.code, 2) << "without feet it is about the model of a method";
   fs::create_directory(folder / "raw");
   fs::copy_file(folder / "unnamed.bvh", folder / "raw/unnamed.bvh");
-  const Ran batch = run({"batch", "raw", "-o", "clean", "-m", "gaussian", "--feet", "force",
-                         "--map", "names.csv"});
+  const Ran batch = run(
+      {"batch", "raw", "-o", "clean", "-m", "gaussian", "--feet", "force", "--map", "names.csv"});
   EXPECT_EQ(batch.code, 0) << batch.err;
   EXPECT_EQ(Json::parse(lines_of(contents(folder / "clean/rows.jsonl"))[0])["feet"]["held"],
             named["held"]);
@@ -136,7 +138,8 @@ std::vector<std::vector<std::string>> cells_of(const std::string& text) {
 
 class People : public FeetNames {
  protected:
-  /// ann.trc of one walk; both.trc of Ann, and of Bob three metres beside her whose left foot slides.
+  /// ann.trc of one walk; both.trc of Ann, and of Bob three metres beside her whose left foot
+  /// slides.
   void make_people() {
     synth("walk.bvh", "walk", "3");
     ASSERT_EQ(run({"convert", "walk.bvh", "ann.trc"}).code, 0);
@@ -156,8 +159,8 @@ class People : public FeetNames {
           for (std::size_t c = 0; c < 3; ++c)
             cells[to + c] = std::string(1, "XYZ"[c]) + std::to_string(markers + m + 1);
         } else if (cells[0] != "" && cells[from] != "") {
-          const bool is_left_foot = ann[3][from].find("LeftFoot") == 0 ||
-                                    ann[3][from].find("LeftToe") == 0;
+          const bool is_left_foot =
+              ann[3][from].find("LeftFoot") == 0 || ann[3][from].find("LeftToe") == 0;
           // Slowly enough to stand, and farther than any step of Ann's slides.
           const double slide = is_left_foot ? 1.5 * std::stod(cells[0]) : 0;
           cells[to] = std::to_string(std::stod(cells[from]) + 3000 + slide);
@@ -226,9 +229,8 @@ TEST_F(People, FeetThatNeverStandHaveNoFigure) {
   EXPECT_TRUE(take["figures"]["sink_cm"].is_null());
   EXPECT_THAT(run({"check", "air.bvh"}).out,
               AllOf(Not(HasSubstr("slide of a standing foot")), Not(HasSubstr("below the floor"))));
-  const Json feet =
-      Json::parse(run({"clean", "air.bvh", "--feet", "force", "--dry-run", "--json"}).out)["takes"]
-                 [0]["feet"];
+  const Json feet = Json::parse(
+      run({"clean", "air.bvh", "--feet", "force", "--dry-run", "--json"}).out)["takes"][0]["feet"];
   EXPECT_TRUE(feet["contacts"].empty());
   EXPECT_TRUE(feet["before"].is_null());
   EXPECT_TRUE(feet["after"].is_null());

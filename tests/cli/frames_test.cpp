@@ -95,8 +95,7 @@ TEST_P(FrameNumbers, AreTheFilesInFindingsAndReports) {
   for (const Json& span : clean["spans"]) {
     has_filled = has_filled || (span["action"] == "filled" && span["first_frame"] == gap_first &&
                                 span["last_frame"] == gap_last);
-    has_despiked =
-        has_despiked || (span["action"] == "despiked" && span["first_frame"] == spike);
+    has_despiked = has_despiked || (span["action"] == "despiked" && span["first_frame"] == spike);
   }
   EXPECT_TRUE(has_filled && has_despiked);
 }

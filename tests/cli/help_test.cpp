@@ -11,8 +11,8 @@ using Help = Program;
 using testing::HasSubstr;
 
 const std::vector<std::string> commands = {
-    "clean",  "batch",   "fill",    "info",  "check",      "contacts", "compare", "methods", "train",
-    "models", "convert", "corrupt", "synth", "completion", "man",      "help"};
+    "clean", "batch",  "fill",    "info",    "check", "contacts",   "compare", "methods",
+    "train", "models", "convert", "corrupt", "synth", "completion", "man",     "help"};
 
 /// Every `--name` in a command's long help; `--[no-]name` stands for two.
 std::set<std::string> options_in(const std::string& help) {

@@ -48,8 +48,7 @@ TEST_F(Names, AnExactMatchIsTheOnlyOne) {
 TEST_F(Names, OfSideFilesMatchInAnyCapitalsToo) {
   put(folder / "a.bvh", hand_take());
   put(folder / "gaps.csv", "leftarm,4,5\n");
-  EXPECT_THAT(run({"fill", "a.bvh", "--gaps", "gaps.csv", "--dry-run"}).out,
-              HasSubstr("1 gap: "));
+  EXPECT_THAT(run({"fill", "a.bvh", "--gaps", "gaps.csv", "--dry-run"}).out, HasSubstr("1 gap: "));
   synth("walk.bvh", "walk", "2");
   put(folder / "walk.contacts", "Left Toe 20 40\n");
   EXPECT_THAT(run({"clean", "walk.bvh", "--contacts", "walk.contacts", "--dry-run"}).out,

@@ -218,5 +218,15 @@ TEST_F(Terminal, ShowsABarForSeveralTakesOnly) {
   EXPECT_THAT(run({"clean", "a.bvh", "b.bvh", "--output-dir", "f"}).err, Not(HasSubstr("takes")));
 }
 
+TEST_F(Terminal, ShowsTheTimeThatABatchHasLeft) {
+  fs::create_directory(folder / "raw");
+  for (const std::string name : {"a", "b", "c"}) synth("raw/" + name + ".bvh");
+  const std::string text = run_on_terminal({"batch", "raw", "-o", "out", "--jobs", "1"});
+  EXPECT_EQ(code, 0);
+  EXPECT_THAT(text, testing::ContainsRegex("\\] 1/3 takes, [0-9.]+ (s|min|h) left"));
+  EXPECT_THAT(text, Not(HasSubstr("3/3 takes,")));
+  EXPECT_THAT(run({"batch", "raw", "-o", "again"}).err, Not(HasSubstr("left")));
+}
+
 }  // namespace
 }  // namespace kinemend::test

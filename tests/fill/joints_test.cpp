@@ -334,8 +334,7 @@ TEST(FillJoints, SaysWhatThereIsNot) {
   EXPECT_THAT(complaint(settings), HasSubstr("expected a method for joints (auto, slerp"));
   settings = {};
   settings.names = {"tail"};
-  EXPECT_EQ(complaint(settings),
-            "no joint matches \"tail\" (the joints are root, joint1, joint2)");
+  EXPECT_EQ(complaint(settings), "no joint matches \"tail\" (the joints are root, joint1, joint2)");
 }
 
 TEST(FillJoints, EveryMethodOfTheTableExistsForJoints) {

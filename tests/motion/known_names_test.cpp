@@ -34,8 +34,11 @@ TEST(NamePattern, MeansWhatIsInOtherCapitalsWhereNothingElseIsMeant) {
 TEST(NamePattern, OfAListIsRefusedWhereItMeansNothing) {
   EXPECT_THAT(names_meant(arms, Strings{"right*", "LHAND"}, "joint"), ElementsAre(0, 0, 1, 1));
   EXPECT_THAT(names_meant(arms, Strings{}, "joint"), ElementsAre(1, 1, 1, 1));
-  EXPECT_THAT([] { names_meant(arms, Strings{"RightArm", "Tail"}, "marker"); },
-              ThrowsMessage<Error>(HasSubstr("no marker matches \"Tail\"")));
+  EXPECT_THAT(
+      [] {
+        names_meant(arms, Strings{"RightArm", "Tail"}, "marker");
+      },
+      ThrowsMessage<Error>(HasSubstr("no marker matches \"Tail\"")));
 }
 
 TEST(KnownNames, StandForThoseOfTheTake) {
@@ -55,10 +58,16 @@ TEST(KnownNames, AreTakenFromWhatBoreThemWrongly) {
 }
 
 TEST(KnownNames, OfWhatIsNotThereAreRefused) {
-  EXPECT_THAT([] { known_names({"a"}, {{"LeftFoot", "b"}}); },
-              ThrowsMessage<Error>(HasSubstr("names: the take has no \"b\" (it has a)")));
-  EXPECT_THAT([] { known_names({"Ann:M1", "Bob:M1"}, {{"LTOE", "M1"}}); },
-              ThrowsMessage<Error>(HasSubstr("\"M1\" is the name of 2 parts")));
+  EXPECT_THAT(
+      [] {
+        known_names({"a"}, {{"LeftFoot", "b"}});
+      },
+      ThrowsMessage<Error>(HasSubstr("names: the take has no \"b\" (it has a)")));
+  EXPECT_THAT(
+      [] {
+        known_names({"Ann:M1", "Bob:M1"}, {{"LTOE", "M1"}});
+      },
+      ThrowsMessage<Error>(HasSubstr("\"M1\" is the name of 2 parts")));
 }
 
 TEST(Subjects, AreToldApartByWhatStandsBeforeTheColon) {

@@ -127,8 +127,7 @@ TEST(ModelFile, IsLaidOutAsTheReferenceLaysItOut) {
   };
   expect_same(read_model(fixture("joints.kmodel")), joints_model());
   expect_same(read_model(fixture("markers.kmodel")), markers_model());
-  EXPECT_EQ(write_tensors(without_checksum(joints_model())),
-            file_bytes(fixture("joints.kmodel")));
+  EXPECT_EQ(write_tensors(without_checksum(joints_model())), file_bytes(fixture("joints.kmodel")));
   EXPECT_EQ(write_tensors(without_checksum(markers_model())),
             file_bytes(fixture("markers.kmodel")));
 }
