@@ -281,8 +281,8 @@ std::vector<Done> do_all(const std::vector<BatchItem>& items, const Batch& batch
                   static_cast<std::size_t>(batch.plan.threads));
   }
   std::vector<Done> done(items.size());
-  std::vector<double> sizes;
-  for (const BatchItem& item : items) sizes.push_back(size_of(item));
+  std::vector<double> sizes(items.size());
+  std::transform(items.begin(), items.end(), sizes.begin(), size_of);
   ProgressBar bar(items.size(), std::accumulate(sizes.begin(), sizes.end(), 0.0));
   Sayer sayer(batch, bar);
   std::atomic<std::size_t> next{0};

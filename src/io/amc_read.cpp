@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -40,13 +39,6 @@ void note_repairs(const SourceText& text, Diagnostics& diagnostics, const AmcRow
        "a value is no finite number: held from a neighbouring frame");
   note(rows.first_number_jump(), rows.number_jumps(), "frame_number_jump",
        "the number of a frame is not one more than that before: frames are taken as they come");
-}
-
-// Said where it is not 1, as everybody expects.
-void note_first_frame(Clip& clip, double number) {
-  constexpr double most = 9e15;
-  if (number == 1 || number != std::floor(number) || !(std::fabs(number) < most)) return;
-  clip.source.facts.push_back({std::string(first_frame_fact), fmt::format("{:.0f}", number)});
 }
 
 void read_frames(const SourceText& text, Diagnostics& diagnostics, Clip& clip,

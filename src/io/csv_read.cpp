@@ -10,6 +10,7 @@
 #include "io/csv_document.hpp"
 #include "io/csv_joints.hpp"
 #include "io/stated_rate.hpp"
+#include "motion/frame_numbers.hpp"
 
 namespace kinemend {
 
@@ -36,6 +37,7 @@ class CsvReader {
     Clip clip = read_csv_joints(text_, diagnostics_, header_, document_, labels_);
     MarkerClip numbered;
     clip.frame_rate_hz = choose_rate(numbered);
+    note_first_frame(clip, static_cast<double>(numbered.first_frame));
     document_.frame_rate_hz = clip.frame_rate_hz;
     return {std::move(clip), std::move(diagnostics_)};
   }

@@ -1,10 +1,27 @@
 #include "kinemend/frame_numbers.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
+#include <cmath>
+#include <string>
+#include <string_view>
 
 #include "motion/frame_numbers.hpp"
 
 namespace kinemend {
+
+namespace {
+
+constexpr std::string_view first_frame_fact = "first frame";
+
+}  // namespace
+
+void note_first_frame(Clip& clip, double number) {
+  constexpr double most = 9e15;
+  if (number == 1 || number != std::floor(number) || !(std::fabs(number) < most)) return;
+  clip.source.facts.push_back({std::string(first_frame_fact), fmt::format("{:.0f}", number)});
+}
 
 std::int64_t first_frame_number(const Clip& clip) {
   std::int64_t number = 1;

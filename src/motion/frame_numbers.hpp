@@ -1,10 +1,11 @@
 #pragma once
 
-#include <string_view>
+#include "kinemend/clip.hpp"
 
 namespace kinemend {
 
-/// The fact of a source that numbers its frames from elsewhere than 1.
-inline constexpr std::string_view first_frame_fact = "first frame";
+/// Puts the number that a file gives to its first frame among the facts of the clip's source, where
+/// it is a whole number other than 1.
+void note_first_frame(Clip& clip, double number);
 
 }  // namespace kinemend

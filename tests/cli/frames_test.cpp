@@ -227,5 +227,22 @@ TEST_F(AmcFrames, AreThoseOfTheFile) {
   EXPECT_EQ(run_on({"clean", "walk.amc", "--contacts", "walk.contacts", "--dry-run"}).code, 3);
 }
 
+TEST_F(AmcFrames, OfTablesOfJointsAreTheirsToo) {
+  put(folder / "a.bvh", hand_take());
+  ASSERT_EQ(run({"convert", "a.bvh", "a.csv"}).code, 0);
+  std::string text;
+  for (const std::string& line : lines_of(contents(folder / "a.csv"))) {
+    const std::size_t comma = line.find(',');
+    const bool is_row =
+        comma != std::string::npos && comma > 0 && line.find_first_not_of("0123456789") == comma;
+    text += is_row ? std::to_string(std::stoi(line) + 299) + line.substr(comma) : line;
+    text += "\n";
+  }
+  put(folder / "b.csv", text);
+  EXPECT_THAT(run({"info", "b.csv"}).out, HasSubstr("from frame 300"));
+  EXPECT_EQ(run({"clean", "b.csv", "--range", "300:309", "--dry-run"}).code, 0);
+  EXPECT_EQ(run({"clean", "b.csv", "--range", "1:5", "--dry-run"}).code, 2);
+}
+
 }  // namespace
 }  // namespace kinemend::test
