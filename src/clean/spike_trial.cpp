@@ -181,6 +181,30 @@ void acquit_habit(const SpikeTrial& trial, std::size_t n, SampleMarks& guilty) {
   }
 }
 
+double at_share(std::vector<double>& values, double share) {
+  const auto place =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+// What damage of a take does at least, told by the spikes that are surely there: where these are
+// much alike in size, what is far smaller is the take's own, as a toe that snaps is. Where their
+// sizes differ widely nothing is too small.
+double least_damage(const SpikeTrial& trial, const SampleMarks& sure) {
+  constexpr double low = 0.1, reach = 3, most = 0.4;
+  std::vector<double> sizes;
+  for (std::size_t n = 0; n < sure.tracks; ++n) {
+    if (trial.shares[n] >= 1) continue;
+    for (std::size_t t = 0; t < sure.frames; ++t) {
+      if (sure(t, n) != 0) sizes.push_back(trial.predictions.errors(t, n));
+    }
+  }
+  if (sizes.empty()) return 0;
+  const double usual = at_share(sizes, 0.5);
+  return std::min(most * usual, usual - reach * (usual - at_share(sizes, low)));
+}
+
 }  // namespace
 
 SampleMarks judge_spikes(const SpikeTrial& trial) {
@@ -206,13 +230,18 @@ SampleMarks judge_spikes(const SpikeTrial& trial) {
     for (std::size_t t = 0; t < accused.frames; ++t) quiet_verdicts += guilty(t, n);
   }
   // A few odd samples in a quiet take are its own, and only what is impossible is repaired. Many
-  // are damage: then the quiet tracks are judged again, as strictly as the noisy ones.
+  // are damage: then the quiet tracks are judged again, as strictly as the noisy ones, but for what
+  // is too small for that damage.
   const double damage = std::max(5.0, 0.0006 * static_cast<double>(quiet_samples));
   const bool damaged = static_cast<double>(quiet_verdicts) >= damage;
+  const double least = damaged ? least_damage(trial, guilty) : 0;
   for (std::size_t n = 0; n < accused.tracks; ++n) {
     if (habits[n] != 0 || trial.shares[n] >= 1) continue;
     if (damaged) {
       judge_track(n, 1);
+      for (std::size_t t = 0; t < accused.frames; ++t) {
+        if (trial.predictions.errors(t, n) < least) guilty(t, n) = 0;
+      }
     } else {
       keep_impossible(n);
     }
