@@ -1,5 +1,6 @@
 #include "clean/track_cleaning.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "clean/noise_shape.hpp"
@@ -11,8 +12,12 @@ namespace kinemend {
 
 namespace {
 
+constexpr double least_travel = 3;  // over the deviation about the line
+
 // The straight line of least squares through a track: travel and steady turning are no part of what
-// is smoothed, or a take that turns would be smoothed otherwise than one that does not.
+// is smoothed, or a take that turns would be smoothed otherwise than one that does not. A track
+// that gets no farther than three deviations about its line goes to and fro: its line is chance,
+// and taking it off costs up to some percent.
 struct Travel {
   Vec3 middle, velocity;  // of the middle frame, and per frame
   double middle_frame = 0;
@@ -36,6 +41,12 @@ Travel travel_of(const VectorTracks& tracks, std::size_t track) {
   }
   travel.middle += origin;
   travel.velocity = (1 / squares) * travel.velocity;
+  double rest = 0;
+  for (std::size_t f = 0; f < tracks.frames(); ++f) {
+    const Vec3 off_line = tracks.at(f, track) - travel.at(f);
+    rest += dot(off_line, off_line);
+  }
+  if (norm(travel.velocity) * count < least_travel * std::sqrt(rest / count)) travel.velocity = {};
   return travel;
 }
 

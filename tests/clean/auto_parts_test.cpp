@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "clean/moving_chart.hpp"
 #include "clean/spikes.hpp"
@@ -167,6 +168,28 @@ TEST(FindSpikes, OnAQuietTakeOnlyWhatNoBodyCanDo) {
   EXPECT_EQ(verdicts.marked(100, 0), 1);
   EXPECT_EQ(verdicts.marked(300, 1), 0);
   EXPECT_EQ(std::count(verdicts.marked.marks.begin(), verdicts.marked.marks.end(), 1), 1);
+}
+
+// Forty spikes on quiet tracks and a snap of 15 degrees that is the take's own.
+bool finds_a_snap_among(const std::function<double(Random&)>& size_of_spikes) {
+  Random random(8);
+  const std::size_t frames = 500, count = 8;
+  VectorTracks tracks = noisy_curves(frames, std::vector<double>(count, 0.02), random);
+  const auto push = [&](std::size_t t, std::size_t n, double degrees) {
+    const Vec3 way = random_vector(random);
+    tracks.set(t, n, tracks.at(t, n) + degrees / norm(way) * way);
+  };
+  for (std::size_t i = 0; i < 40; ++i) push(20 + 11 * i, i % count, size_of_spikes(random));
+  push(253, 3, 15);
+  const SpikeVerdicts verdicts = find_spikes(tracks, SampleMarks(frames, count),
+                                             std::vector<std::vector<std::size_t>>(count), rate_hz);
+  for (std::size_t i = 0; i < 40; ++i) EXPECT_EQ(verdicts.marked(20 + 11 * i, i % count), 1) << i;
+  return verdicts.marked(253, 3) != 0;
+}
+
+TEST(FindSpikes, WhatIsFarSmallerThanAllDamageIsTheTakesOwn) {
+  EXPECT_FALSE(finds_a_snap_among([](Random&) { return 60.0; }));
+  EXPECT_TRUE(finds_a_snap_among([](Random& random) { return 12 + 80 * random.uniform(); }));
 }
 
 TEST(GrossSpikes, AreReplacedByTheMiddleOfTheirNeighbours) {
