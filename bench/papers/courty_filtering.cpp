@@ -114,6 +114,8 @@ void mean_square_errors(const Arguments& arguments, const Clip& truth, const Cli
 struct Version {
   std::string name;
   Clip clip;
+  double mean_speed_rad_s = 0, peak_speed_rad_s = 0, joint_mse_rad2 = 0;
+  double path_length = 0, mean_distance = 0;  // of the hand, file units
 };
 
 double peak(const std::vector<double>& values) {
@@ -121,14 +123,14 @@ double peak(const std::vector<double>& values) {
 }
 
 // Figure 2: |Log(q_i^-1 q_{i+1})| times the rate.
-void velocity_profiles(const Arguments& arguments, const std::vector<Version>& versions,
+void velocity_profiles(const Arguments& arguments, std::vector<Version>& versions,
                        std::size_t joint) {
   fmt::print(
       "\nFigure 2: angular velocity of {}, rad/s (rotation angles).\n\n{:>12}{:>12}{:>12}{:>16}\n",
       versions[0].clip.skeleton.names[joint], "", "mean", "peak", "MSE, rad^2");
   std::string header = "frame";
   std::vector<std::vector<double>> speeds;
-  for (const Version& version : versions) {
+  for (Version& version : versions) {
     header += "," + version.name;
     std::vector<double> speed;
     double sum = 0;
@@ -137,9 +139,11 @@ void velocity_profiles(const Arguments& arguments, const std::vector<Version>& v
       speed.push_back(angle_between(track[f], track[f + 1]) * version.clip.frame_rate_hz);
       sum += speed.back();
     }
-    fmt::print("{:>12}{:12.3f}{:12.3f}{:16.6f}\n", version.name,
-               sum / static_cast<double>(speed.size()), peak(speed),
-               mse_rad2(track_of(versions[0].clip, joint), track));
+    version.mean_speed_rad_s = sum / static_cast<double>(speed.size());
+    version.peak_speed_rad_s = peak(speed);
+    version.joint_mse_rad2 = mse_rad2(track_of(versions[0].clip, joint), track);
+    fmt::print("{:>12}{:12.3f}{:12.3f}{:16.6f}\n", version.name, version.mean_speed_rad_s,
+               version.peak_speed_rad_s, version.joint_mse_rad2);
     speeds.push_back(std::move(speed));
   }
   Table table(arguments, "courty_velocity.csv", header);
@@ -152,14 +156,14 @@ void velocity_profiles(const Arguments& arguments, const std::vector<Version>& v
 }
 
 // Figure 4: the right hand in space.
-void hand_paths(const Arguments& arguments, const std::vector<Version>& versions) {
+void hand_paths(const Arguments& arguments, std::vector<Version>& versions) {
   const Skeleton& skeleton = versions[0].clip.skeleton;
   const auto hand = static_cast<std::size_t>(std::max(0, skeleton.find("RightHand")));
   fmt::print("\nFigure 4: path of {}, file units.\n\n{:>12}{:>12}{:>12}{:>16}\n",
              skeleton.names[hand], "", "length", "extent", "mean distance");
   Table table(arguments, "courty_path.csv", "version,frame,x,y,z");
   const std::vector<Vec3> truth = joint_positions(versions[0].clip);
-  for (const Version& version : versions) {
+  for (Version& version : versions) {
     const std::vector<Vec3> positions = joint_positions(version.clip);
     const std::size_t joints = version.clip.joint_count();
     double length = 0, distance = 0;
@@ -173,9 +177,31 @@ void hand_paths(const Arguments& arguments, const std::vector<Version>& versions
       table.add({version.name, fmt::format("{}", f), fmt::format("{:.6g}", p.x),
                  fmt::format("{:.6g}", p.y), fmt::format("{:.6g}", p.z)});
     }
+    version.path_length = length;
+    version.mean_distance = distance / static_cast<double>(version.clip.frame_count());
     fmt::print("{:>12}{:12.2f}{:12.2f}{:16.3f}\n", version.name, length, norm(high - low),
-               distance / static_cast<double>(version.clip.frame_count()));
+               version.mean_distance);
   }
+  table.close();
+}
+
+// One line a version: what the page prints.
+void summary(const Arguments& arguments, const std::vector<Version>& versions) {
+  Table table(arguments, "courty_versions.csv",
+              "version,mean_speed_rad_s,peak_speed_rad_s,joint_mse_rad2,arms_mse_rad2,path_length,"
+              "mean_distance");
+  fmt::print("\nMSE of all arms, rad^2:");
+  for (const Version& version : versions) {
+    const double arms = arms_mse(versions[0].clip, version.clip);
+    fmt::print("  {} {:.5f}", version.name, arms);
+    std::vector<std::string> cells{version.name};
+    for (const double value :
+         {version.mean_speed_rad_s, version.peak_speed_rad_s, version.joint_mse_rad2, arms,
+          version.path_length, version.mean_distance})
+      cells.push_back(fmt::format("{:.5g}", value));
+    table.add(cells);
+  }
+  fmt::print("\n");
   table.close();
 }
 
@@ -197,12 +223,13 @@ void experiment(const Arguments& arguments) {
       take.name, truth.frame_count(), truth.frame_rate_hz, truth.joint_count(), paper_noise);
   mean_square_errors(arguments, truth, noisy);
 
-  const std::vector<Version> versions{{"truth", truth},
-                                      {"noisy", noisy},
-                                      {"gaussian", bilateral(noisy, 8, paper_passes)},
-                                      {"bilateral", bilateral(noisy, paper_sigma_g, paper_passes)}};
+  std::vector<Version> versions{{"truth", truth},
+                                {"noisy", noisy},
+                                {"gaussian", bilateral(noisy, 8, paper_passes)},
+                                {"bilateral", bilateral(noisy, paper_sigma_g, paper_passes)}};
   velocity_profiles(arguments, versions, busiest_arm_joint(truth));
   hand_paths(arguments, versions);
+  summary(arguments, versions);
 }
 
 }  // namespace

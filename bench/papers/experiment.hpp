@@ -82,6 +82,9 @@ inline Clip thinned(const Clip& clip, std::size_t first, std::size_t step, std::
   return result;
 }
 
+/// A cell of a table that may hold commas.
+inline std::string quoted(const std::string& text) { return '"' + text + '"'; }
+
 /// A table of comma-separated values in the output folder.
 class Table {
  public:

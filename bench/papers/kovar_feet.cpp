@@ -47,9 +47,12 @@ struct Pops {
     worst = take;
     recorded = of_record, before = was, after = is;
   }
-  void print(const std::string& group) const {
+  void print(const std::string& group, Table& table) const {
     fmt::print("| {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} |\n", group, takes, above, worst,
                recorded, before, after);
+    table.add({quoted(group), fmt::format("{}", takes), fmt::format("{}", above), worst,
+               fmt::format("{:.5g}", recorded), fmt::format("{:.5g}", before),
+               fmt::format("{:.5g}", after)});
   }
 };
 
@@ -72,14 +75,19 @@ struct Row {
     position += mpjpe(truth, result, 0, cm);
     knee_pop += figures.knee_pop_deg;
   }
-  void print(const std::string& group, const std::string& method, const char* feet) const {
+  void print(const std::string& group, const std::string& method, const char* feet,
+             Table& table) const {
     fmt::print("| {} | {} | {} | {:.3f} | {:.2f} | {:.2f} | {:.2f} |\n", group, method, feet,
                slide / takes, most_slide / takes, position / takes, knee_pop / takes);
+    table.add({quoted(fmt::format("{} {} {}", group, method, feet)),
+               fmt::format("{:.5g}", slide / takes), fmt::format("{:.5g}", most_slide / takes),
+               fmt::format("{:.5g}", position / takes), fmt::format("{:.5g}", knee_pop / takes)});
   }
 };
 
 void after_cleaning(const Arguments& arguments, const std::string& group,
-                    const std::vector<std::string>& names, std::vector<NamedPops>& all_pops) {
+                    const std::vector<std::string>& names, Table& table,
+                    std::vector<NamedPops>& all_pops) {
   for (const char* method : {"gaussian", "auto"}) {
     Row clean, plain, held;
     Pops pops;
@@ -102,9 +110,9 @@ void after_cleaning(const Arguments& arguments, const std::string& group,
                feet_figures(after, contacts).knee_pop_deg);
       if (arguments.quick) break;
     }
-    if (std::string(method) == "gaussian") clean.print(group, "as recorded", "");
-    plain.print(group, method, "off");
-    held.print(group, method, "auto");
+    if (std::string(method) == "gaussian") clean.print(group, "as recorded", "", table);
+    plain.print(group, method, "off", table);
+    held.print(group, method, "auto", table);
     all_pops.push_back({fmt::format("{}, noise, {}", group, method), pops});
   }
 }
@@ -113,6 +121,8 @@ void as_recorded(const Arguments& arguments, std::vector<NamedPops>& all_pops) {
   fmt::print(
       "\n| takes as recorded | contacts | held by auto | frames changed | slide cm | after |\n"
       "|---|---|---|---|---|---|\n");
+  Table table(arguments, "feet_recorded.csv",
+              "takes,contacts,held,changed_percent,slide_cm,slide_held_cm");
   const auto row = [&](const std::string& group, const std::vector<std::string>& names) {
     double contacts = 0, held = 0, frames = 0, changed = 0, before = 0, after = 0;
     Pops pops, forced;
@@ -141,6 +151,9 @@ void as_recorded(const Arguments& arguments, std::vector<NamedPops>& all_pops) {
     const auto takes = static_cast<double>(names.size());
     fmt::print("| {} | {} | {} | {:.0f} % | {:.3f} | {:.3f} |\n", group, contacts, held,
                100 * changed / frames, before / takes, after / takes);
+    table.add({group, fmt::format("{}", contacts), fmt::format("{}", held),
+               fmt::format("{:.4g}", 100 * changed / frames), fmt::format("{:.5g}", before / takes),
+               fmt::format("{:.5g}", after / takes)});
     all_pops.push_back({group + " as recorded, auto", pops});
     all_pops.push_back({group + " as recorded, force", forced});
   };
@@ -148,6 +161,7 @@ void as_recorded(const Arguments& arguments, std::vector<NamedPops>& all_pops) {
   row("runs", runs());
   row("dances", dances());
   row("bones of another subject", {"38_03", "46_01", "105_39", "105_40"});
+  table.close();
 }
 
 void pairs(const Arguments& arguments, std::vector<NamedPops>& all_pops) {
@@ -156,6 +170,8 @@ void pairs(const Arguments& arguments, std::vector<NamedPops>& all_pops) {
   fmt::print(
       "\n| pair | contacts | slide cm, raw | their fix | held here | knee pop deg | their fix "
       "| held here |\n|---|---|---|---|---|---|---|---|\n");
+  Table table(arguments, "feet_pairs.csv", "pair,raw_cm,fix_cm,held_cm,raw_pop,fix_pop,held_pop");
+  std::vector<double> sums(6, 0.0);
   Pops pops;
   for (const char* name : {"comp_3d_1", "comp_3d_2", "comp_video_1", "comp_video_2", "demo_3d_1",
                            "demo_3d_2", "demo_video_1", "demo_video_2"}) {
@@ -170,10 +186,18 @@ void pairs(const Arguments& arguments, std::vector<NamedPops>& all_pops) {
                settings.contacts->size(), cm * report.before.slide, cm * theirs.slide,
                cm * report.after.slide, report.before.knee_pop_deg, theirs.knee_pop_deg,
                report.after.knee_pop_deg);
+    const double figures[] = {cm * report.before.slide, cm * theirs.slide,
+                              cm * report.after.slide,  report.before.knee_pop_deg,
+                              theirs.knee_pop_deg,      report.after.knee_pop_deg};
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += figures[i] / 8;
     pops.add(name, report.before.knee_pop_deg, report.before.knee_pop_deg,
              report.after.knee_pop_deg);
   }
   all_pops.push_back({"pairs", pops});
+  std::vector<std::string> cells{"mean of 8"};
+  for (const double sum : sums) cells.push_back(fmt::format("{:.5g}", sum));
+  table.add(cells);
+  table.close();
 }
 
 void experiment(const Arguments& arguments) {
@@ -184,9 +208,11 @@ void experiment(const Arguments& arguments) {
       "| takes | method | feet | slide cm | most cm | position cm | knee pop deg |\n"
       "|---|---|---|---|---|---|---|\n");
   std::vector<NamedPops> pops;
-  after_cleaning(arguments, "walks", walks(), pops);
-  after_cleaning(arguments, "runs", runs(), pops);
-  after_cleaning(arguments, "dances", dances(), pops);
+  Table table(arguments, "feet_noise.csv", "takes,slide_cm,most_cm,position_cm,knee_pop_deg");
+  after_cleaning(arguments, "walks", walks(), table, pops);
+  after_cleaning(arguments, "runs", runs(), table, pops);
+  after_cleaning(arguments, "dances", dances(), table, pops);
+  table.close();
   as_recorded(arguments, pops);
   pairs(arguments, pops);
   fmt::print(
@@ -194,7 +220,9 @@ void experiment(const Arguments& arguments) {
       "recorded and what they had before their feet were held; and the take that rises most.\n\n"
       "| takes | number | above | most | recorded | before | after "
       "|\n|---|---|---|---|---|---|---|\n");
-  for (const NamedPops& own : pops) own.pops.print(own.group);
+  Table pop_table(arguments, "feet_pops.csv", "takes,number,above,take,recorded,before,after");
+  for (const NamedPops& own : pops) own.pops.print(own.group, pop_table);
+  pop_table.close();
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // The comparisons of Lou & Chai 2010, Example-based Human Motion Denoising: error against noise and
-// against the share of outliers (figure 7), and the same method with bases of other motions
-// (section 4.3).
+// against the share of outliers (figure 7).
 #include <algorithm>
 
 #include "lou.hpp"
@@ -86,70 +85,9 @@ void comparisons(const Arguments& arguments) {
            "the joints' samples.");
 }
 
-// Section 4.3.
-struct Prior {
-  std::string name;
-  std::vector<Clip> training;
-};
-
-std::vector<Clip> joined(std::vector<Clip> a, const std::vector<Clip>& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
-void priors(const Arguments& arguments) {
-  const LouGroup walks = walking_groups(arguments)[0];
-  std::vector<std::string> others = {"02_01", "05_01", "06_01", "07_01", "07_03", "07_04",
-                                     "07_08", "16_15", "16_21", "16_31", "16_47", "35_01",
-                                     "35_03", "35_05", "35_12", "35_15", "35_28", "49_01"};
-  std::vector<std::string> runs = {"02_03", "09_01", "09_02", "09_04", "09_06", "09_08", "16_35",
-                                   "16_45", "16_55", "35_17", "35_19", "35_21", "35_24"};
-  if (arguments.quick) others.resize(3), runs.resize(3);
-  const std::vector<Clip> of_others = lou_takes(arguments, others, "walk", 201);
-  const std::vector<Clip> running = lou_takes(arguments, runs, "run", 301);
-  const LouGroup run_tests = lou_group(arguments, "runs", {}, {"09_07", "16_56", "35_23"}, "run");
-  const std::vector<Prior> list = {
-      {"small: walks of the subject", walks.training},
-      {"large: walks of 8 subjects", joined(walks.training, of_others)},
-      {"large, subject left out", of_others},
-      {"mixed: walks and runs", joined(of_others, running)},
-      {"running only", running}};
-  Table table(arguments, "lou_priors.csv", "prior,frames,bases,test,rms_deg");
-  fmt::print("Section 4.3: sigma = 3 degrees, bases of different motions. Degrees.\n\n");
-  TextTable text({"frames", "bases", "walk", "run"});
-  const auto tried = [&](const Cleaner& cleaner, const std::vector<Clip>& tests) {
-    LouErrors errors;
-    for (const Clip& truth : tests) {
-      for (std::size_t seed = 1; seed <= seeds(arguments); ++seed)
-        errors.add(0, 0, rms_deg(truth, cleaned(cleaner, lou_noise(truth, 3, 0, seed))));
-    }
-    return errors.of(0);
-  };
-  for (const Prior& prior : list) {
-    const auto model = learned("example", prior.training);
-    const auto cleaner = make_example({}, model);
-    const auto bases = model->tensor("bases", 3).shape[2];
-    const double frames = model->seconds * lou_rate_hz;
-    const double walk = tried(*cleaner, walks.tests), run = tried(*cleaner, run_tests.tests);
-    text.add(prior.name, {frames, static_cast<double>(bases), walk, run});
-    for (const auto& [test, error] : {std::pair{"walk", walk}, std::pair{"run", run}}) {
-      table.add({"\"" + prior.name + "\"", fmt::format("{:.0f}", frames), fmt::format("{}", bases),
-                 test, fmt::format("{:.5g}", error)});
-    }
-  }
-  const auto automatic = make_auto();
-  text.add("(auto, no prior)",
-           {0, 0, tried(*automatic, walks.tests), tried(*automatic, run_tests.tests)});
-  text.print();
-  table.close();
-}
-
 }  // namespace
 }  // namespace kinemend::papers
 
 int main(int count, char** values) {
-  return kinemend::papers::run(count, values, [](const kinemend::papers::Arguments& arguments) {
-    kinemend::papers::comparisons(arguments);
-    kinemend::papers::priors(arguments);
-  });
+  return kinemend::papers::run(count, values, kinemend::papers::comparisons);
 }

@@ -70,6 +70,8 @@ void figure_9(const Arguments& arguments) {
       errors_of(*make_kalman_learned({}, learned("kalman-learned", walks.training)),
                 *make_kalman_learned({}, learned("kalman-learned", jumping.training)));
   text.add("(kalman-learned, smoother)", {denoising, filling});
+  table.add({quoted("(kalman-learned, smoother)"), fmt::format("{:.5g}", denoising),
+             fmt::format("{:.5g}", filling)});
   text.print();
   table.close();
 }

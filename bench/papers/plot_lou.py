@@ -48,7 +48,7 @@ for panel, name, label in zip(panels, ["lou_noise.csv", "lou_outliers.csv"],
 figure.suptitle("Lou & Chai 2010, figure 7 (solid: the paper's four)")
 save(figure, "lou_comparison.png")
 
-rows = table("lou_windows.csv")
+rows = [row for row in table("lou_windows.csv") if row["window_frames"].isdigit()]
 figure, panels = plt.subplots(1, 2, figsize=(9, 4))
 for panel, column, title in zip(panels, ["denoising_rms_deg", "filling_rms_deg"],
                                 ["a walk, sigma = 3", "a limb missing in a jump"]):

@@ -3,13 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "kinemend/clean.hpp"
+#include "kinemend/convert.hpp"
 #include "kinemend/corrupt.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/synth.hpp"
+#include "kinemend/train.hpp"
 
 // Feet as the last step of the pipeline.
 namespace kinemend::test {
@@ -66,14 +71,68 @@ TEST(FeetStep, IsNotTakenUnasked) {
   EXPECT_EQ(off.clip.local_rotations, clip.local_rotations);
 }
 
-TEST(FeetStep, ComesAfterEveryMethod) {
-  const Clip clip = sliding_walk();
-  for (const char* method : {"auto", "gaussian", "butterworth", "kalman", "nonlocal"}) {
-    const CleanResult result = clean_clip(clip, *make_cleaner(method), with_feet(), method);
-    EXPECT_LT(result.report.feet->after.most_slide, 0.05) << method;
-    EXPECT_GT(result.report.feet->before.most_slide, 1) << method;
+// Learned methods take models of synthetic walks, and the noise that they are for.
+class FeetAfter : public testing::TestWithParam<std::string> {};
+
+std::unique_ptr<Cleaner> made(const Method& method) {
+  if (!method.learned) return make_cleaner(method.name);
+  const auto model = std::make_shared<const Model>(train_model(
+      method.name, {2, [](std::size_t i) {
+                      return std::variant<Clip, MarkerClip>(synthesize({"walk", 3, 60, i + 2}));
+                    }}));
+  return method.name == "example"  ? make_example({}, model)
+         : method.name == "wiener" ? make_wiener({}, model)
+                                   : make_kalman_learned({}, model);
+}
+
+TEST_P(FeetAfter, AreHeldAndTheRestIsTheMethods) {
+  const Method& method = find_method(GetParam());
+  Clip clip = sliding_walk();
+  if (method.learned) {
+    clip = resample(clip, 60);
+    Random random(3);
+    apply_damage(clip, "gaussian", {{"std_deg", 1.5}}, random);
+  }
+  const std::unique_ptr<Cleaner> cleaner = made(method);
+  CleanSettings settings = with_feet();
+  settings.feet->contacts = find_contacts(sliding_walk());
+  if (method.learned) {
+    for (FootContact& contact : *settings.feet->contacts)
+      contact.first_frame /= 2, contact.last_frame /= 2;
+  }
+  const CleanResult plain = clean_clip(clip, *cleaner, {}, method.name),
+                    held = clean_clip(clip, *cleaner, settings, method.name);
+  ASSERT_TRUE(held.report.feet);
+  EXPECT_GT(held.report.feet->contacts.size(), 4u);
+  EXPECT_GT(held.report.feet->before.most_slide, 1);
+  EXPECT_LT(held.report.feet->after.most_slide, 0.05);
+  if (method.learned) {
+    EXPECT_NE(plain.clip.local_rotations, clip.local_rotations);
+  }
+  for (const char* name : {"Head", "LeftArm", "RightForeArm", "Spine"}) {
+    const auto j = static_cast<std::size_t>(clip.skeleton.find(name));
+    for (std::size_t f = 0; f < clip.frame_count(); ++f)
+      ASSERT_EQ(held.clip.rotation(f, j), plain.clip.rotation(f, j)) << name << ", frame " << f;
   }
 }
+
+std::vector<std::string> names_of_methods() {
+  std::vector<std::string> names;
+  for (const Method& method : methods()) {
+#if defined(KINEMEND_SANITIZED)
+    if (method.learned) continue;  // learning takes long in instrumented code
+#endif
+    names.push_back(method.name);
+  }
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryMethod, FeetAfter, testing::ValuesIn(names_of_methods()),
+                         [](const auto& method) {
+                           std::string name = method.param;
+                           name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
+                           return name;
+                         });
 
 TEST(FeetStep, LeavesLegsThatAreNotSelectedAndTheOthersToo) {
   const Clip clip = sliding_walk();

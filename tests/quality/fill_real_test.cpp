@@ -12,57 +12,14 @@
 #include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/random.hpp"
+#include "quality/gapped_markers.hpp"
 
 // Gaps made in takes that have none, filled again.
 namespace kinemend::quality {
 namespace {
 
-// `most` points of a take from number `skip` on: what comes behind them are angles and the like.
-MarkerClip points_of(const std::string& path, std::size_t skip, std::size_t most) {
-  const Take take = read_take(KINEMEND_DATA_FOLDER "/" + path).take;
-  const MarkerClip& all = std::get<MarkerClip>(take);
-  std::vector<std::size_t> kept;
-  std::vector<std::string> names;
-  for (std::size_t m = skip; m < all.marker_count() && kept.size() < most; ++m) {
-    kept.push_back(m);
-    names.push_back(all.names[m]);
-  }
-  MarkerClip clip = make_marker_clip(names, all.frame_count(), all.frame_rate_hz);
-  for (std::size_t f = 0; f < all.frame_count(); ++f) {
-    for (std::size_t k = 0; k < kept.size(); ++k) {
-      clip.position(f, k) = all.position(f, kept[k]);
-      clip.observed[f * kept.size() + k] = all.is_observed(f, kept[k]) ? 1 : 0;
-    }
-  }
-  return clip;
-}
-
-// Three gaps in each of five markers, at places drawn by the seed.
-MarkerClip with_gaps(const MarkerClip& truth, std::size_t length, std::uint64_t seed) {
-  constexpr std::size_t damaged_markers = 5, gaps_each = 3, apart = 10;
-  MarkerClip clip = truth;
-  Random random(seed);
-  std::vector<std::size_t> order(clip.marker_count());
-  for (std::size_t m = 0; m < order.size(); ++m) order[m] = m;
-  for (std::size_t i = 0; i < damaged_markers; ++i) {
-    std::swap(order[i], order[i + random.below(order.size() - i)]);
-    std::vector<std::size_t> starts;
-    while (starts.size() < gaps_each) {
-      const std::size_t start = apart + random.below(clip.frame_count() - length - 2 * apart);
-      const bool free = std::all_of(starts.begin(), starts.end(), [&](std::size_t other) {
-        return std::max(start, other) - std::min(start, other) > length + apart;
-      });
-      if (free) starts.push_back(start);
-      // Three gaps that leave no room for one another are drawn anew.
-      else if (random.chance(0.05))
-        starts.clear();
-    }
-    for (const std::size_t start : starts) {
-      const NamedGap gap{clip.names[order[i]], start, start + length - 1};
-      mark_gaps(clip, {&gap, 1});
-    }
-  }
-  return clip;
+MarkerClip take_points(const std::string& path, std::size_t skip, std::size_t most) {
+  return points_of(std::filesystem::path(KINEMEND_DATA_FOLDER) / path, skip, most);
 }
 
 struct Figures {
@@ -101,35 +58,35 @@ Figures figures(const MarkerClip& truth, std::size_t length, const std::string& 
 constexpr std::size_t body_markers = 41;
 
 TEST(FillRealTakes, ThirtyFramesOfAcrobaticsAreOffByLessThanEightMillimetres) {
-  const Figures f = figures(points_of("cmu/c3d/85_02.c3d", 0, body_markers), 30);
+  const Figures f = figures(take_points("cmu/c3d/85_02.c3d", 0, body_markers), 30);
   EXPECT_LT(f.mean, 3.5);
   EXPECT_LT(f.worst, 8.0);
   EXPECT_EQ(f.refused, 0U);
 }
 
 TEST(FillRealTakes, AHundredAndTwentyFramesOfAcrobaticsAreOffByLessThanEighteenMillimetres) {
-  const Figures f = figures(points_of("cmu/c3d/85_02.c3d", 0, body_markers), 120);
+  const Figures f = figures(take_points("cmu/c3d/85_02.c3d", 0, body_markers), 120);
   EXPECT_LT(f.mean, 9.0);
   EXPECT_LT(f.worst, 18.0);
 }
 
 TEST(FillRealTakes, AHundredAndTwentyFramesOfALongTakeAreOffByLessThanNineMillimetres) {
-  const Figures f = figures(points_of("cmu/c3d/85_12.c3d", 0, body_markers), 120);
+  const Figures f = figures(take_points("cmu/c3d/85_12.c3d", 0, body_markers), 120);
   EXPECT_LT(f.mean, 8.0);
   EXPECT_LT(f.worst, 14.0);
 }
 
 // Other bodies, rooms and movements.
 TEST(FillRealTakes, OtherTakesAreOffByAsLittle) {
-  EXPECT_LT(figures(points_of("cmu/c3d/05_13.c3d", 0, body_markers), 120).mean, 10.0);
-  EXPECT_LT(figures(points_of("c3d/other/HDM_bd_05-01_01_120.c3d", 3, body_markers), 120).mean,
+  EXPECT_LT(figures(take_points("cmu/c3d/05_13.c3d", 0, body_markers), 120).mean, 10.0);
+  EXPECT_LT(figures(take_points("c3d/other/HDM_bd_05-01_01_120.c3d", 3, body_markers), 120).mean,
             3.0);
   // Nine points of the legs and the pelvis: joint centres, no clusters.
-  EXPECT_LT(figures(points_of("paired/S02-Trial-Walk-1-vicon.c3d", 0, 9), 100).mean, 10.0);
+  EXPECT_LT(figures(take_points("paired/S02-Trial-Walk-1-vicon.c3d", 0, 9), 100).mean, 10.0);
 }
 
 TEST(FillRealTakes, AutoIsBetterThanEachMethodByItself) {
-  const MarkerClip truth = points_of("cmu/c3d/85_02.c3d", 0, body_markers);
+  const MarkerClip truth = take_points("cmu/c3d/85_02.c3d", 0, body_markers);
   const double chosen = figures(truth, 30).mean;
   for (const char* method :
        {"spline", "quintic", "pchip", "rigid-body", "pca", "local-regression"}) {
@@ -180,7 +137,7 @@ TEST(FillRealTakes, PromisesOfMarkersHoldOnTakesOfOthers) {
         "paired/S02-Trial-Walk-1-vicon.c3d", "trc/SprintMotion.trc", "trc/MOTEK/ballet_reduced.trc",
         "real/depth-RTK.reference.trc"}) {
     const std::size_t skip = std::string(path).find("HDM") == std::string::npos ? 0 : 3;
-    const MarkerClip truth = points_of(path, skip, body_markers);
+    const MarkerClip truth = take_points(path, skip, body_markers);
     promises.add(truth, whole_markers(truth), 8);
   }
   const fill::Figures f = promises.figures("markers", 0.5);

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "experiment.hpp"
+#include "kinemend/clean.hpp"
+#include "kinemend/corrupt.hpp"
+#include "kinemend/metrics.hpp"
+
+// What the programs that measure the figures of pages share.
+namespace kinemend::papers {
+
+inline Clip damaged(Clip clip, const std::string& damage, const OptionValues& options,
+                    std::uint64_t seed) {
+  Random random(seed);
+  apply_damage(clip, damage, options, random);
+  return clip;
+}
+
+inline Clip noisy(const Clip& clip, double std_deg, double share_of_outliers, std::uint64_t seed) {
+  Clip result = clip;
+  Random random(seed);
+  if (std_deg > 0) apply_damage(result, "gaussian", {{"std_deg", std_deg}}, random);
+  if (share_of_outliers > 0)
+    apply_damage(result, "outliers", {{"share", share_of_outliers}, {"std_deg", 25.0}}, random);
+  return result;
+}
+
+inline Clip cleaned(const Clip& clip, const std::string& method, const OptionValues& options = {}) {
+  return clean_clip(clip, *make_cleaner(method, options)).clip;
+}
+
+inline std::string figure(double value) { return fmt::format("{:.5g}", value); }
+
+}  // namespace kinemend::papers

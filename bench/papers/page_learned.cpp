@@ -1,0 +1,99 @@
+// Figures of README.md and docs that take minutes: how many clean takes come back bit for bit, and
+// learned methods on hold-outs.
+#include <algorithm>
+#include <set>
+
+#include "kinemend/methods.hpp"
+#include "page.hpp"
+
+namespace kinemend::papers {
+namespace {
+
+std::vector<std::string> names_below(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  for (const char* part : {"cmu/bvh", "cmu/bvh-rotations"}) {
+    if (!std::filesystem::is_directory(folder / part)) continue;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / part))
+      names.insert(entry.path().filename().string());
+  }
+  return {names.begin(), names.end()};
+}
+
+// Clean takes, every fourth of the library: how many come back bit for bit.
+void clean_takes(const Arguments& arguments) {
+  Table table(arguments, "page_clean.csv", "method,takes,unchanged,hardly_changed");
+  std::vector<std::string> names;
+  const std::vector<std::string> all = names_below(arguments.data);
+  for (std::size_t i = 0; i < all.size(); i += arguments.quick ? 80 : 4) names.push_back(all[i]);
+  if (names.empty()) names = {"walk", "run", "punch", "wave", "landing"};
+  for (const char* method : {"auto", "wiener", "example"}) {
+    std::size_t unchanged = 0, hardly = 0;
+    for (const std::string& name : names) {
+      const Clip clip = load_take(arguments, name, {.motion = name}).clip;
+      const double change = geodesic_rms_deg(clip, cleaned(clip, method));
+      unchanged += change == 0 ? 1 : 0;
+      hardly += change > 0 && change < 0.012 ? 1 : 0;
+    }
+    table.add({method, fmt::format("{}", names.size()), fmt::format("{}", unchanged),
+               fmt::format("{}", hardly)});
+  }
+  table.close();
+}
+
+// The takes that no model that ships has seen.
+std::vector<std::string> hold_outs(const Arguments& arguments) {
+  std::vector<std::string> names;
+  std::ifstream list(arguments.data / "cmu" / "recurrent-100.csv");
+  for (std::string line; std::getline(list, line);) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    const bool held_out = !line.empty() && line.back() >= '1' && line.back() <= '5';
+    if (held_out) names.push_back(line.substr(0, line.find(',')));
+  }
+  return names;
+}
+
+double best_gaussian(const Clip& truth, const Clip& clip) {
+  double best = 1e300;
+  for (const double width_s :
+       {0.006, 0.009, 0.013, 0.018, 0.025, 0.035, 0.045, 0.058, 0.08, 0.11, 0.16})
+    best = std::min(best, rms_deg(truth, cleaned(clip, "gaussian", {{"width_s", width_s}})));
+  return best;
+}
+
+void learned_methods(const Arguments& arguments) {
+  Table table(arguments, "page_learned.csv", "noise,method,takes,mean,worst");
+  std::vector<std::string> names = hold_outs(arguments);
+  if (names.empty()) names = {"walk", "run"};
+  const std::vector<std::string> noises{"1 degree", "4 degrees and spikes", "half"};
+  for (std::size_t n = 0; n < noises.size(); ++n) {
+    double mean[2] = {}, worst[2] = {};
+    for (const std::string& name : names) {
+      const Clip truth = load_take(arguments, name + ".bvh", {.motion = name}).clip;
+      const Clip clip = n == 2 ? damaged(truth, "gaussian-channels", {{"k", 0.5}}, 3)
+                               : noisy(truth, n == 0 ? 1 : 4, n == 0 ? 0 : 0.004, 3);
+      const double gaussian = best_gaussian(truth, clip);
+      for (std::size_t m = 0; m < 2; ++m) {
+        const double share = rms_deg(truth, cleaned(clip, m == 0 ? "auto" : "wiener")) / gaussian;
+        mean[m] += share / static_cast<double>(names.size());
+        worst[m] = std::max(worst[m], share);
+      }
+    }
+    for (std::size_t m = 0; m < 2; ++m) {
+      table.add({noises[n], m == 0 ? "auto" : "wiener", fmt::format("{}", names.size()),
+                 figure(mean[m]), figure(worst[m])});
+    }
+  }
+  table.close();
+}
+
+void experiment(const Arguments& arguments) {
+  clean_takes(arguments);
+  learned_methods(arguments);
+}
+
+}  // namespace
+}  // namespace kinemend::papers
+
+int main(int count, char** values) {
+  return kinemend::papers::run(count, values, kinemend::papers::experiment);
+}

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "kinemend/gaps.hpp"
+#include "kinemend/io.hpp"
+#include "kinemend/random.hpp"
+
+namespace kinemend::quality {
+
+/// `most` points of a take from number `skip` on: what comes behind them are angles and the like.
+inline MarkerClip points_of(const std::filesystem::path& path, std::size_t skip, std::size_t most) {
+  const MarkerClip all = std::get<MarkerClip>(read_take(path).take);
+  std::vector<std::size_t> kept;
+  std::vector<std::string> names;
+  for (std::size_t m = skip; m < all.marker_count() && kept.size() < most; ++m) {
+    kept.push_back(m);
+    names.push_back(all.names[m]);
+  }
+  MarkerClip clip = make_marker_clip(names, all.frame_count(), all.frame_rate_hz);
+  for (std::size_t f = 0; f < all.frame_count(); ++f) {
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      clip.position(f, k) = all.position(f, kept[k]);
+      clip.observed[f * kept.size() + k] = all.is_observed(f, kept[k]) ? 1 : 0;
+    }
+  }
+  return clip;
+}
+
+/// Three gaps in each of five markers, at places drawn by the seed.
+inline MarkerClip with_gaps(const MarkerClip& truth, std::size_t length, std::uint64_t seed) {
+  constexpr std::size_t damaged_markers = 5, gaps_each = 3, apart = 10;
+  MarkerClip clip = truth;
+  Random random(seed);
+  std::vector<std::size_t> order(clip.marker_count());
+  for (std::size_t m = 0; m < order.size(); ++m) order[m] = m;
+  for (std::size_t i = 0; i < damaged_markers; ++i) {
+    std::swap(order[i], order[i + random.below(order.size() - i)]);
+    std::vector<std::size_t> starts;
+    while (starts.size() < gaps_each) {
+      const std::size_t start = apart + random.below(clip.frame_count() - length - 2 * apart);
+      const bool free = std::all_of(starts.begin(), starts.end(), [&](std::size_t other) {
+        return std::max(start, other) - std::min(start, other) > length + apart;
+      });
+      if (free) starts.push_back(start);
+      // Three gaps that leave no room for one another are drawn anew.
+      else if (random.chance(0.05))
+        starts.clear();
+    }
+    for (const std::size_t start : starts) {
+      const NamedGap gap{clip.names[order[i]], start, start + length - 1};
+      mark_gaps(clip, {&gap, 1});
+    }
+  }
+  return clip;
+}
+
+}  // namespace kinemend::quality
