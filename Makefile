@@ -60,11 +60,14 @@ bench: setup $(BUILD)/dev/.built ## the speed tables, beside SciPy's figures of 
 bench-quick: setup $(BUILD)/dev/.built
 	tools/run_benchmarks $(BUILD)/dev --quick
 
-papers: setup $(BUILD)/dev/.built ## the papers' own experiments: tables and plots under build/papers
+papers: setup $(BUILD)/dev/.built ## the papers' own experiments, and the figures of pages, under build/papers (CHECK=1: compared with the stored ones)
 	tools/run_papers $(BUILD)/dev
+	$(if $(CHECK),tools/check_figures build/papers)
 
+# On takes that the project makes itself, so that the figures are the same everywhere.
 papers-quick: setup $(BUILD)/dev/.built
-	tools/run_papers $(BUILD)/dev --quick
+	KINEMEND_DATA= tools/run_papers $(BUILD)/dev --quick
+	tools/check_figures build/papers --quick
 
 fuzz: setup ## fuzz each reader for a minute (FUZZ_SECONDS=60)
 	tools/run_fuzzers $${FUZZ_SECONDS:-60}

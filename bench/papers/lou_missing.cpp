@@ -137,8 +137,9 @@ void figure_6(const Arguments& arguments) {
   captured_markers(arguments, results);
   Table table(arguments, "lou_missing.csv", "take,method,distance_cm");
   fmt::print("Figure 6: both arms missing throughout. Mean distance of what is of an arm, cm.\n\n");
-  for (std::string& column : columns) column = column.substr(0, 8);
-  TextTable text(columns);
+  std::vector<std::string> short_names;
+  for (const std::string& column : columns) short_names.push_back(column.substr(0, 8));
+  TextTable text(short_names);
   for (const Result& result : results) {
     text.add(result.take, result.errors_cm);
     for (std::size_t c = 0; c < columns.size(); ++c) {

@@ -10,7 +10,7 @@
 namespace kinemend::papers {
 namespace {
 
-using quality::cleaned_markers, quality::damaged_markers;
+using quality::cleaned_markers, quality::damaged_markers, test::rms_distance;
 
 std::string figure(double value) { return fmt::format("{:.5g}", value); }
 
@@ -19,15 +19,6 @@ MarkerClip points(const Arguments& arguments, const char* file, std::size_t skip
                   std::size_t most) {
   const auto path = find_take(arguments.data, file);
   return path ? quality::points_of(*path, skip, most) : test::marker_take("walk", 5);
-}
-
-double rms_distance(const MarkerClip& a, const MarkerClip& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.positions.size(); ++i) {
-    const Vec3 d = a.positions[i] - b.positions[i];
-    sum += dot(d, d);
-  }
-  return std::sqrt(sum / static_cast<double>(a.positions.size()));
 }
 
 // As much of the take as says enough: 10 s of 41 markers, 2 s of 330.
