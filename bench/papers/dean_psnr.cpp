@@ -1,6 +1,6 @@
 // Table I of Dean 2016, Non-local Pose Means for Denoising Motion Capture Data: peak
 // signal-to-noise ratio of denoising methods on a run, for five strengths of Gaussian noise and for
-// impulses.
+// impulses; and the curves of its figures 3 to 6.
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -94,14 +94,54 @@ std::vector<Row> rows(bool quick) {
           {"auto", "auto", {{}}}};
 }
 
-double best_psnr(const Clip& truth, const Clip& noisy, const Row& row) {
-  double best = -std::numeric_limits<double>::infinity();
+struct Best {
+  double psnr_db = -std::numeric_limits<double>::infinity();
+  Clip clip;
+};
+
+Best best_of(const Clip& truth, const Clip& noisy, const Row& row) {
+  Best best;
   for (const OptionValues& values : row.settings) {
     Clip clip = noisy;
     make_cleaner(row.method, values)->clean(clip, Selection::all(clip));
-    best = std::max(best, psnr_db(truth, clip));
+    const double psnr = psnr_db(truth, clip);
+    if (psnr > best.psnr_db) best = {psnr, std::move(clip)};
   }
   return best;
+}
+
+// Half a rotation vector, the paper's logarithm of a quaternion.
+Vec3 log_at(const Clip& clip, std::size_t frame, std::size_t joint) {
+  return 0.5 * log(align_hemisphere(clip.rotation(frame, joint), Quat{}));
+}
+
+struct Shown {
+  std::string noise, version;
+  Clip clip;
+};
+
+// Figure 3 and 4: all channels of the truth, the noisy take and the result; figures 5 and 6b: the
+// knee's first channel, of these and of every method of the table.
+void curves(const Arguments& arguments, const std::vector<Shown>& shown) {
+  Table all(arguments, "dean_channels.csv", "noise,version,frame,channel,value"),
+      one(arguments, "dean_channel.csv", "noise,version,frame,value");
+  for (const auto& [noise, version, clip] : shown) {
+    const auto knee = static_cast<std::size_t>(std::max(0, clip.skeleton.find("RightLeg")));
+    const bool whole =
+        version == "truth" || version == "noisy" || version.starts_with("NLPM (best");
+    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+      one.add(
+          {noise, version, fmt::format("{}", f), fmt::format("{:.5g}", log_at(clip, f, knee).x)});
+      for (std::size_t j = 0; whole && j < clip.joint_count(); ++j) {
+        const Vec3 v = log_at(clip, f, j);
+        for (const auto& [axis, value] : {std::pair{0, v.x}, {1, v.y}, {2, v.z}})
+          all.add({noise, version, fmt::format("{}", f), fmt::format("{}", 3 * j + axis),
+                   fmt::format("{:.4g}", value)});
+      }
+    }
+  }
+  all.close();
+  one.close();
 }
 
 void add_row(Table& table, const std::string& name,
@@ -141,10 +181,25 @@ void experiment(const Arguments& arguments) {
   fmt::print("\n");
   Table table(arguments, "dean_psnr.csv", header);
   add_row(table, "(noisy)", [&](std::size_t n) { return psnr_db(take.clip, noisy[n]); });
+  std::vector<Shown> shown;
+  const auto is_shown = [](std::size_t n) {
+    return noises[n].name == "1 sigma" || noises[n].name == "30 sigma" ||
+           noises[n].name == "75 sigma";
+  };
+  for (std::size_t n = 0; n < noises.size(); ++n) {
+    if (!is_shown(n)) continue;
+    shown.push_back({noises[n].name, "truth", take.clip});
+    shown.push_back({noises[n].name, "noisy", noisy[n]});
+  }
   for (const Row& row : rows(arguments.quick)) {
-    add_row(table, row.name, [&](std::size_t n) { return best_psnr(take.clip, noisy[n], row); });
+    add_row(table, row.name, [&](std::size_t n) {
+      Best best = best_of(take.clip, noisy[n], row);
+      if (is_shown(n)) shown.push_back({noises[n].name, row.name, std::move(best.clip)});
+      return best.psnr_db;
+    });
   }
   table.close();
+  curves(arguments, shown);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "kinemend/kinematics.hpp"
 #include "kinemend/methods.hpp"
 #include "page.hpp"
 
@@ -70,7 +71,38 @@ void damaged_takes(const Arguments& arguments) {
   table.close();
 }
 
+// Joints against their parents or against the world: the bilateral filter is the same in frames
+// that stand still, not in those of parents that turn.
+void frames_of_joints(const Arguments& arguments) {
+  Table table(arguments, "page_frames.csv", "take,noise_deg,largest_deg,rms_deg");
+  const auto of_the_world = [](const Clip& clip) {
+    Clip result = clip;
+    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+      const Pose pose = forward_kinematics(clip, f);
+      for (std::size_t j = 0; j < clip.joint_count(); ++j)
+        result.rotation(f, j) = pose.rotations[j];
+    }
+    return result;
+  };
+  for (const char* motion : {"walk", "run"}) {
+    for (const double noise_deg : {0.0, 1.5}) {
+      const Clip clip = noisy(synthesize({.motion = motion}), noise_deg, 0, 7);
+      const Clip local = of_the_world(cleaned(clip, "bilateral"));
+      Clip global = of_the_world(clip);
+      make_cleaner("bilateral")->clean(global, Selection::all(global));
+      double largest = 0;
+      for (std::size_t i = 0; i < local.local_rotations.size(); ++i)
+        largest =
+            std::max(largest, angle_between(local.local_rotations[i], global.local_rotations[i]));
+      table.add({motion, fmt::format("{}", noise_deg), figure(degrees_per_radian * largest),
+                 figure(geodesic_rms_deg(local, global))});
+    }
+  }
+  table.close();
+}
+
 void experiment(const Arguments& arguments) {
+  frames_of_joints(arguments);
   methods_on_own_takes(arguments);
   damaged_takes(arguments);
 }

@@ -24,3 +24,49 @@ axes.legend(fontsize=8)
 figure.tight_layout()
 figure.savefig(folder / "dean_psnr.png", dpi=120)
 print("wrote", folder / "dean_psnr.png")
+
+
+def curves(name):
+    """Values by noise, version and channel."""
+    result = {}
+    with open(folder / name, newline="") as file:
+        for row in csv.DictReader(file):
+            key = row["noise"], row["version"], row.get("channel", "")
+            result.setdefault(key, []).append(float(row["value"]))
+    return result
+
+
+def save(figure, name):
+    figure.tight_layout()
+    figure.savefig(folder / name, dpi=120)
+    print("wrote", folder / name)
+
+
+channels = curves("dean_channels.csv")
+versions = ["truth", "noisy", "NLPM (best bandwidth)"]
+noises = list(dict.fromkeys(noise for noise, _, _ in channels))
+figure, panels = plt.subplots(len(noises), 3, figsize=(12, 3 * len(noises)), sharex=True, sharey=True)
+for row, noise in zip(panels, noises):
+    for panel, version in zip(row, versions):
+        for (of, what, _), values in channels.items():
+            if (of, what) == (noise, version):
+                panel.plot(values, linewidth=0.5)
+        panel.set_title(f"{version}, {noise}", fontsize=9)
+figure.suptitle("Dean 2016, figures 3 and 4: all channels")
+save(figure, "dean_channels.png")
+
+single = curves("dean_channel.csv")
+figure, panels = plt.subplots(2, 1, figsize=(10, 9), sharex=True)
+for (noise, version, _), values in single.items():
+    if noise != "30 sigma":
+        continue
+    if version in versions:
+        panels[0].plot(values, label=version, linewidth=1)
+    if version != "noisy":
+        panels[1].plot(values, label=version, linewidth=2 if version == "truth" else 0.8)
+panels[0].set_title("Dean 2016, figure 5: one channel of a knee, 30 sigma")
+panels[1].set_title("figure 6: every method of table I")
+for panel in panels:
+    panel.legend(fontsize=7)
+    panel.grid(alpha=0.3)
+save(figure, "dean_channel.png")

@@ -57,3 +57,18 @@ for panel, column, title in zip(panels, ["denoising_rms_deg", "filling_rms_deg"]
     panel.grid(alpha=0.3)
 figure.suptitle("Lou & Chai 2010, figure 9")
 save(figure, "lou_windows.png")
+
+shown = {}
+for row in table("lou_curves.csv"):
+    panel = shown.setdefault((row["figure"], row["joint"]), {})
+    panel.setdefault(row["version"], []).append(float(row["angle_deg"]))
+figure, panels = plt.subplots(len(shown), 1, figsize=(9, 3.5 * len(shown)))
+for axes, ((number, joint), versions) in zip(panels, shown.items()):
+    for name, values in versions.items():
+        quiet = name.startswith("training") or name == "noisy"
+        axes.plot(values, label=name, linewidth=0.6 if quiet else 1.4)
+    axes.set(title=f"figure {number}, {joint}" + (" (and figure 1)" if number == "4" else ""), xlabel="frame", ylabel="degrees")
+    axes.legend(fontsize=6)
+    axes.grid(alpha=0.3)
+figure.suptitle("Lou & Chai 2010, figures 1, 4 and 8")
+save(figure, "lou_curves.png")

@@ -152,6 +152,29 @@ TEST(Bilateral, IsTheSameInAnyCoordinateFrame) {
   }
 }
 
+// The proposition is of turns that are the same in all frames. A parent that turns is none:
+// filtered against it and against the world a joint comes out otherwise.
+TEST(Bilateral, IsNotTheSameInTheFrameOfAParentThatTurns) {
+  const Clip input = noisy_take(120);
+  const auto cleaner = make_bilateral(options_with(5, 5, "reflect"));
+  const auto from_parent = [](Clip clip, double turn_deg, double swing_deg) {
+    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+      const double t = static_cast<double>(f) / clip.frame_rate_hz;
+      const double angle = radians_per_degree * (turn_deg + swing_deg * std::sin(6 * t));
+      for (std::size_t j = 0; j < clip.joint_count(); ++j)
+        clip.rotation(f, j) = exp({0, angle, 0}) * clip.rotation(f, j);
+    }
+    return clip;
+  };
+  const auto disagreement_deg = [&](double turn_deg, double swing_deg) {
+    return degrees_per_radian *
+           largest_difference(from_parent(cleaned(input, *cleaner), turn_deg, swing_deg),
+                              cleaned(from_parent(input, turn_deg, swing_deg), *cleaner));
+  };
+  EXPECT_LT(disagreement_deg(50, 0), 1e-10);
+  EXPECT_GT(disagreement_deg(50, 40), 0.5);
+}
+
 // Proposition 2. The blocks of frames that are worked on at once are no part of the result.
 TEST(Bilateral, IsTheSameAtAnyTime) {
   const Clip input = noisy_take(700);

@@ -1,0 +1,76 @@
+// The curves of figures 1, 4 and 8 of Lou & Chai 2010, Example-based Human Motion Denoising: angles
+// of a knee and of the thorax, of walks learned from, of a damaged walk and of what filters make of
+// it.
+#include <memory>
+
+#include "lou.hpp"
+
+namespace kinemend::papers {
+namespace {
+
+// A turn's size about its mean, signed by the first axis: one curve a joint.
+double angle_deg(const Clip& clip, std::size_t frame, const std::string& joint) {
+  const auto j = static_cast<std::size_t>(std::max(0, clip.skeleton.find(joint)));
+  return degrees_per_radian * log(align_hemisphere(clip.rotation(frame, j), Quat{})).x;
+}
+
+void add(Table& table, const std::string& figure, const std::string& version, const Clip& clip,
+         const std::string& joint) {
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    table.add({figure, quoted(version), joint, fmt::format("{}", f),
+               fmt::format("{:.5g}", angle_deg(clip, f, joint))});
+  }
+}
+
+void curves(const Arguments& arguments) {
+  const LouGroup group = walking_groups(arguments)[0];
+  const Clip& truth = group.tests[0];
+  const auto model = learned("example", group.training);
+  const auto example = make_example({}, model);
+  const std::string knee = "RightLeg", thorax = "Spine1";
+  Table table(arguments, "lou_curves.csv", "figure,version,joint,frame,angle_deg");
+
+  // Figures 1 and 4: the knee is hit throughout, the thorax is not.
+  Clip hit = truth;
+  Random random(4);
+  apply_damage(hit, "outliers", {{"share", 0.3}, {"joints", knee}}, random);
+  const Clip mended = cleaned(*example, hit);
+  for (const std::string& joint : {knee, thorax}) {
+    for (std::size_t i = 0; i < group.training.size(); ++i)
+      add(table, "4", fmt::format("training {}", i + 1), at_lou_rate(group.training[i]), joint);
+    add(table, "4", "truth", truth, joint);
+    add(table, "4", "noisy", hit, joint);
+    add(table, "4", "filtered", mended, joint);
+  }
+  // Figure 8: noise and outliers in every joint, the thorax by the four methods.
+  const Clip noisy = lou_noise(truth, 3, 0.1, 8);
+  KalmanLearnedOptions of_the_past;
+  of_the_past.smoother = false;
+  const auto gaussian = make_gaussian({2 / lou_rate_hz});
+  const auto kalman = make_kalman({.model = "position", .smoother = false});
+  const auto data_driven =
+      make_kalman_learned(of_the_past, learned("kalman-learned", group.training));
+  add(table, "8", "truth", truth, thorax);
+  add(table, "8", "noisy", noisy, thorax);
+  fmt::print(
+      "Figure 8: a walk with noise of 3 degrees and 10 % outliers; degrees per joint angle.\n");
+  for (const auto& [name, cleaner] :
+       {std::pair{"Gaussian", gaussian.get()}, std::pair{"Kalman", kalman.get()},
+        std::pair{"data-driven Kalman", data_driven.get()}, std::pair{"example", example.get()}}) {
+    const Clip result = cleaned(*cleaner, noisy);
+    fmt::print("  {:20}{:8.2f}\n", name, rms_deg(truth, result));
+    add(table, "8", name, result, thorax);
+  }
+  fmt::print(
+      "Figures 1 and 4: a knee hit in 30 % of the frames, degrees per joint angle: {:.2f}, "
+      "filtered {:.2f}\n",
+      rms_deg(truth, hit), rms_deg(truth, mended));
+  table.close();
+}
+
+}  // namespace
+}  // namespace kinemend::papers
+
+int main(int count, char** values) {
+  return kinemend::papers::run(count, values, kinemend::papers::curves);
+}
