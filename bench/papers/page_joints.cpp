@@ -101,7 +101,27 @@ void frames_of_joints(const Arguments& arguments) {
   table.close();
 }
 
+// Noise that is not white: what is left of jitter with a correlation of 0.5 from frame to frame.
+void correlated_noise(const Arguments& arguments) {
+  Table table(arguments, "page_jitter.csv", "take,noisy,best_gaussian,auto,wiener");
+  for (const auto& [name, motion] :
+       {std::pair{"35_01", "walk"}, std::pair{"02_05", "punch"}, std::pair{"09_03", "run"}}) {
+    const Clip truth = load_take(arguments, std::string(name) + ".bvh", {.motion = motion}).clip;
+    const Clip clip = damaged(truth, "ar1", {{"std_deg", 1.5}, {"correlation", 0.5}}, 7);
+    double best = 1e300;
+    for (const double width_s : {0.01, 0.015, 0.02, 0.03, 0.045, 0.06, 0.08}) {
+      const Clip smooth = cleaned(clip, "gaussian", {{"width_s", width_s}});
+      best = std::min(best, geodesic_rms_deg(truth, smooth));
+    }
+    table.add({name, figure(geodesic_rms_deg(truth, clip)), figure(best),
+               figure(geodesic_rms_deg(truth, cleaned(clip, "auto"))),
+               figure(geodesic_rms_deg(truth, cleaned(clip, "wiener")))});
+  }
+  table.close();
+}
+
 void experiment(const Arguments& arguments) {
+  correlated_noise(arguments);
   frames_of_joints(arguments);
   methods_on_own_takes(arguments);
   damaged_takes(arguments);

@@ -1,0 +1,99 @@
+// What a method leaves of several kinds of damage, as a logarithm: the measure of tools/ablation,
+// which builds this program against the library as it is and against the library with one thing
+// changed.
+//   ablation auto|wiener FOLDER TAKE... [--model FILE]
+#include <cmath>
+#include <functional>
+
+#include "kinemend/convert.hpp"
+#include "kinemend/methods.hpp"
+#include "kinemend/model.hpp"
+#include "papers/page.hpp"
+
+namespace kinemend::papers {
+namespace {
+
+struct Case {
+  std::string name;
+  double rate_hz;
+  std::function<Clip(const Clip&)> damage;
+};
+
+// An arm unseen for a second in the middle.
+Clip without_arm(Clip clip) {
+  clip.observed.assign(clip.local_rotations.size(), 1);
+  const auto half = static_cast<std::size_t>(clip.frame_rate_hz / 2);
+  const std::size_t middle = clip.frame_count() / 2;
+  for (const char* name : {"LeftArm", "LeftForeArm", "LeftHand"}) {
+    const auto joint = static_cast<std::size_t>(clip.skeleton.find(name));
+    for (std::size_t f = middle - std::min(half, middle);
+         f < middle + half && f < clip.frame_count(); ++f) {
+      clip.observed[f * clip.joint_count() + joint] = 0;
+      clip.rotation(f, joint) = {};
+    }
+  }
+  return clip;
+}
+
+std::vector<Case> cases(bool learned) {
+  std::vector<Case> list{
+      {"1_deg", 120, [](const Clip& c) { return noisy(c, 1, 0, 5); }},
+      {"4_deg_spikes", 120, [](const Clip& c) { return noisy(c, 4, 0.004, 5); }},
+      {"half", 120,
+       [](const Clip& c) {
+         return damaged(c, "gaussian-channels", {{"k", 0.5}}, 5);
+       }},
+      {"30_Hz_2_deg", 30, [](const Clip& c) { return noisy(c, 2, 0, 5); }},
+      {"30_Hz_dense", 30, [](const Clip& c) { return noisy(c, 1, 0.1, 5); }},
+      {"impulses", 120, [](const Clip& c) { return damaged(c, "impulse", {}, 5); }}};
+  if (learned) {
+    list.push_back(
+        {"arm_missing", 60, [](const Clip& c) { return without_arm(noisy(c, 1, 0, 5)); }});
+  }
+  return list;
+}
+
+Clip at_rate(const Clip& clip, double rate_hz) {
+  const Clip part = slice(clip, 0, std::min<std::size_t>(clip.frame_count(), 600));
+  return rate_hz == part.frame_rate_hz ? part : resample(part, rate_hz);
+}
+
+int measure(int count, char** values) {
+  const std::string method = values[1];
+  Arguments arguments;
+  arguments.data = values[2];
+  std::vector<std::string> takes;
+  std::string model;
+  for (int i = 3; i < count; ++i) {
+    if (std::string(values[i]) == "--model")
+      model = values[++i];
+    else
+      takes.push_back(values[i]);
+  }
+  OptionValues options;
+  if (!model.empty()) options["model"] = model;
+  const auto cleaner = make_cleaner(method, options);
+  for (const Case& one : cases(!model.empty())) {
+    double sum = 0;
+    for (const std::string& name : takes) {
+      const Clip truth = at_rate(load_take(arguments, name + ".bvh", {}).clip, one.rate_hz);
+      const Clip result = clean_clip(one.damage(truth), *cleaner).clip;
+      // What is below a hundredth of a degree is as good as nothing.
+      sum += std::log(geodesic_rms_deg(truth, result) + 0.01);
+    }
+    fmt::print("{} {:.6f}\n", one.name, sum / static_cast<double>(takes.size()));
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace kinemend::papers
+
+int main(int count, char** values) {
+  try {
+    return kinemend::papers::measure(count, values);
+  } catch (const kinemend::Error& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 3;
+  }
+}
