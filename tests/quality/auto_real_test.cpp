@@ -20,8 +20,8 @@ struct Gate {
   double p99;
 };
 
-// What a method makes of a take at its defaults; `kalman-learned`, of which no model ships, with one
-// of other takes, most of them of the same motions.
+// What a method makes of a take at its defaults; `kalman-learned`, of which no model ships, with
+// one of other takes, most of them of the same motions.
 Clip cleaned_by_default(const Clip& clip, const Method& method) {
   if (method.name != "kalman-learned") return cleaned(clip, method.name);
   static const auto model = std::make_shared<const Model>(train_model(
