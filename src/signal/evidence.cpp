@@ -210,8 +210,9 @@ ChannelBlock smooth_adaptively(const ChannelBlock& y, const ChannelBlock& weight
                                std::span<const SmoothingModel> models, double frame_rate_hz,
                                const AdaptiveSettings& settings) {
   const std::size_t order = models[0].order, differences = y.frames - order;
+  // One squared difference says next to nothing of their variance: three at least.
   const auto half_window = static_cast<std::size_t>(
-      std::max(0.0, std::round((settings.window_s * frame_rate_hz - 1) / 2)));
+      std::max(1.0, std::round((settings.window_s * frame_rate_hz - 1) / 2)));
   BlockRow constant;  // variance of the differences, were it the same throughout
   constant.fill(1);
   for (std::size_t i = 0; i < models.size(); ++i) {

@@ -62,7 +62,8 @@ std::vector<std::size_t> smooth_by_evidence(PoseMatrix& matrix,
                                             const ModelGrid& grid, std::size_t group = 1);
 
 struct AdaptiveSettings {
-  double window_s = 0.05;  ///< over which the size of the differences is averaged, twice
+  /// Over which the size of the differences is averaged, twice; three frames at least.
+  double window_s = 0.05;
   double share_of_constant =
       0.2;  ///< of the constant strength that stays, so that quiet spans are not frozen
   int iterations = 4;
