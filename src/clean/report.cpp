@@ -34,9 +34,10 @@ std::string peak_warning(const std::string& name, const Peaks& peaks, double sca
 }
 
 // Smoothing takes noise away; what it changes by far more than the largest noise there may be was a
-// spike to everybody but the method, or motion. `least` is no event.
+// spike to everybody but the method, or motion. `least` is no event; the first sample is at
+// `begin_s`.
 std::string change_warning(const std::string& name, const TrackChanges& changes, double noise,
-                           std::string_view unit, double least, std::size_t first_frame) {
+                           std::string_view unit, double least, double begin_s, double rate_hz) {
   constexpr double clearly = 2;
   const double limit = std::max(least, clearly * longest_of_noise(changes.amounts.size()) * noise);
   std::size_t largest = 0, count = 0;
@@ -45,9 +46,10 @@ std::string change_warning(const std::string& name, const TrackChanges& changes,
     if (count++ == 0 || changes.amounts[f] > changes.amounts[largest]) largest = f;
   }
   if (count == 0) return {};
-  return fmt::format("{}: smoothing changes frame {} by {:.3g} {}, its noise is {:.2g}{}", name,
-                     first_frame + largest + 1, changes.amounts[largest], unit, noise,
-                     count > 1 ? fmt::format(" ({} such frames)", count) : "");
+  return fmt::format(
+      "{}: smoothing changes it by {:.3g} {} at {:.2f} s, where its noise is {:.2g}{}", name,
+      changes.amounts[largest], unit, begin_s + static_cast<double>(largest) / rate_hz, noise,
+      count > 1 ? fmt::format(" ({} such frames)", count) : "");
 }
 
 void add(std::string warning, std::vector<std::string>& warnings) {
@@ -103,7 +105,7 @@ JointReport report_joint(const std::string& name, std::size_t joint, const Joint
   add(peak_warning(name, peaks, degrees_per_radian, "deg/s", slow_deg_s, peak_loss_limit),
       report.warnings);
   add(change_warning(name, changes, noise * degrees_per_radian, "deg", small_change_deg,
-                     first_frame),
+                     static_cast<double>(first_frame) / frame_rate_hz, frame_rate_hz),
       report.warnings);
   report.spans = spans_of(static_cast<std::int32_t>(joint), changes, first_frame);
   return report;
@@ -147,7 +149,8 @@ MarkerTrackReport report_marker(const std::string& name, std::size_t marker,
   add(peak_warning(name, peaks, 1, unit + "/s", slow_heights_s * scale.body_height,
                    peak_loss_limit),
       report.warnings);
-  add(change_warning(name, changes, noise, unit, small_change_heights * scale.body_height, 0),
+  add(change_warning(name, changes, noise, unit, small_change_heights * scale.body_height, 0,
+                     scale.frame_rate_hz),
       report.warnings);
   report.spans = spans_of(static_cast<std::int32_t>(marker), changes, 0);
   return report;

@@ -99,7 +99,7 @@ TEST_F(ReportWords, StrictPassesNoGreatChangeUnnoticed) {
   const Ran ran = run({"clean", "spiky.bvh", "-m", "gaussian", "--joints", "LeftForeArm",
                        "--strict", "-o", "g.bvh"});
   EXPECT_EQ(ran.code, 1);
-  EXPECT_THAT(ran.err, HasSubstr("LeftForeArm: smoothing changes frame "));
+  EXPECT_THAT(ran.err, HasSubstr("LeftForeArm: smoothing changes it by "));
   EXPECT_FALSE(fs::exists(folder / "g.bvh"));
   EXPECT_EQ(run({"clean", "spiky.bvh", "--strict", "-o", "a.bvh"}).code, 0);  // repairs are told
 }
