@@ -43,7 +43,8 @@ void damaged_takes(const Arguments& arguments) {
   const std::uint64_t seeds = arguments.quick ? 2 : 40;
   for (const auto& [name, motion] :
        {std::pair{"35_01", "walk"}, std::pair{"02_05", "punch"}, std::pair{"09_03", "run"}}) {
-    const Clip truth = load_take(arguments, std::string(name) + ".bvh", {.motion = motion}).clip;
+    const std::string take = name;  // of which a lambda may speak
+    const Clip truth = load_take(arguments, take + ".bvh", {.motion = motion}).clip;
     const auto add = [&](const std::string& way, const auto& clean) {
       double rms = 0, p99 = 0, worst_rms = 0, worst_p99 = 0;
       for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
@@ -53,8 +54,8 @@ void damaged_takes(const Arguments& arguments) {
         rms += r / static_cast<double>(seeds), p99 += p / static_cast<double>(seeds);
         worst_rms = std::max(worst_rms, r), worst_p99 = std::max(worst_p99, p);
       }
-      table.add({name, way, figure(rms), figure(p99)});
-      if (way == "auto") table.add({name, "worst", figure(worst_rms), figure(worst_p99)});
+      table.add({take, way, figure(rms), figure(p99)});
+      if (way == "auto") table.add({take, "worst", figure(worst_rms), figure(worst_p99)});
     };
     add("noisy", [](const Clip& clip) { return clip; });
     add("blender", [](const Clip& c) {
