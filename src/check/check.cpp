@@ -110,10 +110,9 @@ CheckReport report_on(const MarkerClip& clip, MarkerRows& rows) {
 // Several people span more than one: the markers of whoever has most, or all without anybody.
 const std::vector<std::size_t>& largest_of(const std::vector<Subject>& subjects,
                                            const std::vector<std::size_t>& markers) {
-  const auto largest =
-      std::max_element(subjects.begin(), subjects.end(), [](const Subject& a, const Subject& b) {
-        return a.markers.size() < b.markers.size();
-      });
+  const auto largest = std::max_element(
+      subjects.begin(), subjects.end(),
+      [](const Subject& a, const Subject& b) { return a.markers.size() < b.markers.size(); });
   return largest == subjects.end() ? markers : largest->markers;
 }
 
