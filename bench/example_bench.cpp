@@ -164,10 +164,10 @@ void clean_take(benchmark::State& state) {
   std::size_t iterations = 0;
   for (auto _ : state) {
     PoseMatrix cleaned = take;
-    const auto trace = kinemend::example_filter(
+    const auto objective = kinemend::example_filter(
         cleaned, take, {}, kinemend::bases_at_rate(bases, 30, rate_hz, frames), bases.mean, weights,
         {.tolerance = 2e-3, .first_welsch = 8});
-    iterations = trace.objective.size() - 1;
+    iterations = objective.size() - 1;
     benchmark::DoNotOptimize(cleaned.values.data());
   }
   state.counters["bases"] = static_cast<double>(bases.count);

@@ -114,21 +114,25 @@ inline LouMethod lou_method(std::string name, bool is_of_the_paper,
 }
 
 /// The paper's four, then others. A Gaussian window of 11 frames has a deviation of 2 (that of the
-/// usual window function); the general Kalman filter takes the pose for constant.
+/// usual window function); the general Kalman filter takes the pose for constant, and has the best
+/// of a grid of process noises.
 inline std::vector<LouMethod> lou_methods(const LouModels& models) {
   std::vector<LouMethod> methods;
   methods.push_back(lou_method("Gaussian, window 11", true, make_gaussian({2 / lou_rate_hz})));
-  methods.push_back(
-      lou_method("Kalman", true, make_kalman({.model = "position", .smoother = false})));
+  LouMethod kalman{"Kalman", true, {}};
+  for (const double agility : {0.05, 0.16, 0.5, 1.6, 5.0, 16.0, 50.0})
+    kalman.cleaners.push_back(
+        make_kalman({.model = "position", .smoother = false, .agility = agility}));
+  methods.push_back(std::move(kalman));
   KalmanLearnedOptions of_the_past;
   of_the_past.smoother = false;
   methods.push_back(
       lou_method("kalman-learned", true, make_kalman_learned(of_the_past, models.kalman)));
   methods.push_back(lou_method("example", true, make_example({}, models.example)));
   ExampleOptions of_the_paper;
-  of_the_paper.welsch_deg = 3, of_the_paper.lambda = 0.1;
-  methods.push_back(lou_method("example, p = 3, lambda = 0.1", false,
-                               make_example(of_the_paper, models.example)));
+  of_the_paper.solver = "paper";
+  methods.push_back(
+      lou_method("example, solver=paper", false, make_example(of_the_paper, models.example)));
   methods.push_back(
       lou_method("kalman-learned, smoother", false, make_kalman_learned({}, models.kalman)));
   if (models.wiener) methods.push_back(lou_method("wiener", false, make_wiener({}, models.wiener)));

@@ -1,20 +1,14 @@
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
-#include "base/quantiles.hpp"
 #include "clean/example_rest.hpp"
-#include "clean/example_self.hpp"
-#include "clean/joint_limits.hpp"
+#include "clean/example_tuning.hpp"
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
-#include "kinemend/error.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/model.hpp"
 #include "priors/example_filter.hpp"
@@ -25,14 +19,11 @@ namespace kinemend {
 
 namespace {
 
-constexpr double welsch_deviations = 3;
-// What the bases leave lasts: it says something new in one frame of so many.
-constexpr double rest_memory_frames = 3;
-// Where spikes are about, p is narrower against what the bases leave.
-constexpr double many_suspects = 0.005;
 constexpr double rejected_weight = 0.01;
 // What is missing settles last, and weighs little in the objective.
-constexpr double tolerance_of_gaps = 0.02;
+constexpr double tolerance_of_gaps = 1e-3;
+// The paper's p and lambda (sections 3.2 and 3.3), for the paper's solver, whose steps are short.
+constexpr double papers_welsch_deg = 3, papers_lambda = 0.1, tolerance_of_papers = 1e-4;
 
 const OptionTable<ExampleOptions>& table() {
   static const auto options =
@@ -40,7 +31,8 @@ const OptionTable<ExampleOptions>& table() {
           .text(&ExampleOptions::model, "model",
                 "model file, made by kinemend train example; none: the one that ships")
           .text(&ExampleOptions::map, "map", "file of names in the take for the model's")
-          .flag(&ExampleOptions::self, "self", "bases from the take itself; no model")
+          .choice(&ExampleOptions::solver, "solver", {"quick", "paper"},
+                  "paper: alternation from what was measured, p = 3 and lambda = 0.1")
           .flag(&ExampleOptions::robust, "robust", "off: the linear filter, every sample counts")
           .number(&ExampleOptions::welsch_deg, "welsch_deg", "deg", 0, 180,
                   "p: how far off a sample counts less; 0: from the noise")
@@ -49,25 +41,23 @@ const OptionTable<ExampleOptions>& table() {
           .integer(&ExampleOptions::bases, "bases", "", 0, 1e5,
                    "filter bases; 0: all that the model has")
           .integer(&ExampleOptions::iterations, "iterations", "", 1, 10000, "at most")
-          .number(
-              &ExampleOptions::tolerance, "tolerance", "", 0, 1,
-              "stops where the objective falls by less than this share; a fiftieth of it with gaps")
-          .number(&ExampleOptions::limits, "limits", "", 0, 1000,
-                  "weight of the joint limits; 0: none")
+          .number(&ExampleOptions::tolerance, "tolerance", "", 0, 1,
+                  "stops where an iteration gains less than this share; a thousandth with gaps")
           .flag(&ExampleOptions::fill, "fill_gaps", "fills gaps of what the model knows");
   return options;
 }
 
 // The first guess: what was measured, `auto`'s opinion of spikes and gaps, and the mean pose where
 // there is no measurement at all.
-PoseMatrix first_guess(const PriorWork& work, const std::vector<double>& mean) {
+PoseMatrix first_guess(const PriorWork& work, const std::vector<double>& mean,
+                       bool without_suspects) {
   PoseMatrix guess = work.channels.poses;
   for (std::size_t c = 0; c < guess.channels; ++c) {
     bool seen = false;
     for (std::size_t f = 0; f < guess.frames; ++f) {
       const std::size_t i = f * guess.channels + c;
       seen |= work.channels.observed[i] != 0;
-      if (work.channels.observed[i] == 0 || work.suspect[i] != 0) {
+      if (work.channels.observed[i] == 0 || (without_suspects && work.suspect[i] != 0)) {
         guess.values[i] = work.fallback.values[i];
       }
     }
@@ -76,104 +66,105 @@ PoseMatrix first_guess(const PriorWork& work, const std::vector<double>& mean) {
   return guess;
 }
 
-// Whether anything is missing of what the take has; parts that it lacks are nobody's.
+// Whether anything is missing that is to be filled: of what the take has and `auto` does not keep.
 bool has_gaps(const PriorWork& work) {
   const std::size_t parts = work.match->parts.size();
   for (std::size_t i = 0; i < work.channels.observed.size(); ++i) {
     const std::size_t part = i % work.channels.poses.channels / 3;
     const bool lacking = part < parts && work.match->parts[part] < 0;
-    if (!lacking && work.channels.observed[i] == 0) return true;
+    const bool left_out = !work.left_out.empty() && work.left_out[part] != 0;
+    if (!lacking && !left_out && work.channels.observed[i] == 0) return true;
   }
   return false;
 }
 
 class ExampleCleaning {
  public:
-  ExampleCleaning(const ExampleOptions& options, std::shared_ptr<const Model> model)
-      : options_(options), model_(std::move(model)), prior_(example_of(*model_)) {}
+  ExampleCleaning(const ExampleOptions& options, std::shared_ptr<const Model> model,
+                  const ExampleTuning& tuning)
+      : options_(options), tuning_(tuning), model_(std::move(model)), prior_(example_of(*model_)) {
+    if (!is_papers()) return;
+    if (options_.welsch_deg == 0) options_.welsch_deg = papers_welsch_deg;
+    if (options_.lambda == 0) options_.lambda = papers_lambda;
+  }
 
   void filter(PriorWork& work) const {
     if (work.channels.poses.frames == 0) return;
     if (!options_.robust || options_.lambda > 0 || options_.welsch_deg > 0)
       std::fill(work.needs.begin(), work.needs.end(), 1.0);
-    JointLimits limits = learned_joint_limits(*model_);
-    if (work.skeleton != nullptr && !work.skeleton->limits.empty())
-      limits.joints = skeleton_joint_limits(*work.skeleton, model_->layout, *work.match).joints;
-    filter(work, std::move(limits));
+    const BodyChannels& channels = work.channels;
+    const std::vector<double>& mean = prior_.bases.mean;
+    PoseMatrix guess = first_guess(work, mean, tuning_.guesses_suspects && !is_papers());
+    // Starting from what the bases express, outliers stand out at once.
+    PoseMatrix cleaned = filter_linearly(guess, bases_at_rate_of(channels), mean);
+    if (!options_.robust) {
+      work.channels.poses = std::move(cleaned);
+      return;
+    }
+    const std::vector<double> noise = example_noise(work, tuning_.most_noise_kept);
+    const double rest = tuning_.counts_strangeness
+                            ? strangeness(work, guess, cleaned, noise, prior_.bases.residual)
+                            : 1;
+    const double suspects = suspect_share(work, cleaned);
+    if (!tuning_.starts_expressible || is_papers()) cleaned = std::move(guess);
+    guess = {};
+    WindowBases bases = bases_at_rate_of(channels);
+    const ExampleWeights weights = weights_for(noise, rest, suspects, bases);
+    example_filter(cleaned, channels.poses, channels.observed, std::move(bases), mean, weights,
+                   settings_for(work));
+    finish(work, weights.welsch, noise, rest, cleaned);
+    work.channels.poses = std::move(cleaned);
   }
 
  private:
-  void filter(PriorWork& work, JointLimits limits) const {
-    BodyChannels& channels = work.channels;
-    const std::vector<double>& mean = prior_.bases.mean;
-    const WindowBases bases =
-        bases_at_rate(prior_.bases, prior_.rate_hz, channels.frame_rate_hz, channels.poses.frames,
-                      static_cast<std::size_t>(options_.bases));
-    PoseMatrix guess = first_guess(work, mean);
-    // Starting from what the bases express, outliers stand out at once.
-    PoseMatrix cleaned = guess;
-    LinearExampleFilter expressible(bases, mean, cleaned.frames);
-    expressible.filter(cleaned);
-    if (!options_.robust) {
-      channels.poses = std::move(cleaned);
-      return;
-    }
-    const std::vector<double> noise = example_noise(work);
-    const double suspects = suspect_share(work, cleaned);
-    const double rest = strangeness(work, guess, cleaned, noise, prior_.bases.residual);
-    guess = {};
+  WindowBases bases_at_rate_of(const BodyChannels& channels) const {
+    return bases_at_rate(prior_.bases, prior_.rate_hz, channels.frame_rate_hz,
+                         channels.poses.frames, static_cast<std::size_t>(options_.bases));
+  }
+
+  ExampleSettings settings_for(const PriorWork& work) const {
     ExampleSettings settings;
     settings.iterations = static_cast<std::size_t>(options_.iterations);
     settings.tolerance = options_.tolerance;
-    if (has_gaps(work)) settings.tolerance *= tolerance_of_gaps;
-    const ExampleWeights weights = weights_for(noise, rest, suspects, bases);
-    hold_to_limits(work, limits, weights, bases, settings);
-    const ExampleTrace trace =
-        example_filter(cleaned, channels.poses, channels.observed, bases, mean, weights, settings);
-    work.rejected.assign(channels.observed.size(), 0);
-    for (std::size_t i = 0; i < work.rejected.size(); ++i) {
-      work.rejected[i] =
-          channels.observed[i] != 0 && trace.weights.values[i] < rejected_weight ? 1 : 0;
+    if (is_papers()) {
+      settings.solver = ExampleSolver::alternation;
+      settings.tolerance *= tolerance_of_papers;
+    } else if (has_gaps(work)) {
+      settings.tolerance *= tolerance_of_gaps;
     }
-    if (options_.lambda == 0) {
-      smooth_rest(work, trace.weights, expressible, noise, cleaned);
-      if (options_.welsch_deg == 0) {
-        fall_back_where_rejected(work, trace.weights, cleaned);
-        fall_back_where_biased(work, noise, cleaned);
-        if (suspects <= many_suspects) fall_back(work, rest, cleaned);
-      }
-    }
-    channels.poses = std::move(cleaned);
+    return settings;
   }
 
-  // A pose beyond the limits is drawn back about as much as the patterns draw. (A term as strong as
-  // the measurements would hold what is not measured at its first guess.)
-  void hold_to_limits(PriorWork& work, JointLimits& limits, const ExampleWeights& weights,
-                      const WindowBases& bases, ExampleSettings& settings) const {
-    if (options_.limits == 0) return;
-    const std::vector<std::string> broken = widen_joint_limits(limits, work.fallback);
-    if (!broken.empty()) {
-      work.warnings.push_back(
-          fmt::format("the take goes beyond the joint limits of its skeleton file, which were "
-                      "moved or left: {}",
-                      fmt::join(broken, ", ")));
-    }
-    std::vector<double> prior = weights.prior;
-    const double windows =
-        std::max(1.0, static_cast<double>(bases.frames) /
-                          static_cast<double>(std::max<std::size_t>(1, bases.hop)));
-    settings.limit_weight = options_.limits * windows * median_of(prior);
-    settings.project = [&limits](const PoseMatrix& poses, PoseMatrix& nearest) {
-      project_to_limits(limits, poses, nearest);
-    };
+  // What the paper does not have: motion outside of the bases.
+  void finish(PriorWork& work, std::span<const double> welsch, const std::vector<double>& noise,
+              double rest, PoseMatrix& cleaned) const {
+    const BodyChannels& channels = work.channels;
+    const bool smooths = options_.lambda == 0 && tuning_.smooths_rest;
+    PoseMatrix expressed;
+    if (smooths)
+      expressed = filter_linearly(cleaned, bases_at_rate_of(channels), prior_.bases.mean);
+    const PoseMatrix counts = welsch_weights(cleaned, channels.poses, channels.observed, welsch);
+    work.rejected.assign(channels.observed.size(), 0);
+    for (std::size_t i = 0; i < work.rejected.size(); ++i)
+      work.rejected[i] = channels.observed[i] != 0 && counts.values[i] < rejected_weight ? 1 : 0;
+    if (smooths) smooth_rest(work, counts, expressed, noise, cleaned);
+    if (options_.lambda > 0 || options_.welsch_deg > 0) return;
+    // What the bases are wrong about.
+    if (tuning_.leaves_rejected) fall_back_where_rejected(work, counts, cleaned);
+    if (tuning_.leaves_biased) fall_back_where_biased(work, noise, cleaned);
+    if (tuning_.leaves_strange) fall_back(work, rest, cleaned);
   }
+
+  bool is_papers() const { return options_.solver == "paper"; }
 
   ExampleWeights weights_for(const std::vector<double>& noise, double rest, double suspects,
                              const WindowBases& bases) const {
-    ExampleWeights weights = probable_weights(prior_, bases, noise, welsch_deviations);
-    const double deviations = suspects > many_suspects ? 1 : welsch_deviations;
+    ExampleWeights weights = probable_weights(prior_, bases, noise, tuning_.welsch_deviations);
+    if (!tuning_.knows_variances) weights.coefficients.clear();
+    const double deviations =
+        suspects > tuning_.many_suspects ? tuning_.narrow_deviations : tuning_.welsch_deviations;
     for (std::size_t c = 0; c < noise.size(); ++c) {
-      weights.prior[c] /= rest_memory_frames * rest;
+      weights.prior[c] /= tuning_.rest_memory_frames * rest;
       weights.welsch[c] =
           std::hypot(weights.welsch[c], deviations * std::sqrt(rest * prior_.bases.residual[c]));
     }
@@ -182,44 +173,33 @@ class ExampleCleaning {
       std::fill(weights.prior.begin(), weights.prior.end(), options_.lambda);
       weights.coefficients.clear();
     }
-    if (options_.welsch_deg > 0) {
+    if (options_.welsch_deg > 0)
       std::fill(weights.welsch.begin(), weights.welsch.end(), options_.welsch_deg);
-    }
     return weights;
   }
 
   ExampleOptions options_;
+  ExampleTuning tuning_;
   std::shared_ptr<const Model> model_;
   ExamplePrior prior_;
 };
-
-// Bases of the take itself come with weights of their own.
-void refuse_beside_self(const ExampleOptions& options, bool has_model) {
-  const ExampleOptions usual;
-  const char* name = nullptr;
-  if (has_model || !options.model.empty()) name = "model";
-  if (!options.map.empty()) name = "map";
-  if (!options.robust) name = "robust";
-  if (options.welsch_deg != usual.welsch_deg) name = "welsch_deg";
-  if (options.lambda != usual.lambda) name = "lambda";
-  if (options.bases != usual.bases) name = "bases";
-  if (name != nullptr)
-    throw Error(ErrorKind::usage, fmt::format("{}: has no meaning with self", name));
-}
 
 }  // namespace
 
 std::unique_ptr<Cleaner> make_example(const ExampleOptions& options,
                                       std::shared_ptr<const Model> model) {
+  return make_tuned_example(options, std::move(model), {});
+}
+
+std::unique_ptr<Cleaner> make_tuned_example(const ExampleOptions& options,
+                                            std::shared_ptr<const Model> model,
+                                            const ExampleTuning& tuning) {
   table().validate(options);
-  if (options.self) {
-    refuse_beside_self(options, model != nullptr);
-    return make_self_example(options);
-  }
   model = model_for("example", options.model, std::move(model));
-  return make_prior_cleaner(
-      model, options.map, options.fill,
-      [cleaning = ExampleCleaning(options, model)](PriorWork& work) { cleaning.filter(work); });
+  return make_prior_cleaner(model, options.map, options.fill,
+                            [cleaning = ExampleCleaning(options, model, tuning)](PriorWork& work) {
+                              cleaning.filter(work);
+                            });
 }
 
 Method example_method() {

@@ -15,7 +15,6 @@ namespace kinemend {
 namespace {
 
 constexpr double least_noise_deg = 0.05;
-constexpr double most_noise_kept = 1.2;  // of what `auto` took away
 constexpr double least_variance = 1e-6;  // square degrees: less is rounding
 constexpr double least_strangeness = 1;
 constexpr double rejected_weight = 0.01;
@@ -84,10 +83,10 @@ double ramp(double value, double none, double all) {
 
 }  // namespace
 
-std::vector<double> example_noise(const PriorWork& work) {
+std::vector<double> example_noise(const PriorWork& work, double most_kept) {
   std::vector<double> levels = work.noise, known;
   for (std::size_t part = 0; part_channels * part < levels.size(); ++part) {
-    const double most = most_noise_kept * taken_away(work, part);
+    const double most = most_kept * taken_away(work, part);
     for (std::size_t c = part_channels * part; c < part_channels * (part + 1); ++c) {
       if (work.noise[c] <= 0) continue;
       levels[c] = std::max(std::min(work.noise[c], most), least_noise_deg);
@@ -137,11 +136,11 @@ double suspect_share(const PriorWork& work, const PoseMatrix& expressed) {
   return count > 0 ? suspects / count : 0;
 }
 
-void smooth_rest(const PriorWork& work, const PoseMatrix& weights, LinearExampleFilter& expressible,
+void smooth_rest(const PriorWork& work, const PoseMatrix& weights, const PoseMatrix& expressed,
                  const std::vector<double>& noise, PoseMatrix& cleaned) {
-  PoseMatrix expressed = cleaned;
-  expressible.filter(expressed);
-  PoseMatrix rest = cleaned;
+  const signal::ModelGrid grid(cleaned.frames, work.channels.frame_rate_hz);
+  if (grid.models().empty()) return;
+  PoseMatrix& rest = cleaned;
   std::vector<std::uint8_t> missing(rest.values.size(), 0);
   std::vector<std::size_t> seen(rest.channels, 0);
   for (std::size_t i = 0; i < rest.values.size(); ++i) {
@@ -160,16 +159,13 @@ void smooth_rest(const PriorWork& work, const PoseMatrix& weights, LinearExample
   std::vector<double> variances;
   variances.reserve(noise.size());
   for (const double n : noise) variances.push_back(n * n);
-  const signal::ModelGrid grid(rest.frames, work.channels.frame_rate_hz);
   const std::vector<std::size_t> chosen =
       signal::most_likely_models(rest, variances, grid, part_channels);
-  if (chosen.empty()) return;
   std::vector<signal::SmoothingModel> models;
   models.reserve(chosen.size());
   for (const std::size_t model : chosen) models.push_back(grid.models()[model]);
   signal::smooth_adaptively(rest, missing, variances, models, work.channels.frame_rate_hz);
-  for (std::size_t i = 0; i < rest.values.size(); ++i)
-    cleaned.values[i] = expressed.values[i] + rest.values[i];
+  for (std::size_t i = 0; i < rest.values.size(); ++i) cleaned.values[i] += expressed.values[i];
 }
 
 void fall_back(PriorWork& work, double strangeness, PoseMatrix& cleaned) {

@@ -9,9 +9,9 @@
 namespace kinemend {
 
 /// Standard deviation of each channel's noise (D, degrees, at least 0.05): as `auto` measures it,
-/// but little more than what `auto` took away, which leaves clean takes alone; of channels about
-/// which nothing is known the typical one.
-std::vector<double> example_noise(const PriorWork& work);
+/// but at most `most_kept` times what `auto` took away, which leaves clean takes alone; of channels
+/// about which nothing is known the typical one.
+std::vector<double> example_noise(const PriorWork& work, double most_kept = 1.2);
 
 /// How many times as much of the take lies outside of the bases as of the clips that they were
 /// learned from: mean squares of `guess` less `expressed`, what the bases make of it, without the
@@ -25,8 +25,9 @@ double suspect_share(const PriorWork& work, const PoseMatrix& expressed);
 
 /// Motion outside of the bases is smooth, too: what is measured less what the bases express is
 /// smoothed by its own evidence, without the samples that the filter rejected (`weights`, F x D),
-/// and added to what the bases express. `cleaned` is the filter's result.
-void smooth_rest(const PriorWork& work, const PoseMatrix& weights, LinearExampleFilter& expressible,
+/// and added to what the bases express. `cleaned` is the filter's result, `expressed` what the
+/// bases express of it.
+void smooth_rest(const PriorWork& work, const PoseMatrix& weights, const PoseMatrix& expressed,
                  const std::vector<double>& noise, PoseMatrix& cleaned);
 
 /// The stranger the take, the more of what `auto` made of its measurements: none of it below a
@@ -34,8 +35,8 @@ void smooth_rest(const PriorWork& work, const PoseMatrix& weights, LinearExample
 void fall_back(PriorWork& work, double strangeness, PoseMatrix& cleaned);
 
 /// A part of which the filter rejects what `auto` finds nothing wrong with is one that the bases
-/// are wrong about: from 35 % of rejected measurements on it becomes what `auto` made of it, wholly
-/// at 55 %. `weights` is F x D, those of the filter.
+/// are wrong about: from 20 % of rejected measurements on it becomes what `auto` made of it, wholly
+/// at 35 %. `weights` is F x D, those of the filter.
 void fall_back_where_rejected(PriorWork& work, const PoseMatrix& weights, PoseMatrix& cleaned);
 
 /// What is measured scatters about the motion: where the median of what the filter leaves of a part

@@ -130,7 +130,6 @@ PriorWork work_of(const Clip& clip, const JointRun& run) {
   BodyChannels channels = encode_body(clip, run.layout, run.match, guide);
   PriorWork work = work_of(std::move(channels), std::move(guide.poses), run.match,
                            {run.trace.noise_deg, joint_needs(clip, run.trace)}, run.trace.actions);
-  work.skeleton = &clip.skeleton;
   if (!run.layout.with_place) return work;
   const double noise = run.trace.root_noise.value_or(0);
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -161,6 +160,7 @@ std::vector<double> leave_far_turns_to_auto(PriorWork& work, const JointRun& run
   // Spikes that `auto` left go there and back; a flip stays.
   PoseMatrix steady = work.fallback;
   median_filter(steady, flip_half_frames);
+  work.left_out.assign(work.needs.size(), 0);
   for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
     const auto is_seen = [&](std::size_t frame) {
       return work.channels.observed[frame * steady.channels + 3 * part] != 0;
@@ -182,6 +182,7 @@ std::vector<double> leave_far_turns_to_auto(PriorWork& work, const JointRun& run
     if (farthest <= degrees_per_radian * tangent_limit_rad && fastest <= flip) continue;
     chosen[part] = 0;
     left[part] = 1;
+    work.left_out[part] = 1;
     for (std::size_t f = 0; f < work.fallback.frames; ++f) {
       for (std::size_t axis = 0; axis < 3; ++axis)
         work.channels.observed[f * work.fallback.channels + 3 * part + axis] = 0;
@@ -190,9 +191,40 @@ std::vector<double> leave_far_turns_to_auto(PriorWork& work, const JointRun& run
   return left;
 }
 
+// Of what `auto` made of the take, what the result may need.
+struct KeptFallback {
+  std::vector<std::vector<Quat>> rotations;  // of each joint; none where the filter's are taken
+  std::vector<Vec3> root_positions, joint_translations;
+};
+
+// The filter's rotations are taken of parts that are chosen and not clean; those need `auto` in
+// gaps only, where these are not to be filled.
+KeptFallback keep_fallback(Clip fallback, const JointRun& run, const PriorWork& work,
+                           const std::vector<std::uint8_t>& chosen, bool fill) {
+  const std::size_t frames = fallback.frame_count();
+  std::vector<std::uint8_t> needed(fallback.joint_count(), 1);
+  for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
+    if (chosen[part] == 0 || work.needs[part] == 0 || (!fill && !fallback.observed.empty()))
+      continue;
+    needed[static_cast<std::size_t>(run.match.parts[part])] = 0;
+  }
+  KeptFallback kept;
+  kept.rotations.resize(needed.size());
+  for (std::size_t joint = 0; joint < needed.size(); ++joint) {
+    if (needed[joint] == 0) continue;
+    kept.rotations[joint].reserve(frames);
+    for (std::size_t f = 0; f < frames; ++f)
+      kept.rotations[joint].push_back(fallback.rotation(f, joint));
+  }
+  kept.root_positions = std::move(fallback.root_positions);
+  kept.joint_translations = std::move(fallback.joint_translations);
+  return kept;
+}
+
 // What `auto` made of the joints and positions that the model does not know, or that are clean;
 // `chosen` includes the place.
-void take_fallback(Clip& clip, const JointRun& run, const std::vector<std::uint8_t>& chosen) {
+void take_fallback(Clip& clip, const JointRun& run, const KeptFallback& fallback,
+                   const std::vector<std::uint8_t>& chosen) {
   std::vector<std::uint8_t> known(clip.joint_count(), 0);
   for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
     if (chosen[part] != 0) known[static_cast<std::size_t>(run.match.parts[part])] = 1;
@@ -200,25 +232,26 @@ void take_fallback(Clip& clip, const JointRun& run, const std::vector<std::uint8
   for (const std::size_t joint : selected_joints(clip, run.selection)) {
     if (known[joint] != 0) continue;
     for (std::size_t f = 0; f < clip.frame_count(); ++f)
-      clip.rotation(f, joint) = run.fallback.rotation(f, joint);
+      clip.rotation(f, joint) = fallback.rotations[joint][f];
   }
   if (chosen[run.place_part()] == 0 && run.selection.root_position)
-    clip.root_positions = run.fallback.root_positions;
+    clip.root_positions = fallback.root_positions;
   const std::size_t width = clip.translated_joints.size();
   for (std::size_t i = 0; i < width; ++i) {
     if (!translation_selected(clip, run.selection, i)) continue;
     for (std::size_t f = 0; f < clip.frame_count(); ++f)
-      clip.joint_translations[f * width + i] = run.fallback.joint_translations[f * width + i];
+      clip.joint_translations[f * width + i] = fallback.joint_translations[f * width + i];
   }
 }
 
 // Where gaps are not to be filled by the model they hold the bridge that `auto` laid.
-void keep_bridges(Clip& clip, const JointRun& run, const std::vector<std::uint8_t>& chosen) {
+void keep_bridges(Clip& clip, const JointRun& run, const KeptFallback& fallback,
+                  const std::vector<std::uint8_t>& chosen) {
   for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
     if (chosen[part] == 0) continue;
     const auto joint = static_cast<std::size_t>(run.match.parts[part]);
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-      if (!clip.is_observed(f, joint)) clip.rotation(f, joint) = run.fallback.rotation(f, joint);
+      if (!clip.is_observed(f, joint)) clip.rotation(f, joint) = fallback.rotations[joint][f];
     }
   }
 }
@@ -352,9 +385,11 @@ Clip cleaned_with_prior(const Clip& clip, const Selection& selection, const Body
   const BodyMatch match = match_body(layout, clip, names);
   if (clip.frame_count() == 0) return clip;
   std::vector<std::uint8_t> chosen = chosen_parts(match, selection.joints);
-  const JointRun run = run_auto(clip, layout, match, selection);
+  JointRun run = run_auto(clip, layout, match, selection);
   PriorWork work = work_of(clip, run);
   std::vector<double> far_turns = leave_far_turns_to_auto(work, run, chosen);
+  const KeptFallback fallback = keep_fallback(std::move(run.fallback), run, work, chosen, fill);
+  run.fallback = {};
   filter(work);
   hold_to_needs(work);
   add_fall_back(work, "they turn farther or leap more than the model can say",
@@ -363,9 +398,9 @@ Clip cleaned_with_prior(const Clip& clip, const Selection& selection, const Body
   leave_alone(work, fill, chosen);
 
   Clip result = clip;
-  take_fallback(result, run, chosen);
+  take_fallback(result, run, fallback, chosen);
   decode_body(work.channels, layout, match, result, chosen);
-  if (!fill) keep_bridges(result, run, chosen);
+  if (!fill) keep_bridges(result, run, fallback, chosen);
   trace = trace_of(clip, run, work, chosen);
   return result;
 }

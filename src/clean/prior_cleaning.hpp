@@ -22,8 +22,7 @@ struct PartFallBack {
 
 /// A take as such a method sees it.
 struct PriorWork {
-  const Skeleton* skeleton = nullptr;  ///< null for markers
-  const BodyMatch* match = nullptr;    ///< of the take's joints or markers with the model's parts
+  const BodyMatch* match = nullptr;  ///< of the take's joints or markers with the model's parts
   /// Degrees. Samples that are missing, and those of parts that the take lacks, are not observed.
   BodyChannels channels;
   std::vector<double> noise;          ///< D, degrees per channel, as `auto` measures it; 0: none
@@ -31,6 +30,8 @@ struct PriorWork {
   /// D / 3: how much of the filter's result each part wants, by its noise: 0 where `auto` finds it
   /// clean, to 1. A filter that is told the noise by hand sets them to 1.
   std::vector<double> needs;
+  /// D / 3: 1 for parts that are not observed because they are left to `auto`. Empty: none.
+  std::vector<std::uint8_t> left_out;
   /// F x D, what `auto` makes of the take, for what the model cannot explain; gaps are bridged.
   PoseMatrix fallback;
   /// Set by the filter, F x D: 1 where a measurement counted for next to nothing. Empty: none.

@@ -93,6 +93,11 @@ PackedMatrix::PackedMatrix(const MatrixView& b)
   }
 }
 
+PackedMatrix::PackedMatrix(std::size_t rows, std::size_t columns, std::span<const float> values)
+    : rows_(rows), columns_(columns), panels_(values.begin(), values.end()) {
+  assert(panels_.size() == rows * packed_columns(columns));
+}
+
 const double* PackedMatrix::panels(std::size_t first) const noexcept {
   return panels_.data() + first * packed_columns(columns_);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 /// Products of dense matrices of doubles.
@@ -55,9 +56,13 @@ class PackedMatrix {
  public:
   PackedMatrix() = default;
   explicit PackedMatrix(const MatrixView& b);
+  /// Of the `values` of another one of this shape, rounded.
+  PackedMatrix(std::size_t rows, std::size_t columns, std::span<const float> values);
 
   std::size_t rows() const noexcept { return rows_; }
   std::size_t columns() const noexcept { return columns_; }
+  /// In the order in which products read them.
+  std::span<const double> values() const noexcept { return panels_; }
   /// From row `first` on, a multiple of the kernel's depth.
   const double* panels(std::size_t first) const noexcept;
 

@@ -9,16 +9,21 @@
 #include <functional>
 #include <utility>
 
+#include "priors/stretches.hpp"
+
 namespace kinemend {
 
 namespace {
 
 // What is prepared for the products of all iterations is worth it for so many.
-constexpr std::size_t usual_iterations = 12, usual_linear_products = 2;
+constexpr std::size_t usual_iterations = 12;
 // Less of a plane's area than this, relative to its sides, and it is a line.
 constexpr double least_area = 1e-12;
 
 constexpr std::size_t frames_at_once = 64;
+// What a frame becomes depends on those within a window in the linear filter; in the other one on
+// all, but next to nothing on those farther off than two.
+constexpr std::size_t linear_margin = 1, margin = 2;
 
 // The sum over all frames of part(first, last), in an order that does not depend on threads.
 template <typename Sum, typename Part>
@@ -32,19 +37,19 @@ Sum sum_over_frames(std::size_t frames, const Part& part) {
 
 class Minimisation {
  public:
-  Minimisation(PoseMatrix first_guess, const PoseMatrix& measured,
-               std::span<const std::uint8_t> observed, const WindowBases& bases,
+  // Of the frames of `measured` (and `observed`) from `first` on, as many as `first_guess` has.
+  Minimisation(PatternPenalty& penalty, PoseMatrix first_guess, const PoseMatrix& measured,
+               std::span<const std::uint8_t> observed, std::size_t first,
                std::span<const double> mean, const ExampleWeights& weights,
                const ExampleSettings& settings)
-      : frames_(measured.frames),
+      : frames_(first_guess.frames),
         channels_(measured.channels),
-        measured_(measured),
-        observed_(observed),
+        measured_(&measured.values[first * channels_]),
+        observed_(observed.empty() ? observed : observed.subspan(first * channels_)),
         mean_(mean),
         weights_(weights),
         settings_(settings),
-        penalty_(bases, doubled(weights.prior), doubled(weights.coefficients), measured.frames,
-                 usual_iterations),
+        penalty_(penalty),
         z_(padded(std::move(first_guess), penalty_.padded_frames())),
         image_(z_.frames, channels_),
         confidence_(frames_, channels_),
@@ -55,19 +60,19 @@ class Minimisation {
     for (std::size_t f = 0; f < z_.frames; ++f) {
       for (std::size_t c = 0; c < channels_; ++c) z_(f, c) -= mean[c];
     }
-    if (limited()) beyond_ = PoseMatrix(frames_, channels_);
   }
 
-  ExampleTrace run() {
-    ExampleTrace trace;
+  // The objective before the first iteration and behind each.
+  std::vector<double> run() {
+    std::vector<double> trace;
     scale_ = std::max(settings_.first_welsch, 1.0);
     penalty_.multiply(z_, image_);
     double before = evaluate();
-    trace.objective.push_back(before);
+    trace.push_back(before);
     for (std::size_t i = 0; i < settings_.iterations; ++i) {
       step();
       const double now = evaluate();
-      trace.objective.push_back(now);
+      trace.push_back(now);
       if (scale_ > 1) {
         scale_ = std::max(1.0, scale_ / 2);
         before = evaluate();
@@ -77,12 +82,6 @@ class Minimisation {
         before = now;
       }
     }
-    for (std::size_t f = 0; f < frames_; ++f) {
-      for (std::size_t c = 0; c < channels_; ++c) {
-        if (!(alpha(f, c) > 0)) confidence_(f, c) = 0;
-      }
-    }
-    trace.weights = std::move(confidence_);
     return trace;
   }
 
@@ -96,12 +95,6 @@ class Minimisation {
   }
 
  private:
-  // The data term has a half in it that the others have not.
-  static std::vector<double> doubled(std::vector<double> values) {
-    for (double& value : values) value *= 2;
-    return values;
-  }
-
   // Frames behind the clip belong to nothing, and begin where it ends.
   static PoseMatrix padded(PoseMatrix poses, std::size_t frames) {
     const std::size_t channels = poses.channels, last = poses.values.size() - channels;
@@ -113,8 +106,6 @@ class Minimisation {
     return poses;
   }
 
-  bool limited() const { return settings_.limit_weight > 0 && settings_.project; }
-
   // b_l where a sample was observed.
   double alpha(std::size_t f, std::size_t c) const {
     const bool seen = f < frames_ && (observed_.empty() || observed_[f * channels_ + c] != 0);
@@ -122,19 +113,18 @@ class Minimisation {
   }
   // z - y, less the mean both.
   double residual(std::size_t f, std::size_t c) const {
-    return z_(f, c) - (measured_(f, c) - mean_[c]);
+    return z_(f, c) - (measured_[f * channels_ + c] - mean_[c]);
   }
 
-  // The objective at z, whose image is known. What it finds on the way, the next step needs: the
-  // nearest poses within the limits and eq. 15's weights, w = phi(r) / r.
+  // The objective at z, whose image is known. What it finds on the way, the next step needs:
+  // eq. 15's weights, w = phi(r) / r.
   double evaluate() {
     return sum_over_frames<double>(
         z_.frames, [&](std::size_t first, std::size_t last) { return evaluate(first, last); });
   }
 
   double evaluate(std::size_t first, std::size_t last) {
-    double data = 0, patterns = 0, limits = 0;
-    if (limited()) find_limits(first, std::min(last, frames_));
+    double data = 0, patterns = 0;
     for (std::size_t f = first; f < last; ++f) {
       for (std::size_t c = 0; c < channels_; ++c) {
         patterns += z_(f, c) * (penalty_.diagonal(f, c) * z_(f, c) - image_(f, c));
@@ -145,26 +135,8 @@ class Minimisation {
         data += b * (std::isinf(p) ? r * r / 2 : -p * p / 2 * lost);
         confidence_(f, c) = 1 + lost;
       }
-      if (!limited() || f >= frames_) continue;
-      for (std::size_t c = 0; c < channels_; ++c) {
-        limits += beyond_(f, c) * beyond_(f, c);
-      }
     }
-    return data + patterns / 2 + settings_.limit_weight * limits;
-  }
-
-  // How far the poses of some frames are from the nearest allowed ones.
-  void find_limits(std::size_t first, std::size_t last) {
-    if (first >= last) return;
-    PoseMatrix poses(last - first, channels_), nearest = poses;
-    for (std::size_t f = first; f < last; ++f) {
-      for (std::size_t c = 0; c < channels_; ++c) poses(f - first, c) = z_(f, c) + mean_[c];
-    }
-    settings_.project(poses, nearest);
-    for (std::size_t f = first; f < last; ++f) {
-      for (std::size_t c = 0; c < channels_; ++c)
-        beyond_(f, c) = poses(f - first, c) - nearest(f - first, c);
-    }
+    return data + patterns / 2;
   }
 
   // Of the quadratic that majorises the objective at z, less the patterns' part: its diagonal and
@@ -176,13 +148,7 @@ class Minimisation {
     const double b = alpha(f, c), patterns = penalty_.diagonal(f, c);
     const double w = b > 0 ? b * confidence_(f, c) : 0.0;
     const double pull = b > 0 ? w * -residual(f, c) : 0.0;
-    Slope slope{w + patterns, pull - patterns * z_(f, c) + image_(f, c)};
-    if (limited() && f < frames_) {
-      const double limit = 2 * settings_.limit_weight;
-      slope.diagonal += limit;
-      slope.residual -= limit * beyond_(f, c);
-    }
-    return slope;
+    return {w + patterns, pull - patterns * z_(f, c) + image_(f, c)};
   }
 
   void step() {
@@ -257,54 +223,97 @@ class Minimisation {
   }
 
   std::size_t frames_, channels_;
-  const PoseMatrix& measured_;
+  const double* measured_;  // F x L
   std::span<const std::uint8_t> observed_;
   std::span<const double> mean_;
   const ExampleWeights& weights_;
   const ExampleSettings& settings_;
-  PatternPenalty penalty_;
+  PatternPenalty& penalty_;
   double scale_ = 1;       // of p
   PoseMatrix z_;           // less the mean; frames behind the clip belong to nothing
   PoseMatrix image_;       // A z
   PoseMatrix confidence_;  // F x L: exp(-r^2 / p^2)
   PoseMatrix gradient_, gradient_image_, step_, step_image_;
-  PoseMatrix beyond_;  // F x L: from the nearest pose within the limits
 };
+
+// The data term has a half in it that the others have not.
+std::vector<double> doubled(std::vector<double> values) {
+  for (double& value : values) value *= 2;
+  return values;
+}
+
+PoseMatrix rows_of(const PoseMatrix& poses, std::size_t begin, std::size_t end) {
+  PoseMatrix rows(end - begin, poses.channels);
+  std::copy_n(poses.values.begin() + static_cast<std::ptrdiff_t>(begin * poses.channels),
+              rows.values.size(), rows.values.begin());
+  return rows;
+}
+
+// Puts frames [begin, end) of `rows`, which begin at frame `first` of `poses`, in their place.
+void put_rows(const PoseMatrix& rows, std::size_t first, std::size_t begin, std::size_t end,
+              PoseMatrix& poses) {
+  const auto at = [&](std::size_t frame) {
+    return static_cast<std::ptrdiff_t>(frame * poses.channels);
+  };
+  std::copy(rows.values.begin() + at(begin - first), rows.values.begin() + at(end - first),
+            poses.values.begin() + at(begin));
+}
 
 }  // namespace
 
-LinearExampleFilter::LinearExampleFilter(const WindowBases& bases, std::span<const double> mean,
-                                         std::size_t frames)
-    : mean_(mean.begin(), mean.end()) {
-  if (frames > 0)
-    patterns_.emplace(bases, std::vector<double>(mean.size(), 1.0), std::span<const double>(),
-                      frames, usual_linear_products);
-}
-
-void LinearExampleFilter::filter(PoseMatrix& poses) {
-  if (poses.frames == 0) return;
-  PoseMatrix z(patterns_->padded_frames(), poses.channels), image = z;
-  for (std::size_t f = 0; f < z.frames; ++f) {
-    const std::size_t from = std::min(f, poses.frames - 1);
-    for (std::size_t c = 0; c < z.channels; ++c) z(f, c) = poses(from, c) - mean_[c];
-  }
-  patterns_->multiply(z, image);
-  for (std::size_t f = 0; f < poses.frames; ++f) {
-    for (std::size_t c = 0; c < poses.channels; ++c) {
-      poses(f, c) = mean_[c] + image(f, c) / patterns_->diagonal(f, c);
+PoseMatrix filter_linearly(const PoseMatrix& poses, WindowBases bases,
+                           std::span<const double> mean) {
+  if (poses.frames == 0) return poses;
+  // What stays is taken first, so that what goes leaves no hole below it.
+  PoseMatrix filtered(poses.frames, poses.channels);
+  const Stretches stretches(bases, poses.frames, linear_margin);
+  PatternPenalty patterns(std::move(bases), std::vector<double>(mean.size(), 1.0), {},
+                          stretches.frames(), stretches.count());
+  PoseMatrix z(patterns.padded_frames(), poses.channels), image = z;
+  for (std::size_t s = 0; s < stretches.count(); ++s) {
+    const std::size_t begin = stretches.begin(s), end = stretches.end(s);
+    for (std::size_t f = 0; f < z.frames; ++f) {
+      const std::size_t from = std::min(begin + f, end - 1);
+      for (std::size_t c = 0; c < z.channels; ++c) z(f, c) = poses(from, c) - mean[c];
+    }
+    patterns.multiply(z, image);
+    for (std::size_t f = stretches.first(s); f < stretches.first(s + 1); ++f) {
+      for (std::size_t c = 0; c < poses.channels; ++c)
+        filtered(f, c) = mean[c] + image(f - begin, c) / patterns.diagonal(f - begin, c);
     }
   }
+  return filtered;
 }
 
-ExampleTrace example_filter(PoseMatrix& poses, const PoseMatrix& measured,
-                            std::span<const std::uint8_t> observed, const WindowBases& bases,
-                            std::span<const double> mean, const ExampleWeights& weights,
-                            const ExampleSettings& settings) {
-  if (measured.frames == 0) return {};
-  Minimisation minimisation(std::move(poses), measured, observed, bases, mean, weights, settings);
-  ExampleTrace trace = minimisation.run();
-  poses = minimisation.take_poses();
-  return trace;
+std::vector<double> example_filter(PoseMatrix& poses, const PoseMatrix& measured,
+                                   std::span<const std::uint8_t> observed, WindowBases bases,
+                                   std::span<const double> mean, const ExampleWeights& weights,
+                                   const ExampleSettings& settings) {
+  std::vector<double> objective;
+  if (measured.frames == 0) return objective;
+  const Stretches stretches(bases, measured.frames, margin);
+  PatternPenalty penalty(std::move(bases), doubled(weights.prior), doubled(weights.coefficients),
+                         stretches.frames(), usual_iterations * stretches.count());
+  for (std::size_t s = 0; s < stretches.count(); ++s) {
+    const std::size_t begin = stretches.begin(s);
+    Minimisation minimisation(penalty, rows_of(poses, begin, stretches.end(s)), measured, observed,
+                              begin, mean, weights, settings);
+    objective = minimisation.run();
+    // The margin at the end is the next one's first guess.
+    put_rows(minimisation.take_poses(), begin, stretches.first(s), stretches.end(s), poses);
+  }
+  return objective;
+}
+
+PoseMatrix welsch_weights(const PoseMatrix& poses, const PoseMatrix& measured,
+                          std::span<const std::uint8_t> observed, std::span<const double> welsch) {
+  PoseMatrix weights(poses.frames, poses.channels);
+  for (std::size_t i = 0; i < weights.values.size(); ++i) {
+    if (!observed.empty() && observed[i] == 0) continue;
+    const double off = (poses.values[i] - measured.values[i]) / welsch[i % poses.channels];
+    weights.values[i] = std::exp(-off * off);
+  }
+  return weights;
 }
 
 }  // namespace kinemend

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace kinemend {
 
@@ -16,8 +17,9 @@ namespace {
 // Longer blocks repeat fewer rows and have more frequencies.
 std::size_t rows_of_block(std::size_t window_rows) { return (3 * window_rows) | 1; }
 
-// Frequencies whose matrices are made at once.
-constexpr std::size_t frequencies_at_once = 4;
+// Frequencies whose matrices are made at once, and values of G that are transformed for them.
+constexpr std::size_t frequencies_at_once = 2;
+constexpr std::size_t patterns_at_once = 8192;
 // Blocks of about so many columns are transformed at once.
 constexpr std::size_t columns_at_once = 300;
 // Spectra of about so many values are made before they are used: enough for products of matrices.
@@ -31,18 +33,13 @@ PatternConvolution::PatternConvolution(const std::vector<double>& patterns, std:
       reach_(window_rows - 1),
       block_rows_(rows_of_block(window_rows)),
       frequencies_((block_rows_ + 1) / 2),
-      fresh_rows_(block_rows_ - 2 * reach_),
-      matrices_(frequencies_) {
-  const std::size_t row_patterns = row_values_ * count;
-  std::vector<double> padded;
-  const double* rows = patterns.data();
-  if (patterns.size() < window_rows * row_patterns) {
-    padded = patterns;
-    padded.resize(window_rows * row_patterns);
-    rows = padded.data();
-  }
+      fresh_rows_(block_rows_ - 2 * reach_) {
   prepare_transforms();
-  const nn::PackedMatrix packed({rows, window_rows, row_patterns, row_patterns});
+  if (is_narrow()) {
+    narrow_.resize(frequencies_);
+  } else {
+    matrices_.resize(frequencies_);
+  }
   const tbb::blocked_range<std::size_t> all(0, frequencies_, frequencies_at_once);
   // Memory that was never touched costs more than the products. While a thread waits for its part
   // of a product it may not begin with other frequencies, which would overwrite what it holds.
@@ -50,10 +47,15 @@ PatternConvolution::PatternConvolution(const std::vector<double>& patterns, std:
   tbb::parallel_for(
       all,
       [&](const auto& range) {
-        tbb::this_task_arena::isolate(
-            [&] { prepare_matrices(packed, range.begin(), range.end(), scratch.local()); });
+        tbb::this_task_arena::isolate([&] {
+          prepare_matrices(patterns, count, range.begin(), range.end(), scratch.local());
+        });
       },
       tbb::simple_partitioner());
+}
+
+bool PatternConvolution::is_narrow() const {
+  return 2 * sizeof(double) * frequencies_ * row_values_ * row_values_ > most_exact_bytes;
 }
 
 void PatternConvolution::prepare_transforms() {
@@ -77,16 +79,21 @@ void PatternConvolution::prepare_transforms() {
   }
 }
 
-void PatternConvolution::prepare_matrices(const nn::PackedMatrix& patterns, std::size_t first,
-                                          std::size_t last, std::vector<double>& parts) {
-  const std::size_t v = row_values_, window_rows = reach_ + 1, row_patterns = patterns.columns();
-  const std::size_t count = row_patterns / v, found = last - first;
+void PatternConvolution::prepare_matrices(const std::vector<double>& patterns, std::size_t count,
+                                          std::size_t first, std::size_t last,
+                                          std::vector<double>& parts) {
+  const std::size_t v = row_values_, window_rows = reach_ + 1, row_patterns = v * count;
+  const std::size_t found = last - first;
   // Transforms P + iQ of G's rows: for each frequency P and Q, V x K.
   parts.resize(2 * found * row_patterns);
-  nn::multiply({&cosines_[first * frequencies_], found, window_rows, frequencies_}, patterns,
-               {parts.data(), found, row_patterns, 2 * row_patterns});
-  nn::multiply({&sines_[first * frequencies_], found, window_rows, frequencies_}, patterns,
-               {&parts[row_patterns], found, row_patterns, 2 * row_patterns});
+  for (std::size_t from = 0; from < row_patterns; from += patterns_at_once) {
+    const std::size_t columns = std::min(patterns_at_once, row_patterns - from);
+    const nn::MatrixView some{&patterns[from], window_rows, columns, row_patterns};
+    nn::multiply({&cosines_[first * frequencies_], found, window_rows, frequencies_}, some,
+                 {&parts[from], found, columns, 2 * row_patterns});
+    nn::multiply({&sines_[first * frequencies_], found, window_rows, frequencies_}, some,
+                 {&parts[row_patterns + from], found, columns, 2 * row_patterns});
+  }
   std::vector<double> mixed(v * v), matrix(2 * v * v);
   for (std::size_t f = first; f < last; ++f) {
     // (P + iQ)(P + iQ)^H = P P^T + Q Q^T + i (Q P^T - (Q P^T)^T)
@@ -100,7 +107,12 @@ void PatternConvolution::prepare_matrices(const nn::PackedMatrix& patterns, std:
       for (std::size_t c = 0; c < v; ++c)
         matrix[r * 2 * v + v + c] = mixed[r * v + c] - mixed[c * v + r];
     }
-    matrices_[f] = nn::PackedMatrix({matrix.data(), v, 2 * v, 2 * v});
+    nn::PackedMatrix packed({matrix.data(), v, 2 * v, 2 * v});
+    if (is_narrow()) {
+      narrow_[f].assign(packed.values().begin(), packed.values().end());
+    } else {
+      matrices_[f] = std::move(packed);
+    }
   }
 }
 
@@ -156,7 +168,12 @@ void PatternConvolution::filter(std::size_t frequency) {
   std::vector<double> parts(rows * 2 * v);
   double* x = &spectrum_[frequency * rows * v];
   double* y = x + blocks_ * v;
-  nn::multiply({x, rows, v, v}, matrices_[frequency], {parts.data(), rows, 2 * v, 2 * v});
+  const nn::MutableMatrixView product{parts.data(), rows, 2 * v, 2 * v};
+  if (is_narrow()) {
+    nn::multiply({x, rows, v, v}, nn::PackedMatrix(v, 2 * v, narrow_[frequency]), product);
+  } else {
+    nn::multiply({x, rows, v, v}, matrices_[frequency], product);
+  }
   for (std::size_t b = 0; b < blocks_; ++b) {
     const double* of_x = &parts[b * 2 * v];
     const double* of_y = &parts[(blocks_ + b) * 2 * v];

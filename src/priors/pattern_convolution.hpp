@@ -16,11 +16,16 @@ namespace kinemend {
 /// Blocks of rows overlap by what the convolution reaches (overlap-save), so that work grows with
 /// length only. Fourier transforms of so few rows are products of matrices, too, one of what is
 /// even about the middle of the block and one of what is odd.
+///
+/// Matrices of more than `most_exact_bytes` are kept in single precision, which is as far as their
+/// bases are known: the product is then exact to 1e-6 of its size.
 class PatternConvolution {
  public:
-  /// `patterns`: G, row-major, K columns; W V rows, of which the last may be missing: zeros.
+  /// `patterns`: G, row-major, W V rows and K columns.
   PatternConvolution(const std::vector<double>& patterns, std::size_t window_rows,
                      std::size_t row_values, std::size_t count);
+
+  static constexpr std::size_t most_exact_bytes = std::size_t{1} << 24;
 
   /// image = A z; both `rows` x V, row-major.
   void multiply(const double* z, std::size_t rows, double* image);
@@ -32,8 +37,9 @@ class PatternConvolution {
  private:
   void prepare_transforms();
   // Of frequencies [first, last); `parts` is scratch.
-  void prepare_matrices(const nn::PackedMatrix& patterns, std::size_t first, std::size_t last,
-                        std::vector<double>& parts);
+  void prepare_matrices(const std::vector<double>& patterns, std::size_t count, std::size_t first,
+                        std::size_t last, std::vector<double>& parts);
+  bool is_narrow() const;
   // Of blocks [first, last) of those that are transformed at once.
   void transform(const double* z, std::size_t rows, std::size_t first, std::size_t last);
   void filter(std::size_t frequency);
@@ -50,6 +56,7 @@ class PatternConvolution {
   std::vector<double> cosines_, sines_;
   std::vector<double> cosines_back_, sines_back_;  // times x frequencies
   std::vector<nn::PackedMatrix> matrices_;         // of each frequency [Re Im], V x 2 V
+  std::vector<std::vector<float>> narrow_;         // the same where they are large
   std::vector<double> spectrum_;                   // frequencies x (real, imaginary) x blocks x V
 };
 

@@ -49,35 +49,43 @@ RowMatrix penalty_gram(const WindowBases& bases, std::span<const double> weights
   return gram;
 }
 
-// G = D^2 E R^-1 with R^T R the gram matrix.
-std::vector<double> penalty_factor(const WindowBases& bases, std::span<const double> weights,
-                                   std::span<const double> ridge) {
+// G = D^2 E R^-1 with R^T R the gram matrix, and zeros behind it up to so many rows. The bases are
+// used up.
+std::vector<double> penalty_factor(WindowBases& bases, std::span<const double> weights,
+                                   std::span<const double> ridge, std::size_t whole_rows) {
   const bool plain = std::all_of(weights.begin(), weights.end(), [](double w) { return w == 1; });
-  if (bases.orthonormal && plain && ridge.empty()) return bases.values;
+  if (bases.orthonormal && plain && ridge.empty()) {
+    bases.values.resize(whole_rows * bases.count);
+    return std::move(bases.values);
+  }
   const std::size_t rows = bases.frames * bases.channels, count = bases.count;
   const auto size = static_cast<Eigen::Index>(count);
   const Eigen::LLT<Eigen::MatrixXd> cholesky(penalty_gram(bases, weights, ridge));
   const RowMatrix inverse = cholesky.matrixU().solve(Eigen::MatrixXd::Identity(size, size));
-  std::vector<double> factor(rows * count);
-  const nn::MatrixView left{bases.values.data(), rows, count, count};
   const nn::MatrixView right{inverse.data(), count, count, count};
-  const nn::MutableMatrixView product{factor.data(), rows, count, count};
-  // The inverse of an upper triangle is one.
-  for (std::size_t first = 0; first < count; first += triangle_columns) {
-    const std::size_t width = std::min(triangle_columns, count - first), depth = first + width;
-    nn::multiply(left.block(0, 0, rows, depth), right.block(0, first, depth, width),
-                 product.block(0, first, rows, width));
+  // Row by row, G takes the place of E.
+  std::vector<double> part(gram_rows * count);
+  for (std::size_t first_row = 0; first_row < rows; first_row += gram_rows) {
+    const std::size_t found = std::min(gram_rows, rows - first_row);
+    double* of_rows = &bases.values[first_row * count];
+    const nn::MatrixView left{of_rows, found, count, count};
+    const nn::MutableMatrixView product{part.data(), found, count, count};
+    // The inverse of an upper triangle is one.
+    for (std::size_t first = 0; first < count; first += triangle_columns) {
+      const std::size_t width = std::min(triangle_columns, count - first), depth = first + width;
+      nn::multiply(left.block(0, 0, found, depth), right.block(0, first, depth, width),
+                   product.block(0, first, found, width));
+    }
+    for (std::size_t i = 0; i < found * count; ++i)
+      of_rows[i] = part[i] * weights[(first_row + i / count) % bases.channels];
   }
-  for (std::size_t row = 0; row < rows; ++row) {
-    for (std::size_t k = 0; k < count; ++k)
-      factor[row * count + k] *= weights[row % bases.channels];
-  }
-  return factor;
+  bases.values.resize(whole_rows * count);
+  return std::move(bases.values);
 }
 
 }  // namespace
 
-PatternPenalty::PatternPenalty(const WindowBases& bases, std::span<const double> weights,
+PatternPenalty::PatternPenalty(WindowBases bases, std::span<const double> weights,
                                std::span<const double> ridge, std::size_t frames,
                                std::size_t products, Product product)
     : hop_(bases.hop),
@@ -92,7 +100,7 @@ PatternPenalty::PatternPenalty(const WindowBases& bases, std::span<const double>
   for (std::size_t s = 0; s < windows_; ++s) {
     for (std::size_t f = s * hop_; f < s * hop_ + bases.frames; ++f) windows_over_[f] += 1;
   }
-  std::vector<double> factor = penalty_factor(bases, weights, ridge);
+  std::vector<double> factor = penalty_factor(bases, weights, ridge, overlap_ * hop_ * channels_);
   if (product == Product::frequencies ||
       (product == Product::quicker && frequencies_are_quicker(products))) {
     convolution_.emplace(factor, overlap_, hop_ * channels_, count_);

@@ -32,9 +32,8 @@ class PatternPenalty {
   /// `weights`: d_l^2 of each channel, >= 0. `ridge`: v_k of each base, >= 0; empty: none.
   /// `frames`: of the sequence, at least `bases.frames`. `products`: with A, about as many as will
   /// be asked for; what is quicker depends on them.
-  PatternPenalty(const WindowBases& bases, std::span<const double> weights,
-                 std::span<const double> ridge, std::size_t frames, std::size_t products = 1,
-                 Product product = Product::quicker);
+  PatternPenalty(WindowBases bases, std::span<const double> weights, std::span<const double> ridge,
+                 std::size_t frames, std::size_t products = 1, Product product = Product::quicker);
 
   /// Frames of the sequences that it works on: `frames` and as many more as make whole hops. The
   /// windows cover all frames of the clip; what is behind belongs to nothing.
@@ -64,7 +63,7 @@ class PatternPenalty {
   // By windows: G and, for each hop, overlap K x hop L.
   nn::PackedMatrix analysis_, synthesis_;
   // By frequencies: all windows of the take as if it repeated itself, and G, M' L x K, for those of
-  // them that reach over the end.
+  // them that reach over the end (with zeros behind it that make whole hops).
   std::optional<PatternConvolution> convolution_;
   std::vector<double> factor_;
   std::vector<double> ends_, windows_over_end_;

@@ -81,6 +81,8 @@ WindowBases bases_at_rate(const FilterBases& bases, double model_rate_hz, double
   const double spare = static_cast<double>(whole - result.frames) / 2;
   const std::vector<double> weights =
       spline_weights(bases.window_frames, spare / ratio, 1 / ratio, result.frames);
+  // With room for whole hops, which products need.
+  result.values.reserve((result.frames + result.hop - 1) / result.hop * result.hop * patterns);
   result.values.resize(result.frames * patterns);
   nn::multiply({weights.data(), result.frames, bases.window_frames, bases.window_frames},
                {kept.data(), bases.window_frames, patterns, patterns},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "kinemend/random.hpp"
 
@@ -92,24 +93,47 @@ TEST(FallBack, TakesWhatAutoMadeOfStrangeMotionButFillsNoGaps) {
   EXPECT_NEAR(between(1, 0), 0.5 * (5 + work.fallback(1, 0)), 1e-9);
 }
 
+// Nothing up to a fifth of rejected measurements, all from 35 % on, in the middle half.
 TEST(FallBack, TakesWhatAutoMadeOfAPartThatTheFilterMostlyRejects) {
-  PriorWork work = work_of(1);
-  work.channels.observed[0] = 0;
-  const PoseMatrix filtered(frames, channels, 5.0);
-  PoseMatrix weights(frames, channels, 0.9), result = filtered;
-  fall_back_where_rejected(work, weights, result);
-  EXPECT_EQ(result.values, filtered.values);
-  for (std::size_t f = 0; f < frames; ++f) {
-    for (std::size_t c = 0; c < 3; ++c) weights(f, c) = 0.2;
+  for (const auto& [rejected, taken] : {std::pair{0.2, 0.0}, {0.275, 0.5}, {0.35, 1.0}}) {
+    PriorWork work = work_of(1);
+    work.channels.observed[0] = 0;
+    const PoseMatrix filtered(frames, channels, 5.0);
+    PoseMatrix weights(frames, channels, 0.9), result = filtered;
+    for (std::size_t f = 0; f < frames; ++f) {
+      for (std::size_t c = 0; c < 3; ++c) weights(f, c) = 1 - rejected;
+    }
+    fall_back_where_rejected(work, weights, result);
+    EXPECT_EQ(result(0, 0), 5) << "a gap";
+    EXPECT_EQ(result(1, 3), 5) << "another part";
+    EXPECT_NEAR(result(1, 0), 5 + taken * (work.fallback(1, 0) - 5), 1e-9) << rejected;
+    // What `auto` suspects is rejected rightly.
+    result = filtered;
+    std::fill(work.suspect.begin(), work.suspect.end(), 1);
+    fall_back_where_rejected(work, weights, result);
+    EXPECT_EQ(result.values, filtered.values);
   }
-  fall_back_where_rejected(work, weights, result);
-  EXPECT_EQ(result(0, 0), 5) << "a gap";
-  for (std::size_t f = 1; f < frames; ++f) EXPECT_NEAR(result(f, 0), work.fallback(f, 0), 1e-12);
-  // What `auto` suspects is rejected rightly.
-  result = filtered;
-  std::fill(work.suspect.begin(), work.suspect.end(), 1);
-  fall_back_where_rejected(work, weights, result);
-  EXPECT_EQ(result.values, filtered.values);
+}
+
+// The filter's result lies `deviations` deviations of the noise beside what was measured from frame
+// 100 on: below one nothing is taken of `auto`, beyond two all, in the middle half.
+TEST(FallBack, TakesWhatAutoMadeOfAPartWhereTheResultIsBiased) {
+  const std::vector<double> noise(channels, 1.0);
+  for (const auto& [deviations, taken] : {std::pair{0.9, 0.0}, {1.5, 0.5}, {2.1, 1.0}}) {
+    PriorWork work = work_of(0);
+    work.channels.observed[150 * channels] = 0;
+    for (double& value : work.fallback.values) value += 10;
+    PoseMatrix cleaned = work.channels.poses;
+    for (std::size_t f = 100; f < frames; ++f) {
+      for (std::size_t c = 0; c < 3; ++c) cleaned(f, c) += deviations;
+    }
+    PoseMatrix result = cleaned;
+    fall_back_where_biased(work, noise, result);
+    EXPECT_EQ(result(50, 0), cleaned(50, 0));
+    EXPECT_EQ(result(150, 3), cleaned(150, 3)) << "another part";
+    EXPECT_EQ(result(150, 0), cleaned(150, 0)) << "a gap";
+    EXPECT_NEAR(result(151, 0) - cleaned(151, 0), taken * (10 - deviations), 1e-9) << deviations;
+  }
 }
 
 // Bases of one constant pattern in one channel know next to nothing of the motion: what is outside
@@ -128,8 +152,7 @@ TEST(SmoothRest, KeepsSmoothMotionThatTheBasesDoNotKnow) {
   // A rejected sample does not count.
   work.channels.poses(50, 1) += 1000;
   weights(50, 1) = 0;
-  LinearExampleFilter expressible(bases, mean, frames);
-  smooth_rest(work, weights, expressible, noise, cleaned);
+  smooth_rest(work, weights, filter_linearly(cleaned, bases, mean), noise, cleaned);
   EXPECT_LT(mean_square(cleaned, work.fallback), 0.3);
   EXPECT_NEAR(cleaned(50, 1), work.fallback(50, 1), 2);
 }
@@ -150,8 +173,7 @@ TEST(SmoothRest, LeavesLongGapsAsTheFilterFilledThem) {
     work.channels.observed[f * channels + 1] = 0;
     cleaned(f, 1) = 0;
   }
-  LinearExampleFilter expressible(bases, mean, frames);
-  smooth_rest(work, weights, expressible, noise, cleaned);
+  smooth_rest(work, weights, filter_linearly(cleaned, bases, mean), noise, cleaned);
   for (std::size_t f = 130; f < 150; ++f) EXPECT_NEAR(cleaned(f, 1), 0, 1.5) << f;
 }
 

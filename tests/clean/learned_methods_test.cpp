@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -217,28 +219,54 @@ TEST(Wiener, TakesNoiseForWhatItIsInEachDirection) {
   EXPECT_LT(error(truth, uneven, *wiener), 0.8 * error(truth, even, *wiener));
 }
 
-TEST(ExampleSelf, DoesNotLoseToAutoOnALongWalk) {
-  const Clip truth = walk(5, 60, 15), input = noisy(truth, 2, 0);
-  ExampleOptions options;
-  options.self = true;
-  EXPECT_LT(error(truth, input, *make_example(options)), 1.02 * error(truth, input, *make_auto()));
+// Both arms missing throughout: where the descent stops is where it would end, within 2 %.
+TEST(Example, StopsWhereLimbsThatAreMissingHaveSettled) {
+  const Clip truth = walk(4, 30);
+  Clip input = noisy(truth, 1, 0);
+  input.observed.assign(input.local_rotations.size(), 1);
+  for (std::size_t i = 0; i < input.observed.size(); ++i) {
+    const std::string& name = input.skeleton.names[i % input.joint_count()];
+    if (name.find("Arm") == std::string::npos && name.find("Hand") == std::string::npos) continue;
+    input.observed[i] = 0;
+    input.local_rotations[i] = {};
+  }
+  const auto arms = [&](const ExampleOptions& options) {
+    Clip filled = input;
+    make_example(options, walking("example"))->clean(filled, Selection::all(filled));
+    double sum = 0;
+    for (std::size_t i = 0; i < input.observed.size(); ++i) {
+      const double angle = angle_between(filled.local_rotations[i], truth.local_rotations[i]);
+      sum += input.observed[i] == 0 ? angle * angle : 0;
+    }
+    return std::sqrt(sum);
+  };
+  ExampleOptions to_the_end;
+  to_the_end.tolerance = 1e-9, to_the_end.iterations = 5000;
+  const double end = arms(to_the_end);
+  EXPECT_NEAR(arms({}), end, 0.02 * end);
 }
 
-TEST(ExampleSelf, LeavesACleanTakeAlone) {
-  const Clip truth = walk(5, 60, 12);
-  ExampleOptions options;
-  options.self = true;
-  EXPECT_LT(error(truth, truth, *make_example(options)), 0.02);
-}
-
-TEST(ExampleSelf, TakesNoModelAndNoNames) {
-  ExampleOptions options;
-  options.self = true;
-  options.model = "walk.kmodel";
-  EXPECT_THROW(make_example(options), Error);
-  options.model.clear();
-  options.lambda = 0.1;
-  EXPECT_THROW(make_example(options), Error);
+// The paper's objective has the same minimum whoever finds it.
+TEST(Example, FindsWithThePapersAlternationWhatTheQuickSolverFinds) {
+  const Clip input = noisy(walk(4, 30), 1, 0);
+  const auto result = [&](const std::string& solver, double tolerance) {
+    ExampleOptions options;
+    options.solver = solver, options.tolerance = tolerance;
+    options.welsch_deg = 3, options.lambda = 0.1, options.iterations = 10000;
+    Clip clip = input;
+    make_example(options, walking("example"))->clean(clip, Selection::all(clip));
+    return clip;
+  };
+  const Clip quick = result("quick", 1e-10), paper = result("paper", ExampleOptions().tolerance);
+  EXPECT_GT(rms_deg(input, paper), 0.3);
+  EXPECT_LT(rms_deg(quick, paper), 0.02);
+  ExampleOptions by_default;
+  by_default.solver = "paper";
+  Clip clip = input;
+  make_example(by_default, walking("example"))->clean(clip, Selection::all(clip));
+  EXPECT_LT(rms_deg(quick, clip), 0.02) << "p = 3 and lambda = 0.1";
+  by_default.solver = "papers";
+  EXPECT_THROW(make_example(by_default), Error);
 }
 
 }  // namespace

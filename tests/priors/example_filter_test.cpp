@@ -11,6 +11,7 @@
 
 #include "kinemend/random.hpp"
 #include "priors/pattern_penalty.hpp"
+#include "priors/stretches.hpp"
 #include "priors/window_support.hpp"
 
 namespace kinemend {
@@ -121,7 +122,7 @@ TEST(LinearExampleFilter, AveragesTheProjectionsOfAllWindows) {
     count.segment(s * 3, 18).array() += 1;
   }
   PoseMatrix found = noisy;
-  LinearExampleFilter(windows, bases.mean, found.frames).filter(found);
+  found = filter_linearly(found, windows, bases.mean);
   for (std::size_t i = 0; i < 75; ++i) {
     EXPECT_NEAR(found.values[i], bases.mean[i % 3] + sum[i] / count[i], 1e-9);
   }
@@ -173,23 +174,15 @@ TEST(ExampleFilter, NeverRaisesTheObjective) {
     ExampleSettings settings{.iterations = 30, .tolerance = 0};
     if (seed % 2 == 1) settings.solver = ExampleSolver::alternation;
     if (seed % 3 == 1) settings.first_welsch = 16;
-    if (seed % 4 >= 2) {
-      settings.limit_weight = 0.5;
-      settings.project = [](const PoseMatrix& poses, PoseMatrix& nearest) {
-        for (std::size_t i = 0; i < poses.values.size(); ++i) {
-          nearest.values[i] = std::clamp(poses.values[i], -3.0, 4.0);
-        }
-      };
-    }
     PoseMatrix found = with_noise(y, 3, seed + 100);
-    const ExampleTrace trace =
+    const std::vector<double> objective =
         example_filter(found, y, observed, bases, std::vector<double>(3, 0.5),
                        paper_weights(channels, p, lambda), settings);
-    ASSERT_GE(trace.objective.size(), 3u);
-    for (std::size_t i = 1; i < trace.objective.size(); ++i) {
-      EXPECT_LE(trace.objective[i], trace.objective[i - 1] * (1 + 1e-12)) << seed << ", " << i;
+    ASSERT_GE(objective.size(), 3u);
+    for (std::size_t i = 1; i < objective.size(); ++i) {
+      EXPECT_LE(objective[i], objective[i - 1] * (1 + 1e-12)) << seed << ", " << i;
     }
-    EXPECT_LT(trace.objective.back(), 0.9 * trace.objective.front());
+    EXPECT_LT(objective.back(), 0.9 * objective.front());
   }
 }
 
@@ -217,12 +210,13 @@ TEST(ExampleFilter, ScalesWithTheUnitOfDataAndWelsch) {
   std::vector<double> scaled_mean = bases.mean;
   for (double& value : scaled_mean) value *= s;
   PoseMatrix degrees = y, small = scaled;
-  const auto trace = example_filter(degrees, y, {}, windows, bases.mean, paper_weights(6, 3, 0.1));
-  const auto small_trace =
+  const auto objective =
+      example_filter(degrees, y, {}, windows, bases.mean, paper_weights(6, 3, 0.1));
+  const auto small_objective =
       example_filter(small, scaled, {}, windows, scaled_mean, paper_weights(6, 3 * s, 0.1));
   for (double& value : small.values) value /= s;
   EXPECT_LT(rms(degrees, small), 1e-9);
-  EXPECT_NEAR(small_trace.objective.back(), s * s * trace.objective.back(), 1e-9);
+  EXPECT_NEAR(small_objective.back(), s * s * objective.back(), 1e-9);
 }
 
 TEST(ExampleFilter, LeavesNoiseAndOutliersBehind) {
@@ -231,13 +225,14 @@ TEST(ExampleFilter, LeavesNoiseAndOutliersBehind) {
   PoseMatrix y = with_noise(clean, 1, 1);
   const auto hit = with_outliers(y, 0.1, 2);
   PoseMatrix found = y;
-  const auto trace = example_filter(found, y, {}, bases_at_rate(bases, 30, 30, 150), bases.mean,
-                                    paper_weights(8, 3, 1), {.first_welsch = 16});
+  example_filter(found, y, {}, bases_at_rate(bases, 30, 30, 150), bases.mean,
+                 paper_weights(8, 3, 1), {.first_welsch = 16});
+  const PoseMatrix weights = welsch_weights(found, y, {}, std::vector<double>(8, 3.0));
   EXPECT_GT(rms(y, clean), 8);
   EXPECT_LT(rms(found, clean), 0.3);
   for (std::size_t i = 0; i < hit.size(); ++i) {
     if (hit[i] && std::abs(y.values[i] - clean.values[i]) > 12) {
-      EXPECT_LT(trace.weights.values[i], 0.01);
+      EXPECT_LT(weights.values[i], 0.01);
     }
   }
 }
@@ -296,26 +291,48 @@ TEST(ExampleFilter, CleansClipsShorterThanAWindow) {
   }
 }
 
-TEST(ExampleFilter, KeepsToTheLimitsAsFarAsTheirWeightSays) {
-  const FilterBases bases = swing_bases(10, 4);
-  const PoseMatrix y = swing(40, 4, 30);
-  const double top = *std::max_element(y.values.begin(), y.values.end()) - 5;
-  ExampleSettings settings{.iterations = 100, .tolerance = 1e-9};
-  settings.project = [&](const PoseMatrix& poses, PoseMatrix& nearest) {
-    nearest = poses;
-    for (double& value : nearest.values) value = std::min(value, top);
-  };
-  double previous = infinite;
-  for (const double weight : {0.0, 0.1, 10.0, 1000.0}) {
-    settings.limit_weight = weight;
-    PoseMatrix found = y;
-    example_filter(found, y, {}, bases_at_rate(bases, 30, 30, 40), bases.mean,
-                   paper_weights(4, infinite, 0.1), settings);
-    const double beyond = *std::max_element(found.values.begin(), found.values.end()) - top;
-    EXPECT_LT(beyond, previous);
-    previous = beyond;
+PoseMatrix part_of(const PoseMatrix& poses, std::size_t begin, std::size_t end) {
+  PoseMatrix part(end - begin, poses.channels);
+  std::copy_n(&poses.values[begin * poses.channels], part.values.size(), part.values.begin());
+  return part;
+}
+
+double largest_difference(const PoseMatrix& a, std::size_t first, const PoseMatrix& b,
+                          std::size_t margin) {
+  double most = 0;
+  for (std::size_t f = margin; f + margin < b.frames; ++f) {
+    for (std::size_t c = 0; c < b.channels; ++c)
+      most = std::max(most, std::abs(a(first + f, c) - b(f, c)));
   }
-  EXPECT_LT(previous, 0.05);
+  return most;
+}
+
+// A take of more than one stretch, at a rate at which windows are no whole number of hops: about
+// each seam it is what it would be of the frames about it alone.
+TEST(ExampleFilter, HasNoSeamsInLongTakes) {
+  constexpr std::size_t channels = 64, frames = 9001, hop = 2;
+  const FilterBases bases = swing_bases(6, channels, 6);
+  const PoseMatrix clean = swing(frames, channels, 60, 0.4);
+  PoseMatrix y = with_noise(clean, 1, 3);
+  with_outliers(y, 0.02, 4);
+  const WindowBases windows = bases_at_rate(bases, 30, 60, frames);
+  const Stretches stretches(windows, frames, 2);
+  ASSERT_GE(stretches.count(), 3u);
+  const ExampleWeights weights = paper_weights(channels, 9, 1);
+  const ExampleSettings settings{.iterations = 400, .tolerance = 1e-9};
+  const PoseMatrix smooth = filter_linearly(y, windows, bases.mean);
+  PoseMatrix found = smooth;
+  example_filter(found, y, {}, windows, bases.mean, weights, settings);
+  EXPECT_LT(rms(found, clean), 0.5);
+  for (std::size_t s = 1; s < stretches.count(); ++s) {
+    const std::size_t begin = (stretches.first(s) - 100) / hop * hop, end = begin + 201;
+    const PoseMatrix of_part = part_of(y, begin, end);
+    const PoseMatrix expected = filter_linearly(of_part, windows, bases.mean);
+    EXPECT_LT(largest_difference(smooth, begin, expected, 12), 1e-9) << s;
+    PoseMatrix alone = part_of(smooth, begin, end);
+    example_filter(alone, of_part, {}, windows, bases.mean, weights, settings);
+    EXPECT_LT(largest_difference(found, begin, alone, 60), 0.01) << s;
+  }
 }
 
 }  // namespace

@@ -88,6 +88,26 @@ TEST(PatternPenalty, IsTheSameByWindowsAndByFrequencies) {
   }
 }
 
+// Matrices of 17 MB are kept in single precision.
+TEST(PatternPenalty, IsTheSameButForSinglePrecisionWhereMatricesAreLarge) {
+  const std::size_t channels = 520, frames = 60;
+  const WindowBases bases = random_bases(2, 1, channels, 4, 5);
+  const std::vector<double> weights(channels, 1.5);
+  PatternPenalty windows(bases, weights, {}, frames, 1, Product::windows);
+  PatternPenalty frequencies(bases, weights, {}, frames, 1, Product::frequencies);
+  const PoseMatrix z = random_poses(windows.padded_frames(), channels, 3);
+  PoseMatrix expected = z, found = z;
+  windows.multiply(z, expected);
+  frequencies.multiply(z, found);
+  double size = 0, most = 0;
+  for (std::size_t i = 0; i < found.values.size(); ++i) {
+    size = std::max(size, std::abs(expected.values[i]));
+    most = std::max(most, std::abs(found.values[i] - expected.values[i]));
+  }
+  EXPECT_LT(most, 1e-6 * size);
+  EXPECT_GT(most, 1e-12 * size) << "kept in double precision";
+}
+
 TEST(PatternPenalty, GoesByFrequenciesWhereThereAreManyBasesAndManyProducts) {
   const std::vector<double> weights(12, 1.0);
   const auto by_frequencies = [&](std::size_t bases, std::size_t frames, std::size_t products) {

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+
+#include "kinemend/methods.hpp"
+#include "kinemend/model.hpp"
+
+// What `example` is made of, so that each part can be left out and each constant moved, to see what
+// it brings. Nobody but the bench that does so (`bench/papers/example_ablation.cpp`) sets these.
+namespace kinemend {
+
+struct ExampleTuning {
+  /// p, in deviations of the noise and of what the bases leave; where more of the samples are
+  /// suspects, p is narrower against these.
+  double welsch_deviations = 3;
+  double many_suspects = 0.005;
+  double narrow_deviations = 1;
+  /// The noise is at most so many times what `auto` took away.
+  double most_noise_kept = 1.2;
+  /// What the bases leave lasts: it says something new in one frame of so many.
+  double rest_memory_frames = 3;
+  bool guesses_suspects = true;    ///< starts from what `auto` made of spikes
+  bool starts_expressible = true;  ///< starts from what the bases express of that
+  bool knows_variances = true;     ///< v_k: the spread of the coefficients in training
+  bool counts_strangeness = true;  ///< weighs the residual by how strange the take is
+  bool smooths_rest = true;        ///< keeps smooth motion outside of the bases
+  bool leaves_strange = true;      ///< a strange take to `auto`
+  bool leaves_rejected = true;     ///< a part of which much is rejected to `auto`
+  bool leaves_biased = true;       ///< where the result is biased to `auto`
+};
+
+/// Errors: as of `make_example`.
+std::unique_ptr<Cleaner> make_tuned_example(const ExampleOptions& options,
+                                            std::shared_ptr<const Model> model,
+                                            const ExampleTuning& tuning);
+
+}  // namespace kinemend
