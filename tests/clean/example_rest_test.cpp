@@ -30,6 +30,7 @@ PriorWork work_of(double noise, std::uint64_t seed = 1) {
   work.channels.observed.assign(frames * channels, 1);
   work.suspect.assign(frames * channels, 0);
   work.noise.assign(channels, noise);
+  work.needs.assign(channels / 3, 1);
   return work;
 }
 
