@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t noise_samples = 1024;
 constexpr double slow_deg_s = 60;
 constexpr double slow_heights_s = 0.25;  // of markers, statures a second
-constexpr double small_change_deg = 5, small_change_heights = 0.02;
+constexpr double small_change_deg = 10, small_change_heights = 0.04;
 
 // A foot that is held is moved, not repaired: how fast it goes counts.
 bool repaired(Action action) { return action == Action::despiked || action == Action::filled; }

@@ -143,7 +143,8 @@ TEST(MarkerPipeline, WarnsOfALostPeak) {
     clip.position(f, 0) += {0, 40 * static_cast<double>(f - 20), 0};
   for (std::size_t f = 30; f < 50; ++f) clip.position(f, 0) += {0, 360, 0};
   const MarkerResult result = clean_markers(clip, *make_gaussian({.width_s = 0.1}));
-  ASSERT_THAT(result.report.warnings, SizeIs(1));
+  ASSERT_THAT(result.report.warnings, SizeIs(2));
+  EXPECT_THAT(result.report.warnings[1], HasSubstr("Ann:LASI: smoothing changes it by "));
   EXPECT_THAT(result.report.warnings[0], HasSubstr("Ann:LASI: peak speed falls from 4001 to "));
   EXPECT_THAT(result.report.warnings[0], HasSubstr(" mm/s ("));
 }

@@ -93,7 +93,7 @@ TEST_F(ReportWords, SwapsThatAreUndoneAreAChangeAndOthersAreLeftOver) {
 TEST_F(ReportWords, StrictPassesNoGreatChangeUnnoticed) {
   synth("walk.bvh", "walk", "4");
   ASSERT_EQ(run({"corrupt", "walk.bvh", "-o", "spiky.bvh", "--damage",
-                 "outliers:share=0.004,std_deg=40,joints=LeftForeArm", "--seed", "3"})
+                 "outliers:share=0.02,std_deg=40,joints=LeftForeArm", "--seed", "3"})
                 .code,
             0);
   const Ran ran = run({"clean", "spiky.bvh", "-m", "gaussian", "--joints", "LeftForeArm",

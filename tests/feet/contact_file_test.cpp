@@ -69,6 +69,7 @@ TEST(ContactFile, PutsWhatWasNotHeldIntoComments) {
   const Clip clip = synthetic_clip("walk", 1);
   FeetReport report;
   report.contacts = {{0, FootPart::heel, 0, 9}, {1, FootPart::toe, 4, 30}};
+  report.sides = {"left", "right"};
   report.held = {1, 0};
   report.still = {0, 0};
   report.reasons = {"", "slides 9 cm while the other foot stands: intended"};
