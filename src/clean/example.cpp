@@ -112,7 +112,7 @@ class ExampleCleaning {
     const ExampleWeights weights = weights_for(noise, rest, suspects, bases);
     example_filter(cleaned, channels.poses, channels.observed, std::move(bases), mean, weights,
                    settings_for(work));
-    finish(work, weights.welsch, noise, rest, cleaned);
+    finish(work, {weights.welsch, noise, rest, suspects}, cleaned);
     work.channels.poses = std::move(cleaned);
   }
 
@@ -135,24 +135,34 @@ class ExampleCleaning {
     return settings;
   }
 
+  // What is known of a take and its noise.
+  struct Findings {
+    std::span<const double> welsch;
+    const std::vector<double>& noise;
+    double strangeness;
+    double suspects;  // share
+  };
+
   // What the paper does not have: motion outside of the bases.
-  void finish(PriorWork& work, std::span<const double> welsch, const std::vector<double>& noise,
-              double rest, PoseMatrix& cleaned) const {
+  void finish(PriorWork& work, const Findings& found, PoseMatrix& cleaned) const {
     const BodyChannels& channels = work.channels;
     const bool smooths = options_.lambda == 0 && tuning_.smooths_rest;
     PoseMatrix expressed;
     if (smooths)
       expressed = filter_linearly(cleaned, bases_at_rate_of(channels), prior_.bases.mean);
-    const PoseMatrix counts = welsch_weights(cleaned, channels.poses, channels.observed, welsch);
+    const PoseMatrix counts =
+        welsch_weights(cleaned, channels.poses, channels.observed, found.welsch);
     work.rejected.assign(channels.observed.size(), 0);
     for (std::size_t i = 0; i < work.rejected.size(); ++i)
       work.rejected[i] = channels.observed[i] != 0 && counts.values[i] < rejected_weight ? 1 : 0;
-    if (smooths) smooth_rest(work, counts, expressed, noise, cleaned);
+    if (smooths) smooth_rest(work, counts, expressed, found.noise, cleaned);
     if (options_.lambda > 0 || options_.welsch_deg > 0) return;
     // What the bases are wrong about.
     if (tuning_.leaves_rejected) fall_back_where_rejected(work, counts, cleaned);
-    if (tuning_.leaves_biased) fall_back_where_biased(work, noise, cleaned);
-    if (tuning_.leaves_strange) fall_back(work, rest, cleaned);
+    if (tuning_.leaves_biased) fall_back_where_biased(work, found.noise, cleaned);
+    // Many outliers make any take look strange, and `auto` can do least with them.
+    if (tuning_.leaves_strange && found.suspects <= tuning_.many_suspects)
+      fall_back(work, found.strangeness, cleaned);
   }
 
   bool is_papers() const { return options_.solver == "paper"; }
