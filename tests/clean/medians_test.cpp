@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "clean/takes.hpp"
-#include "metrics/track_noise.hpp"
 #include "kinemend/clean.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/random.hpp"
+#include "metrics/track_noise.hpp"
 
 namespace kinemend::test {
 namespace {
