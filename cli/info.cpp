@@ -129,6 +129,48 @@ std::string people_text(const MarkerClip& clip) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+/// What is missing of the joints or markers.
+struct Missing {
+  std::vector<std::size_t> samples;  // of each
+  std::size_t gaps = 0, longest = 0, all = 0, possible = 0;
+};
+
+Missing missing_in(const std::vector<Gap>& gaps, std::size_t tracks) {
+  Missing missing{std::vector<std::size_t>(tracks), 0, 0, 0, 0};
+  for (const Gap& gap : gaps) {
+    missing.samples[gap.track] += gap.length();
+    missing.longest = std::max(missing.longest, gap.length());
+    missing.all += gap.length();
+    ++missing.gaps;
+  }
+  return missing;
+}
+
+Missing missing_of(const Clip& clip) {
+  Missing missing = missing_in(find_gaps(clip), clip.joint_count());
+  missing.possible = clip.frame_count() * clip.joint_count();
+  return missing;
+}
+
+Missing missing_of(const MarkerClip& clip) {
+  Missing missing = missing_in(find_gaps(clip), clip.marker_count());
+  for (std::size_t m = 0; m < clip.marker_count(); ++m)
+    missing.possible += clip.holds_positions(m) ? clip.frame_count() : 0;
+  return missing;
+}
+
+double percent(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+std::string missing_text(const Missing& missing, double frame_rate_hz) {
+  if (missing.gaps == 0) return "nothing";
+  return fmt::format("{:.2f} % in {}, the longest {} ({:.2f} s)",
+                     percent(missing.all, missing.possible), counted(missing.gaps, "gap"),
+                     counted(missing.longest, "frame"),
+                     static_cast<double>(missing.longest) / frame_rate_hz);
+}
+
 std::string clip_text(const Looked& subject, const Clip& clip, bool with_tree) {
   Table table({Align::left, Align::left});
   table.add({"format", format_text(clip.source)});
@@ -145,42 +187,13 @@ std::string clip_text(const Looked& subject, const Clip& clip, bool with_tree) {
                                                 first)
                                   : "none"});
   }
+  if (const Missing missing = missing_of(clip); missing.gaps > 0)
+    table.add({"missing", missing_text(missing, clip.frame_rate_hz)});
   add_facts(subject, clip.source, false, table);
   std::string text = table.text();
   if (with_tree) text += tree_text(clip.skeleton);
   if (!subject.noise.empty()) text += noise_text(subject, "joint", "deg");
   return text;
-}
-
-/// What is missing of the markers.
-struct Missing {
-  std::vector<std::size_t> samples;  // of each marker
-  std::size_t gaps = 0, longest = 0, all = 0, possible = 0;
-};
-
-Missing missing_of(const MarkerClip& clip) {
-  Missing missing{std::vector<std::size_t>(clip.marker_count()), 0, 0, 0, 0};
-  for (const Gap& gap : find_gaps(clip)) {
-    missing.samples[gap.track] += gap.length();
-    missing.longest = std::max(missing.longest, gap.length());
-    missing.all += gap.length();
-    ++missing.gaps;
-  }
-  for (std::size_t m = 0; m < clip.marker_count(); ++m)
-    missing.possible += clip.holds_positions(m) ? clip.frame_count() : 0;
-  return missing;
-}
-
-double percent(std::size_t part, std::size_t whole) {
-  return whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
-}
-
-std::string missing_text(const Missing& missing, double frame_rate_hz) {
-  if (missing.gaps == 0) return "nothing";
-  return fmt::format("{:.2f} % in {}, the longest {} ({:.2f} s)",
-                     percent(missing.all, missing.possible), counted(missing.gaps, "gap"),
-                     counted(missing.longest, "frame"),
-                     static_cast<double>(missing.longest) / frame_rate_hz);
 }
 
 std::size_t position_count(const MarkerClip& clip) {
@@ -251,6 +264,7 @@ Json facts_json(const SourceInfo& source) {
 Json clip_json(const Looked& subject, const Clip& clip) {
   const auto unit = guess_length_unit(clip.skeleton);
   const double stated = clip.metres_per_unit;
+  const Missing missing = missing_of(clip);
   return {{"input", subject.name},
           {"format", clip.source.format},
           {"kind", "joints"},
@@ -269,6 +283,9 @@ Json clip_json(const Looked& subject, const Clip& clip) {
                                          : Json()},
           {"facts", facts_json(clip.source)},
           {"diagnostics", json_of(subject.read.diagnostics, clip.source.format)},
+          {"missing_samples", missing.all},
+          {"gaps", missing.gaps},
+          {"longest_gap_frames", missing.longest},
           {"joints", joints_json(subject, clip.skeleton)}};
 }
 

@@ -135,5 +135,32 @@ TEST_F(ReportWords, AJointThatWasOnlyFilledHasNoJitter) {
   EXPECT_THAT(ran.out, AllOf(HasSubstr("1 gap"), Not(HasSubstr("jitter"))));
 }
 
+TEST_F(ReportWords, GapsAreCountedInOneWay) {
+  synth("walk.bvh", "walk", "4");
+  std::istringstream lines(contents(folder / "walk.bvh"));
+  std::string text;
+  int frame = -1;
+  for (std::string line; std::getline(lines, line);) {
+    if (frame >= 0 && ++frame > 60 && frame <= 66) {
+      for (int i = 0; i < 6; ++i) line = line.substr(line.find(' ') + 1);
+      line = "nan nan nan nan nan nan " + line;  // the root, its position too
+    }
+    if (line.rfind("Frame Time:", 0) == 0) frame = 0;
+    text += line + "\n";
+  }
+  put(folder / "gap.bvh", text);
+  const auto count = [&](const std::vector<std::string>& words, const char* key) {
+    const Ran ran = run(words);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    const Json all = Json::parse(ran.out), take = all.contains("takes") ? all["takes"][0] : all;
+    const Json& value = take.contains("figures") ? take["figures"][key] : take[key];
+    return value.is_array() ? value.size() : value.get<std::size_t>();
+  };
+  EXPECT_EQ(count({"info", "gap.bvh", "--json"}, "gaps"), 1u);
+  EXPECT_EQ(count({"check", "gap.bvh", "--json"}, "gaps"), 1u);
+  EXPECT_EQ(count({"clean", "gap.bvh", "--json", "--dry-run"}, "gaps"), 1u);
+  EXPECT_EQ(count({"fill", "gap.bvh", "--json", "--dry-run"}, "gaps"), 1u);
+}
+
 }  // namespace
 }  // namespace kinemend::test
