@@ -179,8 +179,8 @@ std::string zsh_command(const Command& command) {
     const std::string rest =
         fmt::format("[{}]{}", zsh_help(flag.help),
                     flag.takes_value ? fmt::format(":value:{}", zsh_action(flag)) : "");
-    const std::string joined = flag.takes_value ? "=" : "";
-    text += fmt::format("        {} \\\n", single_quoted("*" + flag.name + joined + rest));
+    const std::string words = fmt::format("*{}{}{}", flag.name, flag.takes_value ? "=" : "", rest);
+    text += fmt::format("        {} \\\n", single_quoted(pattern));
     if (flag.letter)
       text +=
           fmt::format("        {} \\\n", single_quoted(fmt::format("*-{}{}", flag.letter, rest)));

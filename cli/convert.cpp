@@ -29,7 +29,7 @@ const Format& format_named(std::string_view name) {
 
 /// OUT, or --output.
 std::string output_of(const Arguments& arguments) {
-  const std::string named = arguments.text("output");
+  std::string named = arguments.text("output");
   if (arguments.positionals.size() == 1) {
     if (!named.empty()) return named;
     throw Error(ErrorKind::usage, "convert: OUT is missing (see kinemend convert -h)");
