@@ -179,7 +179,8 @@ std::string zsh_command(const Command& command) {
     const std::string rest =
         fmt::format("[{}]{}", zsh_help(flag.help),
                     flag.takes_value ? fmt::format(":value:{}", zsh_action(flag)) : "");
-    const std::string words = fmt::format("*{}{}{}", flag.name, flag.takes_value ? "=" : "", rest);
+    const std::string pattern =
+        fmt::format("*{}{}{}", flag.name, flag.takes_value ? "=" : "", rest);
     text += fmt::format("        {} \\\n", single_quoted(pattern));
     if (flag.letter)
       text +=
