@@ -65,7 +65,7 @@ int fail(const std::string& message, ErrorKind kind) {
 // time would have to be faulted in again, page by page.
 void keep_freed_memory() {
 #ifdef __GLIBC__
-  constexpr int largest_kept = 4 << 20, most_kept = 64 << 20;  // bytes
+  constexpr int largest_kept = 8 << 20, most_kept = 64 << 20;  // bytes
   mallopt(M_MMAP_THRESHOLD, largest_kept);
   mallopt(M_TRIM_THRESHOLD, most_kept);
 #endif

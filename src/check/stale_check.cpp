@@ -60,6 +60,7 @@ struct ChangeScale {
   double usual = 0;
   double digits = 0;  // no more than rounding makes
 
+  ChangeScale() = default;
   explicit ChangeScale(const std::vector<double>& sizes)
       : usual(usual_size(sizes)), digits(4 * quantum(sizes)) {}
   double clear() const { return std::max(0.3 * usual, digits); }
@@ -116,18 +117,18 @@ StaleSpans find_stale(const std::vector<TrackChanges>& tracks, std::size_t frame
                    std::vector<std::vector<Span>>(tracks.size())};
   if (frames < 4) return spans;
   FlagTable repeats(frames - 1, tracks.size()), straight(frames - 2, tracks.size());
-  std::vector<ChangeScale> step_scales, bend_scales;
-  for (std::size_t n = 0; n < tracks.size(); ++n) {
-    step_scales.emplace_back(tracks[n].steps);
-    bend_scales.emplace_back(tracks[n].bends);
-    if (step_scales[n].usual == 0) continue;
+  std::vector<ChangeScale> step_scales(tracks.size()), bend_scales(tracks.size());
+  for_each_parallel(tracks.size(), frames * tracks.size(), [&](std::size_t n) {
+    step_scales[n] = ChangeScale(tracks[n].steps);
+    bend_scales[n] = ChangeScale(tracks[n].bends);
+    if (step_scales[n].usual == 0) return;
     set_flags(tracks[n].steps, part_of_usual * step_scales[n].usual, n, repeats);
     set_flags(tracks[n].bends, part_of_usual * bend_scales[n].usual, n, straight);
     // A frozen span is a straight line too.
     for (std::size_t t = 0; t + 2 < frames; ++t) {
       if (repeats(t, n) == Flag::yes || repeats(t + 1, n) == Flag::yes) straight(t, n) = Flag::no;
     }
-  }
+  });
   const auto frozen_runs =
       improbable_runs(repeats, std::max(shortest_frozen_steps, shortest_frames - 1));
   const auto straight_runs =
@@ -190,6 +191,8 @@ TrackChanges rotation_changes(const Clip& clip, std::size_t joint) {
   const std::size_t frames = clip.frame_count();
   const RotationOrder order = clip.skeleton.rotation_order(joint);
   TrackChanges changes;
+  changes.steps.reserve(frames);
+  changes.bends.reserve(frames);
   Vec3 last_turn, last_step;
   std::array<double, 3> last_angles{};
   bool had_step = false;
