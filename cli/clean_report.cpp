@@ -143,7 +143,7 @@ std::string swap_text(const ReportView& report) {
 std::string leftovers_text(const ReportView& report) {
   std::string text;
   for (const Leftover& leftover : report.leftovers)
-    text += fmt::format("  left as they are: {} ({})\n", leftover.what, leftover.mend);
+    text += fmt::format("  {} ({})\n", leftover.what, leftover.mend);
   return text;
 }
 
@@ -282,7 +282,7 @@ std::string verdict(const ReportView& report) {
   const std::size_t left = gaps_left(report);
   std::vector<std::string> left_over;
   if (left > 0) left_over.push_back(counted(left, "gap") + " left");
-  for (const Leftover& leftover : report.leftovers) left_over.push_back(leftover.what + " left");
+  for (const Leftover& leftover : report.leftovers) left_over.push_back(leftover.what);
   const std::string swaps =
       report.swaps.empty() ? "" : counted(report.swaps.size(), "swap") + " of markers undone";
   if (changed == 0 && report.root_max_change == 0) {

@@ -12,7 +12,7 @@ namespace kinemend::cli {
 
 /// Something wrong with a take that cleaning leaves as it is.
 struct Leftover {
-  std::string what;  ///< "34 frozen or bridged spans"
+  std::string what;  ///< "34 frozen or bridged spans left"
   std::string mend;  ///< the command or option that mends it
 };
 

@@ -83,7 +83,10 @@ TEST_F(ReportWords, SwapsThatAreUndoneAreAChangeAndOthersAreLeftOver) {
   const Ran left = run({"clean", "swapped.trc", "-o", "left.trc"});
   ASSERT_EQ(left.code, 0) << left.err;
   EXPECT_THAT(left.out, HasSubstr("1 swap of markers left"));
-  EXPECT_THAT(left.out, HasSubstr("1 swap of markers (--fix-swaps undoes them)"));
+  EXPECT_THAT(left.out, HasSubstr("1 swap of markers left (--fix-swaps undoes them)"));
+  const std::string twice = with_swap(contents(folder / "swapped.trc"), 3, 8, 240, 280);
+  put(folder / "twice.trc", twice);
+  EXPECT_THAT(run({"clean", "twice.trc", "--dry-run"}).out, HasSubstr("2 swaps of markers left"));
   const Ran undone = run({"clean", "swapped.trc", "--fix-swaps", "-o", "undone.trc"});
   ASSERT_EQ(undone.code, 0) << undone.err;
   EXPECT_THAT(undone.out,
