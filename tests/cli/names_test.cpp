@@ -40,7 +40,8 @@ TEST_F(Names, AnExactMatchIsTheOnlyOne) {
                  "--report", "r.json"})
                 .code,
             0);
-  for (const Json& span : Json::parse(contents(folder / "r.json"))["takes"][0]["spans"]) {
+  const Json report = Json::parse(contents(folder / "r.json"));
+  for (const Json& span : report["takes"][0]["spans"]) {
     EXPECT_TRUE(span["joint"].is_null() || span["joint"] == "LeftFinger1") << span;
   }
 }
