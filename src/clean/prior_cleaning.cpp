@@ -152,11 +152,9 @@ constexpr std::size_t flip_half_frames = 3;
 constexpr double most_turns = 0.98;  // a few are noise
 
 // A joint that turns away from the model's mean as far as its channels can say, or flips, is
-// nothing that the model knows: to the filter it is missing, and `auto` keeps it. Returns how much
-// of each part that is.
-std::vector<double> leave_far_turns_to_auto(PriorWork& work, const JointRun& run,
-                                            std::vector<std::uint8_t>& chosen) {
-  std::vector<double> left(work.needs.size(), 0);
+// nothing that the model knows: to the filter it is missing, and `auto` keeps it.
+void leave_far_turns_to_auto(PriorWork& work, const JointRun& run,
+                             std::vector<std::uint8_t>& chosen) {
   // Spikes that `auto` left go there and back; a flip stays.
   PoseMatrix steady = work.fallback;
   median_filter(steady, flip_half_frames);
@@ -181,14 +179,12 @@ std::vector<double> leave_far_turns_to_auto(PriorWork& work, const JointRun& run
     const double farthest = quantile_of(turns, most_turns);
     if (farthest <= degrees_per_radian * tangent_limit_rad && fastest <= flip) continue;
     chosen[part] = 0;
-    left[part] = 1;
     work.left_out[part] = 1;
     for (std::size_t f = 0; f < work.fallback.frames; ++f) {
       for (std::size_t axis = 0; axis < 3; ++axis)
         work.channels.observed[f * work.fallback.channels + 3 * part + axis] = 0;
     }
   }
-  return left;
 }
 
 // Of what `auto` made of the take, what the result may need.
@@ -201,7 +197,6 @@ struct KeptFallback {
 // gaps only, where these are not to be filled.
 KeptFallback keep_fallback(Clip fallback, const JointRun& run, const PriorWork& work,
                            const std::vector<std::uint8_t>& chosen, bool fill) {
-  const std::size_t frames = fallback.frame_count();
   std::vector<std::uint8_t> needed(fallback.joint_count(), 1);
   for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
     if (chosen[part] == 0 || work.needs[part] == 0 || (!fill && !fallback.observed.empty()))
@@ -211,10 +206,7 @@ KeptFallback keep_fallback(Clip fallback, const JointRun& run, const PriorWork& 
   KeptFallback kept;
   kept.rotations.resize(needed.size());
   for (std::size_t joint = 0; joint < needed.size(); ++joint) {
-    if (needed[joint] == 0) continue;
-    kept.rotations[joint].reserve(frames);
-    for (std::size_t f = 0; f < frames; ++f)
-      kept.rotations[joint].push_back(fallback.rotation(f, joint));
+    if (needed[joint] != 0) kept.rotations[joint] = joint_track(fallback, joint);
   }
   kept.root_positions = std::move(fallback.root_positions);
   kept.joint_translations = std::move(fallback.joint_translations);
@@ -387,13 +379,13 @@ Clip cleaned_with_prior(const Clip& clip, const Selection& selection, const Body
   std::vector<std::uint8_t> chosen = chosen_parts(match, selection.joints);
   JointRun run = run_auto(clip, layout, match, selection);
   PriorWork work = work_of(clip, run);
-  std::vector<double> far_turns = leave_far_turns_to_auto(work, run, chosen);
+  leave_far_turns_to_auto(work, run, chosen);
   const KeptFallback fallback = keep_fallback(std::move(run.fallback), run, work, chosen, fill);
   run.fallback = {};
   filter(work);
   hold_to_needs(work);
   add_fall_back(work, "they turn farther or leap more than the model can say",
-                std::move(far_turns));
+                {work.left_out.begin(), work.left_out.end()});
   chosen.push_back(run.is_chosen_place() ? 1 : 0);
   leave_alone(work, fill, chosen);
 
