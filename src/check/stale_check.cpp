@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "check/checks.hpp"
 #include "check/runs.hpp"
@@ -84,26 +86,54 @@ bool moves_along(const std::vector<double>& steps, const Span& run, const Change
          scale.digits;
 }
 
-// Whether a hinge rests at an end of its range, as a stretched knee does: nothing turns about any
-// axis but one, and all of the take lies on one side.
-bool is_at_end_of_hinge(const Clip& clip, std::size_t joint, std::size_t frame) {
-  constexpr double part_about_other_axes = 0.05, slack = 1e-4;
-  const Quat at = conjugate(clip.rotation(frame, joint));
-  Vec3 farthest;
+// The range of a hinge, a joint that turns about one axis alone, as a knee does; none is known of
+// any other joint.
+struct HingeRange {
+  Quat end;        // the joint at one end
+  Vec3 axis;       // towards the other, in the frame of `end`
+  double rad = 0;  // from end to end; 0: the joint stands still
+};
+
+std::optional<HingeRange> hinge_range(const Clip& clip, std::size_t joint) {
+  constexpr double part_about_other_axes = 0.05, slack_rad = 1e-4;
+  const auto farthest_from = [&](Quat from) {
+    std::pair<Quat, Vec3> farthest{from, {}};
+    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+      const Vec3 turn = log(conjugate(from) * clip.rotation(f, joint));
+      if (norm(turn) > norm(farthest.second)) farthest = {clip.rotation(f, joint), turn};
+    }
+    return farthest;
+  };
+  HingeRange range;
+  range.end = farthest_from(clip.rotation(0, joint)).first;
+  const Vec3 across = farthest_from(range.end).second;
+  range.rad = norm(across);
+  if (range.rad == 0) return range;
+  range.axis = (1 / range.rad) * across;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-    const Vec3 turn = log(at * clip.rotation(f, joint));
-    if (norm(turn) > norm(farthest)) farthest = turn;
+    const Vec3 turn = log(conjugate(range.end) * clip.rotation(f, joint));
+    const double about_axis = dot(turn, range.axis);
+    if (about_axis < -slack_rad ||
+        norm(turn - about_axis * range.axis) > part_about_other_axes * range.rad)
+      return std::nullopt;
   }
-  const double range = norm(farthest);
-  if (range == 0) return true;
-  const Vec3 axis = (1 / range) * farthest;
-  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-    const Vec3 turn = log(at * clip.rotation(f, joint));
-    const double about_axis = dot(turn, axis);
-    if (about_axis < -slack || norm(turn - about_axis * axis) > part_about_other_axes * range)
-      return false;
-  }
-  return true;
+  return range;
+}
+
+bool is_at_an_end(const HingeRange& range, Quat rotation) {
+  constexpr double slack_rad = 1e-4;
+  const double from_end = dot(log(conjugate(range.end) * rotation), range.axis);
+  return from_end <= slack_rad || from_end >= range.rad - slack_rad;
+}
+
+// A stretched knee stands as still as a frozen one.
+void leave_out_hinge_ends(const Clip& clip, std::size_t joint, std::vector<Span>& frozen) {
+  if (frozen.empty()) return;
+  const std::optional<HingeRange> range = hinge_range(clip, joint);
+  if (!range) return;
+  std::erase_if(frozen, [&](const Span& span) {
+    return is_at_an_end(*range, clip.rotation(span.first, joint));
+  });
 }
 
 // How each kind of span lies among the samples.
@@ -237,14 +267,8 @@ void check_stale(const Clip& clip, const CheckSettings& settings, CheckReport& r
   for_each_parallel(joints.size(), clip.local_rotations.size(),
                     [&](std::size_t i) { changes[i] = rotation_changes(clip, joints[i]); });
   StaleSpans spans = find_stale(changes, clip.frame_count(), shortest_frames(report, settings));
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    auto& frozen = spans.frozen[i];
-    frozen.erase(std::remove_if(frozen.begin(), frozen.end(),
-                                [&](const Span& span) {
-                                  return is_at_end_of_hinge(clip, joints[i], span.first);
-                                }),
-                 frozen.end());
-  }
+  for_each_parallel(joints.size(), clip.local_rotations.size(),
+                    [&](std::size_t i) { leave_out_hinge_ends(clip, joints[i], spans.frozen[i]); });
   report_stale(spans, joints, report);
 }
 
