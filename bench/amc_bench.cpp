@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "io/amc.hpp"
+#include "io/acclaim/amc.hpp"
 #include "kinemend/io.hpp"
 
 namespace {

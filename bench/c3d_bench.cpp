@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <string>
 
-#include "io/c3d_layout.hpp"
-#include "io/c3d_parameter_writer.hpp"
+#include "io/c3d/c3d_layout.hpp"
+#include "io/c3d/c3d_parameter_writer.hpp"
 #include "kinemend/io.hpp"
 
 namespace {

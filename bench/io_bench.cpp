@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "io/half_angles.hpp"
-#include "io/motion_columns.hpp"
-#include "io/motion_rows.hpp"
+#include "io/motion/half_angles.hpp"
+#include "io/motion/motion_columns.hpp"
+#include "io/motion/motion_rows.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/random.hpp"
 

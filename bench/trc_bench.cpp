@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/cell_rows.hpp"
+#include "io/text/cell_rows.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/random.hpp"
 

@@ -21,7 +21,7 @@ endif()
 # kinemend_room(<name> [USES <room>...] [LINK <target>...])
 function(kinemend_room name)
   cmake_parse_arguments(ROOM "" "" "USES;LINK" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
   add_library(kinemend_${name} STATIC ${sources})
   add_library(kinemend::${name} ALIAS kinemend_${name})
   target_include_directories(kinemend_${name} PUBLIC

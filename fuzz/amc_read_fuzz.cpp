@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "io/amc.hpp"
+#include "io/acclaim/amc.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/random.hpp"

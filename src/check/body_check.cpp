@@ -44,7 +44,7 @@ void report_feet(const BodyPoints& body, Up up, const CheckSettings& settings,
 }
 
 // Acceleration of the least-squares parabola through heights, m/s^2, downwards.
-double fall(const BodyPoints& body, Up up, const Span& span) {
+double fall(const BodyPoints& body, Up up, const FrameSpan& span) {
   // With time centred, the second moment parts the square from the line.
   const auto count = static_cast<double>(span.length());
   const double middle = 0.5 * static_cast<double>(span.first + span.last);
@@ -70,7 +70,7 @@ void report_rate_of_fall(const BodyPoints& body, Up up, CheckReport& report) {
   constexpr double least_height_m = 0.05;             // that the centre falls: more than noise does
   constexpr std::size_t fewest_flights = 2, fewest_frames = 6;
   std::vector<double> falls;
-  for (const Span& span : find_flights(body, up)) {
+  for (const FrameSpan& span : find_flights(body, up)) {
     if (span.length() < fewest_frames || span.first == 0 || span.last + 1 == body.frames) continue;
     const double found = fall(body, up, span);
     const double half_s = 0.5 * static_cast<double>(span.length()) / body.frame_rate_hz;

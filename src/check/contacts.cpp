@@ -23,7 +23,7 @@ std::vector<SolePoint> sole_points(const BodyPoints& body, const Foot& foot, Up 
 // Follows, from frame to frame, the touching point that moves least: a foot turns about it.
 Contact measure(const std::vector<SolePoint>& points,
                 const std::vector<std::vector<std::uint8_t>>& touching, std::size_t foot,
-                const Span& span, double frame_rate_hz) {
+                const FrameSpan& span, double frame_rate_hz) {
   Contact contact{foot, span, 0, {}};
   Vec3 travel;
   std::vector<double> x, y, z;
@@ -63,7 +63,7 @@ std::vector<Contact> find_contacts(const BodyPoints& body, Up up) {
     };
     for (std::size_t f = 0; f < body.frames; ++f) {
       if (!down(f)) continue;
-      Span span{f, f};
+      FrameSpan span{f, f};
       while (span.last + 1 < body.frames && down(span.last + 1)) ++span.last;
       f = span.last;
       if (static_cast<double>(span.length()) < shortest_s * body.frame_rate_hz) continue;
@@ -73,7 +73,7 @@ std::vector<Contact> find_contacts(const BodyPoints& body, Up up) {
   return contacts;
 }
 
-std::vector<Span> find_flights(const BodyPoints& body, Up up) {
+std::vector<FrameSpan> find_flights(const BodyPoints& body, Up up) {
   constexpr double clear_height = 0.03;
   std::vector<std::uint8_t> clear(body.frames, 1);
   for (const Foot& foot : body.feet) {
@@ -84,10 +84,10 @@ std::vector<Span> find_flights(const BodyPoints& body, Up up) {
       }
     }
   }
-  std::vector<Span> flights;
+  std::vector<FrameSpan> flights;
   for (std::size_t f = 0; f < body.frames; ++f) {
     if (clear[f] == 0) continue;
-    Span span{f, f};
+    FrameSpan span{f, f};
     while (span.last + 1 < body.frames && clear[span.last + 1] != 0) ++span.last;
     f = span.last;
     flights.push_back(span);

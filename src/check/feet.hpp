@@ -21,7 +21,7 @@ BodyPoints body_points(const MarkerClip& clip, const std::vector<std::size_t>& m
 /// A time in which a foot stands.
 struct Contact {
   std::size_t foot = 0;
-  Span span;
+  FrameSpan span;
   double slide_m = 0;  ///< how far the point that moves least has travelled from where it was
   Vec3 place;          ///< of its lowest points, on the whole
 };
@@ -31,6 +31,6 @@ struct Contact {
 std::vector<Contact> find_contacts(const BodyPoints& body, Up up);
 
 /// Spans in which every point of every foot is clear of the floor.
-std::vector<Span> find_flights(const BodyPoints& body, Up up);
+std::vector<FrameSpan> find_flights(const BodyPoints& body, Up up);
 
 }  // namespace kinemend::check

@@ -11,8 +11,8 @@ namespace {
 
 // Runs of frames for which `holds` is true.
 template <class Holds>
-std::vector<Span> runs_where(std::size_t frames, const Holds& holds) {
-  std::vector<Span> runs;
+std::vector<FrameSpan> runs_where(std::size_t frames, const Holds& holds) {
+  std::vector<FrameSpan> runs;
   for (std::size_t t = 0; t < frames; ++t) {
     if (!holds(t)) continue;
     if (!runs.empty() && runs.back().last + 1 == t) {
@@ -87,7 +87,7 @@ void report_repeats(const std::vector<std::uint8_t>& repeated, CheckReport& repo
     report_low_rate(repeated, report);
     if (report.findings.size() > before) return;
   }
-  for (const Span& run :
+  for (const FrameSpan& run :
        runs_where(repeated.size(), [&](std::size_t t) { return repeated[t] != 0; })) {
     const auto length = static_cast<double>(run.length());
     report.findings.push_back(
@@ -120,9 +120,9 @@ void check_frames(const Clip& clip, CheckReport& report) {
 
 void check_zero_frames(const Clip& clip, CheckReport& report) {
   const std::size_t frames = clip.frame_count();
-  const std::vector<Span> zeros =
+  const std::vector<FrameSpan> zeros =
       runs_where(frames, [&](std::size_t t) { return is_zero(clip, t); });
-  for (const Span& run : zeros) {
+  for (const FrameSpan& run : zeros) {
     // A take that is zero all along does not move, and one such frame at the start is a pose.
     const bool is_pose = run.last == 0 && report.calibration_frames > 0;
     if (is_pose || run.length() == frames) continue;

@@ -28,8 +28,8 @@ Peak lasting_peak(const std::vector<double>& values) {
 }
 
 // The frames about a peak in which a value is at least half of it.
-Span about(const std::vector<double>& values, const Peak& peak) {
-  Span span{peak.frame, peak.frame};
+FrameSpan about(const std::vector<double>& values, const Peak& peak) {
+  FrameSpan span{peak.frame, peak.frame};
   while (span.first > 0 && values[span.first - 1] > 0.5 * peak.value) --span.first;
   while (span.last + 1 < values.size() && values[span.last + 1] > 0.5 * peak.value) ++span.last;
   return span;
@@ -40,7 +40,7 @@ void report_length(const std::vector<double>& change_percent, const std::string&
   const Peak peak = lasting_peak(change_percent);
   report.figures.length_change_percent = std::max(report.figures.length_change_percent, peak.value);
   if (!(peak.value > settings.length_change_percent)) return;
-  const Span span = about(change_percent, peak);
+  const FrameSpan span = about(change_percent, peak);
   report.findings.push_back({FindingKind::length, Severity::warning, track, span.first, span.last,
                              peak.value, "%", std::move(words)});
 }

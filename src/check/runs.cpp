@@ -26,7 +26,7 @@ double share_without(const Counts& all, const Counts& part) {
 
 }  // namespace
 
-std::vector<std::vector<Span>> improbable_runs(const FlagTable& table, std::size_t shortest) {
+std::vector<std::vector<FrameSpan>> improbable_runs(const FlagTable& table, std::size_t shortest) {
   constexpr double log_chance = -13.8;  // 1e-6
   std::vector<Counts> of_step(table.steps), of_track(table.tracks);
   std::vector<std::uint8_t> is_witness(table.tracks);
@@ -36,7 +36,7 @@ std::vector<std::vector<Span>> improbable_runs(const FlagTable& table, std::size
     is_witness[n] = 2 * of_track[n].yes < of_track[n].known;
     for (std::size_t t = 0; is_witness[n] != 0 && t < table.steps; ++t) of_step[t].add(table(t, n));
   }
-  const auto is_improbable = [&](std::size_t track, const Span& run) {
+  const auto is_improbable = [&](std::size_t track, const FrameSpan& run) {
     const Counts inside{run.length(), run.length()};
     if (is_witness[track] == 0) return false;
     double others = 0;
@@ -49,11 +49,11 @@ std::vector<std::vector<Span>> improbable_runs(const FlagTable& table, std::size
     const double share = std::max(share_without(of_track[track], inside), others);
     return share < 0.5 && static_cast<double>(run.length()) * std::log(share) < log_chance;
   };
-  std::vector<std::vector<Span>> runs(table.tracks);
+  std::vector<std::vector<FrameSpan>> runs(table.tracks);
   for (std::size_t n = 0; n < table.tracks; ++n) {
     for (std::size_t t = 0; t < table.steps; ++t) {
       if (table(t, n) != Flag::yes) continue;
-      Span run{t, t};
+      FrameSpan run{t, t};
       while (run.last + 1 < table.steps && table(run.last + 1, n) == Flag::yes) ++run.last;
       t = run.last;
       if (run.length() >= shortest && is_improbable(n, run)) runs[n].push_back(run);

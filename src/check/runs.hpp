@@ -30,6 +30,6 @@ struct FlagTable {
 /// `yes` on the track outside the run, or among the other tracks during the run if that is more, a
 /// run of r has p^r below 1e-6. Runs that the other tracks share (p of a half or more) are no
 /// fault of one track. One list a track.
-std::vector<std::vector<Span>> improbable_runs(const FlagTable& table, std::size_t shortest);
+std::vector<std::vector<FrameSpan>> improbable_runs(const FlagTable& table, std::size_t shortest);
 
 }  // namespace kinemend::check

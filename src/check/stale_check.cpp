@@ -7,9 +7,10 @@
 #include <optional>
 #include <utility>
 
+#include "base/parallel.hpp"
 #include "check/checks.hpp"
 #include "check/runs.hpp"
-#include "clean/tracks.hpp"
+#include "motion/moving_joints.hpp"
 
 namespace kinemend::check {
 
@@ -70,7 +71,8 @@ struct ChangeScale {
 
 // Motion slows down before it rests and bends before it is straight; a stale span has at least one
 // end where it does neither: the size beside it is clear, and not on its way to 0.
-bool has_sharp_end(const std::vector<double>& sizes, const Span& run, const ChangeScale& scale) {
+bool has_sharp_end(const std::vector<double>& sizes, const FrameSpan& run,
+                   const ChangeScale& scale) {
   constexpr double still_large = 0.6;
   const auto is_sharp = [&](std::size_t beside, std::size_t beyond) {
     return sizes[beside] > scale.clear() && sizes[beside] > still_large * sizes[beyond];
@@ -80,7 +82,7 @@ bool has_sharp_end(const std::vector<double>& sizes, const Span& run, const Chan
 }
 
 // A slow line may be straight by rounding.
-bool moves_along(const std::vector<double>& steps, const Span& run, const ChangeScale& scale) {
+bool moves_along(const std::vector<double>& steps, const FrameSpan& run, const ChangeScale& scale) {
   return *std::min_element(steps.begin() + static_cast<std::ptrdiff_t>(run.first),
                            steps.begin() + static_cast<std::ptrdiff_t>(run.last) + 1) >
          scale.digits;
@@ -127,24 +129,24 @@ bool is_at_an_end(const HingeRange& range, Quat rotation) {
 }
 
 // A stretched knee stands as still as a frozen one.
-void leave_out_hinge_ends(const Clip& clip, std::size_t joint, std::vector<Span>& frozen) {
+void leave_out_hinge_ends(const Clip& clip, std::size_t joint, std::vector<FrameSpan>& frozen) {
   if (frozen.empty()) return;
   const std::optional<HingeRange> range = hinge_range(clip, joint);
   if (!range) return;
-  std::erase_if(frozen, [&](const Span& span) {
+  std::erase_if(frozen, [&](const FrameSpan& span) {
     return is_at_an_end(*range, clip.rotation(span.first, joint));
   });
 }
 
 // How each kind of span lies among the samples.
 struct StaleSpans {
-  std::vector<std::vector<Span>> frozen, bridged;  // one list a track
+  std::vector<std::vector<FrameSpan>> frozen, bridged;  // one list a track
 };
 
 StaleSpans find_stale(const std::vector<TrackChanges>& tracks, std::size_t frames,
                       std::size_t shortest_frames) {
-  StaleSpans spans{std::vector<std::vector<Span>>(tracks.size()),
-                   std::vector<std::vector<Span>>(tracks.size())};
+  StaleSpans spans{std::vector<std::vector<FrameSpan>>(tracks.size()),
+                   std::vector<std::vector<FrameSpan>>(tracks.size())};
   if (frames < 4) return spans;
   FlagTable repeats(frames - 1, tracks.size()), straight(frames - 2, tracks.size());
   std::vector<ChangeScale> step_scales(tracks.size()), bend_scales(tracks.size());
@@ -164,12 +166,12 @@ StaleSpans find_stale(const std::vector<TrackChanges>& tracks, std::size_t frame
   const auto straight_runs =
       improbable_runs(straight, std::max(shortest_straight_steps, shortest_frames));
   for (std::size_t n = 0; n < tracks.size(); ++n) {
-    for (const Span& run : frozen_runs[n]) {
+    for (const FrameSpan& run : frozen_runs[n]) {
       // The first of the equal samples was measured.
       if (has_sharp_end(tracks[n].steps, run, step_scales[n]))
         spans.frozen[n].push_back({run.first + 1, run.last + 1});
     }
-    for (const Span& run : straight_runs[n]) {
+    for (const FrameSpan& run : straight_runs[n]) {
       if (has_sharp_end(tracks[n].bends, run, bend_scales[n]) &&
           moves_along(tracks[n].steps, run, step_scales[n]))
         spans.bridged[n].push_back({run.first + 1, run.last + 1});
@@ -186,14 +188,14 @@ std::size_t shortest_frames(const CheckReport& report, const CheckSettings& sett
 void report_stale(const StaleSpans& spans, const std::vector<std::size_t>& tracks,
                   CheckReport& report) {
   struct Stale {
-    Span span;
+    FrameSpan span;
     FindingKind kind;
   };
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     TrackHealth& track = report.tracks[tracks[i]];
     std::vector<Stale> list;
-    for (const Span& span : spans.frozen[i]) list.push_back({span, FindingKind::frozen});
-    for (const Span& span : spans.bridged[i]) list.push_back({span, FindingKind::bridged});
+    for (const FrameSpan& span : spans.frozen[i]) list.push_back({span, FindingKind::frozen});
+    for (const FrameSpan& span : spans.bridged[i]) list.push_back({span, FindingKind::bridged});
     std::sort(list.begin(), list.end(),
               [](const Stale& a, const Stale& b) { return a.span.first < b.span.first; });
     track.frozen = spans.frozen[i].size();
@@ -262,7 +264,7 @@ TrackChanges position_changes(const MarkerClip& clip, std::size_t marker) {
 }  // namespace
 
 void check_stale(const Clip& clip, const CheckSettings& settings, CheckReport& report) {
-  const std::vector<std::size_t> joints = selected_joints(clip, Selection::all(clip));
+  const std::vector<std::size_t> joints = moving_joints(clip);
   std::vector<TrackChanges> changes(joints.size());
   for_each_parallel(joints.size(), clip.local_rotations.size(),
                     [&](std::size_t i) { changes[i] = rotation_changes(clip, joints[i]); });

@@ -32,8 +32,8 @@ std::vector<std::size_t> named_markers(const MarkerClip& clip) {
 
 // The frames between the exchanges of one pair, every other span of them: those of odd number or
 // those of even number, whichever are fewer.
-std::vector<check::Span> swapped_spans(const std::vector<Exchange>& exchanges, std::size_t frames) {
-  std::vector<check::Span> odd, even;
+std::vector<FrameSpan> swapped_spans(const std::vector<Exchange>& exchanges, std::size_t frames) {
+  std::vector<FrameSpan> odd, even;
   std::size_t in_odd = 0, in_even = 0;
   for (std::size_t i = 0; i <= exchanges.size(); ++i) {
     const std::size_t first = i == 0 ? 0 : exchanges[i - 1].first_after;
@@ -47,12 +47,12 @@ std::vector<check::Span> swapped_spans(const std::vector<Exchange>& exchanges, s
 
 // Across a gap two tracks may seem to cross by chance, so that the neighbours must be sure of it.
 bool neighbours_agree(const MarkerClip& clip, const std::vector<std::size_t>& markers,
-                      const std::pair<std::size_t, std::size_t>& pair, const check::Span& span,
-                      const std::vector<check::Span>& all_spans, std::size_t longest_gap) {
+                      const std::pair<std::size_t, std::size_t>& pair, const FrameSpan& span,
+                      const std::vector<FrameSpan>& all_spans, std::size_t longest_gap) {
   constexpr double short_gap_s = 0.03;
   std::vector<std::uint8_t> swapped(clip.frame_count());
   // Other swapped spans of the pair tell nothing of what is usual.
-  for (const check::Span& s : all_spans) std::fill_n(swapped.begin() + s.first, s.length(), 2);
+  for (const FrameSpan& s : all_spans) std::fill_n(swapped.begin() + s.first, s.length(), 2);
   std::fill_n(swapped.begin() + span.first, span.length(), 1);
   const check::NeighbourVerdict verdict =
       check::ask_neighbours(clip, markers, pair.first, pair.second, swapped);
@@ -70,8 +70,8 @@ std::vector<MarkerSwap> find_swaps(const MarkerClip& clip) {
     by_pair[{e.first_marker, e.second_marker}].push_back(e);
   std::vector<MarkerSwap> swaps;
   for (const auto& [pair, exchanges] : by_pair) {
-    const std::vector<check::Span> spans = swapped_spans(exchanges, clip.frame_count());
-    for (const check::Span& span : spans) {
+    const std::vector<FrameSpan> spans = swapped_spans(exchanges, clip.frame_count());
+    for (const FrameSpan& span : spans) {
       std::size_t longest_gap = 0;
       for (const Exchange& e : exchanges) {
         if (e.first_after == span.first || e.last_before == span.last)

@@ -4,13 +4,13 @@
 
 #include "base/progress.hpp"
 #include "clean/auto_markers.hpp"
+#include "clean/clip_tracks.hpp"
 #include "clean/method_list.hpp"
-#include "clean/moving_chart.hpp"
-#include "clean/spikes.hpp"
-#include "clean/track_cleaning.hpp"
-#include "clean/tracks.hpp"
-#include "clean/vector_tracks.hpp"
 #include "kinemend/methods.hpp"
+#include "tracks/moving_chart.hpp"
+#include "tracks/spikes.hpp"
+#include "tracks/track_cleaning.hpp"
+#include "tracks/vector_tracks.hpp"
 
 namespace kinemend {
 
@@ -99,7 +99,7 @@ class Auto final : public Cleaner {
 
     const CleanedTracks verdicts =
         clean_tracks(tracks, suspects, gaps, tracks_nearby(clip.skeleton, joints),
-                     clip.frame_rate_hz, options_, &progress);
+                     clip.frame_rate_hz, {options_.sensitivity, options_.despike}, &progress);
 
     trace.noise_deg.assign(clip.joint_count(), 0);
     progress.begin_part(1, count);
@@ -140,7 +140,7 @@ class Auto final : public Cleaner {
     const SampleMarks none(frames, count);
     const CleanedTracks verdicts =
         clean_tracks(tracks, none, gaps, std::vector<std::vector<std::size_t>>(count),
-                     clip.frame_rate_hz, options_);
+                     clip.frame_rate_hz, {options_.sensitivity, options_.despike});
     for (std::size_t n = 0; n < count; ++n) {
       const ActionTrack actions = position_actions(clip, positions[n], trace);
       if (is_root(clip, positions[n])) trace.root_noise = verdicts.noise[n] / degrees_per_unit;

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "clean/track_cleaning.hpp"
-#include "clean/tracks.hpp"
+#include "clean/clip_tracks.hpp"
 #include "clean/whole_markers.hpp"
+#include "tracks/track_cleaning.hpp"
 
 namespace kinemend {
 
@@ -85,7 +85,7 @@ MarkerTrace clean_markers_by_evidence(MarkerClip& clip, const MarkerSelection& s
   }
   const CleanedTracks verdicts = clean_tracks(
       tracks, beside_gaps(missing), missing, rigid_neighbours(clip, markers, selection.body_height),
-      clip.frame_rate_hz, options);
+      clip.frame_rate_hz, {options.sensitivity, options.despike});
 
   trace.actions.assign(clip.positions.size(), Action::kept);
   trace.noise.assign(clip.marker_count(), 0);

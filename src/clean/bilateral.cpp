@@ -1,12 +1,12 @@
 #include <memory>
 
-#include "clean/bilateral_filter.hpp"
+#include "clean/filter_tracks.hpp"
 #include "clean/marker_tracks.hpp"
 #include "clean/method_list.hpp"
-#include "clean/rotation_track.hpp"
 #include "kinemend/frame_rate.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
+#include "tracks/bilateral_filter.hpp"
 
 namespace kinemend {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "clean/clip_tracks.hpp"
 #include "clean/live_frames.hpp"
 #include "clean/marker_tracks.hpp"
 #include "clean/method_list.hpp"
-#include "clean/tracks.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/representation.hpp"
 #include "kinemend/signal.hpp"

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "clean/clip_tracks.hpp"
 #include "clean/repairs.hpp"
-#include "clean/tracks.hpp"
 
 namespace kinemend {
 

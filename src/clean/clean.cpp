@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "clean/changes.hpp"
+#include "clean/clip_tracks.hpp"
 #include "clean/feet_step.hpp"
 #include "clean/gap_step.hpp"
 #include "clean/selection.hpp"
-#include "clean/tracks.hpp"
 
 namespace kinemend {
 

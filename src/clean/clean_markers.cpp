@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "clean/changes.hpp"
+#include "clean/clip_tracks.hpp"
 #include "clean/gap_step.hpp"
 #include "clean/marker_tracks.hpp"
 #include "clean/selection.hpp"
-#include "clean/tracks.hpp"
 #include "kinemend/clean.hpp"
 
 namespace kinemend {

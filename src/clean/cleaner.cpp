@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "clean/clip_tracks.hpp"
 #include "clean/live_frames.hpp"
-#include "clean/tracks.hpp"
 #include "kinemend/error.hpp"
 
 namespace kinemend {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "clean/tracks.hpp"
+#include "clean/clip_tracks.hpp"
 #include "kinemend/methods.hpp"
 
 namespace kinemend {

@@ -2,12 +2,12 @@
 #include <cmath>
 #include <vector>
 
+#include "clean/filter_tracks.hpp"
 #include "clean/marker_tracks.hpp"
 #include "clean/method_list.hpp"
-#include "clean/orientation_filter.hpp"
-#include "clean/rotation_track.hpp"
 #include "kinemend/frame_rate.hpp"
 #include "kinemend/methods.hpp"
+#include "tracks/orientation_filter.hpp"
 
 namespace kinemend {
 

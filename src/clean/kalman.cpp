@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clean/clip_tracks.hpp"
 #include "clean/live_frames.hpp"
 #include "clean/marker_tracks.hpp"
 #include "clean/method_list.hpp"
-#include "clean/track_kalman.hpp"
-#include "clean/tracks.hpp"
 #include "kinemend/methods.hpp"
 #include "metrics/track_noise.hpp"
+#include "tracks/track_kalman.hpp"
 
 namespace kinemend {
 

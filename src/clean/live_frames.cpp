@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "clean/tracks.hpp"
+#include "clean/clip_tracks.hpp"
 
 namespace kinemend {
 

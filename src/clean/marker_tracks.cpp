@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "clean/tracks.hpp"
+#include "clean/filter_tracks.hpp"
 #include "kinemend/frame_rate.hpp"
 #include "metrics/track_noise.hpp"
 

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "clean/rotation_track.hpp"
 #include "kinemend/cleaner.hpp"
 #include "kinemend/marker_clip.hpp"
 #include "kinemend/pose_matrix.hpp"
+#include "tracks/rotation_track.hpp"
 
 // Markers as the filters see them: paths without long gaps.
 namespace kinemend {

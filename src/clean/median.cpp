@@ -1,12 +1,12 @@
 #include <algorithm>
 
+#include "clean/clip_tracks.hpp"
 #include "clean/live_frames.hpp"
 #include "clean/marker_tracks.hpp"
-#include "clean/medians.hpp"
 #include "clean/method_list.hpp"
-#include "clean/tracks.hpp"
 #include "kinemend/frame_rate.hpp"
 #include "kinemend/methods.hpp"
+#include "tracks/medians.hpp"
 
 namespace kinemend {
 

@@ -4,17 +4,17 @@
 #include <utility>
 #include <vector>
 
+#include "clean/clip_tracks.hpp"
+#include "clean/filter_tracks.hpp"
 #include "clean/live_frames.hpp"
 #include "clean/marker_tracks.hpp"
 #include "clean/method_list.hpp"
 #include "clean/nonlocal_causal.hpp"
-#include "clean/nonlocal_filter.hpp"
-#include "clean/rotation_track.hpp"
-#include "clean/tracks.hpp"
 #include "clean/whole_markers.hpp"
 #include "kinemend/frame_rate.hpp"
 #include "kinemend/methods.hpp"
 #include "metrics/track_noise.hpp"
+#include "tracks/nonlocal_filter.hpp"
 
 namespace kinemend {
 

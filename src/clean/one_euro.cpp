@@ -1,9 +1,9 @@
+#include "clean/clip_tracks.hpp"
 #include "clean/live_frames.hpp"
 #include "clean/marker_tracks.hpp"
 #include "clean/method_list.hpp"
-#include "clean/track_kalman.hpp"
-#include "clean/tracks.hpp"
 #include "kinemend/methods.hpp"
+#include "tracks/track_kalman.hpp"
 
 namespace kinemend {
 

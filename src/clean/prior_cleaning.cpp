@@ -10,13 +10,13 @@
 #include "base/file_bytes.hpp"
 #include "base/quantiles.hpp"
 #include "clean/auto_markers.hpp"
+#include "clean/clip_tracks.hpp"
 #include "clean/prior_fall_backs.hpp"
 #include "clean/prior_hold.hpp"
-#include "clean/tracks.hpp"
-#include "clean/vector_tracks.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/representation.hpp"
 #include "kinemend/signal.hpp"
+#include "tracks/vector_tracks.hpp"
 
 namespace kinemend {
 

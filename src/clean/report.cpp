@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "clean/changes.hpp"
-#include "clean/tracks.hpp"
+#include "clean/clip_tracks.hpp"
 #include "metrics/peaks.hpp"
 #include "metrics/track_noise.hpp"
 

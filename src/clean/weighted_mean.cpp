@@ -1,6 +1,6 @@
+#include "clean/clip_tracks.hpp"
 #include "clean/marker_tracks.hpp"
 #include "clean/method_list.hpp"
-#include "clean/tracks.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/signal.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "clean/tracks.hpp"
+#include "clean/clip_tracks.hpp"
 
 namespace kinemend {
 

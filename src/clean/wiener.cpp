@@ -6,15 +6,14 @@
 
 #include "base/quantiles.hpp"
 #include "clean/method_list.hpp"
-#include "clean/noise_shape.hpp"
 #include "clean/prior_cleaning.hpp"
-#include "clean/track_smoother.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/model.hpp"
 #include "priors/wiener_guard.hpp"
 #include "priors/wiener_outliers.hpp"
 #include "priors/wiener_prior.hpp"
 #include "signal/fourth_difference.hpp"
+#include "tracks/noise_shape.hpp"
 
 namespace kinemend {
 
@@ -38,7 +37,6 @@ const OptionTable<WienerOptions>& table() {
 constexpr double deviations_per_median = 1.4826;
 constexpr double least_noise_deg = 1e-3;
 constexpr std::size_t fewest_differences = 8;
-constexpr std::size_t fewest_smoothed_frames = 16;
 constexpr double dense_share = 0.03, strong_noise_deg = 3;
 
 // Of a channel, from runs of five samples that were measured and no spikes; that of `auto` where
@@ -70,39 +68,6 @@ double share_of(const std::vector<std::uint8_t>& suspect, const PriorWork& work)
 // Of dense outliers `auto` finds some, or takes them all for noise.
 bool may_have_dense_outliers(const PriorWork& work, std::vector<double> noise) {
   return share_of(work.suspect, work) > dense_share || median_of(noise) > strong_noise_deg;
-}
-
-// The smoother of `auto`. Channels are brought to one noise, so that it is alike in all directions.
-// Three of which hardly a sample was seen stay as they are.
-void smooth_as_auto(PoseMatrix& poses, std::span<const std::uint8_t> missing,
-                    std::span<const double> noise, double rate_hz) {
-  VectorTracks tracks(poses.frames, poses.channels / 3);
-  SampleMarks marks(poses.frames, tracks.tracks());
-  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
-    const double* of_axes = &noise[3 * n];
-    for (std::size_t f = 0; f < poses.frames; ++f) {
-      const std::size_t i = f * poses.channels + 3 * n;
-      const double* v = &poses.values[i];
-      tracks.set(f, n, {v[0] / of_axes[0], v[1] / of_axes[1], v[2] / of_axes[2]});
-      marks(f, n) = missing[i] | missing[i + 1] | missing[i + 2];
-    }
-  }
-  const std::vector<double> one(tracks.tracks(), 1);
-  std::vector<double> shares(tracks.tracks(), 1);
-  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
-    std::size_t seen = 0;
-    for (std::size_t f = 0; f < tracks.frames(); ++f) seen += marks(f, n) == 0;
-    if (seen < fewest_smoothed_frames) shares[n] = 0;
-  }
-  smooth_tracks(tracks, marks, one, shares, rate_hz);
-  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
-    for (std::size_t f = 0; f < poses.frames; ++f) {
-      const Vec3 v = tracks.at(f, n);
-      poses(f, 3 * n) = v.x * noise[3 * n];
-      poses(f, 3 * n + 1) = v.y * noise[3 * n + 1];
-      poses(f, 3 * n + 2) = v.z * noise[3 * n + 2];
-    }
-  }
 }
 
 std::vector<double> noise_of(const PriorWork& work, std::span<const std::uint8_t> suspect,
@@ -154,11 +119,6 @@ void filter(PriorWork& work, const WienerOptions& options, const WienerPrior& kn
   WienerSettings settings;
   if (!options.despike) settings.outlier_deviations = 0;
   const double rate_hz = work.channels.frame_rate_hz;
-  const TakeSmoother smoother = [rate_hz](PoseMatrix& samples,
-                                          std::span<const std::uint8_t> missing,
-                                          std::span<const double> deviations) {
-    smooth_as_auto(samples, missing, deviations, rate_hz);
-  };
   WienerOutliers outliers{work.suspect, work.fallback};
   if (options.despike && may_have_dense_outliers(work, noise)) {
     WienerOutliers found = dense_outliers(
@@ -170,7 +130,7 @@ void filter(PriorWork& work, const WienerOptions& options, const WienerPrior& kn
   }
   WienerResult result = guarded_wiener_filter(
       prior, {poses, outliers.guess, work.channels.observed, outliers.suspect, noise, rate_hz},
-      smoother, settings);
+      settings);
   poses = std::move(result.poses);
   for (Eigen::Matrix3d& turn : axes) turn.transposeInPlace();
   turn_channels(poses, axes);

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/frame_span.hpp"
 #include "base/quantiles.hpp"
 #include "feet/clean_legs.hpp"
 #include "feet/soles.hpp"
@@ -81,7 +82,7 @@ class ContactFinder {
 
  private:
   std::size_t frames_in(double seconds) const {
-    return static_cast<std::size_t>(std::lround(seconds * soles_.body.frame_rate_hz));
+    return kinemend::frames_in(seconds, soles_.body.frame_rate_hz, 0);
   }
 
   // The height of the floor under a foot that is slow in these frames.

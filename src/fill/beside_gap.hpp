@@ -12,7 +12,7 @@ struct Doubt {
   std::size_t before = 0, behind = 0;
 
   bool any() const { return before + behind > 0; }
-  Span widened(Span gap) const { return {gap.first - before, gap.last + behind}; }
+  FrameSpan widened(FrameSpan gap) const { return {gap.first - before, gap.last + behind}; }
 };
 inline constexpr std::size_t most_doubted = 2;
 
@@ -22,7 +22,7 @@ inline constexpr std::size_t most_doubted = 2;
 /// have to be far as well. `leap(f)`: size of the second difference over the frames f - 1 to f + 1;
 /// negative where one of them is not measured.
 template <class Leap>
-Doubt doubt_beside(Span gap, std::size_t frames, double frame_rate_hz, double least,
+Doubt doubt_beside(FrameSpan gap, std::size_t frames, double frame_rate_hz, double least,
                    const Leap& leap) {
   constexpr double clearly = 3;
   const auto half_second = static_cast<std::size_t>(0.5 * frame_rate_hz) + 8;

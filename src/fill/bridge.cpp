@@ -36,8 +36,8 @@ Eigen::MatrixXd covariances(std::span<const std::size_t> rows, std::span<const s
 
 }  // namespace
 
-Bridge::Bridge(std::span<const std::size_t> beside, Span span, std::span<const std::size_t> wanted,
-               double frame_rate_hz, const Settings& settings)
+Bridge::Bridge(std::span<const std::size_t> beside, FrameSpan span,
+               std::span<const std::size_t> wanted, double frame_rate_hz, const Settings& settings)
     : wanted_(wanted.size()), beside_(beside.size()), weights_(beside.size() * wanted.size()) {
   if (weights_.empty()) return;
   const double memory = settings.memory_s * frame_rate_hz;

@@ -25,7 +25,7 @@ class Bridge {
 
   /// `beside`: observed frames next to the span, ascending; `wanted`: the frames of the span that
   /// are asked for.
-  Bridge(std::span<const std::size_t> beside, Span span, std::span<const std::size_t> wanted,
+  Bridge(std::span<const std::size_t> beside, FrameSpan span, std::span<const std::size_t> wanted,
          double frame_rate_hz, const Settings& settings);
 
   /// The errors (sample less guess) at `wanted`, from those at `beside`.

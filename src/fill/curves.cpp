@@ -18,8 +18,10 @@ double to_frames(double seconds, const CurveSettings& settings) {
   return seconds * settings.frame_rate_hz;
 }
 
-bool has_sample_before(Span span) { return span.first > 0; }
-bool has_sample_behind(const Track& track, Span span) { return span.last + 1 < track.frames(); }
+bool has_sample_before(FrameSpan span) { return span.first > 0; }
+bool has_sample_behind(const Track& track, FrameSpan span) {
+  return span.last + 1 < track.frames();
+}
 
 // Up to `most` observed frames before `frame` (not included), ascending.
 std::vector<std::size_t> observed_before(const Track& track, std::size_t frame, std::size_t most) {
@@ -109,7 +111,7 @@ double coast(double value, double velocity, double u, double decay_frames) {
   return value + velocity * decay_frames * (1 - std::exp(-u / decay_frames));
 }
 
-void fill_one_sided(const Track& track, Span span, bool keep_velocity,
+void fill_one_sided(const Track& track, FrameSpan span, bool keep_velocity,
                     const CurveSettings& settings) {
   const bool forward = has_sample_before(span);
   const EndState end =
@@ -136,7 +138,7 @@ struct Slopes {
   std::vector<double> before, behind;
 };
 
-void fill_hermite(const Track& track, Span span, const Slopes& slopes) {
+void fill_hermite(const Track& track, FrameSpan span, const Slopes& slopes) {
   const std::span<const double> y0 = track.row(span.first - 1), y1 = track.row(span.last + 1);
   const auto length = static_cast<double>(span.length() + 1);
   for (std::size_t f = span.first; f <= span.last; ++f) {
@@ -163,12 +165,12 @@ struct Crossing {
   }
 };
 
-Crossing crossing_of(Span span, double reach_s, const CurveSettings& settings) {
+Crossing crossing_of(FrameSpan span, double reach_s, const CurveSettings& settings) {
   const auto length = static_cast<double>(span.length() + 1);
   return {length, std::min(length, std::max(2.0, to_frames(reach_s, settings)))};
 }
 
-void fill_between_velocities(const Track& track, Span span, const CurveSettings& settings) {
+void fill_between_velocities(const Track& track, FrameSpan span, const CurveSettings& settings) {
   const EndState before = state_before(track, span, settings);
   const EndState behind = state_behind(track, span, settings);
   const Crossing crossing = crossing_of(span, settings.reach_s, settings);
@@ -196,7 +198,7 @@ double outer_slope(double h0, double slope0, double h1, double slope1) {
   return slope;
 }
 
-void fill_shape_preserving(const Track& track, Span span) {
+void fill_shape_preserving(const Track& track, FrameSpan span) {
   const std::size_t left = span.first - 1, right = span.last + 1;
   const auto before = observed_before(track, left, 1);
   const auto behind = observed_behind(track, right, 1);
@@ -226,7 +228,7 @@ void fill_shape_preserving(const Track& track, Span span) {
   fill_hermite(track, span, slopes);
 }
 
-void fill_linear(const Track& track, Span span) {
+void fill_linear(const Track& track, FrameSpan span) {
   const std::span<const double> y0 = track.row(span.first - 1), y1 = track.row(span.last + 1);
   for (std::size_t f = span.first; f <= span.last; ++f) {
     const double t =
@@ -239,7 +241,7 @@ void fill_linear(const Track& track, Span span) {
 
 // Smoothing leaves the end samples a little beside the curve; the difference goes over from one end
 // to the other with no slope at the ends, which keeps the velocities.
-void meet_end_values(const Track& track, Span span, std::span<const double> miss_before,
+void meet_end_values(const Track& track, FrameSpan span, std::span<const double> miss_before,
                      std::span<const double> miss_behind) {
   for (std::size_t f = span.first; f <= span.last; ++f) {
     const double t =
@@ -251,7 +253,7 @@ void meet_end_values(const Track& track, Span span, std::span<const double> miss
   }
 }
 
-void fill_spline(const Track& track, Span span, bool quintic, const CurveSettings& settings) {
+void fill_spline(const Track& track, FrameSpan span, bool quintic, const CurveSettings& settings) {
   const auto support =
       std::max(least_support,
                static_cast<std::size_t>(std::lround(to_frames(settings.support_s, settings))));
@@ -291,7 +293,7 @@ void fill_spline(const Track& track, Span span, bool quintic, const CurveSetting
 
 }  // namespace
 
-EndState state_before(const Track& track, Span span, const CurveSettings& settings) {
+EndState state_before(const Track& track, FrameSpan span, const CurveSettings& settings) {
   if (!has_sample_before(span)) return {};
   const std::size_t window = velocity_window(settings);
   const std::size_t end = span.first - 1;
@@ -300,7 +302,7 @@ EndState state_before(const Track& track, Span span, const CurveSettings& settin
   return state_at(track, end, frames, static_cast<double>(window));
 }
 
-EndState state_behind(const Track& track, Span span, const CurveSettings& settings) {
+EndState state_behind(const Track& track, FrameSpan span, const CurveSettings& settings) {
   if (!has_sample_behind(track, span)) return {};
   const std::size_t window = velocity_window(settings);
   const std::size_t end = span.last + 1;
@@ -309,7 +311,8 @@ EndState state_behind(const Track& track, Span span, const CurveSettings& settin
   return state_at(track, end, frames, static_cast<double>(window));
 }
 
-bool fill_with_curve(const Track& track, Span span, Curve curve, const CurveSettings& settings) {
+bool fill_with_curve(const Track& track, FrameSpan span, Curve curve,
+                     const CurveSettings& settings) {
   const bool before = has_sample_before(span), behind = has_sample_behind(track, span);
   if (!before && !behind) return false;
   if (!before || !behind) {
@@ -336,8 +339,8 @@ bool fill_with_curve(const Track& track, Span span, Curve curve, const CurveSett
   return true;
 }
 
-void place_guess(const Track& track, Span span, const Guess& guess, const CurveSettings& settings,
-                 double blend_s) {
+void place_guess(const Track& track, FrameSpan span, const Guess& guess,
+                 const CurveSettings& settings, double blend_s) {
   const std::size_t rows = guess.values.size() / track.channels;
   const std::size_t end_frame = guess.first_frame + rows;
   // The difference between samples and guess is a track of its own, seen where the guess is.
@@ -353,7 +356,7 @@ void place_guess(const Track& track, Span span, const Guess& guess, const CurveS
     }
   }
   const Track difference{misses, track.channels, seen};
-  const Span inner{span.first - from, span.last - from};
+  const FrameSpan inner{span.first - from, span.last - from};
   const EndState before = state_before(difference, inner, settings);
   const EndState behind = state_behind(difference, inner, settings);
   const Crossing crossing = crossing_of(span, blend_s, settings);

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "base/frame_span.hpp"
+
 namespace kinemend::fill {
 
 /// One joint's or marker's samples in Euclidean channels. Only observed samples are evidence: a
@@ -18,15 +20,6 @@ struct Track {
   std::span<double> row(std::size_t frame) const {
     return values.subspan(frame * channels, channels);
   }
-};
-
-/// Missing frames first to last, inclusive; the frames beside them are observed or outside the
-/// take.
-struct Span {
-  std::size_t first = 0;
-  std::size_t last = 0;
-
-  std::size_t length() const noexcept { return last - first + 1; }
 };
 
 enum class Curve : std::uint8_t {
@@ -51,7 +44,8 @@ struct CurveSettings {
 /// in value). At the take's start or end, where only one side is observed, the value goes on with
 /// the end's velocity, which decays (`linear`: is held). False, and nothing is written, where no
 /// sample of the track is observed.
-bool fill_with_curve(const Track& track, Span span, Curve curve, const CurveSettings& settings);
+bool fill_with_curve(const Track& track, FrameSpan span, Curve curve,
+                     const CurveSettings& settings);
 
 /// A guess of a span, such as a regression makes it, with some frames around it.
 struct Guess {
@@ -63,8 +57,8 @@ struct Guess {
 /// velocity: its difference from them goes over linearly from end to end, the difference in
 /// velocity fades within `blend_s`. The guess has to cover the observed frames next to the span,
 /// about `velocity_window_s` of them on either side; a side it does not cover is not met.
-void place_guess(const Track& track, Span span, const Guess& guess, const CurveSettings& settings,
-                 double blend_s = 0.1);
+void place_guess(const Track& track, FrameSpan span, const Guess& guess,
+                 const CurveSettings& settings, double blend_s = 0.1);
 
 /// Value and velocity (per frame) at one end of a span.
 struct EndState {
@@ -74,7 +68,7 @@ struct EndState {
 };
 
 /// The state at the last observed frame before the span, and at the first one behind it.
-EndState state_before(const Track& track, Span span, const CurveSettings& settings);
-EndState state_behind(const Track& track, Span span, const CurveSettings& settings);
+EndState state_before(const Track& track, FrameSpan span, const CurveSettings& settings);
+EndState state_behind(const Track& track, FrameSpan span, const CurveSettings& settings);
 
 }  // namespace kinemend::fill

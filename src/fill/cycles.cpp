@@ -8,7 +8,7 @@ namespace kinemend::fill {
 
 namespace {
 
-std::size_t surroundings_of(Span span, const CurveSettings& settings) {
+std::size_t surroundings_of(FrameSpan span, const CurveSettings& settings) {
   const double frames = std::clamp(0.5 * static_cast<double>(span.length()),
                                    0.15 * settings.frame_rate_hz, 0.5 * settings.frame_rate_hz);
   return std::max<std::size_t>(4, static_cast<std::size_t>(std::lround(frames)));
@@ -20,7 +20,7 @@ struct Scene {
   std::vector<std::size_t> compared;  // observed frames, ascending
 };
 
-Scene scene_of(const Track& track, Span span, std::size_t reach) {
+Scene scene_of(const Track& track, FrameSpan span, std::size_t reach) {
   Scene scene;
   scene.first = span.first - std::min(reach, span.first);
   scene.last = std::min(span.last + reach, track.frames() - 1);
@@ -113,7 +113,7 @@ Cycle refined(const Matcher& matcher, std::ptrdiff_t lag, std::ptrdiff_t step,
 
 }  // namespace
 
-std::vector<Cycle> find_cycles(const Track& track, Span span, const CurveSettings& settings,
+std::vector<Cycle> find_cycles(const Track& track, FrameSpan span, const CurveSettings& settings,
                                const CycleSettings& rules) {
   constexpr std::size_t compared_at_first = 24;
   const Scene scene = scene_of(track, span, surroundings_of(span, settings));
@@ -152,7 +152,7 @@ std::vector<Cycle> find_cycles(const Track& track, Span span, const CurveSetting
   return cycles;
 }
 
-bool fill_with_cycles(const Track& track, Span span, std::span<const Cycle> cycles,
+bool fill_with_cycles(const Track& track, FrameSpan span, std::span<const Cycle> cycles,
                       const CurveSettings& settings) {
   if (cycles.empty()) return false;
   const Scene scene = scene_of(track, span, surroundings_of(span, settings));

@@ -29,13 +29,13 @@ struct CycleSettings {
 /// over these samples f, each with its best straight line, which is the local autocorrelation of
 /// what moves about a drift. Only lags at which span and surroundings are observed throughout
 /// count. Best first, none worse than 1.5 times the best.
-std::vector<Cycle> find_cycles(const Track& track, Span span, const CurveSettings& settings,
+std::vector<Cycle> find_cycles(const Track& track, FrameSpan span, const CurveSettings& settings,
                                const CycleSettings& rules = {});
 
 /// Fills the span with the mean of these cycles, weighed by how alike they are, moved so that it
 /// meets the samples at its ends in value and velocity (`place_guess`). False, and nothing is
 /// written, without cycles.
-bool fill_with_cycles(const Track& track, Span span, std::span<const Cycle> cycles,
+bool fill_with_cycles(const Track& track, FrameSpan span, std::span<const Cycle> cycles,
                       const CurveSettings& settings);
 
 }  // namespace kinemend::fill

@@ -10,11 +10,11 @@ namespace kinemend::fill {
 namespace {
 
 template <Curve curve>
-bool fill_by_curve(JointTrack& track, Span span, const JointContext& context) {
+bool fill_by_curve(JointTrack& track, FrameSpan span, const JointContext& context) {
   return fill_with_curve(track.track(), span, curve, context.curve());
 }
 
-bool fill_by_cycles(JointTrack& track, Span span, const JointContext& context) {
+bool fill_by_cycles(JointTrack& track, FrameSpan span, const JointContext& context) {
   const CurveSettings settings = context.curve();
   const auto cycles = find_cycles(track.track(), span, settings);
   return fill_with_cycles(track.track(), span, cycles, settings);
@@ -23,7 +23,7 @@ bool fill_by_cycles(JointTrack& track, Span span, const JointContext& context) {
 // squad (Shoemake 1987): slerp(slerp(a, b, t), slerp(a', b', t), 2 t (1 - t)). Its inner rotations
 // a' = a Exp((L v - d) / 2) and b' = b Exp((d - L w) / 2), with d = Log(a^-1 b), give the curve the
 // velocities v and w at its ends, L steps apart.
-bool fill_by_squad(JointTrack& track, Span span, const JointContext& context) {
+bool fill_by_squad(JointTrack& track, FrameSpan span, const JointContext& context) {
   const CurveSettings settings = context.curve();
   const EndState before = state_before(track.track(), span, settings);
   const EndState behind = state_behind(track.track(), span, settings);
@@ -46,7 +46,7 @@ bool fill_by_squad(JointTrack& track, Span span, const JointContext& context) {
 }
 
 // The pose's guess needs frames beside the gap, where it is compared with what was observed.
-bool fill_by_poses(JointTrack& track, Span span, const JointContext& context) {
+bool fill_by_poses(JointTrack& track, FrameSpan span, const JointContext& context) {
   constexpr double stiffness = 1 * radians_per_degree;
   const CurveSettings settings = context.curve();
   const auto beside = std::max<std::size_t>(

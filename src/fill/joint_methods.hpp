@@ -30,7 +30,7 @@ struct JointMethod {
   double longest_s = 0;
   double longest_at_end_s = 0;
   bool positions = true;  ///< fills positions too
-  bool (*fill)(JointTrack& track, Span span, const JointContext& context) = nullptr;
+  bool (*fill)(JointTrack& track, FrameSpan span, const JointContext& context) = nullptr;
   std::string_view cannot;  ///< why, when it could not
   /// Its mean error as a share of slerp's, from gaps made in CMU takes 02_03, 05_02, 05_10, 06_03.
   std::array<double, usual_lengths_s.size()> usual_errors{};

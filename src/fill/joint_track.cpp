@@ -48,7 +48,7 @@ Vec3 turn_through(std::span<const Quat> rotations, std::span<const std::uint8_t>
 }
 
 // The reference runs through the span as through a gap, and what comes behind it moves along.
-void hide_from_chart(JointTrack& track, Span span, TakeEnds ends, double frame_rate_hz) {
+void hide_from_chart(JointTrack& track, FrameSpan span, TakeEnds ends, double frame_rate_hz) {
   RotationChart& chart = track.chart;
   for (std::size_t f = span.first; f <= span.last; ++f) {
     if (ends.at_start || ends.at_end) {
@@ -160,7 +160,7 @@ JointTrack position_track(const Clip& clip, std::size_t position) {
   return track;
 }
 
-JointTrack hide_span(const JointTrack& track, Span span, TakeEnds ends, std::size_t reach,
+JointTrack hide_span(const JointTrack& track, FrameSpan span, TakeEnds ends, std::size_t reach,
                      double frame_rate_hz) {
   const std::size_t first = ends.at_start ? span.first : span.first - std::min(reach, span.first);
   const std::size_t end =
@@ -173,7 +173,7 @@ JointTrack hide_span(const JointTrack& track, Span span, TakeEnds ends, std::siz
   };
   JointTrack part{track.joint, track.is_position,        track.first_frame + first,
                   {},          part_of(track.values, 3), part_of(track.observed, 1)};
-  const Span hidden{span.first - first, span.last - first};
+  const FrameSpan hidden{span.first - first, span.last - first};
   std::fill_n(part.observed.begin() + static_cast<std::ptrdiff_t>(hidden.first), hidden.length(),
               std::uint8_t{0});
   if (track.is_position) return part;
@@ -182,7 +182,7 @@ JointTrack hide_span(const JointTrack& track, Span span, TakeEnds ends, std::siz
   return part;
 }
 
-void store_span(const JointTrack& track, Span span, Clip& clip) {
+void store_span(const JointTrack& track, FrameSpan span, Clip& clip) {
   const std::size_t positions = 1 + clip.translated_joints.size();
   const std::size_t position = track.is_position ? position_index(clip, track.joint) : 0;
   for (std::size_t f = span.first; f <= span.last; ++f) {

@@ -65,11 +65,11 @@ struct TakeEnds {
 
 /// The track up to `reach` frames around an observed span, as if that were a gap: nothing of what
 /// stands in it is known to the chart. With `ends` also as if the take ended there.
-JointTrack hide_span(const JointTrack& track, Span span, TakeEnds ends, std::size_t reach,
+JointTrack hide_span(const JointTrack& track, FrameSpan span, TakeEnds ends, std::size_t reach,
                      double frame_rate_hz);
 
 /// Writes the span back: rotations that the joint's channels can hold (the nearest ones where it
 /// has fewer than three), signs continued from the frame before; the samples become observed.
-void store_span(const JointTrack& track, Span span, Clip& clip);
+void store_span(const JointTrack& track, FrameSpan span, Clip& clip);
 
 }  // namespace kinemend::fill

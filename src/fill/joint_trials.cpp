@@ -39,13 +39,13 @@ double grain_of(const JointTrack& track, const JointContext& context) {
 }
 
 // The frames of a span in which proposals are compared.
-std::vector<std::size_t> compared(Span span) {
+std::vector<std::size_t> compared(FrameSpan span) {
   std::vector<std::size_t> frames(span.length());
   for (std::size_t i = 0; i < frames.size(); ++i) frames[i] = span.first + i;
   return evenly(frames, most_frames);
 }
 
-std::vector<double> values_of(const JointTrack& track, Span span) {
+std::vector<double> values_of(const JointTrack& track, FrameSpan span) {
   const auto at = [&](std::size_t frame) {
     return track.values.begin() + static_cast<std::ptrdiff_t>(3 * frame);
   };
@@ -78,13 +78,13 @@ struct Standing {
 };
 
 // Products of the methods' errors over an observed span.
-Eigen::MatrixXd try_span(const JointTrack& track, Span span, TakeEnds ends, const Methods& methods,
-                         const JointContext& context) {
+Eigen::MatrixXd try_span(const JointTrack& track, FrameSpan span, TakeEnds ends,
+                         const Methods& methods, const JointContext& context) {
   // As far as another cycle may be, and what is compared around it.
   const auto reach = static_cast<std::size_t>(std::lround(17 * context.frame_rate_hz));
   JointTrack part = hide_span(track, span, ends, reach + 2 * span.length(), context.frame_rate_hz);
   const std::size_t shift = part.first_frame - track.first_frame;
-  const Span hidden{span.first - shift, span.last - shift};
+  const FrameSpan hidden{span.first - shift, span.last - shift};
   std::vector<std::size_t> frames = compared(span);
   const Standing truth(track, frames);
   for (std::size_t& f : frames) f -= shift;
@@ -102,11 +102,11 @@ Eigen::MatrixXd try_span(const JointTrack& track, Span span, TakeEnds ends, cons
 }
 
 // How many trials that share no frame the spans amount to.
-double independent(std::vector<Span> spans) {
+double independent(std::vector<FrameSpan> spans) {
   std::sort(spans.begin(), spans.end(),
-            [](const Span& a, const Span& b) { return a.first < b.first; });
+            [](const FrameSpan& a, const FrameSpan& b) { return a.first < b.first; });
   std::size_t covered = 0, end = 0;
-  for (const Span span : spans) {
+  for (const FrameSpan span : spans) {
     covered += span.last + 1 - std::min(span.last + 1, std::max(span.first, end));
     end = std::max(end, span.last + 1);
   }
@@ -118,7 +118,7 @@ struct JointTrials {
   double weight = 0;  ///< beside what is usual: trials of their own, fewer where they are shorter
 };
 
-JointTrials try_out(const JointTrack& track, Span gap, const Methods& methods,
+JointTrials try_out(const JointTrack& track, FrameSpan gap, const Methods& methods,
                     const JointContext& context) {
   const auto minute = static_cast<std::size_t>(std::lround(60 * context.frame_rate_hz));
   const std::size_t reach = std::max(minute, 10 * gap.length());
@@ -126,10 +126,10 @@ JointTrials try_out(const JointTrack& track, Span gap, const Methods& methods,
   const std::size_t end = std::min(track.observed.size(), gap.last + 1 + reach);
   const auto usable = std::span(track.observed).subspan(first, end - first);
   const TakeEnds ends{gap.first == 0, gap.last + 1 == track.observed.size()};
-  const std::vector<Span> spans = trial_places(usable, first, gap);
+  const std::vector<FrameSpan> spans = trial_places(usable, first, gap);
   JointTrials result;
   result.trials.at_end = ends.at_start || ends.at_end;
-  for (const Span span : spans)
+  for (const FrameSpan span : spans)
     result.trials.products.push_back(try_span(track, span, ends, methods, context));
   if (spans.empty()) return result;
   double& longer = result.trials.longer;
@@ -182,7 +182,7 @@ void score(std::vector<JointProposal>& proposals, const Judgement& judgement, do
 
 }  // namespace
 
-std::vector<JointProposal> propose(const JointTrack& track, Span gap,
+std::vector<JointProposal> propose(const JointTrack& track, FrameSpan gap,
                                    std::span<const JointMethod* const> methods,
                                    const JointContext& context) {
   std::vector<JointProposal> proposals, impossible;

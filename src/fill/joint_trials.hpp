@@ -25,7 +25,7 @@ struct JointProposal {
 /// short gaps with favour for the spline. The trials are few, and tell less where there was room
 /// for shorter ones only: they count beside two more that went as those methods usually do
 /// (`JointMethod::usual_errors`).
-std::vector<JointProposal> propose(const JointTrack& track, Span gap,
+std::vector<JointProposal> propose(const JointTrack& track, FrameSpan gap,
                                    std::span<const JointMethod* const> methods,
                                    const JointContext& context);
 

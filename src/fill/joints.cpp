@@ -20,7 +20,6 @@ using fill::JointContext;
 using fill::JointMethod;
 using fill::JointProposal;
 using fill::JointTrack;
-using fill::Span;
 
 // `auto` refuses what it expects to be farther from the truth than this.
 constexpr double largest_error_deg = 12.5;
@@ -61,7 +60,7 @@ class TrackFiller {
     outcome.gap.track = track_.joint;
     outcome.is_position = track_.is_position;
     outcome.method = settings_.method;
-    const Span span{gap.first_frame, gap.last_frame};
+    const FrameSpan span{gap.first_frame, gap.last_frame};
     if (span.length() == track_.observed.size()) {
       outcome.reason = "none of its samples is observed";
       return;
@@ -75,7 +74,7 @@ class TrackFiller {
   }
 
  private:
-  bool fill_span(Span span, GapOutcome& outcome) {
+  bool fill_span(FrameSpan span, GapOutcome& outcome) {
     const auto proposals = fill::propose(track_, span, methods_, context_);
     const JointProposal* chosen = choose(proposals, span, outcome);
     if (!chosen) return false;
@@ -85,7 +84,7 @@ class TrackFiller {
   }
 
   // The best that fills the span and may; nullptr, with the reason, where there is none.
-  const JointProposal* choose(const std::vector<JointProposal>& proposals, Span span,
+  const JointProposal* choose(const std::vector<JointProposal>& proposals, FrameSpan span,
                               GapOutcome& outcome) const {
     for (const JointProposal& proposal : proposals) {
       const std::string reason = settings_.fill_all ? "" : refusal(proposal, span);
@@ -108,7 +107,7 @@ class TrackFiller {
     return angle_between(track_.rotation(frame), other.chart.rotation_of(frame, value));
   }
 
-  fill::Doubt doubt_of(Span span) const {
+  fill::Doubt doubt_of(FrameSpan span) const {
     const auto leap = [&](std::size_t f) {
       const auto& seen = track_.observed;
       if (!seen[f - 1] || !seen[f] || !seen[f + 1]) return -1.0;
@@ -122,7 +121,7 @@ class TrackFiller {
   double spike_size() const { return 1.6 * largest_error_; }
 
   // The track as if the span were missing.
-  JointTrack without(Span span) const {
+  JointTrack without(FrameSpan span) const {
     JointTrack other = track_;
     std::fill_n(other.observed.begin() + static_cast<std::ptrdiff_t>(span.first), span.length(),
                 std::uint8_t{0});
@@ -135,11 +134,11 @@ class TrackFiller {
 
   // Fills the span without the doubted samples beside it; false where there are none, and where
   // such a filling bears them out.
-  bool fill_without_doubted(Span span, GapOutcome& outcome) {
+  bool fill_without_doubted(FrameSpan span, GapOutcome& outcome) {
     constexpr double expected_errors = 4;
     fill::Doubt doubt = doubt_of(span);
     for (int round = 0; round < 2 && doubt.any(); ++round) {
-      const Span wider = doubt.widened(span);
+      const FrameSpan wider = doubt.widened(span);
       const JointTrack other = without(wider);
       const auto proposals = fill::propose(other, wider, methods_, context_);
       const JointProposal* chosen = choose(proposals, span, outcome);
@@ -170,7 +169,7 @@ class TrackFiller {
   }
 
   // Why the rules do not let the method fill the span; empty where they do.
-  std::string refusal(const JointProposal& proposal, Span span) const {
+  std::string refusal(const JointProposal& proposal, FrameSpan span) const {
     const JointMethod& method = *proposal.method;
     const bool at_end = span.first == 0 || span.last + 1 == track_.observed.size();
     const double rule = at_end ? method.longest_at_end_s : method.longest_s;
@@ -187,7 +186,7 @@ class TrackFiller {
     return "";
   }
 
-  void fill_anyhow(Span span, GapOutcome& outcome) {
+  void fill_anyhow(FrameSpan span, GapOutcome& outcome) {
     const JointMethod* method = fill::find_joint_method("pchip");
     if (!method->fill(track_, span, context_)) return;
     outcome.method = method->name;
@@ -264,7 +263,7 @@ FillReport fill_motion(Clip& clip, const std::vector<const JointMethod*>& method
                     [&](std::size_t i) { run_task(tasks[i], clip, methods, settings, context); });
   for (const Task& task : tasks) {
     for (const GapOutcome& outcome : task.outcomes) {
-      const Span span{outcome.gap.first_frame, outcome.gap.last_frame};
+      const FrameSpan span{outcome.gap.first_frame, outcome.gap.last_frame};
       if (outcome.filled) store_span(task.filled, span, clip);
       report.gaps.push_back(outcome);
     }

@@ -39,7 +39,7 @@ LocalRegression::LocalRegression(const Samples& samples, const MarkerGap& gap,
                                  std::span<const Companion> companions, std::size_t most_companions)
     : samples_(samples), marker_(gap.marker), group_(make_group(companions, most_companions)) {
   if (group_.markers().empty()) return;
-  const Span evidence = evidence_around(samples, gap);
+  const FrameSpan evidence = evidence_around(samples, gap);
   for (std::size_t f = evidence.first; f <= evidence.last; ++f) {
     if (samples.measures(f, marker_) && !gap.covers(f) && group_.seen_in(samples, f)) {
       training_.push_back(f);
@@ -79,7 +79,7 @@ LocalRegression::Rows LocalRegression::training_inputs() const {
 LocalRegression::Rows LocalRegression::training_outputs() const { return rows_.rightCols(3); }
 
 // Sums over the training frames outside the span, and how many these are.
-LocalRegression::Rows LocalRegression::sums_without(Span span, double& count) const {
+LocalRegression::Rows LocalRegression::sums_without(FrameSpan span, double& count) const {
   const auto first = std::lower_bound(training_.begin(), training_.end(), span.first);
   const auto last = std::upper_bound(first, training_.end(), span.last);
   count = static_cast<double>(rows_.rows() - (last - first));

@@ -35,7 +35,7 @@ class LocalRegression {
   /// A span of the take to be predicted: what is seen of the companions in its frames, and of the
   /// marker beside it.
   struct Scene {
-    Span span = {};
+    FrameSpan span = {};
     std::vector<std::size_t> beside;  ///< observed frames near the span, ascending
     std::vector<std::size_t> wanted;  ///< frames of the span
     std::vector<Placement> placed;    ///< in the frames beside, then in those wanted
@@ -64,7 +64,7 @@ class LocalRegression {
  private:
   Placement put_inputs(std::size_t frame, double* row) const;
   void learn();
-  Rows sums_without(Span span, double& count) const;
+  Rows sums_without(FrameSpan span, double& count) const;
   Eigen::Index inputs() const { return static_cast<Eigen::Index>(3 * group_.markers().size()); }
 
   const Samples& samples_;

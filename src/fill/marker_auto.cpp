@@ -30,7 +30,7 @@ constexpr std::array<double, 3> stiffnesses = {0.0015, 0.008,
 // Clean samples, and trembling ones.
 constexpr std::array<double, 2> noises = {1e-4, 2e-2};
 
-std::vector<std::size_t> frames_of(Span span, std::size_t most) {
+std::vector<std::size_t> frames_of(FrameSpan span, std::size_t most) {
   std::vector<std::size_t> frames(span.length());
   for (std::size_t i = 0; i < frames.size(); ++i) frames[i] = span.first + i;
   return evenly(frames, most);

@@ -36,7 +36,7 @@ Window window_around(const Samples& samples, const MarkerGap& gap) {
   return window;
 }
 
-std::vector<Vec3> positions_of(const Window& window, Span span) {
+std::vector<Vec3> positions_of(const Window& window, FrameSpan span) {
   std::vector<Vec3> positions;
   for (std::size_t f = span.first; f <= span.last; ++f) {
     const double* p = &window.values[3 * (f - window.first_frame)];
@@ -69,7 +69,7 @@ Filling fill_by_curve(const Samples& samples, const MarkerGap& gap, const Marker
 
 std::vector<Vec3> curve_positions(const Samples& samples, const MarkerGap& gap, Curve curve) {
   Window window = window_around(samples, gap);
-  const Span inner{gap.span.first - window.first_frame, gap.span.last - window.first_frame};
+  const FrameSpan inner{gap.span.first - window.first_frame, gap.span.last - window.first_frame};
   // A window that starts or ends with the gap would hide that the take goes on behind it; frames
   // of other gaps of this marker in the window are missing there too.
   if (std::find(window.observed.begin(), window.observed.end(), 1) == window.observed.end()) {

@@ -118,7 +118,7 @@ std::vector<Companion> companions_of(const Samples& samples, const MarkerGap& ga
                                      std::span<const std::size_t> helpers,
                                      std::size_t most_frames) {
   std::vector<std::size_t> frames;
-  const Span evidence = evidence_around(samples, gap);
+  const FrameSpan evidence = evidence_around(samples, gap);
   for (std::size_t f = evidence.first; f <= evidence.last; ++f) {
     if (samples.measures(f, gap.marker) && !gap.covers(f)) frames.push_back(f);
   }

@@ -25,7 +25,7 @@ constexpr double kept_variance = 0.9999;
 std::vector<std::size_t> complete_frames(const Samples& samples, const MarkerGap& gap,
                                          const std::vector<std::size_t>& helpers) {
   std::vector<std::size_t> frames;
-  const Span evidence = evidence_around(samples, gap);
+  const FrameSpan evidence = evidence_around(samples, gap);
   for (std::size_t f = evidence.first; f <= evidence.last; ++f) {
     if (!samples.measures(f, gap.marker) || gap.covers(f)) continue;
     if (std::all_of(helpers.begin(), helpers.end(),

@@ -73,7 +73,7 @@ std::vector<std::size_t> PoseRegression::predictors_of(std::size_t joint, std::s
 }
 
 // Sums of products of the columns over the whole frames outside the span.
-PoseRegression::Rows PoseRegression::sums_without(Span span,
+PoseRegression::Rows PoseRegression::sums_without(FrameSpan span,
                                                   const std::vector<Eigen::Index>& columns,
                                                   std::size_t& count) const {
   const auto begin = std::lower_bound(frames_.begin(), frames_.end(), span.first);
@@ -88,7 +88,7 @@ PoseRegression::Rows PoseRegression::sums_without(Span span,
   return sums;
 }
 
-std::vector<Quat> PoseRegression::predict(std::size_t joint, Span span, std::size_t first,
+std::vector<Quat> PoseRegression::predict(std::size_t joint, FrameSpan span, std::size_t first,
                                           std::size_t last, double stiffness) const {
   if (!usable_[joint]) return {};
   const std::vector<std::size_t> predictors = predictors_of(joint, first, last);

@@ -23,7 +23,7 @@ class PoseRegression {
   /// in all of these frames; no rotation of the joint inside the span is looked at. None where too
   /// little is observed: fewer than `least_joints` others, or fewer frames to learn from than 1 s
   /// and twice the span. `stiffness` in radians.
-  std::vector<Quat> predict(std::size_t joint, Span span, std::size_t first, std::size_t last,
+  std::vector<Quat> predict(std::size_t joint, FrameSpan span, std::size_t first, std::size_t last,
                             double stiffness) const;
 
   static constexpr std::size_t least_joints = 4;
@@ -34,7 +34,8 @@ class PoseRegression {
   Vec3 vector_of(std::size_t frame, std::size_t joint) const;
   std::vector<std::size_t> predictors_of(std::size_t joint, std::size_t first,
                                          std::size_t last) const;
-  Rows sums_without(Span span, const std::vector<Eigen::Index>& columns, std::size_t& count) const;
+  Rows sums_without(FrameSpan span, const std::vector<Eigen::Index>& columns,
+                    std::size_t& count) const;
 
   const Clip& clip_;
   std::size_t step_ = 1;                // between frames learned from

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/frame_span.hpp"
+
 namespace kinemend::fill {
 
 std::size_t Samples::frames_in(double seconds, std::size_t least) const {
-  const double count = std::round(seconds * frame_rate_hz);
-  return std::max(least, static_cast<std::size_t>(std::clamp(count, 0.0, 1e9)));
+  return kinemend::frames_in(seconds, frame_rate_hz, least);
 }
 
 double body_radius(const Samples& samples) {
@@ -31,7 +32,7 @@ double body_radius(const Samples& samples) {
   return count > 0 ? std::sqrt(sum / count) : 0;
 }
 
-Span evidence_around(const Samples& samples, const MarkerGap& gap) {
+FrameSpan evidence_around(const Samples& samples, const MarkerGap& gap) {
   const std::size_t reach = std::max(samples.frames_in(60, 1), 10 * gap.span.length());
   return {gap.span.first - std::min(gap.span.first, reach),
           std::min(samples.frames - 1, gap.span.last + reach)};

@@ -40,7 +40,7 @@ struct Samples {
 /// never used, so that an observed span serves to try a method.
 struct MarkerGap {
   std::size_t marker = 0;
-  Span span;
+  FrameSpan span;
   bool starts_take = false;  ///< nothing of the marker is seen before the span
   bool ends_take = false;    ///< nothing of it is seen behind the span
 
@@ -53,7 +53,7 @@ double body_radius(const Samples& samples);
 
 /// The frames that a gap is filled from: a minute on either side, or ten times its length where
 /// that is more, so that the cost of a gap does not grow with the take.
-Span evidence_around(const Samples& samples, const MarkerGap& gap);
+FrameSpan evidence_around(const Samples& samples, const MarkerGap& gap);
 
 /// Observed frames of the gap's marker near the gap, up to `most` on either side and none farther
 /// than `reach` frames, ascending.

@@ -21,7 +21,7 @@ std::vector<std::size_t> starts_of(std::span<const std::uint8_t> usable, std::si
   return starts;
 }
 
-std::vector<std::size_t> nearest(const std::vector<std::size_t>& starts, Span gap,
+std::vector<std::size_t> nearest(const std::vector<std::size_t>& starts, FrameSpan gap,
                                  std::size_t length, std::size_t most) {
   const std::size_t apart = std::max<std::size_t>(1, length / 2);
   std::vector<std::pair<std::size_t, std::size_t>> found;  // distance, start
@@ -49,15 +49,15 @@ std::vector<std::size_t> nearest(const std::vector<std::size_t>& starts, Span ga
 
 }  // namespace
 
-std::vector<Span> trial_places(std::span<const std::uint8_t> usable, std::size_t first_frame,
-                               Span gap) {
+std::vector<FrameSpan> trial_places(std::span<const std::uint8_t> usable, std::size_t first_frame,
+                                    FrameSpan gap) {
   constexpr std::size_t most_near = 6, most_elsewhere = 3, least = 3;
   for (std::size_t length = gap.length(); length > 0; length /= 2) {
     const std::vector<std::size_t> starts = starts_of(usable, first_frame, length);
     if (starts.size() < least) continue;
     std::vector<std::size_t> chosen = nearest(starts, gap, length, most_near);
     for (const std::size_t start : evenly(starts, most_elsewhere)) chosen.push_back(start);
-    std::vector<Span> spans;
+    std::vector<FrameSpan> spans;
     spans.reserve(chosen.size());
     for (const std::size_t start : chosen) spans.push_back({start, start + length - 1});
     return spans;

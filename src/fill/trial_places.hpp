@@ -14,7 +14,7 @@ namespace kinemend::fill {
 /// for what the nearest do not show. Shorter ones (half, a quarter, ...) where there is no room for
 /// three; none where there is no room at all. `usable[i]` is about frame `first_frame` + i; 0 in
 /// the gap itself.
-std::vector<Span> trial_places(std::span<const std::uint8_t> usable, std::size_t first_frame,
-                               Span gap);
+std::vector<FrameSpan> trial_places(std::span<const std::uint8_t> usable, std::size_t first_frame,
+                                    FrameSpan gap);
 
 }  // namespace kinemend::fill

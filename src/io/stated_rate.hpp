@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "io/text.hpp"
+#include "io/text/text.hpp"
 
 namespace kinemend {
 

@@ -1,5 +1,7 @@
 #include "priors/wiener_guard.hpp"
 
+#include "priors/channel_smoothing.hpp"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -44,9 +46,8 @@ double centre_weight(double sigma_frames) {
 
 class Guard {
  public:
-  Guard(const WienerPrior& prior, const WienerTake& take, const TakeSmoother& smoother,
-        const WienerSettings& settings)
-      : prior_(prior), take_(take), smoother_(smoother), settings_(settings) {}
+  Guard(const WienerPrior& prior, const WienerTake& take, const WienerSettings& settings)
+      : prior_(prior), take_(take), settings_(settings) {}
 
   WienerResult run() {
     WienerResult result = wiener_filter(prior_, take_, settings_);
@@ -61,7 +62,7 @@ class Guard {
     }
     learn_noise();
     Estimate estimate{result.poses, divergence(result)};
-    if (smoother_) mix(estimate, smoothed());
+    mix(estimate, smoothed());
     result.poses = std::move(estimate.poses);
     std::vector<double> least = part_sums(risks(result.poses, estimate.divergence));
     for (double& risk : least) risk *= clearly;
@@ -171,8 +172,8 @@ class Guard {
                    [](double variance) { return std::sqrt(variance); });
     Estimate estimate{samples_, {}};
     PoseMatrix shaken = probed(signs);
-    smoother_(estimate.poses, missing, deviations);
-    smoother_(shaken, missing, deviations);
+    smooth_channels(estimate.poses, missing, deviations, take_.rate_hz);
+    smooth_channels(shaken, missing, deviations, take_.rate_hz);
     estimate.divergence = divergence(shaken, estimate.poses, signs);
     return estimate;
   }
@@ -239,7 +240,6 @@ class Guard {
 
   const WienerPrior& prior_;
   const WienerTake& take_;
-  const TakeSmoother& smoother_;
   const WienerSettings& settings_;
   std::vector<std::uint8_t> counted_;  // F x D
   PoseMatrix samples_;                 // those that count, and the filter's where none does
@@ -249,8 +249,8 @@ class Guard {
 }  // namespace
 
 WienerResult guarded_wiener_filter(const WienerPrior& prior, const WienerTake& take,
-                                   const TakeSmoother& smoother, const WienerSettings& settings) {
-  return Guard(prior, take, smoother, settings).run();
+                                   const WienerSettings& settings) {
+  return Guard(prior, take, settings).run();
 }
 
 }  // namespace kinemend

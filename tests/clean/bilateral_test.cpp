@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "clean/bilateral_filter.hpp"
 #include "clean/filter_checks.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
+#include "tracks/bilateral_filter.hpp"
 
 namespace kinemend::test {
 namespace {

@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "clean/takes.hpp"
-#include "clean/track_kalman.hpp"
 #include "kinemend/clean.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/signal.hpp"
+#include "tracks/track_kalman.hpp"
 
 namespace kinemend::test {
 namespace {

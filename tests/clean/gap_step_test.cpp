@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clean/clip_tracks.hpp"
 #include "clean/marker_takes.hpp"
 #include "clean/takes.hpp"
-#include "clean/tracks.hpp"
 #include "kinemend/clean.hpp"
 #include "kinemend/gaps.hpp"
 #include "kinemend/synth.hpp"

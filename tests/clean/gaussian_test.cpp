@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "clean/filter_checks.hpp"
-#include "clean/orientation_filter.hpp"
 #include "hwy/targets.h"
 #include "kinemend/error.hpp"
 #include "kinemend/methods.hpp"
+#include "tracks/orientation_filter.hpp"
 
 namespace kinemend::test {
 namespace {

@@ -33,7 +33,7 @@ const std::vector<double>& reference(const std::string& name) {
   return records.at(name);
 }
 
-constexpr Span reference_gap{70, 94};
+constexpr FrameSpan reference_gap{70, 94};
 constexpr CurveSettings settings{.frame_rate_hz = 120};
 constexpr std::array curves = {Curve::linear, Curve::cubic, Curve::quintic, Curve::shape_preserving,
                                Curve::hermite};
@@ -56,14 +56,14 @@ Samples reference_samples() {
   return samples;
 }
 
-std::vector<double> filled(Samples samples, Span span, Curve curve) {
+std::vector<double> filled(Samples samples, FrameSpan span, Curve curve) {
   EXPECT_TRUE(fill_with_curve(samples.track(), span, curve, settings));
   return {samples.values.begin() + static_cast<std::ptrdiff_t>(span.first * samples.channels),
           samples.values.begin() + static_cast<std::ptrdiff_t>((span.last + 1) * samples.channels)};
 }
 
 template <class Function>
-Samples sampled(std::size_t frames, Span span, Function function) {
+Samples sampled(std::size_t frames, FrameSpan span, Function function) {
   Samples samples;
   for (std::size_t f = 0; f < frames; ++f) {
     samples.values.push_back(function(static_cast<double>(f)));
@@ -80,7 +80,8 @@ TEST(Curves, CubicIsSciPysNaturalSpline) {
 TEST(Curves, ShapePreservingIsSciPysPchip) {
   EXPECT_THAT(filled(reference_samples(), reference_gap, Curve::shape_preserving),
               Pointwise(NearTo(1e-12), reference("pchip")));
-  for (const Span span : {Span{66, 66}, Span{99, 99}, Span{120, 120}, Span{130, 132}}) {
+  for (const FrameSpan span :
+       {FrameSpan{66, 66}, FrameSpan{99, 99}, FrameSpan{120, 120}, FrameSpan{130, 132}}) {
     const auto values = filled(reference_samples(), span, Curve::shape_preserving);
     for (std::size_t f = span.first; f <= span.last; ++f) {
       EXPECT_NEAR(values[f - span.first], reference("pchip_all")[f], 1e-12) << f;
@@ -179,7 +180,7 @@ TEST(NaturalSpline, EvaluatesInEveryInterval) {
 }
 
 TEST(Curves, MeetTheirEndsInValueAndVelocity) {
-  const Span span{100, 139};
+  const FrameSpan span{100, 139};
   const auto motion = [](double f) { return 40 * std::sin(0.05 * f) + 0.3 * f; };
   for (const Curve curve : {Curve::cubic, Curve::quintic, Curve::hermite}) {
     Samples samples = sampled(240, span, motion);
@@ -195,7 +196,7 @@ TEST(Curves, MeetTheirEndsInValueAndVelocity) {
 }
 
 TEST(Curves, FillAStraightLineWithItself) {
-  const Span span{40, 59};
+  const FrameSpan span{40, 59};
   for (const Curve curve : curves) {
     const auto line = [](double f) { return 3 - 0.25 * f; };
     const auto values = filled(sampled(120, span, line), span, curve);
@@ -218,7 +219,7 @@ TEST(Curves, ShapePreservingNeverOvershoots) {
 }
 
 TEST(Curves, QuinticIsNotThrownByNoiseAtTheEnds) {
-  const Span span{150, 179};
+  const FrameSpan span{150, 179};
   const auto motion = [](double f) { return 100 * std::sin(0.04 * f); };
   double quintic = 0, interpolating = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -239,7 +240,7 @@ TEST(Curves, QuinticIsNotThrownByNoiseAtTheEnds) {
 }
 
 TEST(Curves, EndVelocitiesAreNotThrownByASpike) {
-  const Span span{60, 79};
+  const FrameSpan span{60, 79};
   Samples samples = sampled(150, span, [](double f) { return 2 * f; });
   samples.values[56] += 50;
   const EndState state = state_before(samples.track(), span, settings);
@@ -277,7 +278,7 @@ TEST(Curves, FillBetweenSingleSamples) {
 }
 
 TEST(Curves, FillEveryChannelByItself) {
-  const Span span{30, 49};
+  const FrameSpan span{30, 49};
   for (const Curve curve : curves) {
     Samples both;
     both.channels = 2;
@@ -300,7 +301,7 @@ TEST(Curves, FillEveryChannelByItself) {
 }
 
 TEST(PlaceGuess, MovesAGuessToItsEnds) {
-  const Span span{100, 159};
+  const FrameSpan span{100, 159};
   const auto motion = [](double f) { return 10 * std::sin(0.06 * f); };
   Samples samples = sampled(260, span, motion);
   Guess guess{80, {}};
@@ -315,7 +316,7 @@ TEST(PlaceGuess, MovesAGuessToItsEnds) {
 }
 
 TEST(PlaceGuess, MeetsValueAndVelocityOfAnyGuess) {
-  const Span span{100, 159};
+  const FrameSpan span{100, 159};
   Samples samples = sampled(260, span, [](double f) { return f < 130 ? f : 200 - f; });
   const Guess guess{80, std::vector<double>(100, 4.0)};
   place_guess(samples.track(), span, guess, settings);
@@ -325,7 +326,7 @@ TEST(PlaceGuess, MeetsValueAndVelocityOfAnyGuess) {
 }
 
 TEST(PlaceGuess, MeetsOnlyTheSideThatThereIs) {
-  const Span span{50, 79};
+  const FrameSpan span{50, 79};
   Samples samples = sampled(80, span, [](double) { return 12.0; });
   place_guess(samples.track(), span, {30, std::vector<double>(50, 4.0)}, settings);
   for (std::size_t f = span.first; f <= span.last; ++f) EXPECT_NEAR(samples.values[f], 12, 1e-9);

@@ -25,7 +25,7 @@ struct Walk {
   std::vector<double> values;
   std::vector<std::uint8_t> observed;
 
-  explicit Walk(Span span, double noise = 0) : observed(frames, 1) {
+  explicit Walk(FrameSpan span, double noise = 0) : observed(frames, 1) {
     Random random(1);
     for (std::size_t f = 0; f < frames; ++f) {
       for (std::size_t c = 0; c < 2; ++c) {
@@ -38,7 +38,7 @@ struct Walk {
     }
   }
   Track track() { return {values, 2, observed}; }
-  double error(Span span) const {
+  double error(FrameSpan span) const {
     double sum = 0;
     for (std::size_t f = span.first; f <= span.last; ++f) {
       sum += std::hypot(values[2 * f] - step_motion(f, 0), values[2 * f + 1] - step_motion(f, 1));
@@ -48,7 +48,7 @@ struct Walk {
 };
 
 TEST(Cycles, AreFoundWholePeriodsAway) {
-  const Span span{300, 380};
+  const FrameSpan span{300, 380};
   Walk walk(span);
   const auto cycles = find_cycles(walk.track(), span, settings);
   ASSERT_FALSE(cycles.empty());
@@ -59,7 +59,8 @@ TEST(Cycles, AreFoundWholePeriodsAway) {
 }
 
 TEST(Cycles, FillAGapThatIsNearlyACycleLong) {
-  for (const Span span : {Span{300, 380}, Span{250, 370}, Span{640, 699}, Span{0, 50}}) {
+  for (const FrameSpan span :
+       {FrameSpan{300, 380}, FrameSpan{250, 370}, FrameSpan{640, 699}, FrameSpan{0, 50}}) {
     Walk walk(span);
     const auto cycles = find_cycles(walk.track(), span, settings);
     ASSERT_TRUE(fill_with_cycles(walk.track(), span, cycles, settings));
@@ -69,7 +70,7 @@ TEST(Cycles, FillAGapThatIsNearlyACycleLong) {
 }
 
 TEST(Cycles, BearNoise) {
-  const Span span{300, 380};
+  const FrameSpan span{300, 380};
   Walk walk(span, 0.5);
   ASSERT_TRUE(
       fill_with_cycles(walk.track(), span, find_cycles(walk.track(), span, settings), settings));
@@ -80,14 +81,14 @@ TEST(Cycles, BearNoise) {
 }
 
 TEST(Cycles, AreNotTakenFromFramesThatAreMissing) {
-  const Span span{300, 380};
+  const FrameSpan span{300, 380};
   Walk walk(span);
   for (std::size_t f = 400; f < frames; ++f) walk.observed[f] = f % 40 != 0;
   for (const Cycle& cycle : find_cycles(walk.track(), span, settings)) EXPECT_LT(cycle.lag, 0);
 }
 
 TEST(Cycles, AreNotFoundInMotionThatDoesNotRepeat) {
-  const Span span{300, 360};
+  const FrameSpan span{300, 360};
   Walk walk(span);
   for (std::size_t f = 0; f < frames; ++f) {
     const double t = static_cast<double>(f) / 120;
@@ -99,7 +100,7 @@ TEST(Cycles, AreNotFoundInMotionThatDoesNotRepeat) {
 }
 
 TEST(Cycles, AreNotFoundWhereNothingMoves) {
-  const Span span{300, 360};
+  const FrameSpan span{300, 360};
   Walk walk(span);
   std::fill(walk.values.begin(), walk.values.end(), 5.0);
   EXPECT_TRUE(find_cycles(walk.track(), span, settings).empty());

@@ -97,13 +97,13 @@ TEST(Judgement, OneTrialThatWentAstraySaysNothingAgainstTheSpline) {
 
 TEST(TrialPlaces, AreSeenThroughoutAndLieAboutTheGapAndElsewhere) {
   std::vector<std::uint8_t> usable(1000, 1);
-  const Span gap{400, 419};
+  const FrameSpan gap{400, 419};
   std::fill(usable.begin() + 400, usable.begin() + 420, 0);
   std::fill(usable.begin() + 440, usable.begin() + 450, 0);
-  const std::vector<Span> spans = trial_places(usable, 0, gap);
+  const std::vector<FrameSpan> spans = trial_places(usable, 0, gap);
   ASSERT_EQ(spans.size(), 9U);
   std::size_t near = 0;
-  for (const Span span : spans) {
+  for (const FrameSpan span : spans) {
     EXPECT_EQ(span.length(), 20U);
     for (std::size_t f = span.first - 1; f <= span.last + 1; ++f) EXPECT_EQ(usable[f], 1) << f;
     near += span.first > 300 && span.last < 520;
@@ -116,7 +116,7 @@ TEST(TrialPlaces, AreSeenThroughoutAndLieAboutTheGapAndElsewhere) {
 TEST(TrialPlaces, AreShorterWhereThereIsNoRoomAndNoneWhereThereIsNone) {
   std::vector<std::uint8_t> usable(100, 1);
   std::fill(usable.begin() + 20, usable.begin() + 80, 0);
-  const std::vector<Span> spans = trial_places(usable, 0, {20, 79});
+  const std::vector<FrameSpan> spans = trial_places(usable, 0, {20, 79});
   ASSERT_FALSE(spans.empty());
   EXPECT_EQ(spans[0].length(), 15U);
   EXPECT_TRUE(trial_places(std::vector<std::uint8_t>(100, 0), 0, {20, 79}).empty());
@@ -130,7 +130,7 @@ TEST(HiddenSpan, IsAsAGapOfTheTake) {
   const PoseRegression poses(clip);
   const JointContext context{clip.frame_rate_hz, poses, 1};
   for (const std::size_t first : {60U, 200U, 333U}) {
-    const Span span{first, first + 11};
+    const FrameSpan span{first, first + 11};
     Clip gapped = clip;
     const NamedGap gap{clip.skeleton.names[joint], span.first, span.last};
     mark_gaps(gapped, {&gap, 1});

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "acclaim.hpp"
+#include "io/acclaim/acclaim.hpp"
 #include "kinemend/convert.hpp"
 #include "kinemend/frame_rate.hpp"
 #include "kinemend/synth.hpp"

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace kinemend {
+
+/// Frames first to last, inclusive.
+struct FrameSpan {
+  std::size_t first = 0;
+  std::size_t last = 0;
+
+  std::size_t length() const noexcept { return last - first + 1; }
+};
+
+/// Frames in `seconds`, rounded, at least `least`.
+inline std::size_t frames_in(double seconds, double frame_rate_hz, std::size_t least) {
+  constexpr double most = 1e9;
+  const double frames = std::round(seconds * frame_rate_hz);
+  return std::max(least, static_cast<std::size_t>(std::min(frames, most)));
+}
+
+}  // namespace kinemend

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "io/acclaim/amc_layout.hpp"
+#include "io/motion/motion_rows.hpp"
+#include "io/text/text.hpp"
+
+namespace kinemend {
+
+/// Walks over the frames of an AMC: a number on a line of its own, then a line for each bone.
+class AmcRows {
+ public:
+  /// `degrees_per_value` of the angles, which are the columns that `is_angle` marks.
+  AmcRows(const SourceText& text, std::size_t begin, const AmcLayout& layout,
+          const std::vector<std::uint8_t>& is_angle, double degrees_per_value);
+
+  /// Reads the next frame; a value that is not finite becomes NaN. False at the end of the text.
+  /// `tokens`, unless null, takes the place of each value. Errors: `unreadable_input`, naming the
+  /// line.
+  bool next(double* values, TokenSpan* tokens = nullptr);
+
+  std::size_t last_end() const { return static_cast<std::size_t>(last_end_ - text_.bytes.data()); }
+  unsigned most_decimals() const { return most_decimals_; }
+  std::size_t gaps() const { return gaps_; }  ///< values that are not finite
+  const char* first_gap() const { return first_gap_; }
+  /// Of the first frame that was read.
+  double first_frame_number() const { return first_frame_number_; }
+  /// Frames whose number is not one more than that of the frame before.
+  std::size_t number_jumps() const { return number_jumps_; }
+  const char* first_number_jump() const { return first_number_jump_; }
+
+ private:
+  const char* skip_lines(const char* p) const;
+  const char* skip_blanks(const char* p) const;
+  std::string_view word_at(const char* p) const;
+  bool read_frame_number();
+  bool starts_bone(const char* p, const std::string& name) const;
+  void read_bone(const AmcBone& bone, const char* p, double* values, TokenSpan* tokens);
+  void read_bones_in_any_order(std::size_t first, double* values, TokenSpan* tokens);
+  std::size_t bone_at(const char* p, const std::vector<bool>& seen) const;
+  double read_value(const char*& p);
+  [[noreturn]] void fail_value(const AmcBone& bone, const char* line, const char* p) const;
+  [[noreturn]] void fail_missing(const std::vector<bool>& seen, const char* p) const;
+
+  SourceText text_;
+  const char* position_;
+  const char* end_;
+  const char* plain_begin_;  // from here to `plain_end_`, `read_plain_number` may be asked
+  const char* plain_end_;
+  const char* last_end_;
+  const AmcLayout& layout_;
+  const std::vector<std::uint8_t>& is_angle_;
+  double degrees_per_value_;
+  std::unordered_map<std::string_view, std::size_t> index_of_;
+  double frame_number_ = 0, first_frame_number_ = 1;
+  bool has_frame_number_ = false;
+  unsigned most_decimals_ = 0;
+  std::size_t gaps_ = 0;
+  const char* first_gap_ = nullptr;
+  std::size_t number_jumps_ = 0;
+  const char* first_number_jump_ = nullptr;
+};
+
+}  // namespace kinemend

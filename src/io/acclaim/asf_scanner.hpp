@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "io/text/number.hpp"
+
+namespace kinemend {
+
+/// Walks over the words of an ASF file: white space, commas and parentheses stand between them, and
+/// # starts a comment.
+class AsfScanner {
+ public:
+  explicit AsfScanner(std::string_view bytes, std::size_t position = 0)
+      : bytes_(bytes), position_(position) {}
+
+  /// The next word, empty at the end; stays before it.
+  std::string_view peek() {
+    while (position_ < bytes_.size()) {
+      const char c = bytes_[position_];
+      if (c == '#') {
+        skip_line();
+      } else if (is_blank(c)) {
+        ++position_;
+      } else {
+        break;
+      }
+    }
+    std::size_t end = position_;
+    while (end < bytes_.size() && !is_blank(bytes_[end]) && bytes_[end] != '#') ++end;
+    return bytes_.substr(position_, end - position_);
+  }
+  /// The next word, and moves behind it.
+  std::string_view next() {
+    const std::string_view word = peek();
+    position_ += word.size();
+    return word;
+  }
+  /// The next word of this line, empty where there is none; moves behind it.
+  std::string_view next_in_line() {
+    while (position_ < bytes_.size() && is_blank(bytes_[position_]) &&
+           !is_line_end(bytes_[position_])) {
+      ++position_;
+    }
+    const bool more =
+        position_ < bytes_.size() && !is_line_end(bytes_[position_]) && bytes_[position_] != '#';
+    return more ? next() : std::string_view{};
+  }
+  void skip_line() {
+    while (position_ < bytes_.size() && !is_line_end(bytes_[position_])) ++position_;
+  }
+
+  /// Of the next word, once it was peeked at.
+  std::size_t position() const { return position_; }
+
+ private:
+  static bool is_blank(char c) { return is_space(c) || c == ',' || c == '(' || c == ')'; }
+
+  std::string_view bytes_;
+  std::size_t position_;
+};
+
+}  // namespace kinemend

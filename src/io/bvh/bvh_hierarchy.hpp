@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "io/bvh/bvh_document.hpp"
+#include "io/text/number.hpp"
+#include "io/text/text.hpp"
+#include "kinemend/skeleton.hpp"
+
+namespace kinemend {
+
+/// What stands before the channel values.
+struct BvhHeader {
+  Skeleton skeleton;
+  std::size_t hierarchy_end = 0;
+  bool has_motion = false;
+  std::optional<std::size_t> frames;  ///< as declared; none when missing or no whole number
+  ByteSpan frame_count;
+  double frame_time_s = 0;  ///< 0 when missing or unusable
+  ByteSpan frame_time;
+  bool frame_time_is_none = false;  ///< what stands there is no finite number
+  std::size_t data_begin = 0;
+};
+
+/// More joints or end sites than this are taken for garbage.
+inline constexpr std::size_t most_joints = 16384;
+
+/// Parses up to the first channel value. `unknown_rate_hz`: what is taken where there is no usable
+/// frame time. Errors: `unreadable_input`, naming the line.
+BvhHeader read_bvh_header(const SourceText& text, Diagnostics& diagnostics, std::size_t max_depth,
+                          double unknown_rate_hz);
+
+/// Frames per second of a frame time as written: a rate that is in use (24, 25, 30, ..., 240 and
+/// their NTSC neighbours) when the text is within 1e-3 of it (1e-6 when nine digits or more are
+/// given), a whole number of hertz within 1e-4 when the text is that frame time rounded, else the
+/// reciprocal.
+double rate_from_frame_time(double frame_time_s, std::string_view text);
+
+}  // namespace kinemend

@@ -1,0 +1,270 @@
+#include <fmt/format.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "base/progress.hpp"
+#include "io/bvh/bvh.hpp"
+#include "io/bvh/bvh_document.hpp"
+#include "io/bvh/bvh_hierarchy.hpp"
+#include "io/motion/clip_rows.hpp"
+#include "io/motion/motion_columns.hpp"
+#include "io/motion/motion_lines.hpp"
+#include "io/motion/motion_rows.hpp"
+#include "io/text/text.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr double rate_when_unknown_hz = 30;
+
+class MotionReader {
+ public:
+  MotionReader(const SourceText& text, const ReadOptions& options, Diagnostics& diagnostics,
+               const BvhHeader& header, Clip& clip, BvhDocument& document)
+      : text_(text),
+        progress_(options.progress),
+        diagnostics_(diagnostics),
+        header_(header),
+        clip_(clip),
+        document_(document),
+        clip_rows_(clip, offset_replacing_frames(clip.skeleton), text.bytes.size()),
+        columns_(clip_rows_.columns()) {}
+
+  void read() {
+    document_.data_begin = document_.data_end = header_.data_begin;
+    if (!header_.has_motion) return;
+    if (columns_.count() == 0) {
+      if (header_.frames.value_or(0) > 0)
+        note_count("the joints have no channels: the take has no frames");
+      return;
+    }
+    check_declared_count();
+    begin_ = text_.bytes.data() + header_.data_begin;
+    end_ = text_.bytes.data() + text_.bytes.size();
+    document_.commas = find_comma_style();
+    MotionRows rows(begin_, end_, document_.commas);
+    clip_rows_.reserve(header_.frames.value_or(0), most_frames());
+    const std::size_t rest = read_rows(rows);
+    check_end(rows, rest);
+    note_repairs(rows);
+    clip_rows_.finish(document_, rows.gaps() > 0);
+    document_.data_end = static_cast<std::size_t>(rows.last_end() - text_.bytes.data());
+    document_.decimals = rows.most_decimals();
+  }
+
+ private:
+  std::size_t frames() const { return clip_rows_.frames(); }
+  std::size_t most_frames() const {
+    return static_cast<std::size_t>(end_ - begin_) / (2 * columns_.count()) + 1;
+  }
+
+  void note_count(std::string_view message) {
+    note_repair(text_, diagnostics_, "frame_count_mismatch", header_.frame_count.begin, message);
+  }
+
+  // A wrong count is repaired; one that is wrong beyond belief is a sign that the rest is not to be
+  // trusted either.
+  void check_declared_count() const {
+    const double least_bytes = 2.0 * static_cast<double>(header_.frames.value_or(0)) *
+                               static_cast<double>(columns_.count());
+    const std::size_t rest = text_.bytes.size() - header_.data_begin;
+    if (least_bytes > 64.0 * static_cast<double>(rest + 1024)) {
+      throw text_.error_at(header_.frame_count.begin,
+                           fmt::format("{} frames of {} channel values cannot be in {} bytes",
+                                       *header_.frames, columns_.count(), rest));
+    }
+  }
+
+  CommaStyle find_comma_style() const {
+    if (std::memchr(begin_, ',', static_cast<std::size_t>(end_ - begin_)) == nullptr)
+      return CommaStyle::none;
+    TextScanner scanner(text_.bytes, header_.data_begin);
+    scanner.peek();
+    const std::string_view line = scanner.rest_of_line();
+    const CommaStyle style = comma_style(line, columns_.count());
+    if (style == CommaStyle::none && line.find(',') != line.npos) {
+      throw text_.error_at(
+          scanner.position(),
+          fmt::format("expected {} channel values; commas may be decimal or stand between values",
+                      columns_.count()));
+    }
+    return style;
+  }
+
+  struct Block {
+    std::vector<double> values;
+    std::size_t frames = 0;
+    bool with_gaps = false;
+    const char* end = nullptr;
+  };
+
+  // Numbers are read while those of the block before become rotations. Returns how many values are
+  // left over after the last whole frame.
+  std::size_t read_rows(MotionRows& rows) {
+    // A block is stored before the one that is so many behind it is read.
+    std::array<Block, 4> blocks;
+    std::size_t entered = 0, rest = columns_.count();
+    const auto read = [&](tbb::flow_control& control) -> Block* {
+      if (rest < columns_.count()) {
+        control.stop();
+        return nullptr;
+      }
+      Block& block = blocks[entered++ % blocks.size()];
+      rest = read_block(rows, block);
+      return &block;
+    };
+    const auto store_block = [&](Block* block) { store(*block); };
+    using tbb::filter_mode;
+    tbb::this_task_arena::isolate([&] {
+      tbb::parallel_pipeline(
+          blocks.size(),
+          tbb::make_filter<void, Block*>(filter_mode::serial_in_order, read) &
+              tbb::make_filter<Block*, void>(filter_mode::serial_in_order, store_block));
+    });
+    return rest;
+  }
+
+  // Returns how many values the last row has, which is fewer than there are columns at the end.
+  std::size_t read_block(MotionRows& rows, Block& block) {
+    const std::size_t width = columns_.count(), gaps_before = rows.gaps();
+    block.values.resize(columns_.block_frames() * width);
+    block.frames = 0;
+    std::size_t count = width;
+    while (block.frames < columns_.block_frames()) {
+      count = rows.next(block.values.data() + block.frames * width, width);
+      if (count < width) break;
+      ++block.frames;
+      uneven_lines_ = uneven_lines_ || !(rows.at_line_start() || rows.at_end());
+    }
+    block.with_gaps = rows.gaps() > gaps_before;
+    block.end = rows.position();
+    return count;
+  }
+
+  void store(Block& block) {
+    if (block.frames == 0) return;
+    const std::size_t wanted = frames() + block.frames;
+    if (!clip_rows_.fits(wanted)) {
+      throw text_.error_at(
+          header_.data_begin,
+          fmt::format("{} joints with {} channels: too much memory for a file of {} bytes",
+                      clip_.joint_count(), columns_.count(), text_.bytes.size()));
+    }
+    // More frames than declared: room for all there can be, at once rather than by doubling.
+    if (wanted * clip_.joint_count() > clip_.local_rotations.capacity()) {
+      clip_rows_.reserve(std::numeric_limits<std::size_t>::max(), most_frames());
+    }
+    clip_rows_.append(block.values.data(), block.frames, block.with_gaps);
+    progress_.reach(static_cast<double>(block.end - begin_) / static_cast<double>(end_ - begin_));
+  }
+
+  void check_end(const MotionRows& rows, std::size_t rest) {
+    const bool wanted = frames() < header_.frames.value_or(frames() == 0 ? 1 : 0);
+    if (!rows.at_end() && (rest > 0 || wanted)) {
+      TextScanner scanner(text_.bytes,
+                          static_cast<std::size_t>(rows.position() - text_.bytes.data()));
+      const std::string_view found = scanner.peek();
+      throw text_.error_at(scanner.position(),
+                           fmt::format("expected a number, found {}", quote(found)));
+    }
+    const bool wrong_count = header_.frames && *header_.frames != frames();
+    if (rest > 0 || uneven_lines_ || wrong_count) {
+      const auto fault = find_line_fault(begin_, rows.position(), document_.commas,
+                                         columns_.count(), header_.frames);
+      if (fault) throw text_.error_at(fault->place, to_string(*fault));
+    }
+    if (rest > 0) {
+      throw text_.error_at(rows.last_end(), to_string(LineFault{nullptr, columns_.count(), rest}));
+    }
+    if (wanted && frames() == 0 && header_.frames) {
+      throw text_.error_at(rows.position(),
+                           fmt::format("expected {} frames, found none", *header_.frames));
+    }
+    if (wrong_count)
+      note_count(fmt::format("Frames: says {}, the file holds {}", *header_.frames, frames()));
+    if (!rows.at_end()) {
+      note_repair(text_, diagnostics_, "trailing_text",
+                  static_cast<std::size_t>(rows.position() - text_.bytes.data()),
+                  "text after the last frame");
+    }
+  }
+
+  void note_repairs(const MotionRows& rows) {
+    const auto note = [&](const char* place, std::size_t count, std::string_view kind,
+                          std::string_view message) {
+      if (count == 0) return;
+      note_repair(text_, diagnostics_, kind, static_cast<std::size_t>(place - text_.bytes.data()),
+                  message, count);
+    };
+    if (rows.gaps() > 0 && rows.gaps() == frames() * columns_.count()) {
+      throw text_.error_at(rows.first_gap(), "no channel value is a finite number");
+    }
+    note(rows.first_gap(), rows.gaps(), "value_not_finite",
+         "a channel value is no finite number: held from a neighbouring frame");
+    note(rows.first_comment(), rows.comments(), "comment_skipped",
+         "a comment, which the format does not have");
+    if (document_.commas == CommaStyle::decimal)
+      note(begin_, 1, "decimal_comma", "numbers have decimal commas");
+    if (document_.commas == CommaStyle::separator)
+      note(begin_, 1, "comma_separator", "commas stand between values");
+  }
+
+  const SourceText& text_;
+  ShareProgress progress_;
+  Diagnostics& diagnostics_;
+  const BvhHeader& header_;
+  Clip& clip_;
+  BvhDocument& document_;
+  ClipRows clip_rows_;
+  const MotionColumns& columns_;
+  const char* begin_ = nullptr;
+  const char* end_ = nullptr;
+  bool uneven_lines_ = false;
+};
+
+}  // namespace
+
+int sniff_bvh(std::string_view head) {
+  if (head.substr(0, 3) == "\xEF\xBB\xBF") head.remove_prefix(3);
+  TextScanner scanner(head, 0);
+  const std::string_view word = scanner.next();
+  if (equal_ignoring_case(word, "HIERARCHY")) return 100;
+  return equal_ignoring_case(word, "ROOT") ? 60 : 0;
+}
+
+TakeResult read_bvh(std::string bytes, std::string_view name, const ReadOptions& options) {
+  const auto document = std::make_shared<BvhDocument>();
+  document->bytes = std::move(bytes);
+  const SourceText text{name, document->bytes, options.strict};
+  TakeResult result;
+  const double unknown_rate_hz =
+      options.frame_rate_hz > 0 ? options.frame_rate_hz : rate_when_unknown_hz;
+  const BvhHeader header =
+      read_bvh_header(text, result.diagnostics, options.max_depth, unknown_rate_hz);
+  Clip& clip = result.take.emplace<Clip>();
+  clip.skeleton = header.skeleton;
+  clip.frame_rate_hz =
+      header.frame_time_s > 0
+          ? rate_from_frame_time(header.frame_time_s, document->text(header.frame_time))
+          : unknown_rate_hz;
+  MotionReader(text, options, result.diagnostics, header, clip, *document).read();
+  document->skeleton = clip.skeleton;
+  document->frame_rate_hz = clip.frame_rate_hz;
+  document->frame_count = clip.frame_count();
+  document->hierarchy_end = header.hierarchy_end;
+  document->frame_time = header.frame_time;
+  document->frame_time_is_none = header.frame_time_is_none;
+  clip.source = {std::string(name), "bvh", document};
+  return result;
+}
+
+}  // namespace kinemend

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "io/c3d/c3d_document.hpp"
+
+namespace kinemend {
+
+/// What force plates, muscle sensors and the like measured beside the points.
+struct C3dAnalog {
+  std::vector<std::string> names;  ///< C channels
+  std::vector<std::string> units;  ///< C
+  double rate_hz = 0;
+  std::vector<double> values;  ///< N x C, instant by instant; N is a multiple of the frame count
+};
+
+/// Reads stored analog values: `(stored - OFFSET) * SCALE * GEN_SCALE`, where both stored integers
+/// and OFFSET are unsigned if ANALOG:FORMAT says UNSIGNED.
+class C3dAnalogDecoder {
+ public:
+  explicit C3dAnalogDecoder(const C3dDocument& document);
+
+  /// Of one frame, as they are stored, all channels of its first instant first.
+  void stored(std::size_t frame, std::vector<double>& values) const;
+  /// What a stored value of a channel means, in its unit.
+  double value(double stored, std::size_t channel) const {
+    return (stored - offsets_[channel]) * scales_[channel];
+  }
+
+ private:
+  const C3dDocument& document_;
+  bool is_unsigned_;
+  std::vector<double> offsets_;
+  std::vector<double> scales_;
+};
+
+/// All analog samples of a file; no channels where it has none.
+C3dAnalog decode_c3d_analog(const C3dDocument& document);
+
+}  // namespace kinemend

@@ -1,0 +1,103 @@
+#include "io/c3d/c3d_events.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinemend {
+
+namespace {
+
+// Times are pairs: minutes, seconds.
+std::vector<MarkerEvent> group_events(const C3dSource& source, const C3dParameters& parameters,
+                                      std::string_view group) {
+  const std::vector<double> times = parameters.numbers(group, "TIMES");
+  const std::vector<std::string> labels = parameters.texts(group, "LABELS");
+  const std::vector<std::string> contexts = parameters.texts(group, "CONTEXTS");
+  std::size_t count = parameters.count(group, "USED").value_or(times.size() / 2);
+  const C3dParameter* const first = parameters.find(group, "TIMES");
+  if (count > times.size() / 2) {
+    source.note("event_count_mismatch", first == nullptr ? source.bytes.size() : first->data_begin,
+                "there are fewer event times than events");
+    count = times.size() / 2;
+  }
+  std::vector<MarkerEvent> events;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double time_s = 60 * times[2 * i] + times[2 * i + 1];
+    if (!std::isfinite(time_s)) {
+      source.note("event_time_not_finite", first->data_begin,
+                  "an event has no time; it is left out");
+      continue;
+    }
+    events.push_back({i < labels.size() ? as_utf8(labels[i]) : std::string(),
+                      i < contexts.size() ? as_utf8(contexts[i]) : std::string(), time_s});
+  }
+  return events;
+}
+
+std::vector<MarkerEvent> header_events(const C3dSource& source, const C3dHeader& header) {
+  const auto offset = [&](std::size_t word) { return header.begin + 2 * (word - 1); };
+  if (source.word(offset(c3d_event_key_word)) != c3d_event_key) return {};
+  const std::size_t count =
+      std::min<std::size_t>(source.word(offset(c3d_event_count_word)), c3d_most_header_events);
+  std::vector<MarkerEvent> events;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double time_s = source.real(offset(c3d_event_times_word) + 4 * i);
+    if (!std::isfinite(time_s)) continue;
+    std::string label(source.bytes.substr(offset(c3d_event_labels_word) + 4 * i, 4));
+    label.erase(label.find_last_not_of(std::string_view(" \0", 2)) + 1);
+    events.push_back({as_utf8(label), "", time_s});
+  }
+  return events;
+}
+
+// The length of the UTF-8 sequence at `p`; 0 where there is none.
+std::size_t sequence_length(std::string_view p) {
+  const auto lead = static_cast<unsigned char>(p[0]);
+  const std::size_t length = lead < 0x80                     ? 1
+                             : lead >> 5 == 6 && lead > 0xC1 ? 2
+                             : lead >> 4 == 14               ? 3
+                             : lead >> 3 == 30               ? 4
+                                                             : 0;
+  if (length > p.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((static_cast<unsigned char>(p[i]) & 0xC0) != 0x80) return 0;
+  }
+  return length;
+}
+
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = sequence_length(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string as_utf8(const std::string& text) {
+  if (is_utf8(text)) return text;
+  std::string converted;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x80) {
+      converted += c;
+    } else {
+      converted += static_cast<char>(0xC0 | code >> 6);
+      converted += static_cast<char>(0x80 | (code & 0x3F));
+    }
+  }
+  return converted;
+}
+
+std::vector<MarkerEvent> read_c3d_events(const C3dSource& source, const C3dHeader& header,
+                                         const C3dParameters& parameters) {
+  for (const std::string_view group : {"EVENT", "EVENTS"}) {
+    std::vector<MarkerEvent> events = group_events(source, parameters, group);
+    if (!events.empty()) return events;
+  }
+  return header_events(source, header);
+}
+
+}  // namespace kinemend

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "io/c3d/c3d_layout.hpp"
+#include "kinemend/marker_clip.hpp"
+
+namespace kinemend {
+
+/// Words of the header that hold its events, from 1.
+constexpr std::size_t c3d_event_key_word = 150, c3d_event_count_word = 151,
+                      c3d_event_times_word = 153, c3d_event_flags_word = 189,
+                      c3d_event_labels_word = 199;
+constexpr std::size_t c3d_event_key = 12345, c3d_most_header_events = 18;
+
+/// The events of the group EVENT (or EVENTS, as some write), else those of the header, in the order
+/// of the file.
+std::vector<MarkerEvent> read_c3d_events(const C3dSource& source, const C3dHeader& header,
+                                         const C3dParameters& parameters);
+
+/// `text` if it is UTF-8, else as Latin 1.
+std::string as_utf8(const std::string& text);
+
+}  // namespace kinemend

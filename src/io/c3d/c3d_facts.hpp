@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/c3d/c3d_document.hpp"
+#include "io/c3d/c3d_points.hpp"
+#include "kinemend/clip.hpp"
+
+namespace kinemend {
+
+/// "DEC integers in steps of 0.1", "Intel reals".
+std::string c3d_encoding(const C3dDocument& document);
+
+/// What a C3D file holds beside its points, in words.
+std::vector<SourceFact> c3d_facts(const C3dDocument& document, const C3dPointCounts& counts);
+
+}  // namespace kinemend

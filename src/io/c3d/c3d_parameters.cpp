@@ -1,0 +1,255 @@
+#include "io/c3d/c3d_parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <utility>
+
+#include "io/text/text.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr std::size_t unsigned_words = 65536;
+
+std::size_t value_count(const C3dParameter& parameter) {
+  return std::accumulate(parameter.dimensions.begin(), parameter.dimensions.end(), std::size_t{1},
+                         std::multiplies<>());
+}
+
+std::size_t value_bytes(C3dType type) {
+  return type == C3dType::text ? 1 : static_cast<std::size_t>(type);
+}
+
+// An entry is: length of the name (negative when locked), number of the group (negative for the
+// group itself), the name, the distance to the next entry counted from here on, then for a
+// parameter its type, its dimensions and its values, and last a description with its length.
+class EntryReader {
+ public:
+  EntryReader(const C3dSource& source, std::size_t begin, std::size_t end)
+      : source_(source), position_(begin), end_(end) {}
+
+  C3dParameters read() {
+    while (read_entry()) {
+    }
+    return std::move(result_);
+  }
+
+ private:
+  bool has(std::size_t count) const { return end_ - position_ >= count; }
+  int signed_byte(std::size_t offset) const {
+    const int value = source_.byte(offset);
+    return value < 128 ? value : value - 256;
+  }
+
+  // False at the end of the list.
+  bool read_entry() {
+    entry_ = position_;
+    if (!has(2)) return false;
+    const int name_length = signed_byte(position_);
+    const int group = signed_byte(position_ + 1);
+    if (name_length == 0 || group == 0) return false;
+    position_ += 2;
+    const std::size_t length = static_cast<std::size_t>(std::abs(name_length));
+    if (!has(length + 2)) return damaged("its name");
+    const std::string name(source_.bytes.substr(position_, length));
+    position_ += length;
+    const std::size_t next = position_ + source_.word(position_);
+    const bool last = next == position_;
+    position_ += 2;
+    const bool read = group < 0 ? read_group(-group, name, name_length < 0)
+                                : read_parameter(group, name, name_length < 0);
+    return read && !last && move_to(next);
+  }
+
+  bool read_group(std::int32_t number, const std::string& name, bool locked) {
+    result_.groups.push_back({number, name, read_description(), locked});
+    return true;
+  }
+
+  bool read_parameter(std::int32_t group, const std::string& name, bool locked) {
+    C3dParameter parameter;
+    parameter.group = group;
+    parameter.name = name;
+    parameter.locked = locked;
+    if (!has(2)) return damaged("its type");
+    parameter.type = static_cast<C3dType>(source_.byte(position_));
+    const std::size_t dimensions = source_.byte(position_ + 1);
+    position_ += 2;
+    if (!is_known(parameter.type)) return damaged("its type");
+    if (!has(dimensions)) return damaged("its dimensions");
+    for (std::size_t i = 0; i < dimensions; ++i)
+      parameter.dimensions.push_back(source_.byte(position_ + i));
+    position_ += dimensions;
+    // Seven dimensions of 255 fit into 64 bits; more are no C3D file.
+    const std::size_t count = dimensions > 7 ? end_ : value_count(parameter);
+    if (count > (end_ - position_) / value_bytes(parameter.type)) return damaged("its values");
+    read_values(parameter, count);
+    position_ += count * value_bytes(parameter.type);
+    parameter.description = read_description();
+    result_.entries.push_back(std::move(parameter));
+    return true;
+  }
+
+  static bool is_known(C3dType type) {
+    return type == C3dType::text || type == C3dType::byte || type == C3dType::integer ||
+           type == C3dType::real;
+  }
+
+  void read_values(C3dParameter& parameter, std::size_t count) const {
+    parameter.data_begin = position_;
+    if (parameter.type == C3dType::text) {
+      parameter.text = source_.bytes.substr(position_, count);
+      return;
+    }
+    parameter.numbers.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) parameter.numbers.push_back(value(parameter.type, i));
+  }
+
+  double value(C3dType type, std::size_t index) const {
+    if (type == C3dType::byte) return source_.byte(position_ + index);
+    if (type == C3dType::integer)
+      return static_cast<std::int16_t>(source_.word(position_ + 2 * index));
+    return source_.real(position_ + 4 * index);
+  }
+
+  // Some writers leave it out, so that the next entry stands where it would be.
+  std::string read_description() {
+    if (!has(1)) return {};
+    const std::size_t length = source_.byte(position_);
+    if (!has(1 + length)) return {};
+    std::string text(source_.bytes.substr(position_ + 1, length));
+    described_end_ = position_ + 1 + length;
+    return text;
+  }
+
+  // Entries may have room between them, but none stands within the one before.
+  bool move_to(std::size_t next) {
+    if (next >= position_ && next < end_) {
+      position_ = next;
+      return true;
+    }
+    source_.note("damaged_parameter_pointer", entry_,
+                 "the pointer to the next parameter is wrong; it is taken to follow at once");
+    position_ = std::min(std::max(position_, described_end_), end_);
+    return true;
+  }
+
+  bool damaged(std::string_view what) {
+    source_.note(
+        "damaged_parameters", entry_,
+        fmt::format("a parameter is damaged in {}; this and those behind it are not read", what));
+    return false;
+  }
+
+  const C3dSource& source_;
+  std::size_t position_;
+  std::size_t end_;
+  std::size_t entry_ = 0;
+  std::size_t described_end_ = 0;
+  C3dParameters result_;
+};
+
+std::string without_blanks(std::string_view text) {
+  text = text.substr(0, text.find('\0'));
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  return std::string(text);
+}
+
+}  // namespace
+
+std::vector<std::string> texts_of(const C3dParameter& parameter) {
+  const std::size_t length = parameter.dimensions.empty() ? 1 : parameter.dimensions[0];
+  std::vector<std::string> texts;
+  if (length == 0) {
+    // As many empty texts as the other dimensions say.
+    std::size_t count = parameter.dimensions.size() > 1 ? 1 : 0;
+    for (std::size_t i = 1; i < parameter.dimensions.size(); ++i)
+      count = std::min<std::size_t>(count * parameter.dimensions[i], 255);
+    texts.resize(count);
+    return texts;
+  }
+  for (std::size_t i = 0; i + length <= parameter.text.size(); i += length)
+    texts.push_back(without_blanks(std::string_view(parameter.text).substr(i, length)));
+  return texts;
+}
+
+bool C3dParameters::has_group(std::string_view name) const {
+  return std::any_of(groups.begin(), groups.end(),
+                     [&](const C3dGroup& group) { return equal_ignoring_case(group.name, name); });
+}
+
+const C3dParameter* C3dParameters::find(std::string_view group, std::string_view name) const {
+  const auto in_group = [&](const C3dParameter& parameter) {
+    return std::any_of(groups.begin(), groups.end(), [&](const C3dGroup& known) {
+      return known.number == parameter.group && equal_ignoring_case(known.name, group);
+    });
+  };
+  const auto found = std::find_if(entries.begin(), entries.end(), [&](const C3dParameter& p) {
+    return equal_ignoring_case(p.name, name) && in_group(p);
+  });
+  return found == entries.end() ? nullptr : &*found;
+}
+
+std::optional<double> C3dParameters::number(std::string_view group, std::string_view name) const {
+  const C3dParameter* const parameter = find(group, name);
+  if (parameter == nullptr || parameter->numbers.empty()) return std::nullopt;
+  return parameter->numbers[0];
+}
+
+std::optional<std::size_t> C3dParameters::count(std::string_view group,
+                                                std::string_view name) const {
+  const auto value = number(group, name);
+  if (!value || !(std::fabs(*value) < unsigned_words)) return std::nullopt;
+  const auto whole = static_cast<std::int32_t>(*value);
+  return static_cast<std::size_t>(whole) % unsigned_words;
+}
+
+namespace {
+
+// Calls `action` with NAME, NAME2, NAME3, ... as far as they go.
+template <class Action>
+void for_each_part(const C3dParameters& parameters, std::string_view group, std::string_view name,
+                   Action&& action) {
+  const C3dParameter* part = parameters.find(group, name);
+  for (int number = 2; part != nullptr; ++number) {
+    action(*part);
+    part = parameters.find(group, fmt::format("{}{}", name, number));
+  }
+}
+
+}  // namespace
+
+std::vector<double> C3dParameters::numbers(std::string_view group, std::string_view name) const {
+  std::vector<double> all;
+  for_each_part(*this, group, name, [&](const C3dParameter& part) {
+    all.insert(all.end(), part.numbers.begin(), part.numbers.end());
+  });
+  return all;
+}
+
+std::vector<std::string> C3dParameters::texts(std::string_view group, std::string_view name) const {
+  std::vector<std::string> all;
+  for_each_part(*this, group, name, [&](const C3dParameter& part) {
+    if (part.type != C3dType::text) return;
+    for (std::string& text : texts_of(part)) all.push_back(std::move(text));
+  });
+  return all;
+}
+
+std::string C3dParameters::text(std::string_view group, std::string_view name) const {
+  const C3dParameter* const parameter = find(group, name);
+  if (parameter == nullptr || parameter->type != C3dType::text) return {};
+  std::vector<std::string> all = texts_of(*parameter);
+  return all.empty() ? std::string() : std::move(all[0]);
+}
+
+C3dParameters read_c3d_parameters(const C3dSource& source, std::size_t begin, std::size_t end) {
+  return EntryReader(source, begin, end).read();
+}
+
+}  // namespace kinemend

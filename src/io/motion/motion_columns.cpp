@@ -1,0 +1,160 @@
+#include "io/motion/motion_columns.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/motion/half_angles.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr std::size_t block_samples = 1024;
+
+struct Track {
+  const double* sines;
+  const double* cosines;
+  std::size_t angle_stride;
+  Quat* out;
+  std::size_t out_stride;
+  std::size_t frames;
+};
+
+// Three different axes a, b, c: the product (ca + sa a)(cb + sb b)(cc + sc c) multiplied out, ab =
+// +-c.
+template <int a, int b, int c>
+void compose_three(const Track& track) {
+  constexpr double e = (a + 1) % 3 == b ? 1.0 : -1.0;
+  for (std::size_t f = 0; f < track.frames; ++f) {
+    const double* s = track.sines + f * track.angle_stride;
+    const double* k = track.cosines + f * track.angle_stride;
+    const double cc = k[0] * k[1], sc = s[0] * k[1], cs = k[0] * s[1], ss = e * (s[0] * s[1]);
+    const double w = cc * k[2] - ss * s[2];
+    const double along[3] = {sc * k[2] + e * (cs * s[2]), cs * k[2] - e * (sc * s[2]),
+                             cc * s[2] + ss * k[2]};
+    constexpr int at_x = a == 0   ? 0
+                         : b == 0 ? 1
+                                  : 2,
+                  at_y = a == 1   ? 0
+                         : b == 1 ? 1
+                                  : 2,
+                  at_z = 3 - at_x - at_y;
+    track.out[f * track.out_stride] = {w, along[at_x], along[at_y], along[at_z]};
+  }
+}
+
+Quat turn(Axis axis, double sine, double cosine) {
+  return {cosine, axis == Axis::x ? sine : 0, axis == Axis::y ? sine : 0,
+          axis == Axis::z ? sine : 0};
+}
+
+void compose_any(const Track& track, RotationOrder order) {
+  for (std::size_t f = 0; f < track.frames; ++f) {
+    Quat q;
+    for (std::size_t i = 0; i < order.count; ++i) {
+      const std::size_t at = f * track.angle_stride + i;
+      q = q * turn(order.axes[i], track.sines[at], track.cosines[at]);
+    }
+    track.out[f * track.out_stride] = q;
+  }
+}
+
+void compose(const Track& track, RotationOrder order) {
+  const auto code = order.count == 3
+                        ? static_cast<int>(order.axes[0]) * 9 +
+                              static_cast<int>(order.axes[1]) * 3 + static_cast<int>(order.axes[2])
+                        : -1;
+  switch (code) {
+    case 0 * 9 + 1 * 3 + 2:
+      return compose_three<0, 1, 2>(track);
+    case 0 * 9 + 2 * 3 + 1:
+      return compose_three<0, 2, 1>(track);
+    case 1 * 9 + 0 * 3 + 2:
+      return compose_three<1, 0, 2>(track);
+    case 1 * 9 + 2 * 3 + 0:
+      return compose_three<1, 2, 0>(track);
+    case 2 * 9 + 0 * 3 + 1:
+      return compose_three<2, 0, 1>(track);
+    case 2 * 9 + 1 * 3 + 0:
+      return compose_three<2, 1, 0>(track);
+    default:
+      return compose_any(track, order);
+  }
+}
+
+}  // namespace
+
+MotionColumns::MotionColumns(const Skeleton& skeleton) {
+  const std::size_t joints = skeleton.joint_count();
+  rotations_.resize(joints);
+  for (std::size_t j = 0; j < joints; ++j) {
+    Rotation& rotation = rotations_[j];
+    rotation.order = skeleton.rotation_order(j);
+    std::int32_t translated = -1;
+    if (j > 0 && skeleton.has_position_channels(j)) {
+      translated = static_cast<std::int32_t>(translated_joints_.size());
+      translated_joints_.push_back(static_cast<std::int32_t>(j));
+    }
+    std::size_t turns = 0;
+    for (const Channel channel : skeleton.channels[j]) {
+      if (is_rotation(channel)) {
+        rotation.columns[turns++] = count_;
+      } else {
+        positions_.push_back({count_, translated, axis_of(channel)});
+      }
+      ++count_;
+    }
+  }
+  block_frames_ = std::max<std::size_t>(1, block_samples / std::max<std::size_t>(1, joints));
+}
+
+void MotionColumns::decode_rotations(const double* rows, std::size_t frames, Quat* rotations) {
+  const std::size_t joints = rotations_.size(), width = 3 * joints;
+  if (degrees_.empty()) {
+    degrees_.resize(block_frames_ * width);
+    sines_.resize(degrees_.size());
+    cosines_.resize(degrees_.size());
+  }
+  for (std::size_t f = 0; f < frames; ++f) {
+    const double* row = rows + f * count_;
+    double* degrees = degrees_.data() + f * width;
+    for (std::size_t j = 0; j < joints; ++j) {
+      const Rotation& rotation = rotations_[j];
+      for (std::size_t i = 0; i < rotation.order.count; ++i)
+        degrees[3 * j + i] = row[rotation.columns[i]];
+    }
+  }
+  half_angle_sincos(degrees_.data(), frames * width, sines_.data(), cosines_.data());
+  for (std::size_t j = 0; j < joints; ++j) {
+    compose({sines_.data() + 3 * j, cosines_.data() + 3 * j, width, rotations + j, joints, frames},
+            rotations_[j].order);
+  }
+}
+
+bool is_gap(Quat q) {
+  return std::isnan(q.w) || std::isnan(q.x) || std::isnan(q.y) || std::isnan(q.z);
+}
+
+void hold_rotations(Quat* rotations, std::size_t frames, std::size_t joints, const Quat* previous,
+                    std::uint8_t* observed) {
+  for (std::size_t f = 0; f < frames; ++f) {
+    for (std::size_t j = 0; j < joints; ++j) {
+      const std::size_t at = f * joints + j;
+      if (!is_gap(rotations[at])) continue;
+      rotations[at] = f == 0 ? previous[j] : rotations[at - joints];
+      if (observed != nullptr) observed[at] = 0;
+    }
+  }
+}
+
+void hold_positions(double* rows, std::size_t frames, const MotionColumns& columns,
+                    std::span<const double> previous) {
+  for (std::size_t f = 0; f < frames; ++f) {
+    for (std::size_t i = 0; i < previous.size(); ++i) {
+      const std::size_t at = f * columns.count() + columns.positions()[i].column;
+      if (std::isnan(rows[at])) rows[at] = f == 0 ? previous[i] : rows[at - columns.count()];
+    }
+  }
+}
+
+}  // namespace kinemend

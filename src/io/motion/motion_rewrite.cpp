@@ -1,0 +1,346 @@
+#include "io/motion/motion_rewrite.hpp"
+
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "io/motion/motion_columns.hpp"
+#include "io/motion/source_frames.hpp"
+#include "io/text/text_buffer.hpp"
+
+namespace kinemend {
+
+namespace {
+
+using Angles = std::array<double, 3>;
+
+// All of a source's values, and which rotations the clip keeps.
+struct SourceTable {
+  SourceTable(const Clip& clip, const MotionDocument& document) {
+    const std::size_t joints = clip.joint_count();
+    SourceFrames source(document);
+    SourceBlock block;
+    width = source.columns().count();
+    while (source.next(block)) {
+      values.insert(values.end(), block.values.begin(), block.values.end());
+      const Quat* const now = clip.local_rotations.data() + block.first * joints;
+      for (std::size_t i = 0; i < block.count * joints; ++i) {
+        kept.push_back(now[i] == block.rotations(0)[i] ? 1 : 0);
+      }
+    }
+  }
+
+  std::size_t width = 0;
+  std::vector<double> values;      // F x channels
+  std::vector<std::uint8_t> kept;  // F x J
+};
+
+// On the same branch and turn, up to a change of a quarter turn.
+bool near(const Angles& a, const Angles& b, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(std::fabs(a[i] - b[i]) < pi / 2)) return false;
+  }
+  return true;
+}
+
+// The angles last written for a joint, and the frame they belong to plus one.
+struct WrittenAngles {
+  Angles angles{};
+  std::size_t frames = 0;
+};
+
+// A changed sample in the text.
+struct Replacement {
+  std::size_t column = 0;
+  double value = 0;
+  TokenSpan place;
+};
+
+// Some frames of the text on their way from the source to the output.
+struct Piece {
+  SourceBlock source;
+  std::string_view text;                  // of the source, from the end of the block before
+  std::vector<Replacement> replacements;  // in the order of the text
+  std::string rewritten;
+
+  void write(unsigned decimals, CommaStyle commas) {
+    TextBuffer out(text.size() + text.size() / 8 + fixed_number_room);
+    const char* copied = text.data();
+    const auto copy_until = [&](const char* place) {
+      out.append({copied, static_cast<std::size_t>(place - copied)});
+    };
+    for (const Replacement& replacement : replacements) {
+      copy_until(replacement.place.begin);
+      out.append_fixed(replacement.value, decimals, commas);
+      copied = replacement.place.end;
+    }
+    copy_until(text.data() + text.size());
+    rewritten = std::move(out).take();
+  }
+};
+
+class Rewriter {
+ public:
+  Rewriter(const Clip& clip, const MotionDocument& document)
+      : clip_(clip),
+        document_(document),
+        source_(document),
+        decimals_(document.written_decimals()),
+        keep_below_(0.5 * std::pow(10.0, -static_cast<double>(decimals_))),
+        written_(clip.joint_count()),
+        row_before_(source_.columns().count()),
+        copied_(document.bytes.data()) {}
+
+  // A frame's angles follow from those of the frame before; numbers are read and written beside
+  // that.
+  std::string rewrite(const std::vector<DocumentEdit>& edits) {
+    constexpr std::size_t pieces_at_once = 16;
+    std::string out;
+    out.reserve(document_.bytes.size() + document_.bytes.size() / 8 + 4096);
+    for (const DocumentEdit& edit : edits) {
+      out.append(text_until(document_.bytes.data() + edit.place.begin));
+      out.append(edit.text);
+      copied_ += edit.place.size;
+    }
+    // A piece leaves before the one that is so many behind it enters.
+    std::vector<Piece> pieces(pieces_at_once);
+    std::size_t entered = 0;
+    const auto read = [&](tbb::flow_control& control) -> Piece* {
+      Piece& piece = pieces[entered++ % pieces.size()];
+      if (!source_.next(piece.source)) {
+        control.stop();
+        return nullptr;
+      }
+      piece.text = text_until(end_of(piece.source));
+      return &piece;
+    };
+    const auto choose = [&](Piece* piece) {
+      replace_samples(*piece);
+      return piece;
+    };
+    const auto write = [&](Piece* piece) {
+      piece->write(decimals_, document_.commas);
+      return piece;
+    };
+    const auto append = [&](const Piece* piece) { out.append(piece->rewritten); };
+    using tbb::filter_mode;
+    tbb::this_task_arena::isolate([&] {
+      tbb::parallel_pipeline(
+          pieces.size(),
+          tbb::make_filter<void, Piece*>(filter_mode::serial_in_order, read) &
+              tbb::make_filter<Piece*, Piece*>(filter_mode::serial_in_order, choose) &
+              tbb::make_filter<Piece*, Piece*>(filter_mode::parallel, write) &
+              tbb::make_filter<Piece*, void>(filter_mode::serial_in_order, append));
+    });
+    out.append(text_until(document_.bytes.data() + document_.bytes.size()));
+    return out;
+  }
+
+ private:
+  // What is known when the angles of a changed sample are chosen; null where there is nothing.
+  struct AngleContext {
+    std::size_t frame = 0;
+    std::size_t joint = 0;
+    const Angles* written_before = nullptr;  // what the frame before holds now
+    const Angles* source_before = nullptr;   // and held
+    const Angles* source = nullptr;
+  };
+
+  std::string_view text_until(const char* place) {
+    const char* const begin = std::exchange(copied_, place);
+    return {begin, static_cast<std::size_t>(place - begin)};
+  }
+
+  const char* end_of(const SourceBlock& block) const {
+    if (block.width == 0) return copied_;
+    const TokenSpan* const last = block.tokens(block.count - 1);
+    return std::max_element(last, last + block.width,
+                            [](TokenSpan a, TokenSpan b) { return a.end < b.end; })
+        ->end;
+  }
+
+  void replace_samples(Piece& piece) {
+    const SourceBlock& source = piece.source;
+    piece.replacements.clear();
+    for (std::size_t f = 0; f < source.count; ++f) {
+      replacements_.clear();
+      rewrite_frame(source, f);
+      if (document_.has_gaps) replace_position_gaps(source, f);
+      put_in_order(source.tokens(f));
+      piece.replacements.insert(piece.replacements.end(), replacements_.begin(),
+                                replacements_.end());
+    }
+    const double* const last = source.row(source.count - 1);
+    row_before_.assign(last, last + source.width);
+  }
+
+  void rewrite_frame(const SourceBlock& source, std::size_t block_frame) {
+    const std::size_t frame = source.first + block_frame, joints = clip_.joint_count();
+    const double* const row = source.row(block_frame);
+    replace_positions(frame, row);
+    const Quat* const before = source.rotations(block_frame);
+    const Quat* const now = clip_.local_rotations.data() + frame * joints;
+    const double* const row_before =
+        block_frame > 0 ? source.row(block_frame - 1) : row_before_.data();
+    for (std::size_t j = 0; j < joints; ++j) {
+      if (!(now[j] == before[j]) || (document_.has_gaps && holds_gap(j, row)))
+        replace_rotation(frame, j, row, row_before);
+    }
+  }
+
+  // What is no finite number is never written, whatever the clip holds in its place.
+  bool holds_gap(std::size_t joint, const double* row) const {
+    const MotionColumns::Rotation& rotation = source_.columns().rotations()[joint];
+    Angles ignored{};
+    return !source_angles(rotation, row, ignored);
+  }
+
+  // The rows hold positions as repaired; only the text tells which were no numbers.
+  void replace_position_gaps(const SourceBlock& source, std::size_t block_frame) {
+    const double* const row = source.row(block_frame);
+    const TokenSpan* const tokens = source.tokens(block_frame);
+    for (const MotionColumns::Position& position : source_.columns().positions()) {
+      const auto [begin, end] = tokens[position.column];
+      if (read_sample(begin, end, document_.commas).kind != TokenKind::not_finite) continue;
+      const auto is_here = [&](const Replacement& r) { return r.column == position.column; };
+      if (std::none_of(replacements_.begin(), replacements_.end(), is_here))
+        replacements_.push_back({position.column, row[position.column], {}});
+    }
+  }
+
+  // The columns of a joint stand together, so that each run of them is one position.
+  void replace_positions(std::size_t frame, const double* row) {
+    const auto positions = source_.columns().positions();
+    for (std::size_t i = 0, end = 0; i < positions.size(); i = end) {
+      const std::int32_t translated = positions[i].translated;
+      const PositionFrame& in_file = document_.position_frames[frame_index(translated)];
+      Vec3 before = in_file.rest;
+      for (end = i; end < positions.size() && positions[end].translated == translated; ++end) {
+        component(before, positions[end].axis) = row[positions[end].column];
+      }
+      const Vec3 now = position_of(clip_, frame, translated);
+      if (now == in_file.to_clip(before)) continue;
+      const Vec3 wanted = in_file.to_file(now);
+      for (; i < end; ++i) {
+        const double value = component(wanted, positions[i].axis);
+        if (value != row[positions[i].column]) replace(row, positions[i].column, value, 1);
+      }
+    }
+  }
+
+  // False where a value is missing.
+  static bool source_angles(const MotionColumns::Rotation& rotation, const double* row,
+                            Angles& angles) {
+    bool known = true;
+    for (std::size_t i = 0; i < rotation.order.count; ++i) {
+      double degrees = row[rotation.columns[i]];
+      known = known && !std::isnan(degrees);
+      // No digit after the point is left of an angle of so many turns.
+      if (std::fabs(degrees) > 1e9) degrees = std::fmod(degrees, 360.0);
+      angles[i] = degrees * radians_per_degree;
+    }
+    return known;
+  }
+
+  void replace_rotation(std::size_t frame, std::size_t joint, const double* row,
+                        const double* row_before) {
+    const MotionColumns::Rotation& rotation = source_.columns().rotations()[joint];
+    WrittenAngles& written = written_[joint];
+    Angles source{}, source_before{};
+    AngleContext context{frame, joint};
+    if (source_angles(rotation, row, source)) context.source = &source;
+    if (frame > 0 && source_angles(rotation, row_before, source_before)) {
+      context.source_before = &source_before;
+    }
+    const Angles* const last_written = written.frames > 0 ? &written.angles : nullptr;
+    const bool changed_before = written.frames > 0 && written.frames == frame;
+    context.written_before =
+        changed_before || context.source_before == nullptr ? last_written : context.source_before;
+    written = {choose_angles(rotation.order, context), frame + 1};
+    for (std::size_t i = 0; i < rotation.order.count; ++i) {
+      replace(row, rotation.columns[i], written.angles[i] * degrees_per_radian,
+              document_.degrees_per_value);
+    }
+  }
+
+  // They continue the frame before. Only where the source itself jumps (by a whole turn, or to its
+  // other branch), and a frame that keeps its digits would be met with a jump all the same, does
+  // the jump stay where it was.
+  Angles choose_angles(RotationOrder order, const AngleContext& context) {
+    const Quat rotation = clip_.rotation(context.frame, context.joint);
+    const Angles rest{};
+    if (context.written_before == nullptr) {
+      return to_euler_near(rotation, order, context.source != nullptr ? *context.source : rest);
+    }
+    const Angles continued = to_euler_near(rotation, order, *context.written_before);
+    const bool source_jumps = context.source != nullptr && context.source_before != nullptr &&
+                              !near(*context.source, *context.source_before, order.count);
+    if (!source_jumps || near(continued, *context.source, order.count)) return continued;
+    if (!meets_a_jump(context, continued)) return continued;
+    const Angles on_source = to_euler_near(rotation, order, *context.source);
+    return near(on_source, *context.source, order.count) ? on_source : continued;
+  }
+
+  // Whether angles that go on from `angles` without a jump differ from the digits of the next frame
+  // that keeps them. Few takes ever ask: the table costs another walk over the text.
+  bool meets_a_jump(const AngleContext& context, Angles angles) {
+    constexpr std::size_t most_frames_ahead = 256;
+    if (!table_) table_.emplace(clip_, document_);
+    const std::size_t joints = clip_.joint_count();
+    const std::size_t end = std::min(document_.frame_count, context.frame + most_frames_ahead);
+    const MotionColumns::Rotation& rotation = source_.columns().rotations()[context.joint];
+    for (std::size_t f = context.frame + 1; f < end; ++f) {
+      angles = to_euler_near(clip_.rotation(f, context.joint), rotation.order, angles);
+      Angles kept{};
+      if (table_->kept[f * joints + context.joint] != 0 &&
+          source_angles(rotation, table_->values.data() + f * table_->width, kept)) {
+        return !near(angles, kept, rotation.order.count);
+      }
+    }
+    return false;
+  }
+
+  // Digits that already say the new value, as well as so many decimals can, stay. `unit`: what one
+  // of the file's numbers is worth.
+  void replace(const double* row, std::size_t column, double value, double unit) {
+    if (std::fabs(value - row[column]) <= keep_below_ * unit) return;
+    replacements_.push_back({column, value / unit, {}});
+  }
+
+  // In the order of the text, which is not always that of the columns.
+  void put_in_order(const TokenSpan* tokens) {
+    for (Replacement& replacement : replacements_) replacement.place = tokens[replacement.column];
+    const auto by_place = [](const Replacement& a, const Replacement& b) {
+      return a.place.begin < b.place.begin;
+    };
+    if (!std::is_sorted(replacements_.begin(), replacements_.end(), by_place)) {
+      std::sort(replacements_.begin(), replacements_.end(), by_place);
+    }
+  }
+
+  const Clip& clip_;
+  const MotionDocument& document_;
+  SourceFrames source_;
+  unsigned decimals_;
+  double keep_below_;
+  std::vector<WrittenAngles> written_;
+  std::optional<SourceTable> table_;
+  std::vector<double> row_before_;
+  std::vector<Replacement> replacements_;  // of one frame
+  const char* copied_;                     // how far the source's text has been taken
+};
+
+}  // namespace
+
+std::string rewrite_motion(const Clip& clip, const MotionDocument& document,
+                           const std::vector<DocumentEdit>& edits) {
+  return Rewriter(clip, document).rewrite(edits);
+}
+
+}  // namespace kinemend

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/motion/motion_document.hpp"
+#include "kinemend/clip.hpp"
+
+namespace kinemend {
+
+/// A piece of a document before its frames, and what takes its place.
+struct DocumentEdit {
+  ByteSpan place;
+  std::string text;
+};
+
+/// The document's own text with every changed sample replaced, and the edits, which are in the
+/// order of the text. The clip has the document's skeleton and frame count. Angles continue the
+/// frame before.
+std::string rewrite_motion(const Clip& clip, const MotionDocument& document,
+                           const std::vector<DocumentEdit>& edits = {});
+
+}  // namespace kinemend

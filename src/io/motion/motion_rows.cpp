@@ -1,0 +1,85 @@
+#include "io/motion/motion_rows.hpp"
+
+#include <algorithm>
+
+namespace kinemend {
+
+MotionRows::MotionRows(const char* begin, const char* end, CommaStyle commas)
+    : begin_(begin),
+      end_(end),
+      position_(begin),
+      last_end_(begin),
+      plain_starts_(
+          std::max<std::ptrdiff_t>(0, end - begin - plain_number_lead - plain_number_reach + 1)),
+      commas_(commas) {}
+
+const char* MotionRows::skip(const char* p) const {
+  p = skip_space(p, end_);
+  if (commas_ != CommaStyle::separator) return p;
+  while (p != end_ && (is_space(*p) || *p == ',')) ++p;
+  return p;
+}
+
+bool MotionRows::at_line_start() const { return std::any_of(last_end_, position_, is_line_end); }
+
+// What `read_plain_number` leaves: exponents, many digits, NaN, comments, the last bytes. False at
+// the end or at text.
+bool MotionRows::read_rare(const char*& p, NumberToken& token) {
+  for (;;) {
+    if (p == end_) return false;
+    token = read_sample(p, end_, commas_);
+    if (token.kind == TokenKind::text) return false;
+    if (token.kind == TokenKind::number) return true;
+    if (token.kind == TokenKind::not_finite) {
+      if (gaps_++ == 0) first_gap_ = p;
+      return true;
+    }
+    if (comments_++ == 0) first_comment_ = p;
+    p = skip(std::find_if(p, end_, is_line_end));
+  }
+}
+
+template <bool keep_tokens>
+std::size_t MotionRows::read(double* values, std::size_t count, TokenSpan* tokens) {
+  const char* p = skip(position_);
+  const char* last_end = last_end_;
+  unsigned most_decimals = most_decimals_;
+  std::size_t i = 0;
+  for (; i < count; ++i) {
+    PlainNumber number;
+    // A number ends with white space, not with any control character.
+    if (may_be_plain(p) && read_plain_number(p, number) && is_space(p[number.length])) [[likely]] {
+      last_end = p + number.length;
+      if constexpr (keep_tokens) tokens[i] = {p, last_end};
+      values[i] = number.value;
+      most_decimals = std::max(most_decimals, number.decimals);
+      // Digits, the point and the minus sign come after the comma.
+      if (last_end[0] == ' ' && last_end[1] > ',') [[likely]] {
+        p = last_end + 1;
+        continue;
+      }
+    } else {
+      const char* begin = p;
+      NumberToken token;
+      const bool found = read_rare(begin, token);
+      p = begin;
+      if (!found) break;
+      last_end = token.end;
+      if constexpr (keep_tokens) tokens[i] = {p, last_end};
+      values[i] = token.value;
+      most_decimals = std::max(most_decimals, token.decimals);
+    }
+    p = skip(last_end);
+  }
+  last_end_ = last_end;
+  most_decimals_ = most_decimals;
+  position_ = p;
+  return i;
+}
+
+std::size_t MotionRows::next(double* values, std::size_t count, TokenSpan* tokens) {
+  return tokens == nullptr ? read<false>(values, count, nullptr)
+                           : read<true>(values, count, tokens);
+}
+
+}  // namespace kinemend

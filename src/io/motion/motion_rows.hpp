@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+
+#include "io/text/number.hpp"
+
+namespace kinemend {
+
+/// Where a channel value stands.
+struct TokenSpan {
+  const char* begin = nullptr;
+  const char* end = nullptr;
+};
+
+/// Walks over channel values, a frame at a time. Words count, not lines; white space and comments
+/// between them do not matter.
+class MotionRows {
+ public:
+  MotionRows(const char* begin, const char* end, CommaStyle commas);
+
+  /// Reads the next `count` (at least 1) values; a value that is not finite becomes NaN. Returns
+  /// how many there were before the end of the text or a word that is no number, where `position()`
+  /// then stands. `tokens`, unless null, takes the place of each.
+  std::size_t next(double* values, std::size_t count, TokenSpan* tokens = nullptr);
+
+  /// The first byte of the next word, once a row was read.
+  const char* position() const { return position_; }
+  /// The end of the last value.
+  const char* last_end() const { return last_end_; }
+  bool at_end() const { return position_ == end_; }
+  /// Whether a line ended between the last row and `position()`.
+  bool at_line_start() const;
+
+  unsigned most_decimals() const { return most_decimals_; }
+  std::size_t gaps() const { return gaps_; }  ///< values that are not finite
+  const char* first_gap() const { return first_gap_; }
+  std::size_t comments() const { return comments_; }
+  const char* first_comment() const { return first_comment_; }
+
+ private:
+  template <bool keep_tokens>
+  std::size_t read(double* values, std::size_t count, TokenSpan* tokens);
+  bool read_rare(const char*& p, NumberToken& token);
+  const char* skip(const char* p) const;
+
+  bool may_be_plain(const char* p) const {
+    return static_cast<std::size_t>(p - begin_ - plain_number_lead) <
+           static_cast<std::size_t>(plain_starts_);
+  }
+
+  const char* begin_;
+  const char* end_;
+  const char* position_;
+  const char* last_end_;
+  std::ptrdiff_t plain_starts_;  ///< places with room around them for `read_plain_number`
+  CommaStyle commas_;
+  unsigned most_decimals_ = 0;
+  std::size_t gaps_ = 0;
+  const char* first_gap_ = nullptr;
+  std::size_t comments_ = 0;
+  const char* first_comment_ = nullptr;
+};
+
+}  // namespace kinemend

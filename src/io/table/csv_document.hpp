@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/table/marker_table.hpp"
+#include "io/text/text.hpp"
+#include "kinemend/clip.hpp"
+#include "motion/take_change.hpp"
+
+namespace kinemend {
+
+/// Neighbouring columns that belong together.
+struct CsvGroup {
+  enum class Kind : std::uint8_t {
+    position,     ///< LABEL_x, LABEL_y, LABEL_z
+    rotation,     ///< LABEL_w, LABEL_x, LABEL_y, LABEL_z, or w last
+    translation,  ///< LABEL_tx, LABEL_ty, LABEL_tz
+  };
+  Kind kind = Kind::position;
+  std::string label;
+  std::array<std::size_t, 4> columns{};  ///< of w, x, y, z for a rotation, else of x, y, z
+};
+
+/// A line `# key: value`.
+struct CsvNote {
+  std::string key;
+  std::string value;
+  std::size_t place = 0;
+};
+
+/// What stands above the rows of a CSV file.
+struct CsvHeader {
+  std::vector<CsvNote> notes;
+  std::vector<CsvGroup> groups;
+  std::vector<std::string> ignored;  ///< columns that are neither frame, time nor in a group
+  CellStyle style;
+  std::int32_t frame_column = -1;
+  std::int32_t time_column = -1;
+  double seconds_per_time = 1;
+  double frame_rate_hz = 0;  ///< 0 where the head tells none
+  std::string unit;
+  std::size_t labels_line = 0;
+  std::size_t data_begin = 0;
+  std::size_t data_end = 0;       ///< behind the last row there can be
+  std::size_t foreign_lines = 0;  ///< above the labels, not understood
+  std::size_t foreign_place = 0;  ///< of the first of them
+  bool unit_is_custom = false;    ///< the file names none; its program has no other
+  std::string beside;             ///< what else the file holds, in words; empty for nothing
+
+  bool has_rotations() const;
+  /// Whether a line `# frames: 0` says that there are no rows.
+  bool has_no_frames() const;
+};
+
+/// Parses up to the first row. Errors: `unreadable_input`, naming the line.
+CsvHeader read_csv_header(const SourceText& text);
+/// Whether there is such a head.
+bool has_csv_header(std::string_view head);
+
+/// A CSV file as it was read: the bytes hold every digit, so beside them only landmarks are kept.
+struct CsvDocument : FollowingDocument {
+  std::string bytes;
+  std::string beside;  ///< what else it holds, in words; empty for nothing
+  double frame_rate_hz = 0;
+  MarkerTable table;  ///< of joints: without markers
+
+  std::vector<std::string> names;
+  std::int64_t first_frame = 1;
+  std::string unit;
+
+  std::vector<CsvGroup> groups;
+  Skeleton skeleton;
+  double metres_per_unit = 0;
+  std::vector<Vec3> root_positions;      ///< as repaired; empty where all are in the file
+  std::vector<Vec3> joint_translations;  ///< the same
+
+  std::shared_ptr<const SourceDocument> after(const TakeChange& change) const override;
+};
+
+/// What a table held beside its markers, once the take is to be written anew.
+struct TableRest : FollowingDocument {
+  std::string beside;
+
+  std::shared_ptr<const SourceDocument> after(const TakeChange& change) const override;
+};
+
+}  // namespace kinemend

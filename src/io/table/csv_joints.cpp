@@ -1,0 +1,353 @@
+#include "io/table/csv_joints.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "io/memory_limit.hpp"
+#include "io/table/csv_skeleton.hpp"
+#include "io/text/cell_patch.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr unsigned shortest_digits = most_fixed_decimals + 1;
+
+bool is_missing(Vec3 v) { return std::isnan(v.x + v.y + v.z); }
+bool is_missing(Quat q) { return std::isnan(q.w); }
+
+std::vector<const CsvGroup*> groups_of(const std::vector<CsvGroup>& groups, CsvGroup::Kind kind) {
+  std::vector<const CsvGroup*> found;
+  for (const CsvGroup& group : groups) {
+    if (group.kind == kind) found.push_back(&group);
+  }
+  return found;
+}
+
+JointColumns columns_of(const std::vector<CsvGroup>& groups) {
+  JointColumns columns;
+  for (const CsvGroup* group : groups_of(groups, CsvGroup::Kind::rotation))
+    columns.rotations.push_back(group->columns);
+  const auto roots = groups_of(groups, CsvGroup::Kind::position);
+  columns.has_root = !roots.empty();
+  columns.positions.emplace_back();
+  if (columns.has_root) {
+    std::copy_n(roots[0]->columns.begin(), 3, columns.positions[0].begin());
+  }
+  for (const CsvGroup* group : groups_of(groups, CsvGroup::Kind::translation)) {
+    columns.positions.push_back({group->columns[0], group->columns[1], group->columns[2]});
+  }
+  return columns;
+}
+
+std::size_t width_of(const MarkerTable& table, const std::vector<CsvGroup>& groups) {
+  std::size_t width = table.width();
+  for (const CsvGroup& group : groups) {
+    width = std::max(width, *std::max_element(group.columns.begin(), group.columns.end()) + 1);
+  }
+  return width;
+}
+
+// Gives each missing sample of a track the one before, or the next where there is none before.
+template <class Sample>
+void hold(std::vector<Sample>& samples, std::size_t track, std::size_t stride, Sample otherwise) {
+  const Sample* last = nullptr;
+  for (std::size_t i = track; i < samples.size(); i += stride) {
+    if (!is_missing(samples[i])) {
+      if (last == nullptr) {
+        for (std::size_t k = track; k < i; k += stride) samples[k] = samples[i];
+      }
+      last = &samples[i];
+    } else if (last != nullptr) {
+      samples[i] = *last;
+    }
+  }
+  for (std::size_t i = track; i < samples.size() && last == nullptr; i += stride)
+    samples[i] = otherwise;
+}
+
+class JointReader {
+ public:
+  JointReader(const SourceText& text, Diagnostics& diagnostics, const CsvHeader& header,
+              CsvDocument& document, RowLabels& labels)
+      : text_(text),
+        diagnostics_(diagnostics),
+        header_(header),
+        document_(document),
+        labels_(labels),
+        columns_(columns_of(header.groups)),
+        width_(width_of(document.table, header.groups)) {}
+
+  Clip read() {
+    build_skeleton();
+    find_translated_joints();
+    read_unit();
+    read_rows();
+    fill_gaps();
+    document_.skeleton = clip_.skeleton;
+    document_.groups = header_.groups;
+    document_.metres_per_unit = clip_.metres_per_unit;
+    return std::move(clip_);
+  }
+
+ private:
+  std::size_t joints() const { return columns_.rotations.size(); }
+
+  void build_skeleton() {
+    const auto rotations = groups_of(header_.groups, CsvGroup::Kind::rotation);
+    clip_.skeleton = read_skeleton_lines(text_, header_.notes);
+    const bool stated = clip_.skeleton.joint_count() > 0;
+    if (stated && clip_.skeleton.joint_count() != joints()) {
+      throw text_.error_at(header_.labels_line,
+                           fmt::format("expected rotations of the {} joints stated above, found {}",
+                                       clip_.skeleton.joint_count(), joints()));
+    }
+    const RotationOrder order = parse_rotation_order("ZXY");
+    for (std::size_t j = 0; j < joints(); ++j) {
+      const std::string& label = rotations[j]->label;
+      if (!stated) {
+        clip_.skeleton.add_joint(label, j == 0 ? -1 : 0, {},
+                                 make_channels(j == 0 || has_translation(label), order));
+      } else if (clip_.skeleton.names[j] != label) {
+        throw text_.error_at(header_.labels_line,
+                             fmt::format("expected the rotation of joint {}, found {}",
+                                         quote(clip_.skeleton.names[j]), quote(label)));
+      }
+    }
+    if (!stated) {
+      note_repair(text_, diagnostics_, "skeleton_missing", header_.labels_line,
+                  "no lines '# joint': every joint hangs on the first, without offset");
+    }
+  }
+
+  bool has_translation(const std::string& label) const {
+    const auto groups = groups_of(header_.groups, CsvGroup::Kind::translation);
+    return std::any_of(groups.begin(), groups.end(),
+                       [&](const CsvGroup* group) { return group->label == label; });
+  }
+
+  void find_translated_joints() {
+    const auto groups = groups_of(header_.groups, CsvGroup::Kind::translation);
+    for (std::size_t j = 1; j < joints(); ++j) {
+      if (!clip_.skeleton.has_position_channels(j)) continue;
+      const std::size_t index = clip_.translated_joints.size();
+      if (index >= groups.size() || groups[index]->label != clip_.skeleton.names[j]) {
+        throw text_.error_at(header_.labels_line,
+                             fmt::format("expected the translation of joint {} (_tx, _ty, _tz)",
+                                         quote(clip_.skeleton.names[j])));
+      }
+      clip_.translated_joints.push_back(static_cast<std::int32_t>(j));
+    }
+    if (clip_.translated_joints.size() != groups.size()) {
+      throw text_.error_at(header_.labels_line,
+                           fmt::format("expected translations of {} joints, found {}",
+                                       clip_.translated_joints.size(), groups.size()));
+    }
+  }
+
+  void read_unit() {
+    clip_.metres_per_unit = metres_per_unit(header_.unit);
+    for (const CsvNote& note : header_.notes) {
+      if (note.key != "metres_per_unit" || note.value.empty()) continue;
+      const NumberToken token =
+          read_number(note.value.data(), note.value.data() + note.value.size());
+      if (token.kind == TokenKind::number && token.value > 0) clip_.metres_per_unit = token.value;
+    }
+  }
+
+  std::size_t bytes_per_frame() const {
+    return joints() * (sizeof(Quat) + 1) + columns_.positions.size() * sizeof(Vec3) + 16;
+  }
+
+  // Never for more frames than may be.
+  void reserve(std::size_t frames) {
+    const std::size_t affordable = memory_limit(text_.bytes.size()) / bytes_per_frame();
+    clip_.local_rotations.reserve(std::min(frames, affordable) * joints());
+  }
+
+  void read_rows() {
+    CellRows rows(text_.bytes, document_.table.begin, header_.style);
+    values_.resize(width_);
+    reserve(estimate_rows(text_.bytes, document_.table.begin));
+    while (rows.next()) {
+      const std::size_t place = rows.position();
+      const CellRow row = rows.read(values_.data(), width_);
+      if (row.fault != nullptr) fail_at_cell(text_, row.fault, header_.style.separator);
+      if (row.used > width_) {
+        throw text_.error_at(
+            place,
+            fmt::format("expected {} cells as in the row of labels, found {}", width_, row.used));
+      }
+      if (document_.table.is_filler(row)) continue;
+      if (row.cells + 1 < width_) too_short_.add(place);
+      if ((clip_.frame_count() + 1) * bytes_per_frame() > memory_limit(text_.bytes.size())) {
+        throw text_.error_at(place, fmt::format("{} joints in rows that hold few of them: too much "
+                                                "memory for a file of {} bytes",
+                                                joints(), text_.bytes.size()));
+      }
+      store(place);
+    }
+    if (clip_.frame_count() == 0 && !header_.has_no_frames()) {
+      throw text_.error_at(header_.data_begin, "expected a row for each frame, found none");
+    }
+    document_.table.frames = clip_.frame_count();
+    if (rows.not_finite() > 0) {
+      note_repair(text_, diagnostics_, "value_not_finite",
+                  static_cast<std::size_t>(rows.first_not_finite() - text_.bytes.data()),
+                  "a value is no finite number: missing", rows.not_finite());
+    }
+    note(too_short_, "row_too_short", "a row ends early: what it lacks is missing");
+    note(not_unit_, "rotation_not_unit", "a quaternion's length is not 1: scaled");
+    note(rotation_missing_, "rotation_missing", "a rotation is missing: held from a neighbour");
+    note(position_missing_, "position_missing", "a position is missing: held from a neighbour");
+  }
+
+  void store(std::size_t place) {
+    constexpr double tolerance = 1e-3;
+    auto& rotations = clip_.local_rotations;
+    if (rotations.size() + joints() > rotations.capacity()) reserve(text_.bytes.size());
+    for (const auto& [w, x, y, z] : columns_.rotations) {
+      const Quat raw{values_[w], values_[x], values_[y], values_[z]};
+      const Quat rotation = rotation_from_cells(raw.w, raw.x, raw.y, raw.z);
+      if (is_missing(rotation)) {
+        rotation_missing_.add(place);
+      } else if (std::fabs(norm(raw) - 1) > tolerance) {
+        not_unit_.add(place);
+      }
+      rotations.push_back(rotation);
+    }
+    for (std::size_t i = 0; i < columns_.positions.size(); ++i) {
+      const auto& [x, y, z] = columns_.positions[i];
+      const bool absent = i == 0 && !columns_.has_root;
+      const Vec3 position =
+          absent ? clip_.skeleton.offsets[0] : Vec3{values_[x], values_[y], values_[z]};
+      if (is_missing(position)) position_missing_.add(place);
+      (i == 0 ? clip_.root_positions : clip_.joint_translations).push_back(position);
+    }
+    const auto label = [&](std::int32_t column, std::vector<double>& labels) {
+      if (column >= 0) labels.push_back(values_[static_cast<std::size_t>(column)]);
+    };
+    label(document_.table.frame_column, labels_.frames);
+    label(document_.table.time_column, labels_.times_s);
+  }
+
+  void fill_gaps() {
+    if (rotation_missing_.count > 0) {
+      clip_.observed.resize(clip_.local_rotations.size());
+      for (std::size_t i = 0; i < clip_.observed.size(); ++i)
+        clip_.observed[i] = is_missing(clip_.local_rotations[i]) ? 0 : 1;
+      for (std::size_t j = 0; j < joints(); ++j) hold(clip_.local_rotations, j, joints(), Quat{});
+    }
+    if (position_missing_.count == 0) return;
+    const auto& offsets = clip_.skeleton.offsets;
+    hold(clip_.root_positions, 0, 1, offsets[0]);
+    const std::size_t translated = clip_.translated_joints.size();
+    for (std::size_t i = 0; i < translated; ++i) {
+      const auto joint = static_cast<std::size_t>(clip_.translated_joints[i]);
+      hold(clip_.joint_translations, i, translated, offsets[joint]);
+    }
+    document_.root_positions = clip_.root_positions;
+    document_.joint_translations = clip_.joint_translations;
+  }
+
+  void note(const CountedRepair& repair, std::string_view kind, std::string_view message) {
+    if (repair.count > 0)
+      note_repair(text_, diagnostics_, kind, repair.first, message, repair.count);
+  }
+
+  const SourceText& text_;
+  Diagnostics& diagnostics_;
+  const CsvHeader& header_;
+  CsvDocument& document_;
+  RowLabels& labels_;
+  JointColumns columns_;
+  std::size_t width_;
+  Clip clip_;
+  std::vector<double> values_;
+  CountedRepair too_short_, not_unit_, rotation_missing_, position_missing_;
+};
+
+class JointRewriter {
+ public:
+  JointRewriter(const Clip& clip, const CsvDocument& document)
+      : clip_(clip),
+        document_(document),
+        columns_(columns_of(document.groups)),
+        patch_(document.bytes, document.table.begin, document.table.style,
+               width_of(document.table, document.groups)) {}
+
+  std::string rewrite() {
+    for (std::size_t f = 0; f < clip_.frame_count() && patch_.next();) {
+      if (document_.table.is_filler(patch_.row())) continue;
+      for (std::size_t j = 0; j < clip_.joint_count(); ++j) compare_rotation(f, j);
+      for (std::size_t i = columns_.has_root ? 0 : 1; i < columns_.positions.size(); ++i)
+        compare_position(f, i);
+      ++f;
+    }
+    return std::move(patch_).finish();
+  }
+
+ private:
+  void compare_rotation(std::size_t frame, std::size_t joint) {
+    const auto& [w, x, y, z] = columns_.rotations[joint];
+    const Quat before =
+        rotation_from_cells(patch_.value(w), patch_.value(x), patch_.value(y), patch_.value(z));
+    Quat now = clip_.rotation(frame, joint);
+    const bool known = clip_.is_observed(frame, joint);
+    if (is_missing(before) ? !known : known && now == before) return;
+    if (!known) now = {not_a_number, not_a_number, not_a_number, not_a_number};
+    patch_.replace(w, now.w, shortest_digits);
+    patch_.replace(x, now.x, shortest_digits);
+    patch_.replace(y, now.y, shortest_digits);
+    patch_.replace(z, now.z, shortest_digits);
+  }
+
+  void compare_position(std::size_t frame, std::size_t index) {
+    const std::size_t translated = clip_.translated_joints.size();
+    const std::size_t at = frame * translated + index - 1;
+    const Vec3 now = index == 0 ? clip_.root_positions[frame] : clip_.joint_translations[at];
+    const auto& held = index == 0 ? document_.root_positions : document_.joint_translations;
+    const auto& [x, y, z] = columns_.positions[index];
+    const Vec3 before = held.empty() ? Vec3{patch_.value(x), patch_.value(y), patch_.value(z)}
+                                     : held[index == 0 ? frame : at];
+    const bool is_number =
+        !patch_.is_no_number(x) && !patch_.is_no_number(y) && !patch_.is_no_number(z);
+    if (now == before && is_number) return;
+    patch_.replace(x, now.x, shortest_digits);
+    patch_.replace(y, now.y, shortest_digits);
+    patch_.replace(z, now.z, shortest_digits);
+  }
+
+  const Clip& clip_;
+  const CsvDocument& document_;
+  JointColumns columns_;
+  CellPatch patch_;
+};
+
+}  // namespace
+
+Quat rotation_from_cells(double w, double x, double y, double z) {
+  const Quat raw{w, x, y, z};
+  const double length = norm(raw);
+  if (!(length > 0) || !std::isfinite(length)) {
+    return {not_a_number, not_a_number, not_a_number, not_a_number};
+  }
+  // Digits that stand for a unit quaternion exactly come back as they are.
+  constexpr double tolerance = 1e-12;
+  return std::fabs(length - 1) <= tolerance ? raw : normalized(raw);
+}
+
+Clip read_csv_joints(const SourceText& text, Diagnostics& diagnostics, const CsvHeader& header,
+                     CsvDocument& document, RowLabels& labels) {
+  return JointReader(text, diagnostics, header, document, labels).read();
+}
+
+std::string rewrite_csv_joints(const Clip& clip, const CsvDocument& document) {
+  return JointRewriter(clip, document).rewrite();
+}
+
+}  // namespace kinemend

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "io/table/csv_document.hpp"
+#include "io/table/marker_table.hpp"
+#include "kinemend/clip.hpp"
+
+namespace kinemend {
+
+/// The columns of a table of joints.
+struct JointColumns {
+  std::vector<std::array<std::size_t, 4>> rotations;  ///< J, of w, x, y, z
+  std::vector<std::array<std::size_t, 3>> positions;  ///< of the root, then the translated joints;
+                                                      ///< the first is empty where there is none
+  bool has_root = false;
+};
+
+/// Rotation of a row's four values: NaN where one is missing or all are zero; of unit norm.
+Quat rotation_from_cells(double w, double x, double y, double z);
+
+/// Reads a table of joints. Repairs: `skeleton_missing`, `rotation_missing`, `position_missing`,
+/// `rotation_not_unit`, `value_not_finite`, `row_too_short`. Errors: `unreadable_input`, naming the
+/// line.
+Clip read_csv_joints(const SourceText& text, Diagnostics& diagnostics, const CsvHeader& header,
+                     CsvDocument& document, RowLabels& labels);
+
+/// The document's bytes with every changed sample replaced. The clip has its skeleton and frames.
+std::string rewrite_csv_joints(const Clip& clip, const CsvDocument& document);
+
+}  // namespace kinemend

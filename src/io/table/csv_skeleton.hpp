@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "io/table/csv_document.hpp"
+#include "io/text/text.hpp"
+#include "kinemend/skeleton.hpp"
+
+namespace kinemend {
+
+/// The lines that hold a skeleton, joint by joint, then end sites:
+///   # joint 3: LeftKnee; parent 2; offset 0 -8.1 0; channels Zrotation Yrotation Xrotation
+///   # end 0: Toe; parent 5; offset 0 0 1.2
+/// `rest w x y z` where the rest rotation is not the identity, `limits low high ...` where there
+/// are some. A name with a semicolon, a quote or blanks at its ends stands in quotes. Errors:
+/// `usage` for a name with a line end.
+std::string skeleton_lines(const Skeleton& skeleton);
+
+/// The skeleton of such lines, without joints where there are none. Errors: `unreadable_input`,
+/// naming the line.
+Skeleton read_skeleton_lines(const SourceText& text, const std::vector<CsvNote>& notes);
+
+}  // namespace kinemend

@@ -1,0 +1,258 @@
+// Vicon's tables: sections, each with its name, its rate, a row of names, one of axes, one of units
+// and its rows; a blank line between two.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+
+#include "io/table/csv_head.hpp"
+
+namespace kinemend {
+
+namespace {
+
+struct Section {
+  std::string name;
+  double rate_hz = 0;
+  std::size_t place = 0;  ///< of the line of its name
+  std::size_t body = 0;   ///< of the line below its rate
+};
+
+std::size_t filled(const Cells& cells) {
+  return static_cast<std::size_t>(
+      std::count_if(cells.begin(), cells.end(), [](const auto& cell) { return !cell.empty(); }));
+}
+
+// A name alone in its line: words, no number and no note.
+bool is_section_name(const Cells& cells) {
+  return filled(cells) == 1 && !cells[0].empty() && cells[0][0] != '#' &&
+         std::isalpha(static_cast<unsigned char>(cells[0][0])) != 0;
+}
+
+// "100", or "100" and "Hz".
+double section_rate(const Cells& cells) {
+  if (cells.empty()) return 0;
+  const std::size_t more = filled(cells) - (cells[0].empty() ? 0 : 1);
+  if (more > 1 || (more == 1 && (cells.size() < 2 || !equal_ignoring_case(cells[1], "Hz"))))
+    return 0;
+  std::string_view number = cells[0];
+  if (number.size() > 2 && equal_ignoring_case(number.substr(number.size() - 2), "Hz"))
+    number = without_spaces_around(number.substr(0, number.size() - 2));
+  const double rate = number_of(number);
+  return rate > 0 && std::isfinite(1 / rate) ? rate : 0;
+}
+
+// Blank lines, also of separators, come before a section.
+std::vector<Section> sections_of(const SourceText& text, bool only_first) {
+  std::vector<Section> sections;
+  HeadLines lines(text, after_byte_order_mark(text.bytes));
+  bool after_blank = true;
+  while (!lines.at_end()) {
+    const std::string_view line = lines.take();
+    const bool blank = line.find_first_not_of(",;\" \t") == line.npos;
+    const bool may_be_name = after_blank && !blank && line.size() < 256;
+    after_blank = blank;
+    if (!may_be_name) {
+      if (only_first && !blank) return sections;
+      continue;
+    }
+    Section section;
+    section.place = lines.place();
+    const Cells name = split_cells(line, separator_of(line));
+    HeadLines below(text, lines.next());
+    if (!is_section_name(name) || below.at_end()) {
+      if (only_first) return sections;
+      continue;
+    }
+    const std::string_view rate_line = below.take();
+    section.name = name[0];
+    if (rate_line.size() < 256)
+      section.rate_hz = section_rate(split_cells(rate_line, separator_of(rate_line)));
+    section.body = below.next();
+    if (section.rate_hz > 0) {
+      sections.push_back(std::move(section));
+      lines = below;
+    }
+    if (only_first) return sections;
+  }
+  return sections;
+}
+
+// Of a section below its rate: names, then axes behind the frame's number; only events have none.
+bool has_table(const SourceText& text, const Section& section) {
+  HeadLines lines(text, section.body);
+  lines.take();
+  if (lines.at_end()) return true;  // the text may be the start of a file
+  const std::string_view axes = lines.take();
+  return equal_ignoring_case(axes.substr(0, 5), "Frame") ||
+         equal_ignoring_case(axes.substr(0, 5), "Field");
+}
+
+bool has_known_name(const Section& section) {
+  constexpr std::array<std::string_view, 9> names{"Trajectories", "Model Outputs", "Devices",
+                                                  "Joints",       "Segments",      "Events",
+                                                  "Analog",       "Forces",        "Gaps"};
+  return std::any_of(names.begin(), names.end(), [&](std::string_view name) {
+    return equal_ignoring_case(section.name, name);
+  });
+}
+
+bool is_trajectories(const Section& section) {
+  return equal_ignoring_case(section.name, "Trajectories");
+}
+
+class ViconReader {
+ public:
+  ViconReader(const SourceText& text, const std::vector<Section>& sections, std::size_t index)
+      : text_(text), section_(sections[index]), lines_(text, sections[index].body) {
+    header_.data_end = index + 1 < sections.size() ? sections[index + 1].place : text.bytes.size();
+  }
+
+  CsvHeader read() {
+    const Cells names = line_of_cells("names of markers");
+    const Cells axes = line_of_cells("Frame, Sub Frame, X, Y, Z");
+    header_.labels_line = lines_.place();
+    header_.style.separator = lines_.separator();
+    header_.frame_rate_hz = section_.rate_hz;
+    const bool has_frames = !axes.empty() && (equal_ignoring_case(axes[0], "Frame") ||
+                                              equal_ignoring_case(axes[0].substr(0, 5), "Field"));
+    if (!has_frames) fail("Frame, Sub Frame, X, Y, Z");
+    header_.frame_column = 0;
+    group(names, axes);
+    header_.data_begin = lines_.next();
+    read_units();
+    const std::string_view rows =
+        text_.bytes.substr(header_.data_begin, header_.data_end - header_.data_begin);
+    header_.style.commas = commas_of(rows, header_.style.separator);
+    const std::size_t blank = header_.data_begin + first_blank_line(rows);
+    refuse_text_behind(blank);
+    header_.data_end = blank;
+    return std::move(header_);
+  }
+
+ private:
+  [[noreturn]] void fail(const char* wanted) const {
+    throw text_.error_at(std::min(lines_.place(), text_.bytes.size()),
+                         fmt::format("expected the row of {} below Trajectories", wanted));
+  }
+
+  Cells line_of_cells(const char* wanted) {
+    if (lines_.next() >= header_.data_end) fail(wanted);
+    return lines_.take_cells();
+  }
+
+  // A name stands above its X; columns of three without one are markers too.
+  void group(const Cells& names, const Cells& axes) {
+    std::vector<bool> used(axes.size());
+    for (std::size_t i = 1; i + 2 < axes.size(); ++i) {
+      if (!is(axes[i], 'x') || !is(axes[i + 1], 'y') || !is(axes[i + 2], 'z')) continue;
+      header_.groups.push_back({CsvGroup::Kind::position,
+                                i < names.size() ? names[i] : std::string(),
+                                {i, i + 1, i + 2, i + 2}});
+      used[i] = used[i + 1] = used[i + 2] = true;
+      i += 2;
+    }
+    for (std::size_t i = 1; i < axes.size(); ++i) {
+      if (used[i] || axes[i].empty() || equal_ignoring_case(axes[i], "Sub Frame")) continue;
+      header_.ignored.push_back(axes[i]);
+    }
+    if (header_.groups.empty()) fail("Frame, Sub Frame, X, Y, Z");
+  }
+
+  static bool is(const std::string& axis, char letter) {
+    return axis.size() == 1 && std::tolower(static_cast<unsigned char>(axis[0])) == letter;
+  }
+
+  // "mm" or "(mm)" below each axis; programs before Nexus leave the row out.
+  void read_units() {
+    if (header_.data_begin < header_.data_end) {
+      HeadLines lines = lines_;
+      const Cells cells = lines.take_cells();
+      const bool has_numbers = std::any_of(cells.begin(), cells.end(),
+                                           [](const auto& c) { return !std::isnan(number_of(c)); });
+      if (!has_numbers && filled(cells) > 0) {
+        header_.data_begin = lines.next();
+        for (const CsvGroup& group : header_.groups) set_unit(cells, group, lines.place());
+      }
+    }
+    if (!header_.unit.empty()) return;
+    header_.unit = "mm";
+    header_.unit_is_custom = true;
+  }
+
+  void set_unit(const Cells& cells, const CsvGroup& group, std::size_t place) {
+    for (const std::size_t column : group.columns) {
+      if (column >= cells.size()) continue;
+      std::string_view unit = cells[column];
+      if (unit.size() > 2 && unit.front() == '(' && unit.back() == ')')
+        unit = unit.substr(1, unit.size() - 2);
+      if (unit.empty()) continue;
+      if (!header_.unit.empty() && header_.unit != unit)
+        throw text_.error_at(place, fmt::format("expected one unit for all trajectories, found {} "
+                                                "and {}",
+                                                quote(header_.unit), quote(unit)));
+      header_.unit = unit;
+    }
+  }
+
+  static bool is_blank(std::string_view line) {
+    return line.find_first_not_of(",;\" \t") == line.npos;
+  }
+
+  static std::size_t first_blank_line(std::string_view rows) {
+    for (std::size_t at = 0; at < rows.size(); at = next_line(rows, at)) {
+      if (is_blank(line_from(rows, at))) return at;
+    }
+    return rows.size();
+  }
+
+  // A blank line ends the section. Rows behind it would be lost without a word.
+  void refuse_text_behind(std::size_t blank) const {
+    for (std::size_t at = blank; at < header_.data_end; at = next_line(text_.bytes, at)) {
+      if (!is_blank(line_from(text_.bytes, at)))
+        throw text_.error_at(at, "expected another section behind the blank line");
+    }
+  }
+
+  const SourceText& text_;
+  const Section& section_;
+  HeadLines lines_;
+  CsvHeader header_;
+};
+
+}  // namespace
+
+bool starts_with_vicon_section(std::string_view text) {
+  const SourceText source{"", text};
+  const std::vector<Section> sections = sections_of(source, true);
+  return !sections.empty() && (has_known_name(sections[0]) || has_table(source, sections[0]));
+}
+
+CsvHeader read_vicon_header(const SourceText& text) {
+  const std::vector<Section> sections = sections_of(text, false);
+  const auto found = std::find_if(sections.begin(), sections.end(), is_trajectories);
+  std::vector<std::string> others;
+  for (const Section& section : sections) {
+    if (!is_trajectories(section)) others.push_back(section.name);
+  }
+  if (found == sections.end()) {
+    throw text.error_at(sections.empty() ? 0 : sections[0].place,
+                        fmt::format("a Vicon export of {}, without Trajectories: no markers to "
+                                    "clean",
+                                    quote(fmt::format("{}", fmt::join(others, ", ")))));
+  }
+  if (std::count_if(sections.begin(), sections.end(), is_trajectories) > 1) {
+    throw text.error_at(std::find_if(found + 1, sections.end(), is_trajectories)->place,
+                        "a second section Trajectories: one is read, not several");
+  }
+  CsvHeader header =
+      ViconReader(text, sections, static_cast<std::size_t>(found - sections.begin())).read();
+  if (!others.empty()) header.beside = fmt::format("the sections {}", fmt::join(others, ", "));
+  return header;
+}
+
+}  // namespace kinemend

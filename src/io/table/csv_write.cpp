@@ -1,0 +1,182 @@
+#include <fmt/format.h>
+
+#include <string>
+
+#include "io/motion/motion_write.hpp"
+#include "io/table/csv.hpp"
+#include "io/table/csv_document.hpp"
+#include "io/table/csv_joints.hpp"
+#include "io/table/csv_skeleton.hpp"
+#include "io/text/cell_patch.hpp"
+#include "kinemend/error.hpp"
+
+namespace kinemend {
+
+namespace {
+
+std::string label(const std::string& name, std::string_view part) {
+  if (name.find_first_of("\r\n") != name.npos) {
+    throw Error(ErrorKind::usage, fmt::format("CSV cannot hold the name {}", quote(name)));
+  }
+  std::string text = name + "_" + std::string(part);
+  const bool plain = text.find_first_of(",;\t\"#") == text.npos && !is_space(text.front());
+  if (plain) return text;
+  std::string quoted(1, '"');
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  quoted += '"';
+  return quoted;
+}
+
+std::string number_text(double value) {
+  char room[fixed_number_room];
+  return {room, write_shortest(room, value)};
+}
+
+class Table {
+ public:
+  explicit Table(std::size_t expected) : out_(expected) {}
+
+  void line(std::string_view text) {
+    out_.append(text);
+    out_.append("\n");
+  }
+  void add_labels(const std::string& name, std::initializer_list<std::string_view> parts) {
+    for (const std::string_view part : parts) {
+      labels_ += ',';
+      labels_ += label(name, part);
+    }
+  }
+  void write_labels() { line("frame,time_s" + labels_); }
+
+  void begin_row(std::int64_t frame, double time_s) {
+    constexpr unsigned time_decimals = 6;
+    out_.append(std::to_string(frame));
+    out_.append(",");
+    out_.append_fixed(time_s, time_decimals);
+  }
+  void add(double value) {
+    out_.append(",");
+    out_.append_shortest(value);
+  }
+  void add_coordinate(double value) {
+    char room[fixed_number_room];
+    out_.append(",");
+    out_.append(coordinate_text(value, room, most_fixed_decimals + 1));
+  }
+  void add_empty(std::size_t cells) {
+    for (std::size_t i = 0; i < cells; ++i) out_.append(",");
+  }
+  void end_row() { out_.append("\n"); }
+  std::string take() && { return std::move(out_).take(); }
+
+ private:
+  std::string labels_;
+  TextBuffer out_;
+};
+
+std::string write_plain(const Clip& clip) {
+  Table table(80 * clip.local_rotations.size() + 4096);
+  table.line("# rate_hz: " + number_text(clip.frame_rate_hz));
+  if (clip.frame_count() == 0) table.line("# frames: 0");
+  if (clip.metres_per_unit > 0) {
+    table.line("# metres_per_unit: " + number_text(clip.metres_per_unit));
+  }
+  const std::string skeleton = skeleton_lines(clip.skeleton);
+  table.line(std::string_view(skeleton).substr(0, skeleton.size() - 1));
+  const auto& names = clip.skeleton.names;
+  table.add_labels("root", {"x", "y", "z"});
+  for (const std::string& name : names) table.add_labels(name, {"w", "x", "y", "z"});
+  for (const std::int32_t joint : clip.translated_joints)
+    table.add_labels(names[static_cast<std::size_t>(joint)], {"tx", "ty", "tz"});
+  table.write_labels();
+  const auto add_position = [&](Vec3 v) {
+    for (const double value : {v.x, v.y, v.z}) table.add(value);
+  };
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    table.begin_row(static_cast<std::int64_t>(f) + 1, static_cast<double>(f) / clip.frame_rate_hz);
+    add_position(clip.root_positions[f]);
+    for (std::size_t j = 0; j < clip.joint_count(); ++j) {
+      const Quat q = clip.rotation(f, j);
+      if (!clip.is_observed(f, j)) {
+        table.add_empty(4);
+        continue;
+      }
+      for (const double value : {q.w, q.x, q.y, q.z}) table.add(value);
+    }
+    const std::size_t translated = clip.translated_joints.size();
+    for (std::size_t i = 0; i < translated; ++i)
+      add_position(clip.joint_translations[f * translated + i]);
+    table.end_row();
+  }
+  return std::move(table).take();
+}
+
+// The document whose layout holds the clip; null where there is none.
+const CsvDocument* kept_layout(const MarkerClip& clip) {
+  const auto* const document = dynamic_cast<const CsvDocument*>(clip.source.document.get());
+  const bool same =
+      document != nullptr && !document->names.empty() && clip.names == document->names &&
+      clip.unit == document->unit && clip.frame_count() == document->table.frames &&
+      clip.frame_rate_hz == document->frame_rate_hz && clip.first_frame == document->first_frame;
+  return same ? document : nullptr;
+}
+
+std::string write_plain(const MarkerClip& clip) {
+  Table table(60 * clip.positions.size() + 4096);
+  table.line("# rate_hz: " + number_text(clip.frame_rate_hz));
+  if (clip.frame_count() == 0) table.line("# frames: 0");
+  if (!clip.unit.empty()) {
+    if (clip.unit.find_first_of("\r\n") != clip.unit.npos) {
+      throw Error(ErrorKind::usage, fmt::format("CSV cannot hold the unit {}", quote(clip.unit)));
+    }
+    table.line("# units: " + clip.unit);
+  }
+  for (const std::string& name : clip.names) table.add_labels(name, {"x", "y", "z"});
+  table.write_labels();
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    const std::int64_t frame = clip.first_frame + static_cast<std::int64_t>(f);
+    table.begin_row(frame, static_cast<double>(f) / clip.frame_rate_hz);
+    for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+      if (!clip.is_observed(f, m)) {
+        table.add_empty(3);
+        continue;
+      }
+      const Vec3 v = clip.position(f, m);
+      for (const double value : {v.x, v.y, v.z}) table.add_coordinate(value);
+    }
+    table.end_row();
+  }
+  return std::move(table).take();
+}
+
+}  // namespace
+
+std::string write_csv(const Clip& clip) {
+  clip.validate();
+  const auto* document = dynamic_cast<const CsvDocument*>(clip.source.document.get());
+  const bool same_layout = document != nullptr && document->skeleton.joint_count() > 0 &&
+                           same_skeleton(clip.skeleton, document->skeleton) &&
+                           clip.frame_count() == document->table.frames &&
+                           clip.frame_rate_hz == document->frame_rate_hz &&
+                           clip.metres_per_unit == document->metres_per_unit;
+  if (same_layout) return rewrite_csv_joints(clip, *document);
+  return write_plain(clip);
+}
+
+std::string write_csv_markers(const MarkerClip& clip) {
+  clip.validate();
+  if (const auto* const document = kept_layout(clip))
+    return rewrite_marker_table(clip, document->bytes, document->table);
+  if (clip.names.empty()) throw Error(ErrorKind::usage, "CSV cannot hold a clip without markers");
+  return write_plain(clip);
+}
+
+std::string csv_beside_markers(const MarkerClip& clip, bool as_csv) {
+  if (as_csv && kept_layout(clip) != nullptr) return "";
+  const SourceDocument* const document = clip.source.document.get();
+  if (const auto* const table = dynamic_cast<const CsvDocument*>(document)) return table->beside;
+  const auto* const rest = dynamic_cast<const TableRest*>(document);
+  return rest == nullptr ? "" : rest->beside;
+}
+
+}  // namespace kinemend

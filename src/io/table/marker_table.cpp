@@ -1,0 +1,298 @@
+#include "io/table/marker_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "io/memory_limit.hpp"
+#include "io/table/marker_zeros.hpp"
+#include "io/text/cell_patch.hpp"
+
+namespace kinemend {
+
+namespace {
+
+class TableReader {
+ public:
+  TableReader(const SourceText& text, Diagnostics& diagnostics, std::size_t declared_frames,
+              MarkerTable& table, MarkerClip& clip)
+      : text_(text),
+        diagnostics_(diagnostics),
+        declared_frames_(declared_frames),
+        table_(table),
+        clip_(clip),
+        markers_(clip.marker_count()),
+        width_(table.width()),
+        rows_(text.bytes, table.begin, table.style),
+        values_(width_) {}
+
+  TableFinding read() {
+    table_.end = table_.begin;
+    reserve(std::min(declared_frames_, estimate_rows(text_.bytes, table_.begin)));
+    while (rows_.next()) {
+      row_begin_ = rows_.position();
+      const CellRow row = rows_.read(values_.data(), width_);
+      if (row.fault != nullptr && is_trailing_text(row)) break;
+      if (row.fault != nullptr) fail_at_cell(text_, row.fault, table_.style.separator);
+      if (row.used > width_) return wider_than(row.used);
+      if (table_.is_filler(row)) continue;
+      store(row);
+    }
+    finish();
+    return std::move(finding_);
+  }
+
+ private:
+  std::size_t bytes_per_frame() const { return markers_ * (sizeof(Vec3) + 2) + 16; }
+
+  // Never for more frames than may be.
+  void reserve(std::size_t frames) {
+    const std::size_t affordable = memory_limit(text_.bytes.size()) / bytes_per_frame();
+    const std::size_t count = std::min(frames, affordable);
+    clip_.positions.reserve(count * markers_);
+    clip_.observed.reserve(count * markers_);
+  }
+
+  bool is_trailing_text(const CellRow& row) {
+    if (table_.frames < declared_frames_) return false;
+    std::string_view line = line_from(text_.bytes, row_begin_);
+    const auto place = static_cast<std::size_t>(row.fault - text_.bytes.data());
+    line = line.substr(0, place - row_begin_);
+    if (std::any_of(line.begin(), line.end(), [](char c) { return !is_space(c); })) return false;
+    note_repair(text_, diagnostics_, "trailing_text", place, "text after the last frame");
+    return true;
+  }
+
+  TableFinding wider_than(std::size_t widest) {
+    while (rows_.next()) widest = std::max(widest, rows_.read(nullptr, 0).used);
+    clip_.positions.clear();
+    clip_.observed.clear();
+    table_.frames = 0;
+    TableFinding finding;
+    finding.widest = widest;
+    finding.wide_row = row_begin_;
+    return finding;
+  }
+
+  void store(const CellRow& row) {
+    if ((table_.frames + 1) * bytes_per_frame() > memory_limit(text_.bytes.size())) {
+      throw text_.error_at(row_begin_,
+                           fmt::format("{} markers in rows that hold few of them: too much memory "
+                                       "for a file of {} bytes",
+                                       markers_, text_.bytes.size()));
+    }
+    // An empty last cell needs no separator after it.
+    if (row.cells + 1 < width_) too_short_.add(row_begin_);
+    label(table_.frame_column, finding_.labels.frames);
+    label(table_.time_column, finding_.labels.times_s);
+    const std::size_t first = clip_.positions.size();
+    // More frames than expected: room for all there can be, at once rather than by doubling.
+    if (first + markers_ > clip_.positions.capacity()) reserve(text_.bytes.size());
+    clip_.positions.resize(first + markers_);
+    clip_.observed.resize(first + markers_);
+    Vec3* const positions = clip_.positions.data() + first;
+    std::uint8_t* const observed = clip_.observed.data() + first;
+    for (std::size_t m = 0; m < markers_; ++m) {
+      const auto& [x, y, z] = table_.columns[m];
+      const Vec3 position{values_[x], values_[y], values_[z]};
+      const double sum = position.x + position.y + position.z;
+      if (!std::isnan(sum)) [[likely]] {
+        positions[m] = position;
+        observed[m] = 1;
+      } else {
+        store_missing(position);
+      }
+    }
+    ++table_.frames;
+    table_.end = static_cast<std::size_t>(row.end - text_.bytes.data());
+    last_row_ = row;
+  }
+
+  void store_missing(Vec3 position) {
+    const bool in_part =
+        !std::isnan(position.x) || !std::isnan(position.y) || !std::isnan(position.z);
+    if (in_part) incomplete_.add(row_begin_);
+  }
+
+  void label(std::int32_t column, std::vector<double>& labels) const {
+    if (column >= 0) labels.push_back(values_[static_cast<std::size_t>(column)]);
+  }
+
+  // The last number of a file that ends amid a row may have lost digits.
+  void drop_cut_sample() {
+    const bool cut = table_.frames > 0 && table_.end == text_.bytes.size() &&
+                     last_row_.cells + 1 < width_ && last_row_.used == last_row_.cells;
+    if (!cut) return;
+    for (std::size_t m = 0; m < markers_; ++m) {
+      const auto& columns = table_.columns[m];
+      if (std::find(columns.begin(), columns.end(), last_row_.used - 1) == columns.end()) continue;
+      const std::size_t sample = (table_.frames - 1) * markers_ + m;
+      if (clip_.observed[sample] == 0) continue;
+      clip_.observed[sample] = 0;
+      clip_.positions[sample] = {};
+      note_repair(text_, diagnostics_, "file_cut", table_.end,
+                  "the file ends amid a row: its last marker is missing");
+    }
+  }
+
+  void finish() {
+    drop_cut_sample();
+    note(too_short_, "row_too_short", "a row ends early: what it lacks is missing");
+    note(incomplete_, "marker_incomplete", "a marker lacks some of its coordinates: missing");
+    if (rows_.not_finite() > 0) {
+      note_repair(text_, diagnostics_, "value_not_finite",
+                  static_cast<std::size_t>(rows_.first_not_finite() - text_.bytes.data()),
+                  "a coordinate is no finite number: missing", rows_.not_finite());
+    }
+    if (table_.zeros_are_missing) hide_zeros();
+    const MissingZeros zeros = mark_zeros_missing(clip_);
+    if (zeros.samples > 0) {
+      note_repair(text_, diagnostics_, "zero_is_missing", place_of_frame(zeros.first_frame),
+                  "a marker is at 0 0 0 but was not near: missing", zeros.samples);
+    }
+    table_.observed = clip_.observed;
+  }
+
+  // Unless empty cells say what is missing.
+  void hide_zeros() {
+    if (std::find(clip_.observed.begin(), clip_.observed.end(), 0) != clip_.observed.end()) return;
+    for (std::size_t i = 0; i < clip_.positions.size(); ++i) {
+      if (clip_.positions[i] == Vec3{}) clip_.observed[i] = 0;
+    }
+  }
+
+  void note(const CountedRepair& repair, std::string_view kind, std::string_view message) {
+    if (repair.count > 0)
+      note_repair(text_, diagnostics_, kind, repair.first, message, repair.count);
+  }
+
+  std::size_t place_of_frame(std::size_t frame) const {
+    CellRows rows(text_.bytes, table_.begin, table_.style);
+    for (std::size_t f = 0; rows.next() && f < frame; ++f) rows.read(nullptr, 0);
+    return rows.position();
+  }
+
+  const SourceText& text_;
+  Diagnostics& diagnostics_;
+  std::size_t declared_frames_;
+  MarkerTable& table_;
+  MarkerClip& clip_;
+  std::size_t markers_;
+  std::size_t width_;
+  CellRows rows_;
+  std::vector<double> values_;
+  std::size_t row_begin_ = 0;
+  CellRow last_row_;
+  TableFinding finding_;
+  CountedRepair too_short_;
+  CountedRepair incomplete_;
+};
+
+// Half a unit in the last decimal that any of the first times has.
+double rounding_of(const std::vector<double>& times_s) {
+  unsigned decimals = 0;
+  char text[fixed_number_room];
+  for (std::size_t i = 0; i < std::min<std::size_t>(times_s.size(), 100); ++i) {
+    if (std::isnan(times_s[i])) continue;
+    const std::string_view digits(
+        text, static_cast<std::size_t>(write_shortest(text, times_s[i]) - text));
+    const std::size_t dot = digits.find('.');
+    if (dot != digits.npos)
+      decimals = std::max(decimals, static_cast<unsigned>(digits.size() - dot - 1));
+  }
+  return 0.5 * std::pow(10.0, -static_cast<double>(decimals));
+}
+
+// The rate in use, or the whole number of hertz, that rounded times can stand for.
+double rate_of(double mean_step_s, double tolerance_s) {
+  constexpr std::array<double, 20> in_use{23.976, 24,  25,  29.97,  30,  50,  59.94,
+                                          60,     90,  100, 119.88, 120, 200, 239.76,
+                                          240,    250, 300, 400,    500, 1000};
+  const auto error_of = [&](double rate) { return std::fabs(1 / rate - mean_step_s); };
+  const auto fits = [&](double rate) { return error_of(rate) <= tolerance_s; };
+  const double nearest = *std::min_element(
+      in_use.begin(), in_use.end(), [&](double a, double b) { return error_of(a) < error_of(b); });
+  if (fits(nearest)) return nearest;
+  const double rate = 1 / mean_step_s, whole = std::round(rate);
+  return whole > 0 && fits(whole) ? whole : rate;
+}
+
+}  // namespace
+
+std::size_t MarkerTable::width() const {
+  std::size_t last = 0;
+  for (const std::int32_t column : {frame_column, time_column}) {
+    if (column >= 0) last = std::max(last, static_cast<std::size_t>(column) + 1);
+  }
+  for (const auto& marker : columns)
+    last = std::max(last, *std::max_element(marker.begin(), marker.end()) + 1);
+  return last;
+}
+
+TableFinding read_marker_table(const SourceText& text, Diagnostics& diagnostics,
+                               std::size_t declared_frames, MarkerTable& table, MarkerClip& clip) {
+  return TableReader(text, diagnostics, declared_frames, table, clip).read();
+}
+
+void fail_at_cell(const SourceText& text, const char* place, char separator) {
+  std::string_view cell =
+      line_from(text.bytes, static_cast<std::size_t>(place - text.bytes.data()));
+  cell = cell.substr(0, separator == ' ' ? cell.find_first_of(" \t") : cell.find(separator));
+  throw text.error_at(place, fmt::format("expected a number, found {}", quote(cell)));
+}
+
+RowRate check_row_labels(const SourceText& text, Diagnostics& diagnostics, const MarkerTable& table,
+                         const RowLabels& labels, MarkerClip& clip) {
+  const auto count_steps = [](const std::vector<double>& values, auto is_odd) {
+    std::size_t odd = 0;
+    for (std::size_t i = 1; i < values.size(); ++i)
+      odd += is_odd(values[i] - values[i - 1]) ? 1 : 0;
+    return odd;
+  };
+  constexpr double largest_frame = 9e15;
+  if (!labels.frames.empty() && std::fabs(labels.frames[0]) < largest_frame) {
+    clip.first_frame = std::llround(labels.frames[0]);
+  }
+  const std::size_t jumps = count_steps(labels.frames, [](double step) { return step != 1; });
+  if (jumps > 0) {
+    note_repair(text, diagnostics, "frame_number_gap", table.begin,
+                "frame numbers do not go up by one: rows are taken as successive frames", jumps);
+  }
+  const auto& times = labels.times_s;
+  if (times.size() < 2) return {};
+  const double steps = static_cast<double>(times.size() - 1);
+  const double mean_step_s = (times.back() - times.front()) / steps;
+  if (!(mean_step_s > 0) || !std::isfinite(1 / mean_step_s)) return {};
+  const double rounding_s = rounding_of(times);
+  const std::size_t uneven = count_steps(times, [&](double step) {
+    return !(std::fabs(step - mean_step_s) <= 0.1 * mean_step_s + 2 * rounding_s);
+  });
+  if (uneven > 0) {
+    note_repair(text, diagnostics, "time_uneven", table.begin,
+                "times are uneven: rows are taken as evenly spaced", uneven);
+  }
+  const double tolerance_s = 2.01 * rounding_s / steps;
+  return {rate_of(mean_step_s, tolerance_s), mean_step_s, tolerance_s};
+}
+
+std::string_view coordinate_text(double value, char* room, unsigned most_decimals) {
+  const auto text_until = [&](const char* end) {
+    return std::string_view(room, static_cast<std::size_t>(end - room));
+  };
+  const auto single = static_cast<float>(value);
+  if (static_cast<double>(single) == value) {
+    return text_until(std::to_chars(room, room + fixed_number_room, single == 0 ? 0.0F : single,
+                                    std::chars_format::fixed)
+                          .ptr);
+  }
+  const std::string_view digits = text_until(write_shortest(room, value));
+  const std::size_t dot = digits.find('.');
+  const bool short_enough = most_decimals > most_fixed_decimals || dot == digits.npos ||
+                            digits.size() - dot - 1 <= most_decimals;
+  return short_enough ? digits : text_until(write_fixed(room, value, most_decimals));
+}
+
+}  // namespace kinemend

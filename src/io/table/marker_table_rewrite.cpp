@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "io/table/marker_table.hpp"
+#include "io/text/cell_patch.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+unsigned decimals_in(TokenSpan token, CommaStyle commas) {
+  const std::string_view text(token.begin, static_cast<std::size_t>(token.end - token.begin));
+  constexpr unsigned shortest_digits = most_fixed_decimals + 1;
+  if (text.find_first_of("eE") != text.npos) return shortest_digits;
+  const std::size_t point = text.find_first_of(commas == CommaStyle::decimal ? ".," : ".");
+  if (point == text.npos) return 0;
+  std::size_t end = point + 1;
+  while (end < text.size() && text[end] >= '0' && text[end] <= '9') ++end;
+  return static_cast<unsigned>(std::min<std::size_t>(end - point - 1, shortest_digits));
+}
+
+class TableRewriter {
+ public:
+  TableRewriter(const MarkerClip& clip, std::string_view bytes, const MarkerTable& table)
+      : clip_(clip),
+        bytes_(bytes),
+        table_(table),
+        patch_(bytes, table.begin, table.style, table.width()) {
+    for (std::size_t i = 0; i < table.observed.size(); ++i)
+      empties_cells_ = empties_cells_ || (table.observed[i] != 0 && clip.observed[i] == 0);
+  }
+
+  std::string rewrite() {
+    for (std::size_t f = 0; f < table_.frames && patch_.next();) {
+      if (table_.is_filler(patch_.row())) continue;
+      for (std::size_t m = 0; m < clip_.marker_count(); ++m) compare(f, m);
+      // The row may look whole from now on: digits that were cut must not pass for a sample.
+      for (const std::size_t column : cut_) {
+        if (patch_.has_replacements()) patch_.replace(column, not_a_number, 0);
+      }
+      cut_.clear();
+      ++f;
+    }
+    return std::move(patch_).finish();
+  }
+
+ private:
+  void compare(std::size_t frame, std::size_t marker) {
+    const bool known = clip_.is_observed(frame, marker);
+    const bool was_known = table_.observed[frame * clip_.marker_count() + marker] != 0;
+    const auto& columns = table_.columns[marker];
+    const Vec3 before{patch_.value(columns[0]), patch_.value(columns[1]), patch_.value(columns[2])};
+    const Vec3 now = clip_.position(frame, marker);
+    if (!known && !was_known) {
+      const bool was_cut = !std::isnan(before.x + before.y + before.z) && !(before == Vec3{});
+      if (was_cut) cut_.insert(cut_.end(), columns.begin(), columns.end());
+      // In a file that has empty cells, zeros no longer go without saying.
+      if (before == Vec3{} && empties_cells_) {
+        for (const std::size_t column : columns) patch_.replace(column, not_a_number, 0);
+      }
+    } else if (!known) {
+      for (const std::size_t column : columns) patch_.replace(column, not_a_number, 0);
+    } else if (!(was_known && now == before)) {
+      patch_.replace(columns[0], now.x, decimals());
+      patch_.replace(columns[1], now.y, decimals());
+      patch_.replace(columns[2], now.z, decimals());
+    }
+  }
+
+  // Another walk over the text, which only a changed take needs.
+  unsigned decimals() {
+    if (!decimals_) decimals_ = decimals_of(bytes_, table_);
+    return *decimals_;
+  }
+
+  const MarkerClip& clip_;
+  std::string_view bytes_;
+  const MarkerTable& table_;
+  CellPatch patch_;
+  bool empties_cells_ = false;    // a sample that was there is missing now
+  std::vector<std::size_t> cut_;  // columns of a sample that the end of the file cut
+  std::optional<unsigned> decimals_;
+};
+
+}  // namespace
+
+unsigned decimals_of(std::string_view bytes, const MarkerTable& table) {
+  const std::size_t width = table.width();
+  std::vector<double> values(width);
+  std::vector<TokenSpan> tokens(width);
+  CellRows rows(bytes, table.begin, table.style);
+  unsigned most = 0;
+  while (rows.next() && rows.position() < table.end) {
+    rows.read(values.data(), width, tokens.data());
+    for (const auto& marker : table.columns) {
+      for (const std::size_t column : marker) {
+        if (std::isnan(values[column])) continue;
+        most = std::max(most, decimals_in(tokens[column], table.style.commas));
+      }
+    }
+  }
+  return most;
+}
+
+std::string rewrite_marker_table(const MarkerClip& clip, std::string_view bytes,
+                                 const MarkerTable& table) {
+  return TableRewriter(clip, bytes, table).rewrite();
+}
+
+}  // namespace kinemend

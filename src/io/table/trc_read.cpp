@@ -1,0 +1,206 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "io/stated_rate.hpp"
+#include "io/table/trc.hpp"
+#include "io/table/trc_document.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr double rate_when_unknown_hz = 100;
+
+std::size_t whole(double number) {
+  constexpr double most = 1e15;
+  return number >= 0 && number <= most ? static_cast<std::size_t>(number) : 0;
+}
+
+class TrcReader {
+ public:
+  TrcReader(TrcDocument& document, std::string_view name, const ReadOptions& options)
+      : document_(document), options_(options), text_{name, document.bytes, options.strict} {}
+
+  TakeResult read() {
+    header_ = read_trc_header(text_, diagnostics_);
+    clip_.names = header_.labels;
+    MarkerTable& table = document_.table;
+    table.begin = header_.data_begin;
+    table.style = header_.style;
+    table.frame_column = 0;
+    table.time_column = header_.has_time ? 1 : -1;
+    clip_.unit = header_.value("Units");
+    const TableFinding rows = read_rows();
+    name_the_unnamed();
+    check_counts();
+    choose_rate(check_row_labels(text_, diagnostics_, table, rows.labels, clip_));
+    clip_.is_position.assign(clip_.marker_count(), 1);
+    note_facts();
+    return finish();
+  }
+
+ private:
+  std::size_t leading_columns() const { return header_.has_time ? 2 : 1; }
+
+  TableFinding read_rows() {
+    set_columns();
+    const auto declared = whole(header_.number("NumFrames"));
+    TableFinding rows = read_marker_table(text_, diagnostics_, declared, document_.table, clip_);
+    if (rows.widest == 0) return rows;
+    // Commas may stand for two things at once.
+    if (document_.table.style.separator == ',') {
+      throw text_.error_at(rows.wide_row,
+                           fmt::format("expected {} cells between commas as in the row of labels, "
+                                       "found {}",
+                                       document_.table.width(), rows.widest));
+    }
+    // Coordinates beyond the labels: markers without a name.
+    const std::size_t markers = (rows.widest - leading_columns() + 2) / 3;
+    check_marker_count(markers);
+    clip_.names.resize(markers);
+    set_columns();
+    return read_marker_table(text_, diagnostics_, declared, document_.table, clip_);
+  }
+
+  void check_marker_count(std::size_t markers) const {
+    if (markers <= most_markers) return;
+    throw text_.error_at(header_.labels_line, fmt::format("{} markers: no more than {} are read",
+                                                          markers, most_markers));
+  }
+
+  void set_columns() {
+    auto& columns = document_.table.columns;
+    columns.clear();
+    for (std::size_t m = 0; m < clip_.names.size(); ++m) {
+      const std::size_t x = leading_columns() + 3 * m;
+      columns.push_back({x, x + 1, x + 2});
+    }
+  }
+
+  void name_the_unnamed() {
+    std::size_t unnamed = 0;
+    for (std::size_t m = 0; m < clip_.names.size(); ++m) {
+      if (!clip_.names[m].empty()) continue;
+      clip_.names[m] = fmt::format("*{}", m + 1);
+      ++unnamed;
+    }
+    if (unnamed > 0) {
+      note_repair(text_, diagnostics_, "marker_unnamed", header_.labels_line,
+                  "a marker has no name: called *1, *2, ... by its place", unnamed);
+    }
+  }
+
+  void check_counts() {
+    if (clip_.names.empty()) throw text_.error_at(header_.labels_line, "the file has no markers");
+    // A take without frames says so.
+    if (document_.table.frames == 0 && header_.number("NumFrames") != 0) {
+      throw text_.error_at(header_.data_begin, "expected a row for each frame, found none");
+    }
+    const auto compare = [&](std::string_view key, std::size_t found, std::string_view kind,
+                             std::string_view what) {
+      if (header_.number(key) == static_cast<double>(found)) return;
+      const std::string_view says = header_.value(key);
+      note_repair(text_, diagnostics_, kind, header_.values_line,
+                  fmt::format("{} says {}, the file holds {} {}", key,
+                              says.empty() ? "nothing" : quote(says), found, what));
+    };
+    compare("NumFrames", document_.table.frames, "frame_count_mismatch", "frames");
+    compare("NumMarkers", clip_.marker_count(), "marker_count_mismatch", "markers");
+    if (header_.first_line.empty()) {
+      note_repair(text_, diagnostics_, "header_line_missing", 0,
+                  "the line PathFileType is missing");
+    }
+    if (metres_per_unit(clip_.unit) == 0) {
+      note_repair(text_, diagnostics_, "unit_unknown", header_.values_line,
+                  clip_.unit.empty() ? "the file names no unit"
+                                     : fmt::format("unknown unit {}", quote(clip_.unit)));
+    }
+  }
+
+  void choose_rate(const RowRate& times) {
+    constexpr double tolerance = 0.01;
+    const double declared =
+        usable_rate(text_, diagnostics_, header_.number("DataRate"), header_.values_line);
+    if (declared > 0) {
+      clip_.frame_rate_hz = declared;
+      const double off_s = std::fabs(1 / declared - times.step_s);
+      if (times.rate_hz > 0 && off_s > tolerance / declared + times.tolerance_s) {
+        note_repair(text_, diagnostics_, "time_mismatch", header_.values_line,
+                    fmt::format("DataRate says {} Hz, the times {:.6g} Hz: DataRate is taken",
+                                declared, times.rate_hz));
+      }
+      return;
+    }
+    const double of_times = usable_rate(text_, diagnostics_, times.rate_hz, document_.table.begin);
+    const bool by_times = of_times > 0, by_options = options_.frame_rate_hz > 0;
+    clip_.frame_rate_hz = by_times     ? of_times
+                          : by_options ? options_.frame_rate_hz
+                                       : rate_when_unknown_hz;
+    note_repair(text_, diagnostics_, "frame_rate_assumed", header_.values_line,
+                fmt::format("the header has no usable DataRate: {:.6g} Hz {}", clip_.frame_rate_hz,
+                            by_times     ? "from the times"
+                            : by_options ? "as asked for"
+                                         : "assumed"));
+  }
+
+  void note_facts() {
+    const auto add = [&](std::string_view name, std::string_view key, double usual,
+                         std::string_view unit) {
+      const double number = header_.number(key);
+      if (std::isnan(number) || number == usual) return;
+      clip_.source.facts.push_back({std::string(name), fmt::format("{}{}", number, unit)});
+    };
+    if (!header_.first_cell.empty()) {
+      clip_.source.facts.push_back({"name in the file", header_.first_cell});
+    }
+    add("camera rate", "CameraRate", clip_.frame_rate_hz, " Hz");
+    add("original rate", "OrigDataRate", clip_.frame_rate_hz, " Hz");
+    add("original frames", "OrigNumFrames", static_cast<double>(document_.table.frames), "");
+  }
+
+  TakeResult finish() {
+    document_.first_line = header_.first_line;
+    document_.names = clip_.names;
+    document_.frame_rate_hz = clip_.frame_rate_hz;
+    document_.first_frame = clip_.first_frame;
+    document_.unit = clip_.unit;
+    return {std::move(clip_), std::move(diagnostics_)};
+  }
+
+  TrcDocument& document_;
+  const ReadOptions& options_;
+  SourceText text_;
+  Diagnostics diagnostics_;
+  TrcHeader header_;
+  MarkerClip clip_;
+};
+
+}  // namespace
+
+int sniff_trc(std::string_view head) {
+  if (head.substr(0, 3) == "\xEF\xBB\xBF") head.remove_prefix(3);
+  if (head.substr(0, 1) == "\"") head.remove_prefix(1);
+  constexpr std::string_view word = "PathFileType";
+  const std::string_view start = TextScanner(head, 0).next().substr(0, word.size());
+  const std::size_t end = head.find(start) + start.size();
+  const bool ends = end == head.size() ||
+                    std::string_view(" \t,;\"\r\n").find(head[end]) != std::string_view::npos;
+  return equal_ignoring_case(start, word) && ends ? 100 : 0;
+}
+
+TakeResult read_trc(std::string bytes, std::string_view name, const ReadOptions& options) {
+  const auto document = std::make_shared<TrcDocument>();
+  document->bytes = std::move(bytes);
+  TakeResult result = TrcReader(*document, name, options).read();
+  SourceInfo& source = source_of(result.take);
+  source.name = name;
+  source.format = "trc";
+  source.document = document;
+  return result;
+}
+
+}  // namespace kinemend

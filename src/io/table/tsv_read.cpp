@@ -1,0 +1,272 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "io/stated_rate.hpp"
+#include "io/table/csv_head.hpp"
+#include "io/table/tsv.hpp"
+#include "io/table/tsv_document.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr double rate_when_unknown_hz = 100;
+
+// NO_OF_FRAMES and the like.
+bool is_key(std::string_view cell) {
+  const auto fits = [](char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  return cell.size() > 2 && cell[0] >= 'A' && cell[0] <= 'Z' &&
+         std::all_of(cell.begin(), cell.end(), fits);
+}
+
+class TsvReader {
+ public:
+  TsvReader(TsvDocument& document, std::string_view name, const ReadOptions& options)
+      : document_(document),
+        options_(options),
+        text_{name, document.bytes, options.strict},
+        lines_(text_, after_byte_order_mark(document.bytes)) {}
+
+  TakeResult read() {
+    if (without_spaces_around(text_.bytes).empty())
+      throw Error::at_line(text_.name, 1, "the file is empty");
+    read_keys();
+    refuse_other_tables();
+    read_rows();
+    clip_.unit = "mm";
+    clip_.is_position.assign(clip_.marker_count(), 1);
+    document_.names = clip_.names;
+    document_.events = clip_.events;
+    document_.frame_rate_hz = clip_.frame_rate_hz;
+    document_.first_frame = clip_.first_frame;
+    document_.unit = clip_.unit;
+    return {std::move(clip_), std::move(diagnostics_)};
+  }
+
+ private:
+  struct Value {
+    double number = std::nan("");
+    std::size_t place = 0;
+  };
+
+  void note(std::string_view kind, std::size_t place, std::string_view message,
+            std::size_t count = 1) {
+    if (count > 0) note_repair(text_, diagnostics_, kind, place, message, count);
+  }
+
+  // Up to the first line that starts with no key; that one may be a row of labels.
+  void read_keys() {
+    for (;;) {
+      const std::size_t begin = lines_.next();
+      if (lines_.at_end()) break;
+      if (without_spaces_around(line_from(text_.bytes, begin)).empty()) {
+        lines_.take();
+        continue;
+      }
+      Cells cells = lines_.take_cells();
+      if (!is_key(cells[0])) {
+        document_.table.begin = begin;
+        if (equal_ignoring_case(cells[0], "Frame")) labels_ = std::move(cells);
+        if (!labels_.empty()) document_.table.begin = lines_.next();
+        return;
+      }
+      read_key(cells);
+    }
+    document_.table.begin = text_.bytes.size();
+  }
+
+  void read_key(Cells& cells) {
+    const std::string key = cells[0];
+    const std::string value = cells.size() > 1 ? cells[1] : "";
+    if (key == "NO_OF_FRAMES") frames_ = {number_of(value), lines_.place()};
+    if (key == "NO_OF_MARKERS") markers_ = {number_of(value), lines_.place()};
+    if (key == "FREQUENCY") rate_ = {number_of(value), lines_.place()};
+    if (key == "DATA_INCLUDED") included_ = value;
+    if (key == "EVENT" && cells.size() > 3) read_event(cells);
+    if (key == "MARKER_NAMES") {
+      names_place_ = lines_.place();
+      cells.erase(cells.begin());
+      while (!cells.empty() && cells.back().empty()) cells.pop_back();
+      clip_.names = std::move(cells);
+    }
+  }
+
+  // Its name, its frame, its time.
+  void read_event(const Cells& cells) {
+    const double time_s = number_of(cells[3]);
+    if (std::isfinite(time_s)) {
+      clip_.events.push_back({cells[1], "", time_s});
+    } else {
+      note("event_time_not_finite", lines_.place(), "an event has no time; it is left out");
+    }
+  }
+
+  void refuse_other_tables() const {
+    const bool is_3d = included_.empty() || equal_ignoring_case(included_, "3D");
+    if (is_3d && !clip_.names.empty()) return;
+    throw text_.error_at(std::size_t{0},
+                         fmt::format("a Qualisys table{}{}: no markers to clean",
+                                     is_3d ? "" : fmt::format(" of {} data", quote(included_)),
+                                     clip_.names.empty() ? " without MARKER_NAMES" : ""));
+  }
+
+  void read_rows() {
+    MarkerTable& table = document_.table;
+    const std::string_view rows = text_.bytes.substr(table.begin);
+    table.style.separator = '\t';
+    table.style.commas = rows.find(',') != rows.npos ? CommaStyle::decimal : CommaStyle::none;
+    if (table.style.commas == CommaStyle::decimal)
+      note("decimal_comma", table.begin, "numbers have decimal commas");
+    table.zeros_are_missing = true;
+    const std::size_t leading = labels_.empty() ? leading_by_width(rows) : leading_by_labels();
+    for (std::size_t m = 0; m < clip_.names.size(); ++m) {
+      const std::size_t x = leading + 3 * m;
+      table.columns.push_back({x, x + 1, x + 2});
+    }
+    const auto declared = frames_.number >= 0 && frames_.number < 1e15
+                              ? static_cast<std::size_t>(frames_.number)
+                              : std::size_t{0};
+    const TableFinding found = read_marker_table(text_, diagnostics_, declared, table, clip_);
+    if (found.widest > 0) {
+      throw text_.error_at(found.wide_row,
+                           fmt::format("expected {} cells, found {}", table.width(), found.widest));
+    }
+    if (table.frames == 0 && frames_.number != 0) {
+      throw text_.error_at(std::min(table.begin, text_.bytes.size()),
+                           "expected a row for each frame, found none");
+    }
+    name_the_unnamed();
+    check_counts();
+    choose_rate(check_row_labels(text_, diagnostics_, table, found.labels, clip_));
+  }
+
+  // `Frame`, `Time`, then three for each marker.
+  std::size_t leading_by_labels() {
+    std::size_t leading = 0;
+    while (leading < labels_.size() && !ends_with_axis(labels_[leading])) ++leading;
+    while (!labels_.empty() && labels_.back().empty()) labels_.pop_back();
+    if (labels_.size() != leading + 3 * clip_.names.size()) {
+      throw text_.error_at(lines_.place(),
+                           fmt::format("expected labels of {} markers as in MARKER_NAMES, found {} "
+                                       "cells",
+                                       clip_.names.size(), labels_.size()));
+    }
+    for (std::size_t i = 0; i < leading; ++i) {
+      const auto column = static_cast<std::int32_t>(i);
+      if (i == 0) {
+        document_.table.frame_column = column;
+      } else if (equal_ignoring_case(labels_[i], "Time")) {
+        document_.table.time_column = column;
+      } else {
+        document_.table.style.mark_text(i);
+      }
+    }
+    return leading;
+  }
+
+  static bool ends_with_axis(const std::string& label) {
+    return label.size() > 2 && label[label.size() - 2] == ' ' &&
+           std::string_view("XYZ").find(label.back()) != std::string_view::npos;
+  }
+
+  // Frame and time stand before the markers, or neither.
+  std::size_t leading_by_width(std::string_view rows) {
+    const std::size_t cells = split_cells(line_from(rows, 0), '\t').size();
+    if (cells <= 3 * clip_.names.size()) return 0;
+    document_.table.frame_column = 0;
+    document_.table.time_column = 1;
+    return 2;
+  }
+
+  void name_the_unnamed() {
+    std::size_t unnamed = 0;
+    for (std::size_t m = 0; m < clip_.names.size(); ++m) {
+      if (!clip_.names[m].empty()) continue;
+      clip_.names[m] = fmt::format("*{}", m + 1);
+      ++unnamed;
+    }
+    note("marker_unnamed", names_place_, "a marker has no name: called *1, *2, ... by its place",
+         unnamed);
+  }
+
+  void check_counts() {
+    const auto compare = [&](const Value& stated, std::size_t found, std::string_view kind,
+                             std::string_view what) {
+      if (std::isnan(stated.number) || stated.number == static_cast<double>(found)) return;
+      note(kind, stated.place,
+           fmt::format("the head says {} {}, the file holds {}", stated.number, what, found));
+    };
+    compare(frames_, document_.table.frames, "frame_count_mismatch", "frames");
+    compare(markers_, clip_.marker_count(), "marker_count_mismatch", "markers");
+  }
+
+  // FREQUENCY is a word where the cameras were driven from outside.
+  void choose_rate(const RowRate& times) {
+    constexpr double tolerance = 0.01;
+    const double stated = usable_rate(text_, diagnostics_, rate_.number, rate_.place);
+    if (stated > 0) {
+      clip_.frame_rate_hz = stated;
+      const double off_s = std::fabs(1 / stated - times.step_s);
+      if (times.rate_hz > 0 && off_s > tolerance / stated + times.tolerance_s) {
+        note("time_mismatch", rate_.place,
+             fmt::format("FREQUENCY says {} Hz, the times {:.6g} Hz: FREQUENCY is taken", stated,
+                         times.rate_hz));
+      }
+      return;
+    }
+    const double of_times = usable_rate(text_, diagnostics_, times.rate_hz, document_.table.begin);
+    const bool by_times = of_times > 0, by_options = options_.frame_rate_hz > 0;
+    clip_.frame_rate_hz = by_times     ? of_times
+                          : by_options ? options_.frame_rate_hz
+                                       : rate_when_unknown_hz;
+    note("frame_rate_assumed", rate_.place,
+         fmt::format("the head has no usable FREQUENCY: {:.6g} Hz {}", clip_.frame_rate_hz,
+                     by_times     ? "from the times"
+                     : by_options ? "as asked for"
+                                  : "assumed"));
+  }
+
+  TsvDocument& document_;
+  const ReadOptions& options_;
+  SourceText text_;
+  HeadLines lines_;
+  Diagnostics diagnostics_;
+  MarkerClip clip_;
+  Cells labels_;
+  Value frames_, markers_, rate_;
+  std::string included_;
+  std::size_t names_place_ = 0;
+};
+
+}  // namespace
+
+int sniff_tsv(std::string_view head) {
+  head.remove_prefix(after_byte_order_mark(head));
+  const std::string_view line = line_from(head, 0);
+  const std::string_view key = line.substr(0, line.find('\t'));
+  for (const std::string_view known :
+       {"FILE_VERSION", "NO_OF_FRAMES", "NO_OF_CAMERAS", "NO_OF_MARKERS", "NO_OF_BODIES",
+        "TOT_NO_OF_CHAN", "NO_OF_SAMPLES", "NO_OF_FORCE_PLATES"}) {
+    if (key == known) return 90;
+  }
+  return 0;
+}
+
+TakeResult read_tsv(std::string bytes, std::string_view name, const ReadOptions& options) {
+  const auto document = std::make_shared<TsvDocument>();
+  document->bytes = std::move(bytes);
+  TakeResult result = TsvReader(*document, name, options).read();
+  SourceInfo& source = source_of(result.take);
+  source.name = name;
+  source.format = "tsv";
+  source.document = document;
+  return result;
+}
+
+}  // namespace kinemend

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/text/cell_rows.hpp"
+#include "io/text/text_buffer.hpp"
+
+namespace kinemend {
+
+/// More decimals than this are written as the fewest digits that read back as the same number.
+inline constexpr unsigned most_fixed_decimals = 9;
+
+/// Copies a table of numbers with some cells replaced.
+class CellPatch {
+ public:
+  /// `begin`: of the first row, all of which are `width` cells wide.
+  CellPatch(std::string_view bytes, std::size_t begin, const CellStyle& style, std::size_t width);
+
+  /// Moves to the next row, and writes what was replaced in the one before; false at the end.
+  bool next();
+  const CellRow& row() const { return row_; }
+  /// As read, NaN where a cell is empty.
+  double value(std::size_t column) const { return values_[column]; }
+  /// Whether the cell holds a word such as `nan` in the place of a number.
+  bool is_no_number(std::size_t column) const {
+    const TokenSpan& token = tokens_[column];
+    return std::isnan(values_[column]) && token.begin != token.end;
+  }
+  /// NaN makes an empty cell, or `NaN` in a table without separators. Digits that already say the
+  /// new value, as well as so many decimals can, stay.
+  void replace(std::size_t column, double value, unsigned decimals);
+  bool has_replacements() const { return !replacements_.empty(); }
+  /// The rest of the bytes, as they are.
+  std::string finish() &&;
+
+ private:
+  struct Replacement {
+    std::size_t column = 0;
+    double value = 0;
+    unsigned decimals = 0;
+  };
+
+  void append(const Replacement& replacement);
+  void copy_until(const char* place);
+  void write_row();
+  std::size_t grow(std::size_t column, const Replacement& last);
+
+  std::string_view bytes_;
+  CellStyle style_;
+  std::size_t width_;
+  CellRows rows_;
+  CellRow row_;
+  std::vector<double> values_;
+  std::vector<TokenSpan> tokens_;
+  std::vector<Replacement> replacements_;
+  TextBuffer out_;
+  const char* copied_;
+};
+
+}  // namespace kinemend

@@ -1,0 +1,219 @@
+#include "io/text/cell_rows.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace kinemend {
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+bool is_blank(char c) { return is_space(c) && !is_line_end(c); }
+
+TokenSpan trimmed(TokenSpan token, char separator) {
+  const auto blank = [&](char c) { return c != separator && is_blank(c); };
+  while (token.begin != token.end && blank(*token.begin)) ++token.begin;
+  while (token.begin != token.end && blank(token.end[-1])) --token.end;
+  return token;
+}
+
+bool is_quoted(TokenSpan token) {
+  return token.end - token.begin >= 2 && *token.begin == '"' && token.end[-1] == '"';
+}
+
+// Quotes hide separators, up to the end of the line.
+const char* cell_end(const char* p, const char* end, char separator) {
+  const char* q = p;
+  while (q != end && is_blank(*q) && *q != separator) ++q;
+  bool quoted = q != end && *q == '"';
+  if (quoted) p = q + 1;
+  for (; p != end && !is_line_end(*p); ++p) {
+    if (*p == '"') quoted = false;
+    if (!quoted && *p == separator) return p;
+  }
+  return p;
+}
+
+std::string unquoted(TokenSpan token) {
+  if (!is_quoted(token)) return {token.begin, token.end};
+  std::string text;
+  for (const char* p = token.begin + 1; p != token.end - 1; ++p) {
+    if (*p == '"' && p + 1 != token.end - 1 && p[1] == '"') ++p;
+    text += *p;
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string_view line_from(std::string_view text, std::size_t begin) {
+  text.remove_prefix(std::min(begin, text.size()));
+  return text.substr(0, text.find_first_of("\r\n"));
+}
+
+std::size_t next_line(std::string_view text, std::size_t begin) {
+  const std::size_t end = text.find_first_of("\r\n", begin);
+  if (end == text.npos) return text.size();
+  return end + (text.substr(end, 2) == "\r\n" ? 2 : 1);
+}
+
+std::size_t estimate_rows(std::string_view text, std::size_t begin) {
+  constexpr std::size_t spare = 16;
+  return (text.size() - begin) / (line_from(text, begin).size() + 1) + spare;
+}
+
+std::vector<std::string> split_cells(std::string_view line, char separator) {
+  std::vector<std::string> cells;
+  const char* p = line.data();
+  const char* const end = p + line.size();
+  if (separator == ' ') {
+    while ((p = skip_space(p, end)) != end) {
+      const char* const word = p;
+      while (p != end && !is_space(*p)) ++p;
+      cells.emplace_back(word, p);
+    }
+    return cells;
+  }
+  while (p != end) {
+    const char* const stop = cell_end(p, end, separator);
+    cells.push_back(unquoted(trimmed({p, stop}, separator)));
+    p = stop == end ? end : stop + 1;
+  }
+  return cells;
+}
+
+struct CellRows::Output {
+  double* values;
+  std::size_t count;
+  TokenSpan* tokens;
+
+  void put(std::size_t i, double value, TokenSpan token) const {
+    values[i] = value;
+    if (tokens != nullptr) tokens[i] = token;
+  }
+  void leave_out(std::size_t from) const {
+    for (std::size_t i = from; i < count; ++i) put(i, not_a_number, {});
+  }
+};
+
+CellRows::CellRows(std::string_view text, std::size_t begin, CellStyle style)
+    : begin_(text.data()),
+      end_(text.data() + text.size()),
+      line_(text.data() + begin),
+      next_line_(line_),
+      plain_starts_(
+          std::max<std::ptrdiff_t>(0, end_ - begin_ - plain_number_lead - plain_number_reach + 1)),
+      style_(std::move(style)) {}
+
+bool CellRows::next() {
+  for (line_ = next_line_; line_ != end_;) {
+    const char* p = line_;
+    while (p != end_ && is_blank(*p)) ++p;
+    if (p == end_) break;
+    if (!is_line_end(*p)) return true;
+    line_ = p + 1;
+  }
+  line_ = next_line_ = end_;
+  return false;
+}
+
+CellRow CellRows::read(double* values, std::size_t count, TokenSpan* tokens) {
+  const Output out{values, count, tokens};
+  CellRow row;
+  switch (style_.separator) {
+    case '\t':
+      row = read_separated<'\t'>(out);
+      break;
+    case ',':
+      row = read_separated<','>(out);
+      break;
+    case ';':
+      row = read_separated<';'>(out);
+      break;
+    default:
+      row = read_words(out);
+  }
+  next_line_ = row.end == end_ ? end_ : row.end + 1;
+  return row;
+}
+
+CellRows::Cell CellRows::find_cell(const char* p) const {
+  const char* const end = cell_end(p, end_, style_.separator);
+  return {trimmed({p, end}, style_.separator), end};
+}
+
+double CellRows::value_of(TokenSpan token, std::size_t column, CellRow& row) {
+  if (style_.is_text(column)) return not_a_number;
+  const char* const place = token.begin;
+  if (is_quoted(token)) token = trimmed({token.begin + 1, token.end - 1}, style_.separator);
+  if (token.begin == token.end) return not_a_number;
+  const NumberToken number = read_sample(token.begin, token.end, style_.commas);
+  const bool whole = number.end == token.end;
+  if (whole && number.kind == TokenKind::number) return number.value;
+  if (whole && number.kind == TokenKind::not_finite) {
+    if (not_finite_++ == 0) first_not_finite_ = place;
+  } else if (row.fault == nullptr) {
+    row.fault = place;
+  }
+  return not_a_number;
+}
+
+template <char separator>
+CellRow CellRows::read_separated(const Output& out) {
+  CellRow row;
+  const char* p = line_;
+  for (std::size_t i = 0;; ++i) {
+    if (p == end_ || is_line_end(*p)) {
+      if (i < out.count && i > 0) out.put(i++, not_a_number, {p, p});
+      out.leave_out(i);
+      break;
+    }
+    row.cells = i + 1;
+    if (*p == separator) {
+      if (i < out.count) out.put(i, not_a_number, {p, p});
+      ++p;
+      continue;
+    }
+    PlainNumber number;
+    const char* next = nullptr;
+    if (i < out.count && may_be_plain(p) && read_plain_number<separator>(p, number) &&
+        (p[number.length] == separator || is_line_end(p[number.length]))) [[likely]] {
+      next = p + number.length;
+      out.put(i, number.value, {p, next});
+      row.used = i + 1;
+    } else {
+      const Cell cell = find_cell(p);
+      next = cell.next;
+      if (cell.token.begin != cell.token.end) row.used = i + 1;
+      if (i < out.count) out.put(i, value_of(cell.token, i, row), cell.token);
+    }
+    if (next == end_ || *next != separator) {
+      p = next;
+      out.leave_out(i + 1);
+      break;
+    }
+    p = next + 1;
+  }
+  row.end = p;
+  return row;
+}
+
+CellRow CellRows::read_words(const Output& out) {
+  CellRow row;
+  const char* p = line_;
+  for (std::size_t i = 0;; ++i) {
+    while (p != end_ && is_blank(*p)) ++p;
+    if (p == end_ || is_line_end(*p)) break;
+    const char* const word = p;
+    while (p != end_ && !is_space(*p)) ++p;
+    row.cells = row.used = i + 1;
+    if (i < out.count) out.put(i, value_of({word, p}, i, row), {word, p});
+  }
+  out.leave_out(row.cells);
+  row.end = p;
+  return row;
+}
+
+}  // namespace kinemend

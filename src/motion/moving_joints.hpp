@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "kinemend/clip.hpp"
+
+namespace kinemend {
+
+/// Whether a joint has two rotations that differ at all, observed or not.
+bool joint_moves(const Clip& clip, std::size_t joint);
+/// All joints that do, in the skeleton's order.
+std::vector<std::size_t> moving_joints(const Clip& clip);
+
+}  // namespace kinemend

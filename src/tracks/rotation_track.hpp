@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "kinemend/rotation.hpp"
+
+namespace kinemend {
+
+/// Room behind the last frame of a track, so that the last vector may be loaded and stored whole.
+inline constexpr std::size_t lane_room = 8;
+
+/// Vectors over time, one array a component. The arrays are `lane_room` longer than `frames`.
+struct VectorTrack {
+  std::size_t frames = 0;
+  std::vector<double> x, y, z;
+
+  explicit VectorTrack(std::size_t frame_count = 0);
+  Vec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+  void set(std::size_t i, Vec3 v) { x[i] = v.x, y[i] = v.y, z[i] = v.z; }
+};
+
+/// Rotations of one joint over time, one array a component, identity at first. The arrays are
+/// `lane_room` longer than `frames`.
+struct RotationTrack {
+  std::size_t frames = 0;
+  std::vector<double> w, x, y, z;
+
+  explicit RotationTrack(std::size_t frame_count = 0);
+  Quat operator[](std::size_t i) const { return {w[i], x[i], y[i], z[i]}; }
+  void set(std::size_t i, Quat q) { w[i] = q.w, x[i] = q.x, y[i] = q.y, z[i] = q.z; }
+};
+
+}  // namespace kinemend

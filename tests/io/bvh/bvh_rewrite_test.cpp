@@ -1,0 +1,276 @@
+#include <cmath>
+
+#include "io/support.hpp"
+#include "kinemend/random.hpp"
+
+namespace kinemend {
+namespace {
+
+using namespace test;
+
+// Words of a text with the place of each, white space in between left out.
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words;
+  bool inside = false;
+  for (const char c : text) {
+    const bool blank = c == ' ' || (c >= '\t' && c <= '\r');
+    if (!blank && !inside) words.emplace_back();
+    if (!blank) words.back() += c;
+    inside = !blank;
+  }
+  return words;
+}
+
+// White space as it is, each word as one letter.
+std::string blanks_of(const std::string& text) {
+  std::string blanks;
+  for (const char c : text) {
+    const bool blank = c == ' ' || (c >= '\t' && c <= '\r');
+    if (blank || blanks.empty() || blanks.back() != 'w') blanks += blank ? c : 'w';
+  }
+  return blanks;
+}
+
+// A take of one ball joint with the given angles (degrees), four decimals.
+std::string spinner_text(const std::vector<std::array<double, 3>>& angles) {
+  std::string text =
+      "HIERARCHY\nROOT a\n{\n OFFSET 0 0 0\n CHANNELS 3 Zrotation Xrotation "
+      "Yrotation\n}\nMOTION\nFrames: " +
+      std::to_string(angles.size()) + "\nFrame Time: 0.01\n";
+  char line[200];
+  for (const auto& a : angles) {
+    std::snprintf(line, sizeof line, "%.4f %.4f %.4f\n", a[0], a[1], a[2]);
+    text += line;
+  }
+  return text;
+}
+
+double wrapped(double degrees) { return degrees - 360 * std::floor((degrees + 180) / 360); }
+
+double largest_step(const std::vector<std::vector<double>>& rows) {
+  double largest = 0;
+  for (std::size_t f = 1; f < rows.size(); ++f) {
+    for (std::size_t c = 0; c < rows[f].size(); ++c)
+      largest = std::max(largest, std::fabs(rows[f][c] - rows[f - 1][c]));
+  }
+  return largest;
+}
+
+TEST(BvhRewriter, AnUnchangedClipComesBackToTheByte) {
+  for (const auto& path : fixtures_in("good")) {
+    const ReadResult read = read_clip(path);
+    if (read.diagnostics.count("value_not_finite") > 0) continue;
+    EXPECT_EQ(write_clip(read.clip), read_file(path)) << path;
+  }
+}
+
+TEST(BvhRewriter, OneChangedSampleChangesItsDigitsOnly) {
+  Random random(21);
+  for (const auto& path : fixtures_in("good")) {
+    SCOPED_TRACE(path);
+    Clip clip = read_clip(path).clip;
+    for (int i = 0; i < 10 && clip.frame_count() > 0; ++i) {
+      const std::size_t frame = random.below(clip.frame_count()),
+                        joint = random.below(clip.joint_count());
+      const std::size_t turns = clip.skeleton.rotation_order(joint).count;
+      Clip changed = clip;
+      changed.rotation(frame, joint) = changed.rotation(frame, joint) * exp({0.01, 0.02, 0.03});
+      const std::string before = write_clip(clip), after = write_clip(changed);
+      EXPECT_EQ(blanks_of(before), blanks_of(after));
+      const auto old_words = words_of(before), new_words = words_of(after);
+      ASSERT_EQ(old_words.size(), new_words.size());
+      std::size_t different = 0;
+      for (std::size_t w = 0; w < old_words.size(); ++w)
+        different += old_words[w] != new_words[w] ? 1 : 0;
+      EXPECT_LE(different, turns);
+      EXPECT_EQ(different > 0, turns > 0);
+    }
+  }
+}
+
+TEST(BvhRewriter, ChangedSamplesReadBackAsWritten) {
+  for (const auto& path : fixtures_in("good")) {
+    SCOPED_TRACE(path);
+    Clip clip = read_clip(path).clip;
+    const Clip source = clip;
+    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+      clip.root_positions[f] += {0.125, 0.25, -0.5};
+      for (std::size_t j = 0; j < clip.joint_count(); ++j) {
+        const auto count = clip.skeleton.rotation_order(j).count;
+        if (count == 3)
+          clip.rotation(f, j) =
+              clip.rotation(f, j) * exp({0.01, -0.02, 0.015 * static_cast<double>(f)});
+      }
+    }
+    for (Vec3& translation : clip.joint_translations) translation += {0.1, 0.2, 0.3};
+    const Clip again = read_clip(write_clip(clip), path.string()).clip;
+    ASSERT_EQ(again.local_rotations.size(), clip.local_rotations.size());
+    for (std::size_t i = 0; i < clip.local_rotations.size(); ++i) {
+      if (clip.skeleton.rotation_order(i % clip.joint_count()).count != 3) continue;
+      EXPECT_LT(angle_between(again.local_rotations[i], clip.local_rotations[i]), 2e-6) << i;
+    }
+    // Axes without a channel keep the offset.
+    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+      const bool all_axes =
+          std::count_if(clip.skeleton.channels[0].begin(), clip.skeleton.channels[0].end(),
+                        [](Channel c) { return !is_rotation(c); }) == 3;
+      if (all_axes) {
+        EXPECT_LT(norm(again.root_positions[f] - clip.root_positions[f]), 1e-4);
+      }
+    }
+  }
+}
+
+TEST(BvhRewriter, WritesNoExponentsAndAsManyDecimalsAsTheSource) {
+  Clip clip = read_clip(fixture("good/plain.bvh")).clip;
+  clip.rotation(1, 1) = rotation_of({1e-7, 12.34567, -0.00004}, "ZXY");
+  EXPECT_NE(write_clip(clip).find(" 0.0000 12.3457 0.0000\n"), std::string::npos);
+  // Four decimals where the source is coarser.
+  Clip coarse = read_clip(fixture("good/coarse.bvh")).clip;
+  coarse.rotation(1, 1) = rotation_of({5.5, 6, -7.125}, "ZXY");
+  EXPECT_NE(write_clip(coarse).find(" 5.5000 6 -7.1250\n"), std::string::npos);
+  Clip comma = read_clip(fixture("good/decimal_comma.bvh")).clip;
+  comma.rotation(1, 1) = rotation_of({5.5, 6, -7.125}, "ZXY");
+  EXPECT_NE(write_clip(comma).find(" 5,5000 6,0000 -7,1250\n"), std::string::npos);
+}
+
+TEST(BvhRewriter, WhatIsNoNumberIsWrittenAsItIsHeld) {
+  Clip clip = read_clip(fixture("good/gaps.bvh")).clip;
+  const std::string held = write_clip(clip);
+  EXPECT_THAT(held, testing::EndsWith(
+                        "1.0000 92.0000 -3.5000 11.0000 -21.0000 31.0000 5.5000 6.2500 -7.1250\n"
+                        "1.1000 92.0000 -3.4000 11.0000 -21.0000 31.0000 5.5000 6.2500 -7.1250\n"
+                        "1.1000 92.2000 -3.3000 12.0000 -22.0000 32.0000 5.5000 6.2500 -7.1250\n"));
+  clip.rotation(1, 1) = rotation_of({5.6, 6.35, -7.225}, "ZXY");
+  EXPECT_THAT(write_clip(clip),
+              testing::HasSubstr(
+                  "1.1000 92.0000 -3.4000 11.0000 -21.0000 31.0000 5.6000 6.3500 -7.2250\n"));
+}
+
+TEST(BvhRewriter, ANewRateReplacesTheFrameTimeOnly) {
+  Clip clip = read_clip(fixture("good/tabs.bvh")).clip;
+  clip.frame_rate_hz = 60;
+  std::string expected = read_file(fixture("good/tabs.bvh"));
+  expected.replace(expected.find("0.0083333"), 9, "0.016667");
+  EXPECT_EQ(write_clip(clip), expected);
+}
+
+TEST(BvhRewriter, OtherFramesKeepTheHierarchyText) {
+  const std::string source = read_file(fixture("good/crlf.bvh"));
+  Clip clip = read_clip(fixture("good/crlf.bvh")).clip;
+  clip.root_positions.pop_back();
+  clip.local_rotations.resize(clip.frame_count() * clip.joint_count());
+  const std::string text = write_clip(clip);
+  const std::size_t motion = source.find("MOTION");
+  EXPECT_EQ(text.substr(0, motion), source.substr(0, motion));
+  EXPECT_NE(text.find("MOTION\r\nFrames: 2\r\nFrame Time: 0.0083333\r\n1.0000 92.0000"),
+            std::string::npos);
+  expect_same_motion(read_text(text), clip, 1e-5);
+}
+
+TEST(BvhRewriter, AFullyChangedTrackIsContinuousWhereTheSourceWraps) {
+  std::vector<std::array<double, 3>> angles;
+  for (int f = 0; f < 300; ++f)
+    angles.push_back({wrapped(4.0 * f), 30 * std::sin(f * 0.1), wrapped(-3.0 * f)});
+  Clip clip = read_text(spinner_text(angles));
+  EXPECT_GT(largest_step(rows_of(write_clip(clip), 3)), 300);
+  for (Quat& q : clip.local_rotations) q = q * exp({0.01, 0.01, 0.01});
+  EXPECT_LT(largest_step(rows_of(write_clip(clip), 3)), 10);
+}
+
+TEST(BvhRewriter, SmallChangesStayOnTheSourcesBranch) {
+  // A source on the second branch, many turns away, that a fresh decomposition would not find.
+  std::vector<std::array<double, 3>> angles;
+  for (int f = 0; f < 100; ++f) angles.push_back({730 + 0.5 * f, 120 - 0.1 * f, -400 + 0.2 * f});
+  Clip clip = read_text(spinner_text(angles));
+  Random random(3);
+  for (Quat& q : clip.local_rotations)
+    q = q * exp({0.01 * random.normal(), 0.01 * random.normal(), 0.01 * random.normal()});
+  const auto rows = rows_of(write_clip(clip), 3);
+  for (std::size_t f = 0; f < rows.size(); ++f) {
+    for (std::size_t c = 0; c < 3; ++c) ASSERT_NEAR(rows[f][c], angles[f][c], 12) << f;
+  }
+}
+
+TEST(BvhRewriter, ARepairAmidKeptFramesMovesNoJumpOfTheSource) {
+  std::vector<std::array<double, 3>> angles;
+  for (int f = 0; f < 60; ++f) angles.push_back({wrapped(150 + 2.0 * f), 10, 5});
+  const std::string text = spinner_text(angles);
+  Clip clip = read_text(text);
+  // The source wraps between frames 14 and 15; frames 13 to 17 are nudged.
+  for (std::size_t f = 13; f < 18; ++f)
+    clip.rotation(f, 0) = clip.rotation(f, 0) * exp({0, 0.001, 0.001});
+  const auto before = rows_of(text, 3), after = rows_of(write_clip(clip), 3);
+  for (std::size_t f = 0; f < before.size(); ++f) {
+    for (std::size_t c = 0; c < 3; ++c) ASSERT_NEAR(before[f][c], after[f][c], 0.2) << f;
+    if (f < 13 || f > 17) {
+      ASSERT_EQ(before[f], after[f]);
+    }
+  }
+}
+
+TEST(BvhRewriter, ASpikeThatFlippedTheBranchIsWrittenLikeItsNeighbours) {
+  std::vector<std::array<double, 3>> angles;
+  for (int f = 0; f < 40; ++f) angles.push_back({20.0 + f, 70, -10.0 + f});
+  const auto smooth = angles;
+  angles[20] = {-150, 95, 170};
+  Clip clip = read_text(spinner_text(angles));
+  clip.rotation(20, 0) = rotation_of(smooth[20], "ZXY");
+  const auto rows = rows_of(write_clip(clip), 3);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(rows[20][c], smooth[20][c], 1e-3);
+}
+
+TEST(BvhRewriter, NothingJumpsNearGimbalLock) {
+  std::vector<std::array<double, 3>> angles;
+  for (int f = 0; f < 400; ++f)
+    angles.push_back({0.5 * f, 89.9 * std::sin(f * 0.05), 20 * std::cos(f * 0.03)});
+  Clip clip = read_text(spinner_text(angles));
+  for (Quat& q : clip.local_rotations) q = q * exp({1e-4, 1e-4, 1e-4});
+  const auto rows = rows_of(write_clip(clip), 3);
+  // Near the poles the outer angles turn against each other, but never by a flip.
+  EXPECT_LT(largest_step(rows), 90);
+  const Clip again = read_text(write_clip(clip));
+  expect_same_motion(clip, again, 1e-5);
+}
+
+TEST(BvhRewriter, HugeSourceAnglesDoNoHarm) {
+  const Clip source = read_text(spinner_text({{1, 2, 3}, {1e15, 2, 3}, {1, 2, 3}}));
+  source.validate();
+  for (std::size_t f = 1; f < 3; ++f) {
+    Clip clip = source;
+    clip.rotation(f, 0) = rotation_of({1.3171, 2, 3}, "ZXY");
+    EXPECT_LT(angle_between(read_text(write_clip(clip)).rotation(f, 0), clip.rotation(f, 0)), 1e-5);
+  }
+}
+
+TEST(BvhRewriter, LongTakesWithGapsKeepTheirDigits) {
+  std::string text =
+      "HIERARCHY\nROOT a\n{\n OFFSET 0 0 0\n CHANNELS 4 Xposition Zrotation Xrotation "
+      "Yrotation\n}\nMOTION\n"
+      "Frames: 5000\nFrame Time: 0.01\n";
+  const std::size_t first_word = words_of(text).size();
+  const auto is_gap = [](std::size_t f) { return f % 1024 < 2 || f % 97 == 0; };
+  for (std::size_t f = 0; f < 5000; ++f) {
+    const bool gap = is_gap(f);
+    text += gap ? "nan 1.0 nan 2.0\n"
+                : std::to_string(f) + ".25 1.5 " + std::to_string(f % 90) + ".125 2.0\n";
+  }
+  Clip clip = read_text(text);
+  clip.validate();
+  EXPECT_EQ(clip.root_positions[0].x, 2.25);
+  EXPECT_EQ(clip.root_positions[2049].x, 2047.25);
+  EXPECT_LT(angle_between(clip.rotation(2049, 0), rotation_of({1.5, 67.125, 2}, "ZXY")), 1e-14);
+  clip.rotation(4000, 0) = clip.rotation(4000, 0) * exp({0.1, 0, 0});
+  const auto before = words_of(text), after = words_of(write_clip(clip));
+  ASSERT_EQ(before.size(), after.size());
+  std::size_t different = 0;
+  for (std::size_t w = first_word; w < before.size(); ++w) {
+    EXPECT_NE(after[w], "nan") << w;
+    if (!is_gap((w - first_word) / 4)) different += before[w] != after[w] ? 1 : 0;
+  }
+  EXPECT_GE(different, 1u);
+  EXPECT_LE(different, 3u);
+}
+
+}  // namespace
+}  // namespace kinemend

@@ -1,0 +1,197 @@
+#include <fmt/format.h>
+
+#include "io/hostile.hpp"
+#include "io/support.hpp"
+#include "kinemend/random.hpp"
+
+namespace kinemend {
+namespace {
+
+using namespace test;
+
+std::string trc_fixture(const std::string& name) {
+  return read_file(std::filesystem::path(KINEMEND_TEST_FIXTURES) / "trc" / name);
+}
+
+MarkerClip read_markers(const std::string& bytes) {
+  ReadOptions options;
+  options.format = "trc";
+  return std::get<MarkerClip>(read_take(bytes, "take.trc", options).take);
+}
+
+// The text with `from` (which it holds once) replaced.
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, text.npos) << from;
+  EXPECT_EQ(text.find(from, at + 1), text.npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+void set(MarkerClip& clip, std::size_t frame, std::size_t marker, Vec3 position) {
+  clip.position(frame, marker) = position;
+  clip.observed[frame * clip.marker_count() + marker] = 1;
+}
+
+void unset(MarkerClip& clip, std::size_t frame, std::size_t marker) {
+  clip.position(frame, marker) = {};
+  clip.observed[frame * clip.marker_count() + marker] = 0;
+}
+
+TEST(TrcWriter, EveryFixtureComesBackToTheByte) {
+  for (const auto& path : fixture_paths("trc")) {
+    if (path.parent_path().filename() != "good") continue;
+    const std::string bytes = read_file(path);
+    EXPECT_EQ(write_markers(read_markers(bytes), "trc"), bytes) << path;
+  }
+}
+
+TEST(TrcWriter, OnlyChangedSamplesGetNewDigits) {
+  const std::string bytes = trc_fixture("good/crlf.trc");
+  MarkerClip clip = read_markers(bytes);
+  clip.position(1, 0).y = -116.6370149;
+  EXPECT_EQ(write_markers(clip, "trc"), bytes) << "five decimals say the same";
+  clip.position(1, 0).y = -110.5;
+  EXPECT_EQ(write_markers(clip, "trc"), with(bytes, "-116.63701", "-110.50000"));
+}
+
+TEST(TrcWriter, FilledSamplesGetTheDecimalsOfTheFile) {
+  const std::string bytes = trc_fixture("good/gaps.trc");
+  MarkerClip clip = read_markers(bytes);
+  set(clip, 0, 0, {1, 2.123456, -3});
+  std::string expected = with(bytes, "1\t0.000\t\t\t\t", "1\t0.000\t1.00000\t2.12346\t-3.00000\t");
+  EXPECT_EQ(write_markers(clip, "trc"), expected);
+  set(clip, 2, 1, {4, 5, 6});
+  expected = with(expected, "3\t0.020\t\t\t\t\t\t", "3\t0.020\t\t\t\t4.00000\t5.00000\t6.00000");
+  EXPECT_EQ(write_markers(clip, "trc"), expected);
+}
+
+TEST(TrcWriter, MissingSamplesBecomeEmptyCells) {
+  const std::string bytes = trc_fixture("good/plain.trc");
+  MarkerClip clip = read_markers(bytes);
+  unset(clip, 0, 0);
+  unset(clip, 2, 1);
+  EXPECT_EQ(write_markers(clip, "trc"),
+            with(with(bytes, "-201.20056\t-116.39728\t721.44098", "\t\t"),
+                 "129.51600\t-187.97800\t724.38200", "\t\t"));
+}
+
+TEST(TrcWriter, ZerosThatMeanMissingStayUntilTheyAreFilled) {
+  const std::string bytes = trc_fixture("good/zeros.trc");
+  MarkerClip clip = read_markers(bytes);
+  set(clip, 1, 0, {-200.7, -116.6, 721.5});
+  EXPECT_EQ(write_markers(clip, "trc"),
+            with(bytes, "0.00000\t0.00000\t0.00000", "-200.70000\t-116.60000\t721.50000"));
+}
+
+TEST(TrcWriter, RowsThatEndEarlyGrow) {
+  const std::string bytes = trc_fixture("good/short_rows.trc");
+  MarkerClip clip = read_markers(bytes);
+  set(clip, 1, 1, {1, 2, 3});
+  set(clip, 2, 1, {4, 5, 6});
+  EXPECT_EQ(write_markers(clip, "trc"),
+            with(with(bytes, "721.52441\n", "721.52441\t1.00000\t2.00000\t3.00000\n"),
+                 "-116.87550\n", "-116.87550\t\t4.00000\t5.00000\t6.00000\n"));
+}
+
+TEST(TrcWriter, SpacesAndCommasStay) {
+  const std::string spaces = trc_fixture("good/spaces.trc");
+  MarkerClip clip = read_markers(spaces);
+  unset(clip, 1, 1);
+  clip.position(0, 0).x = 7;
+  EXPECT_EQ(write_markers(clip, "trc"),
+            with(with(spaces, "129.47598  -188.07799  724.33362", "NaN  NaN  NaN"), "-201.20056",
+                 "7.00000"));
+  const std::string commas = trc_fixture("good/decimal_comma.trc");
+  clip = read_markers(commas);
+  clip.position(0, 0).x = 7.5;
+  EXPECT_EQ(write_markers(clip, "trc"), with(commas, "-201,20056", "7,50000"));
+}
+
+TEST(TrcWriter, RandomChangesReadBackAndLeaveTheRestAlone) {
+  Random random(5);
+  for (const auto& path : fixture_paths("trc")) {
+    // Markers without a name are as many as the widest row has, which may change.
+    if (path.parent_path().filename() != "good" || path.stem() == "unnamed") continue;
+    SCOPED_TRACE(path.filename());
+    const MarkerClip source = read_markers(read_file(path));
+    for (int round = 0; round < 40; ++round) {
+      MarkerClip clip = source;
+      for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+        for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+          if (random.chance(0.3)) unset(clip, f, m);
+          if (random.chance(0.3)) set(clip, f, m, {random.normal() + 900, random.normal(), 1});
+        }
+      }
+      const MarkerClip again = read_markers(write_markers(clip, "trc"));
+      ASSERT_EQ(again.observed.size(), clip.observed.size());
+      for (std::size_t i = 0; i < clip.positions.size(); ++i) {
+        // What was beside it told whether the origin is a place or means missing.
+        if (clip.observed[i] != 0 && clip.positions[i] == Vec3{}) continue;
+        ASSERT_EQ(again.observed[i], clip.observed[i]) << i;
+        if (clip.observed[i] == 0) continue;
+        ASSERT_LT(norm(again.positions[i] - clip.positions[i]), 0.1) << i;
+        if (clip.positions[i] == source.positions[i]) {
+          ASSERT_EQ(again.positions[i], clip.positions[i]);
+        }
+      }
+    }
+  }
+}
+
+TEST(TrcWriter, AClipWithOtherFramesKeepsFirstLineLineEndsAndDecimals) {
+  const std::string bytes = trc_fixture("good/crlf.trc");
+  MarkerClip clip = read_markers(bytes);
+  MarkerClip part = slice(clip, 1, 3);
+  part.source.document = clip.source.document;
+  EXPECT_EQ(write_markers(part, "trc"),
+            "PathFileType\t4\t(X/Y/Z)\twalk.trc\r\n"
+            "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\t"
+            "OrigDataStartFrame\tOrigNumFrames\r\n"
+            "100.00\t100.00\t2\t2\tmm\t100.00\t2\t2\r\n"
+            "Frame#\tTime\tLASI\t\t\tRASI\t\t\r\n"
+            "\t\tX1\tY1\tZ1\tX2\tY2\tZ2\r\n"
+            "\r\n"
+            "2\t0.000000\t-200.70854\t-116.63701\t721.52441\t129.47598\t-188.07799\t724.33362\r\n"
+            "3\t0.010000\t-200.21008\t-116.87550\t721.60700\t129.51600\t-187.97800\t724.38200\r\n");
+}
+
+TEST(TrcWriter, AClipMadeInMemoryReadsBackExactly) {
+  MarkerClip clip = make_marker_clip({"A", "B b", "Ann:C"}, 50, 30000 / 1001.0);
+  clip.unit = "m";
+  clip.first_frame = 7;
+  Random random(3);
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    set(clip, f, 0, {random.normal(), 1e-3, -5});
+    // As from a C3D file: written with the digits of a float.
+    set(clip, f, 1, {static_cast<float>(random.normal()), 0.1f, 1e6f});
+    if (f % 3 == 0) set(clip, f, 2, {std::round(1e6 * random.normal()) / 1e6, 0, 1});
+  }
+  const TakeResult result = read_take(write_markers(clip, "trc"), "new.trc", {});
+  EXPECT_TRUE(result.diagnostics.empty());
+  const auto& again = std::get<MarkerClip>(result.take);
+  EXPECT_EQ(again.names, clip.names);
+  EXPECT_EQ(again.observed, clip.observed);
+  EXPECT_EQ(again.unit, "m");
+  EXPECT_EQ(again.first_frame, 7);
+  EXPECT_EQ(again.frame_rate_hz, clip.frame_rate_hz);
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    EXPECT_LE(norm(again.position(f, 0) - clip.position(f, 0)), 1e-9);
+    EXPECT_EQ(static_cast<float>(again.position(f, 1).x),
+              static_cast<float>(clip.position(f, 1).x));
+    EXPECT_EQ(again.position(f, 1).y, 0.1);
+    EXPECT_EQ(again.position(f, 2), clip.position(f, 2));
+  }
+}
+
+TEST(TrcWriter, RefusesWhatTheFormatCannotHold) {
+  const auto error = [](const MarkerClip& clip) {
+    return message_of([&] { write_markers(clip, "trc"); }, ErrorKind::usage);
+  };
+  EXPECT_EQ(error(make_marker_clip({"a\tb"}, 1, 100)), "TRC cannot hold the name \"a.b\"");
+  EXPECT_EQ(error(make_marker_clip({}, 0, 100)), "TRC cannot hold a clip without markers");
+  EXPECT_EQ(message_of([] { write_clip(Clip{}, "trc"); }, ErrorKind::usage),
+            "trc files hold markers, not joints");
+}
+
+}  // namespace
+}  // namespace kinemend
