@@ -46,22 +46,6 @@ def weighted_mean(x, passes):
     return x
 
 
-def hampel(x):
-    windows = np.lib.stride_tricks.sliding_window_view(x, 11, axis=0)
-    middle = np.median(windows, axis=-1)
-    deviation = np.median(np.abs(windows - middle[..., None]), axis=-1)
-    result = x.copy()
-    inner = result[5:-5]
-    outliers = np.abs(inner - middle) > 3 * 1.4826 * deviation
-    inner[outliers] = middle[outliers]
-    return result
-
-
-def noise(x):
-    d = np.diff(x, 2, axis=0)
-    return 1.4826 * np.median(np.abs(d - np.median(d, axis=0)), axis=0) / np.sqrt(6)
-
-
 def fill_cubic(x):
     result = x.copy()
     for c in range(CHANNELS):
@@ -79,15 +63,13 @@ JOBS = [
     ("weighted_mean_passes/1", lambda x: weighted_mean(x, 1)),
     ("weighted_mean_passes/4", lambda x: weighted_mean(x, 4)),
     ("median_half_window_5", lambda x: scipy.ndimage.median_filter(x, size=(11, 1))),
-    ("hampel_half_window_5", hampel),
-    ("estimate_noise_order_2", noise),
     ("fill_cubic_5_percent", fill_cubic),
 ]
 
 print(f"{'Job':<34}{'CPU':>12}{'frames/s':>14}")
 for name, job in JOBS:
     best = np.inf
-    for _ in range(1 if name.startswith("hampel") else ROUNDS):
+    for _ in range(ROUNDS):
         start = time.process_time()
         job(take)
         best = min(best, time.process_time() - start)

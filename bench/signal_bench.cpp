@@ -58,7 +58,10 @@ BENCHMARK(butterworth_zero_phase_order_4)->Unit(benchmark::kMillisecond);
 
 void butterworth_causal_order_4(benchmark::State& state) {
   const auto sections = kinemend::butterworth_lowpass(4, 6, 120);
-  run(state, [&](PoseMatrix& m) { kinemend::filter_causal(m, sections); });
+  run(state, [&](PoseMatrix& m) {
+    kinemend::CausalState filter(sections);
+    for (std::size_t t = 0; t < m.frames; ++t) filter.step(m.row(t));
+  });
 }
 BENCHMARK(butterworth_causal_order_4)->Unit(benchmark::kMillisecond);
 
@@ -78,11 +81,6 @@ void median_half_window_5(benchmark::State& state) {
 }
 BENCHMARK(median_half_window_5)->Unit(benchmark::kMillisecond);
 
-void hampel_half_window_5(benchmark::State& state) {
-  run(state, [](PoseMatrix& m) { kinemend::hampel_filter(m, 5, 3.0); });
-}
-BENCHMARK(hampel_half_window_5)->Unit(benchmark::kMillisecond);
-
 void wavelet_symlet_4(benchmark::State& state) {
   kinemend::WaveletOptions options;
   options.threshold = state.range(0) == 0 ? kinemend::WaveletThreshold::universal
@@ -90,40 +88,6 @@ void wavelet_symlet_4(benchmark::State& state) {
   run(state, [&](PoseMatrix& m) { kinemend::wavelet_denoise(m, options); });
 }
 BENCHMARK(wavelet_symlet_4)->ArgName("sure")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
-
-kinemend::LinearGaussianModel model_of(const benchmark::State& state) {
-  kinemend::LinearGaussianModel model;
-  model.kind = static_cast<kinemend::MotionModel>(state.range(0));
-  model.process_noise = {0.01};
-  model.measurement_noise = {0.02};
-  return model;
-}
-
-void kalman_filter_components(benchmark::State& state) {
-  const auto model = model_of(state);
-  run(state, [&](PoseMatrix& m) { kinemend::kalman_filter(m, model); });
-}
-BENCHMARK(kalman_filter_components)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
-
-void kalman_smoother_components(benchmark::State& state) {
-  const auto model = model_of(state);
-  run(state, [&](PoseMatrix& m) { kinemend::kalman_smoother(m, model); });
-}
-BENCHMARK(kalman_smoother_components)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
-
-void kalman_smoother_with_gaps(benchmark::State& state) {
-  const auto model = model_of(state);
-  std::vector<std::uint8_t> missing(frame_count * channel_count, 0);
-  kinemend::Random random(2);
-  for (auto& mark : missing) mark = random.chance(0.05);
-  run(state, [&](PoseMatrix& m) { kinemend::kalman_smoother(m, model, missing); });
-}
-BENCHMARK(kalman_smoother_with_gaps)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
-
-void estimate_noise_order_2(benchmark::State& state) {
-  run(state, [](PoseMatrix& m) { benchmark::DoNotOptimize(kinemend::estimate_noise(m)); });
-}
-BENCHMARK(estimate_noise_order_2)->Unit(benchmark::kMillisecond);
 
 void fill_cubic_5_percent(benchmark::State& state) {
   std::vector<std::uint8_t> missing(frame_count * channel_count, 0);

@@ -9,8 +9,7 @@
 #include "kinemend/pose_matrix.hpp"
 
 /// Filters on F x D matrices of equally spaced samples, in place, each channel by itself. They know
-/// nothing of skeletons: widths are frames, and only `butterworth_lowpass` and
-/// `LinearGaussianModel` speak of hertz and seconds.
+/// nothing of skeletons: widths are frames, and only `butterworth_lowpass` speaks of hertz.
 ///
 /// What holds for all of them: any F and D, 0 included; a channel's result does not depend on its
 /// neighbours; the negated signal gives the negated result bit for bit; results do not depend on
@@ -49,11 +48,7 @@ void filter_zero_phase(PoseMatrix& matrix, const std::vector<Biquad>& sections);
 void filter_zero_phase(PoseMatrix& matrix, const std::vector<Biquad>& sections,
                        std::size_t pad_frames);
 
-/// Runs the sections forward only, from the steady state of the first frame. The same as
-/// `CausalState`, frame by frame.
-void filter_causal(PoseMatrix& matrix, const std::vector<Biquad>& sections);
-
-/// The memory of a causal filter between frames.
+/// Runs the sections forward only, frame by frame, from the steady state of the first frame.
 class CausalState {
  public:
   explicit CausalState(std::vector<Biquad> sections) : sections_(std::move(sections)) {}
@@ -75,14 +70,6 @@ class CausalState {
 /// centred; the first and the last frame follow Tukey's end-point rule, y0 = median(x0, y1, 3 y1 -
 /// 2 y2), so that a spike there goes too.
 void median_filter(PoseMatrix& matrix, std::size_t half_window);
-
-/// Replaces x[t] by the median m of its window (t - half_window to t + half_window, cut at the ends
-/// of the take) where |x[t] - m| > max(threshold * 1.4826 * MAD, minimum_deviation), MAD being the
-/// median of |x - m| over the window. `threshold` >= 0, usually 3. In a window of which more than
-/// half is constant MAD is 0 and every other sample counts as an outlier, unless
-/// `minimum_deviation` (>= 0, in the signal's unit) is set. Returns F x D marks: 1 was replaced.
-std::vector<std::uint8_t> hampel_filter(PoseMatrix& matrix, std::size_t half_window,
-                                        double threshold, double minimum_deviation = 0.0);
 
 enum class WaveletFamily { daubechies, symlet };
 enum class WaveletThreshold {
@@ -123,58 +110,6 @@ enum class WeightedMeanEnds {
 /// changes.
 void weighted_mean_filter(PoseMatrix& matrix, int passes,
                           WeightedMeanEnds ends = WeightedMeanEnds::reflect);
-
-/// Which derivative of the signal is white noise.
-enum class MotionModel {
-  position,     ///< the first: a random walk (the constant-position model of Lou & Chai)
-  velocity,     ///< the second: nearly constant velocity
-  acceleration  ///< the third: nearly constant acceleration
-};
-
-/// A continuous model sampled every `frame_step_s` seconds, each channel by itself. `process_noise`
-/// is the square root of the spectral density of the white derivative (unit / s^0.5, s^1.5, s^2.5
-/// for the three kinds), `measurement_noise` the standard deviation of a sample; each one value for
-/// all channels or one for each, process >= 0, measurement > 0. With frame_step_s = 1 all is per
-/// frame.
-struct LinearGaussianModel {
-  MotionModel kind = MotionModel::velocity;
-  double frame_step_s = 1.0;
-  std::vector<double> process_noise = {1.0};
-  std::vector<double> measurement_noise = {1.0};
-};
-
-/// Kalman filter: frame t becomes the mean of the position given samples 0 to t. A sample marked in
-/// `missing` is not looked at: its frame is the prediction (before a channel's first sample: that
-/// sample). Nothing is known beforehand of the state: the prior is wide. A channel without any
-/// sample stays as it is.
-void kalman_filter(PoseMatrix& matrix, const LinearGaussianModel& model,
-                   std::span<const std::uint8_t> missing = {});
-/// Rauch-Tung-Striebel smoother: the mean given all samples. Fills what `missing` marks.
-void kalman_smoother(PoseMatrix& matrix, const LinearGaussianModel& model,
-                     std::span<const std::uint8_t> missing = {});
-
-/// The Kalman filter between frames: the same numbers as `kalman_filter`, but a channel before its
-/// first sample keeps the value it was given.
-class KalmanState {
- public:
-  KalmanState(const LinearGaussianModel& model, std::size_t channels);
-  /// Filters the next frame in place. `missing`: one mark a channel, or empty.
-  void step(std::span<double> frame, std::span<const std::uint8_t> missing = {});
-  void reset();
-
- private:
-  std::size_t components_;
-  std::size_t channels_;
-  std::vector<double> memory_;
-  std::size_t frame_ = 0;
-  bool settled_ = false;
-};
-
-/// Standard deviation of the white noise in each channel: 1.4826 * MAD of the differences of order
-/// `difference_order` (1 to 10) / sqrt(binomial(2k, k)); sqrt(6) for order 2. A higher order sees
-/// less of the motion and more of the chance. 0 for a channel of no more frames than the order, or
-/// where more than half of the differences are equal.
-std::vector<double> estimate_noise(const PoseMatrix& matrix, int difference_order = 2);
 
 /// Fills marked samples on the straight line between their unmarked neighbours; before the first
 /// and behind the last unmarked sample the value is held. A channel that is marked throughout stays

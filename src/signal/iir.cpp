@@ -68,15 +68,6 @@ void filter_zero_phase(PoseMatrix& matrix, const std::vector<Biquad>& sections,
   signal::filter_rows({last_row, -stride, matrix.frames, channels}, sections, memory.data());
 }
 
-void filter_causal(PoseMatrix& matrix, const std::vector<Biquad>& sections) {
-  if (matrix.frames == 0 || matrix.channels == 0 || sections.empty()) return;
-  std::vector<double> memory;
-  start_at_rest(sections, matrix.values.data(), matrix.channels, memory);
-  signal::filter_rows({matrix.values.data(), static_cast<std::ptrdiff_t>(matrix.channels),
-                       matrix.frames, matrix.channels},
-                      sections, memory.data());
-}
-
 void CausalState::step(std::span<double> frame) {
   if (!started_) {
     channels_ = frame.size();

@@ -44,51 +44,6 @@ using SortingNetwork = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 /// into place.
 void median_rows(const double* centre, std::size_t frames, std::size_t channels,
                  std::size_t half_window, const SortingNetwork& network, double* out);
-struct HampelLimits {
-  double scaled_threshold;  ///< of the MAD
-  double minimum_deviation;
-};
-/// As `hampel_filter` where the window is whole; sets marks, never clears them.
-void hampel_rows(const double* centre, std::size_t frames, std::size_t channels,
-                 std::size_t half_window, const SortingNetwork& network, const HampelLimits& limits,
-                 double* out, std::uint8_t* marks);
-
-/// Kalman filters of `channels` channels, in units where the measurement variance is 1 and the step
-/// is one frame. A state has 1 to 3 components (position, velocity, acceleration), stored a row of
-/// `channels` values each.
-struct KalmanLanes {
-  std::size_t components;
-  std::size_t channels;
-  double* state;        ///< components rows: the prediction for the next frame
-  double* covariance;   ///< of the prediction: upper triangle, row by row
-  double* gain;         ///< components + 1 rows: what KalmanTrace keeps, of the last frame
-  double* first_frame;  ///< 1 row: number of the frame of the first sample; infinite before it
-  double* noise;        ///< 1 row: process noise of one frame
-  double* prior;        ///< 1 row: variance of each component before the first sample
-  bool settled;         ///< whether no covariance changed in the last frame
-};
-/// What the way back needs of the way forward.
-struct KalmanTrace {
-  std::vector<double> predicted;  ///< a row a frame: the position predicted
-  std::vector<double>
-      gains;  ///< components + 1 rows a slot: the position's row of the filtered covariance
-              ///< (which is the gain), and 1 / innovation variance, 0 where no sample was
-  std::vector<std::size_t> slots;  ///< of each frame; frames with the same gains share one
-};
-/// A group of channels within the matrix, with their marks (or null); both have the same stride.
-struct KalmanRows {
-  double* values;
-  const std::uint8_t* missing;
-  std::size_t stride;
-  std::size_t first_frame;
-  std::size_t frames;
-};
-/// Filters in place; or, given a trace, leaves the rows alone and fills it.
-void kalman_forward_rows(KalmanLanes& lanes, const KalmanRows& rows, KalmanTrace* trace);
-/// The modified Bryson-Frazier form of the Rauch-Tung-Striebel smoother, in place, after the way
-/// forward. Overwrites `state`.
-void kalman_backward_rows(const KalmanLanes& lanes, const KalmanRows& rows,
-                          const KalmanTrace& trace);
 
 struct Ranked {
   double value;

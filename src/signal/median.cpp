@@ -1,7 +1,4 @@
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 
 #include "kinemend/signal.hpp"
 #include "signal/checks.hpp"
@@ -12,8 +9,6 @@
 namespace kinemend {
 
 namespace {
-
-using signal::mad_to_sigma;
 
 // The frames whose window sticks out of the take: all of them in a short one.
 template <class Work>
@@ -62,32 +57,6 @@ void end_point_rule(PoseMatrix& matrix) {
   }
 }
 
-struct EndOutliers {
-  std::vector<std::size_t> samples;
-  std::vector<double> medians;
-};
-
-EndOutliers end_outliers(const PoseMatrix& matrix, std::size_t half_window,
-                         const signal::HampelLimits& limits) {
-  EndOutliers found;
-  std::vector<double> window;
-  for_each_end_frame(matrix.frames, half_window, [&](std::size_t t) {
-    const std::size_t first = t > half_window ? t - half_window : 0;
-    const std::size_t last = std::min(matrix.frames - 1 - t, half_window) + t;
-    for (std::size_t c = 0; c < matrix.channels; ++c) {
-      const double median = median_of(matrix, first, last, c, window);
-      for (double& x : window) x = std::abs(x - median);
-      const double deviation = signal::median(window);
-      const double limit = std::max(limits.scaled_threshold * deviation, limits.minimum_deviation);
-      if (std::abs(matrix(t, c) - median) > limit) {
-        found.samples.push_back(t * matrix.channels + c);
-        found.medians.push_back(median);
-      }
-    }
-  });
-  return found;
-}
-
 // Frames with a whole window: `work(centre, first, count)` for each run of them inside a chunk.
 template <class Work>
 void for_each_inner_chunk(PoseMatrix& matrix, std::size_t half_window, const Work& work) {
@@ -120,33 +89,6 @@ void median_filter(PoseMatrix& matrix, std::size_t half_window) {
     std::copy(row.begin(), row.end(), matrix.row(t).begin());
   });
   end_point_rule(matrix);
-}
-
-std::vector<std::uint8_t> hampel_filter(PoseMatrix& matrix, std::size_t half_window,
-                                        double threshold, double minimum_deviation) {
-  signal::require(threshold >= 0 && std::isfinite(threshold),
-                  fmt::format("a Hampel threshold of {} makes no sense", threshold));
-  signal::require(minimum_deviation >= 0,
-                  fmt::format("a minimum deviation of {} makes no sense", minimum_deviation));
-  std::vector<std::uint8_t> marks(matrix.frames * matrix.channels, 0);
-  if (marks.empty() || half_window == 0) return marks;
-  half_window = std::min(half_window, matrix.frames);
-  const signal::HampelLimits limits = {threshold * mad_to_sigma, minimum_deviation};
-  const EndOutliers ends = end_outliers(matrix, half_window, limits);
-  if (matrix.frames > 2 * half_window) {
-    const signal::SortingNetwork network = signal::sorting_network(2 * half_window + 1);
-    for_each_inner_chunk(matrix, half_window,
-                         [&](const double* centre, std::size_t first, std::size_t count) {
-                           const std::size_t offset = first * matrix.channels;
-                           signal::hampel_rows(centre, count, matrix.channels, half_window, network,
-                                               limits, &matrix.values[offset], &marks[offset]);
-                         });
-  }
-  for (std::size_t i = 0; i < ends.samples.size(); ++i) {
-    matrix.values[ends.samples[i]] = ends.medians[i];
-    marks[ends.samples[i]] = 1;
-  }
-  return marks;
 }
 
 }  // namespace kinemend

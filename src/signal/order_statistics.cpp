@@ -1,7 +1,6 @@
 #include "signal/order_statistics.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "signal/kernels.hpp"
@@ -15,12 +14,6 @@ double median(std::span<const double> values) {
   std::copy(values.begin(), values.end(), copies.get());
   const Ranked middle = select_rank(copies.get(), count, (count - 1) / 2, copies.get() + count);
   return count % 2 == 1 ? middle.value : (middle.value + middle.next) / 2;
-}
-
-double median_deviation(std::span<double> values) {
-  const double middle = median(values);
-  for (double& value : values) value = std::abs(value - middle);
-  return median(values);
 }
 
 }  // namespace kinemend::signal

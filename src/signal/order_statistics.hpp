@@ -14,8 +14,6 @@ inline constexpr double mad_to_sigma = 1.482602218505602;
 
 /// The mean of the two middle values for an even count, 0 for none.
 double median(std::span<const double> values);
-/// The median of |x - median(x)|; overwrites `values` with |x - median(x)|.
-double median_deviation(std::span<double> values);
 
 /// Calls work(channel, values) for each channel with a contiguous copy of rows `first` to `first +
 /// count - 1`, which `work` may overwrite. `rows` is frame-major with `channels` columns. Channels

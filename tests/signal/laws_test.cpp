@@ -19,14 +19,6 @@ struct Filter {
   double line_tolerance = 1e-10;
 };
 
-LinearGaussianModel model(MotionModel kind) {
-  LinearGaussianModel result;
-  result.kind = kind;
-  result.process_noise = {0.2};
-  result.measurement_noise = {0.5};
-  return result;
-}
-
 WaveletOptions wavelet(WaveletThreshold threshold, WaveletShrinkage shrinkage) {
   WaveletOptions options;
   options.threshold = threshold;
@@ -58,7 +50,7 @@ std::vector<Filter> all_filters() {
     f.time_symmetric = false;  // to rounding: not bit for bit
   }
   {
-    Filter& f = add("causal butterworth", [=](PoseMatrix& m) { filter_causal(m, order_3); });
+    Filter& f = add("causal butterworth", [=](PoseMatrix& m) { filter_causally(m, order_3); });
     f.keeps_lines = f.time_symmetric = false;
   }
   add("weighted mean", [](PoseMatrix& m) { weighted_mean_filter(m, 3); }).reach = 6;
@@ -73,11 +65,6 @@ std::vector<Filter> all_filters() {
     f.linear = false;
     f.reach = 3;
   }
-  {
-    Filter& f = add("hampel", [](PoseMatrix& m) { hampel_filter(m, 4, 2.0); });
-    f.linear = false;
-    f.reach = 4;
-  }
   for (const auto threshold : {Wt::universal, Wt::sure}) {
     for (const auto shrinkage : {Ws::soft, Ws::hard}) {
       const bool strongest = threshold == Wt::universal && shrinkage == Ws::soft;
@@ -85,18 +72,6 @@ std::vector<Filter> all_filters() {
                       [=](PoseMatrix& m) { wavelet_denoise(m, wavelet(threshold, shrinkage)); });
       f.linear = f.time_symmetric = false;
     }
-  }
-  for (const auto kind :
-       {MotionModel::position, MotionModel::velocity, MotionModel::acceleration}) {
-    Filter& causal = add("kalman filter", [=](PoseMatrix& m) { kalman_filter(m, model(kind)); });
-    causal.keeps_lines = kind != MotionModel::position;
-    causal.time_symmetric = false;
-    causal.line_tolerance = 1e-5;
-    Filter& smoother =
-        add("kalman smoother", [=](PoseMatrix& m) { kalman_smoother(m, model(kind)); });
-    smoother.keeps_lines = kind != MotionModel::position;
-    smoother.time_symmetric = false;
-    smoother.line_tolerance = 1e-5;
   }
   return filters;
 }
@@ -155,7 +130,7 @@ TEST(EveryFilter, KeepsAStraightLineUpToItsEnds) {
       ++checked;
     }
   }
-  EXPECT_GT(checked, 40u);
+  EXPECT_GE(checked, 30u);
 }
 
 TEST(EveryFilter, GivesTheNegatedResultForTheNegatedSignalBitForBit) {
@@ -215,7 +190,7 @@ TEST(EveryFilter, IsLinearIfItIsSaidToBe) {
         << filter.name;
     ++checked;
   }
-  EXPECT_GE(checked, 10u);
+  EXPECT_GE(checked, 7u);
 }
 
 PoseMatrix reversed(const PoseMatrix& matrix) {
@@ -237,7 +212,7 @@ TEST(EveryFilter, RunsTheSameForwardAndBackwardInTimeIfItIsSaidTo) {
     EXPECT_LT(largest_difference(forward.values, backward.values), 1e-12) << filter.name;
     ++checked;
   }
-  EXPECT_GE(checked, 5u);
+  EXPECT_GE(checked, 4u);
 }
 
 TEST(ZeroPhaseFilters, AreTimeSymmetricUpToTheirPadding) {
@@ -249,13 +224,6 @@ TEST(ZeroPhaseFilters, AreTimeSymmetricUpToTheirPadding) {
   EXPECT_LT(largest_difference(filtered(input, settled).values,
                                reversed(filtered(reversed(input), settled)).values),
             1e-4);
-  for (const MotionModel kind :
-       {MotionModel::position, MotionModel::velocity, MotionModel::acceleration}) {
-    const auto smoother = [&](PoseMatrix& m) { kalman_smoother(m, model(kind)); };
-    EXPECT_LT(largest_difference(filtered(input, smoother).values,
-                                 reversed(filtered(reversed(input), smoother)).values),
-              1e-6);
-  }
 }
 
 TEST(EveryFilter, GivesTheShiftedResultForTheShiftedSignal) {
@@ -274,12 +242,12 @@ TEST(EveryFilter, GivesTheShiftedResultForTheShiftedSignal) {
     }
     ++checked;
   }
-  EXPECT_GE(checked, 5u);
+  EXPECT_GE(checked, 4u);
 }
 
 TEST(EveryOfflineFilter, LeavesAPulseWhereItWas) {
   for (const Filter& filter : all_filters()) {
-    if (filter.name == "causal butterworth" || filter.name == "kalman filter") continue;
+    if (filter.name == "causal butterworth") continue;
     PoseMatrix input(201, 1);
     Random random(13);
     for (std::size_t t = 0; t < 201; ++t) {
@@ -301,10 +269,8 @@ TEST(EveryDenoiser, BringsANoisySignalNearerToTheCleanOneAndBendsNoEnd) {
   const PoseMatrix clean = noisy_sines(400, 8, 14, 0.0);
   const PoseMatrix noisy = noisy_sines(400, 8, 14, 0.1);
   for (const Filter& filter : all_filters()) {
-    if (filter.name == "hampel" || filter.name == "causal butterworth" ||
-        filter.name == "wide gaussian" || filter.name == "kalman filter") {
-      continue;  // not meant to remove white noise, or late, or too strong for this signal
-    }
+    if (filter.name == "causal butterworth" || filter.name == "wide gaussian")
+      continue;  // late, or too strong for this signal
     const PoseMatrix result = filtered(noisy, filter.apply);
     const double share = filter.name == "universal soft wavelet" ? 0.9 : 0.75;  // known to flatten
     EXPECT_LT(rms(result.values, clean.values), share * rms(noisy.values, clean.values))

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "kinemend/error.hpp"
 #include "signal/sorting_network.hpp"
 #include "signal/support.hpp"
 
@@ -92,80 +91,6 @@ TEST(Median, RemovesSpikesAtTheEndsToo) {
   for (const std::size_t t : {0u, 15u, 29u}) take(t, 0) += 5;
   median_filter(take, 2);
   EXPECT_LT(largest_difference(take.values, clean.values), 0.21);
-}
-
-TEST(Hampel, IsWhatItsDefinitionSaysInEachWindow) {
-  Random random(5);
-  for (const std::size_t half_window : {1u, 2u, 3u, 5u, 7u, 20u, 500u}) {
-    for (const std::size_t frames : {1u, 2u, 3u, 11u, 64u}) {
-      PoseMatrix input = noisy_sines(frames, 9, half_window, 0.05);
-      for (double& value : input.values) {
-        if (random.chance(0.05)) value += random.uniform(-2, 2);
-      }
-      PoseMatrix result = input;
-      const auto marks = hampel_filter(result, half_window, 3.0, 0.01);
-      ASSERT_EQ(marks.size(), input.values.size());
-      for (std::size_t t = 0; t < frames; ++t) {
-        for (std::size_t c = 0; c < 9; ++c) {
-          const auto centre = static_cast<std::ptrdiff_t>(t);
-          const auto reach = static_cast<std::ptrdiff_t>(half_window);
-          auto values = window(input, c, centre - reach, centre + reach);
-          const double middle = median(values);
-          for (double& x : values) x = std::abs(x - middle);
-          const double limit = std::max(3.0 * 1.482602218505602 * median(values), 0.01);
-          const bool outlier = std::abs(input(t, c) - middle) > limit;
-          ASSERT_EQ(marks[t * 9 + c], outlier ? 1 : 0) << half_window << ", " << frames;
-          ASSERT_EQ(result(t, c), outlier ? middle : input(t, c));
-        }
-      }
-    }
-  }
-}
-
-TEST(Hampel, FindsSpikesAndLeavesAnythingElse) {
-  PoseMatrix clean(500, 6);
-  Random random(8);
-  for (std::size_t i = 0; i < clean.values.size(); ++i) {
-    clean.values[i] = std::sin(0.003 * static_cast<double>(i)) + 0.02 * random.normal();
-  }
-  PoseMatrix take = clean;
-  std::vector<std::uint8_t> spikes(take.values.size(), 0);
-  for (std::size_t i = 0; i < spikes.size(); ++i) {
-    if (random.chance(0.01)) {
-      spikes[i] = 1;
-      take.values[i] += 1.0;
-    }
-  }
-  const auto marks = hampel_filter(take, 5, 4.0);
-  std::size_t false_alarms = 0;
-  for (std::size_t i = 0; i < spikes.size(); ++i) {
-    if (spikes[i]) {
-      EXPECT_EQ(marks[i], 1) << i;
-    }
-    if (!spikes[i] && marks[i]) ++false_alarms;
-    if (!marks[i]) {
-      ASSERT_EQ(take.values[i], clean.values[i]);
-    }
-  }
-  EXPECT_LT(false_alarms, spikes.size() / 50);
-}
-
-TEST(Hampel, WithAMinimumDeviationLeavesSmallMovesInAFrozenTake) {
-  PoseMatrix take(40, 1, 2.0);
-  for (std::size_t t = 20; t < 24; ++t) take(t, 0) = 2.001;
-  PoseMatrix strict = take;
-  const auto without = hampel_filter(strict, 5, 3.0);
-  EXPECT_EQ(std::count(without.begin(), without.end(), 1), 4);
-  const auto with = hampel_filter(take, 5, 3.0, 0.05);
-  EXPECT_EQ(std::count(with.begin(), with.end(), 1), 0);
-  EXPECT_EQ(take(22, 0), 2.001);
-}
-
-TEST(Hampel, RefusesLimitsThatMakeNoSense) {
-  PoseMatrix take(4, 1);
-  EXPECT_THROW(hampel_filter(take, 2, -1.0), Error);
-  EXPECT_THROW(hampel_filter(take, 2, std::nan("")), Error);
-  EXPECT_THROW(hampel_filter(take, 2, 3.0, -0.5), Error);
 }
 
 }  // namespace

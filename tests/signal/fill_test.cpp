@@ -6,53 +6,6 @@
 namespace kinemend::test {
 namespace {
 
-TEST(EstimateNoise, FindsTheStandardDeviationUnderASmoothMotion) {
-  for (const int order : {1, 2, 3, 4, 6}) {
-    PoseMatrix take(20000, 3);
-    Random random(3);
-    const double noise[] = {0.001, 0.2, 5.0};
-    for (std::size_t t = 0; t < take.frames; ++t) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        take(t, c) = noise[c] * (0.3 * std::sin(0.01 * static_cast<double>(t)) + random.normal());
-      }
-    }
-    const auto estimate = estimate_noise(take, order);
-    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(estimate[c] / noise[c], 1, 0.05) << order;
-  }
-}
-
-TEST(EstimateNoise, IsWhatItsDefinitionSays) {
-  const PoseMatrix take = noisy_sines(51, 2, 4);
-  const auto estimate = estimate_noise(take);
-  for (std::size_t c = 0; c < 2; ++c) {
-    std::vector<double> d;
-    for (std::size_t t = 1; t + 1 < 51; ++t)
-      d.push_back(take(t - 1, c) - 2 * take(t, c) + take(t + 1, c));
-    std::sort(d.begin(), d.end());
-    const double middle = d[24];
-    for (double& x : d) x = std::abs(x - middle);
-    std::sort(d.begin(), d.end());
-    EXPECT_NEAR(estimate[c], 1.482602218505602 * d[24] / std::sqrt(6.0), 1e-12);
-  }
-}
-
-TEST(EstimateNoise, HardlySeesSpikes) {
-  PoseMatrix take = noisy_sines(5000, 1, 5, 0.1);
-  Random random(6);
-  for (double& value : take.values) {
-    if (random.chance(0.02)) value += 100;
-  }
-  EXPECT_NEAR(estimate_noise(take)[0], 0.1, 0.02);
-}
-
-TEST(EstimateNoise, IsZeroWhereNothingCanBeSaid) {
-  EXPECT_EQ(estimate_noise(PoseMatrix(0, 2)), (std::vector<double>{0, 0}));
-  EXPECT_EQ(estimate_noise(noisy_sines(2, 1, 1)), (std::vector<double>{0}));
-  EXPECT_EQ(estimate_noise(PoseMatrix(50, 1, 3.0)), (std::vector<double>{0}));
-  EXPECT_THROW(estimate_noise(PoseMatrix(5, 1), 0), Error);
-  EXPECT_THROW(estimate_noise(PoseMatrix(5, 1), 11), Error);
-}
-
 std::vector<std::uint8_t> reference_marks() {
   const auto& numbers = reference().at("missing");
   return {numbers.begin(), numbers.end()};
