@@ -63,7 +63,8 @@ const std::vector<Topic>& topics() {
       {"formats", "which files are read and written", formats_text()},
       {"presets", "settings for kinds of motion", presets_text()},
       {"gaps", "the side file of gaps, for --gaps",
-       "Lines NAME,FIRST,LAST: a joint or marker (* for all) and its first and last missing frame. "
+       "Lines NAME,FIRST,LAST: a joint or marker, named as in --names (* for all), and its first "
+       "and last missing frame. "
        "A heading, # comments, blank lines and quoted names are understood. kinemend check "
        "--gaps-out writes one."},
       {"exit-codes", "what the exit code means", exit_codes_text()}};

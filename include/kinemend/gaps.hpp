@@ -31,7 +31,7 @@ std::vector<Gap> find_position_gaps(const Clip& clip);
 
 /// A gap as a side file states it, for formats that cannot hold one.
 struct NamedGap {
-  std::string name;  ///< of a joint or marker; `*` for all
+  std::string name;  ///< of a joint or marker, or a shell pattern; `*` for all
   std::size_t first_frame = 0;
   std::size_t last_frame = 0;  ///< inclusive, counted from 0
 };

@@ -11,37 +11,22 @@ namespace kinemend::corrupt {
 
 namespace {
 
-std::vector<std::string_view> split(std::string_view list) {
-  std::vector<std::string_view> parts;
+std::vector<std::string> split(std::string_view list) {
+  std::vector<std::string> parts;
   while (!list.empty()) {
     const std::size_t comma = std::min(list.find(','), list.size());
-    if (comma > 0) parts.push_back(list.substr(0, comma));
+    if (comma > 0) parts.emplace_back(list.substr(0, comma));
     list.remove_prefix(std::min(comma + 1, list.size()));
   }
   return parts;
 }
 
+// None where the list holds nothing but commas.
 std::vector<std::uint8_t> named_joints(const Skeleton& skeleton, std::string_view list) {
-  std::vector<std::uint8_t> named(skeleton.joint_count(), list.empty());
-  for (const std::string_view pattern : split(list)) {
-    const auto mark = [&](const auto& is_meant) {
-      bool any = false;
-      for (std::size_t j = 0; j < skeleton.joint_count(); ++j) {
-        if (!is_meant(skeleton.names[j])) continue;
-        named[j] = 1;
-        any = true;
-      }
-      return any;
-    };
-    const auto matches = [&](const std::string& name) { return matches_pattern(name, pattern); };
-    // Capitals count only where that very name is there.
-    const auto matches_lower = [&, lower = small_letters(pattern)](const std::string& name) {
-      return matches_pattern(small_letters(name), lower);
-    };
-    if (!mark(matches) && !mark(matches_lower))
-      throw Error(ErrorKind::usage, fmt::format("joints: no joint matches \"{}\"", pattern));
-  }
-  return named;
+  const std::vector<std::string> patterns = split(list);
+  if (patterns.empty() && !list.empty())
+    return std::vector<std::uint8_t>(skeleton.joint_count(), 0);
+  return names_meant(skeleton.names, patterns, "joint");
 }
 
 std::vector<std::size_t> child_counts(const Skeleton& skeleton) {
@@ -83,26 +68,6 @@ void join_short_parts(const Skeleton& skeleton, std::vector<std::size_t>& heads)
 }
 
 }  // namespace
-
-bool matches_pattern(std::string_view text, std::string_view pattern) {
-  // Back to the last * whenever what follows it fails.
-  std::size_t t = 0, p = 0, star = std::string_view::npos, star_text = 0;
-  while (t < text.size()) {
-    if (p < pattern.size() && pattern[p] == '*') {
-      star = p++;
-      star_text = t;
-    } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t])) {
-      ++p;
-      ++t;
-    } else if (star != std::string_view::npos) {
-      p = star + 1;
-      t = ++star_text;
-    } else {
-      return false;
-    }
-  }
-  return pattern.find_first_not_of('*', p) == std::string_view::npos;
-}
 
 std::vector<std::size_t> target_joints(const Skeleton& skeleton, const TargetOptions& options) {
   const auto named = named_joints(skeleton, options.joints);

@@ -25,9 +25,6 @@ OptionTable<Options>& add_target_options(OptionTable<Options>& table) {
       .flag(&Options::root, "root", "damage the root too");
 }
 
-/// `text` matches `pattern`, in which * stands for any characters and ? for one.
-bool matches_pattern(std::string_view text, std::string_view pattern);
-
 /// Joints that can be damaged, ascending: those asked for that have rotation channels (all of them
 /// where no joint of the skeleton has any, as in a clip made in memory). Errors: `ErrorKind::usage`
 /// for a pattern that no joint matches.

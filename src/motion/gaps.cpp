@@ -44,11 +44,13 @@ void for_each_named(std::span<const NamedGap> gaps, const std::vector<std::strin
                       kind, gap.name, number(gap.first_frame), number(gap.last_frame), first_number,
                       number(frames) - 1));
     }
+    // The very name first, for a marker without a label may be called *12.
     const bool has_name = std::find(names.begin(), names.end(), gap.name) != names.end();
+    const std::vector<std::uint8_t> meant =
+        has_name ? std::vector<std::uint8_t>{} : names_meant(names, gap.name);
     bool found = false;
     for (std::size_t n = 0; n < names.size(); ++n) {
-      const bool is_meant = has_name ? gap.name == names[n] : same_but_for_case(gap.name, names[n]);
-      if (gap.name != "*" && !is_meant) continue;
+      if (has_name ? gap.name != names[n] : meant[n] == 0) continue;
       mark(n, gap.first_frame, gap.last_frame);
       found = true;
     }

@@ -1,10 +1,8 @@
 // kinemend clean on files of markers.
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-
+#include "cli/plate.hpp"
 #include "cli/program.hpp"
 
 namespace kinemend::test {
@@ -13,38 +11,6 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
-
-// Four markers of a rigid plate that sways, millimetres at 100 Hz; the second is missing in frames
-// 41 to 46, and the third jumps in frame 80.
-std::string plate_take() {
-  constexpr int frames = 150;
-  std::string text = fmt::format(
-      "PathFileType\t4\t(X/Y/Z)\tplate.trc\n"
-      "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNu"
-      "mFrames\n"
-      "100\t100\t{0}\t4\tmm\t100\t1\t{0}\n"
-      "Frame#"
-      "\tTime\tA\t\t\tB\t\t\tC\t\t\tD\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\tX3\tY3\tZ3\tX4\tY4\tZ4\n\n",
-      frames);
-  const double corners[4][3] = {{0, 0, 0}, {100, 0, 0}, {0, 120, 0}, {90, 110, 30}};
-  for (int f = 0; f < frames; ++f) {
-    const double sway = 200 * std::sin(0.04 * f), jitter = f % 2 == 0 ? 1.5 : -1.5;
-    text += fmt::format("{}\t{:.5f}", f + 1, f / 100.0);
-    for (int m = 0; m < 4; ++m) {
-      if (m == 1 && f >= 40 && f < 46) {
-        text += "\t\t\t";
-        continue;
-      }
-      const double spike = m == 2 && f == 79 ? 150 : 0;
-      const double wobble = jitter * std::cos(1.7 * f * (m + 1));
-      text +=
-          fmt::format("\t{:.4f}\t{:.4f}\t{:.4f}", corners[m][0] + sway + wobble,
-                      corners[m][1] + 0.5 * sway - wobble + spike, corners[m][2] + 900 + wobble);
-    }
-    text += "\n";
-  }
-  return text;
-}
 
 class CleanMarkers : public Program {
  protected:

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
-#include <cmath>
-
+#include "cli/plate.hpp"
 #include "cli/program.hpp"
 
 // A frame has the number that its file gives it, wherever one is printed, written or read.
@@ -11,35 +10,6 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
-
-/// Four markers of a plate, 150 frames from number `first`; B is missing in the 41st to 46th, C
-/// jumps in the 80th.
-std::string numbered_plate(int first) {
-  std::string text = fmt::format(
-      "PathFileType\t4\t(X/Y/Z)\tplate.trc\n"
-      "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNu"
-      "mFrames\n100\t100\t150\t4\tmm\t100\t{}\t150\nFrame#"
-      "\tTime\tA\t\t\tB\t\t\tC\t\t\tD\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\tX3\tY3\tZ3\tX4\tY4\tZ4\n\n",
-      first);
-  const double corners[4][3] = {{0, 0, 0}, {100, 0, 0}, {0, 120, 0}, {90, 110, 30}};
-  for (int f = 0; f < 150; ++f) {
-    const double sway = 200 * std::sin(0.04 * f), jitter = f % 2 == 0 ? 1.5 : -1.5;
-    text += fmt::format("{}\t{:.5f}", first + f, f / 100.0);
-    for (int m = 0; m < 4; ++m) {
-      if (m == 1 && f >= 40 && f < 46) {
-        text += "\t\t\t";
-        continue;
-      }
-      const double spike = m == 2 && f == 79 ? 150 : 0;
-      const double wobble = jitter * std::cos(1.7 * f * (m + 1));
-      text +=
-          fmt::format("\t{:.4f}\t{:.4f}\t{:.4f}", corners[m][0] + sway + wobble,
-                      corners[m][1] + 0.5 * sway - wobble + spike, corners[m][2] + 900 + wobble);
-    }
-    text += "\n";
-  }
-  return text;
-}
 
 struct Numbering {
   std::string file;
@@ -53,7 +23,7 @@ struct Numbering {
 class FrameNumbers : public Program, public testing::WithParamInterface<Numbering> {
  protected:
   FrameNumbers() {
-    put(folder / "plate.trc", numbered_plate(first));
+    put(folder / "plate.trc", plate_take(first));
     if (take != "plate.trc") {
       EXPECT_EQ(run({"convert", "plate.trc", take}).code, 0);
     }
@@ -145,7 +115,7 @@ TEST_P(FrameNumbers, AreTheFilesInSideFilesOfGaps) {
 
 TEST_P(FrameNumbers, AreTheFilesInTheGapsThatCheckWrites) {
   // D stands still for twelve frames.
-  std::vector<std::string> lines = lines_of(numbered_plate(first));
+  std::vector<std::string> lines = lines_of(plate_take(first));
   std::string text;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     std::string line = lines[i];

@@ -1,3 +1,4 @@
+#include "cli/plate.hpp"
 #include "cli/program.hpp"
 
 // Joints and markers by names as people type them.
@@ -54,6 +55,56 @@ TEST_F(Names, OfSideFilesMatchInAnyCapitalsToo) {
   put(folder / "walk.contacts", "Left Toe 20 40\n");
   EXPECT_THAT(run({"clean", "walk.bvh", "--contacts", "walk.contacts", "--dry-run"}).out,
               HasSubstr("feet: 1 of 1 contact held"));
+}
+
+// "Ann:LeftArm" is `LeftArm` and `Left*` to whatever takes names.
+TEST_F(Names, AreKnownWithoutTheirSubjectEverywhere) {
+  std::string take = hand_take();
+  for (const char* const name : {"Hips", "LeftArm", "LeftFinger1", "LeftFinger2"})
+    take.insert(take.find(std::string(name) + "\n"), "Ann:");
+  put(folder / "a.bvh", take);
+  put(folder / "gaps.csv", "LeftArm,4,5\nLeftFinger?,7,8\n");
+  const std::size_t count = commands_of("").size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto result = [&](const std::string& name) {
+      const Ran ran = run(commands_of(name)[i]);
+      EXPECT_EQ(ran.code, 0) << name << ": " << ran.err;
+      return contents(folder / "out.bvh");
+    };
+    EXPECT_EQ(result("LeftArm"), result("Ann:LeftArm")) << i;
+    EXPECT_EQ(result("L*"), result("Ann:L*")) << i;
+    EXPECT_NE(result("L*"), result("LeftArm")) << i;
+  }
+}
+
+TEST_F(Names, OfMarkersAreKnownWithoutTheirSubjectEverywhere) {
+  std::string take = plate_take();
+  for (const char* const name : {"A", "B", "C", "D"}) {
+    const std::string cell = "\t" + std::string(name) + "\t";
+    take.replace(take.find(cell), 3, "\tAnn:L" + std::string(name) + "\t");
+  }
+  put(folder / "a.trc", take);
+  put(folder / "gaps.csv", "LD,4,9\n");
+  const auto result = [&](std::vector<std::string> words, const std::string& name) {
+    for (std::string& word : words) word = word == "NAME" ? name : word;
+    words.insert(words.end(), {"-o", "out.trc", "--force"});
+    const Ran ran = run(words);
+    EXPECT_EQ(ran.code, 0) << words[0] << " " << name << ": " << ran.err;
+    return contents(folder / "out.trc");
+  };
+  const std::vector<std::vector<std::string>> commands{
+      {"clean", "a.trc", "-m", "gaussian", "--markers", "NAME"},
+      {"clean", "a.trc", "-m", "gaussian", "--exclude", "NAME"},
+      {"fill", "a.trc", "--gaps", "gaps.csv", "--names", "NAME"}};
+  for (const auto& words : commands) {
+    EXPECT_EQ(result(words, "LB"), result(words, "Ann:LB")) << words[0] << words[2];
+    EXPECT_EQ(result(words, "L[AB]"), result(words, "Ann:L[AB]")) << words[0] << words[2];
+    EXPECT_EQ(result(words, "L*"), result(words, "Ann:L*")) << words[0] << words[2];
+    EXPECT_NE(result(words, "L*"), result(words, "LB")) << words[0] << words[2];
+  }
+  const std::vector<std::string> by_donor{"fill",       "a.trc",   "-m",  "pattern",
+                                          "--fill-all", "--donor", "NAME"};
+  EXPECT_EQ(result(by_donor, "LA"), result(by_donor, "Ann:LA"));
 }
 
 TEST_F(Names, LengthsInMetresHaveTheDigitsOfLengthsInMillimetres) {

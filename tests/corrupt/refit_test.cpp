@@ -132,21 +132,6 @@ TEST(Refit, WorksWithRestRotationsAndTranslatedJoints) {
   EXPECT_EQ(clip.joint_translations, clean.joint_translations);
 }
 
-TEST(MatchesPattern, KnowsStarsAndQuestionMarks) {
-  using corrupt::matches_pattern;
-  EXPECT_TRUE(matches_pattern("LeftArm", "LeftArm"));
-  EXPECT_TRUE(matches_pattern("LeftForeArm", "Left*Arm"));
-  EXPECT_TRUE(matches_pattern("LeftArmArm", "Left*Arm"));
-  EXPECT_TRUE(matches_pattern("", "*"));
-  EXPECT_TRUE(matches_pattern("a", "?"));
-  EXPECT_TRUE(matches_pattern("aXbXc", "a*b*c"));
-  EXPECT_FALSE(matches_pattern("LeftArm", "leftarm"));
-  EXPECT_FALSE(matches_pattern("LeftArms", "Left*Arm"));
-  EXPECT_FALSE(matches_pattern("ab", "?"));
-  EXPECT_FALSE(matches_pattern("", "?"));
-  EXPECT_FALSE(matches_pattern("abc", ""));
-}
-
 TEST(Limbs, AreLegsTrunkHeadAndArms) {
   const Skeleton skeleton = testing::humanoid_skeleton();
   const auto limb = corrupt::limbs(skeleton);

@@ -51,6 +51,13 @@ TEST(MarkGaps, OfATranslatedJointMarksItsTranslation) {
   clip.validate();
 }
 
+TEST(MarkGaps, KnowsPartsAsEveryOptionDoesButTheVeryNameFirst) {
+  Clip clip = testing::chain_clip(4, 10);
+  clip.skeleton.names = {"Ann:Hips", "Ann:LArm", "*1", "11"};
+  mark_gaps(clip, std::vector<NamedGap>{{"hips", 1, 1}, {"L*", 2, 3}, {"*1", 5, 5}});
+  EXPECT_THAT(find_gaps(clip), ElementsAre(Gap{0, 1, 1}, Gap{1, 2, 3}, Gap{2, 5, 5}));
+}
+
 TEST(MarkGaps, SaysWhatTheTakeDoesNotHave) {
   Clip clip = testing::chain_clip(2, 10);
   const auto complaint = [&](const NamedGap& gap) -> std::string {

@@ -31,6 +31,22 @@ TEST(NamePattern, MeansWhatIsInOtherCapitalsWhereNothingElseIsMeant) {
   EXPECT_THAT(names_meant(arms, "Tail"), ElementsAre(0, 0, 0, 0));
 }
 
+TEST(NamePattern, KnowsStarsAndQuestionMarks) {
+  const auto means = [](const std::string& pattern, const std::string& name) {
+    return names_meant(Strings{name}, pattern).front() != 0;
+  };
+  EXPECT_TRUE(means("Left*Arm", "LeftForeArm"));
+  EXPECT_TRUE(means("Left*Arm", "LeftArmArm"));
+  EXPECT_TRUE(means("*", "a"));
+  EXPECT_TRUE(means("?", "a"));
+  EXPECT_TRUE(means("a*b*c", "aXbXc"));
+  EXPECT_TRUE(means("L*", "Ann:LHAND"));
+  EXPECT_TRUE(means("*1", "*1")) << "a marker without a label";
+  EXPECT_FALSE(means("Left*Arm", "LeftArms"));
+  EXPECT_FALSE(means("?", "ab"));
+  EXPECT_FALSE(means("", "abc"));
+}
+
 TEST(NamePattern, OfAListIsRefusedWhereItMeansNothing) {
   EXPECT_THAT(names_meant(arms, Strings{"right*", "LHAND"}, "joint"), ElementsAre(0, 0, 1, 1));
   EXPECT_THAT(names_meant(arms, Strings{}, "joint"), ElementsAre(1, 1, 1, 1));
