@@ -9,6 +9,7 @@
 
 #include "check/checks.hpp"
 #include "kinemend/error.hpp"
+#include "motion/calibration.hpp"
 
 namespace kinemend {
 
@@ -71,12 +72,6 @@ CheckReport report_on(const Clip& clip) {
   return report;
 }
 
-// The clip itself where it has no calibration frames: a long one is not copied.
-const Clip& motion_of(const Clip& clip, const CheckReport& report, std::optional<Clip>& sliced) {
-  if (report.calibration_frames == 0) return clip;
-  return sliced.emplace(slice(clip, report.calibration_frames, report.frames));
-}
-
 void check_gaps_of(const Clip& motion, CheckReport& report) {
   std::vector<std::int32_t> track_of(motion.joint_count());
   std::iota(track_of.begin(), track_of.end(), 0);
@@ -133,7 +128,7 @@ CheckReport check_take(const Clip& clip, const CheckSettings& settings) {
   validate(settings);
   CheckReport report = report_on(clip);
   std::optional<Clip> sliced;
-  const Clip& motion = motion_of(clip, report, sliced);
+  const Clip& motion = frames_from(clip, report.calibration_frames, sliced);
   check_gaps_of(motion, report);
   check::check_noise_and_spikes(motion, settings, report);
   check::check_stale(motion, settings, report);
@@ -176,7 +171,7 @@ std::vector<Finding> find_beyond_cleaning(const Clip& clip) {
   const CheckSettings settings;
   CheckReport report = report_on(clip);
   std::optional<Clip> sliced;
-  const Clip& motion = motion_of(clip, report, sliced);
+  const Clip& motion = frames_from(clip, report.calibration_frames, sliced);
   check_gaps_of(motion, report);
   check::check_stale(motion, settings, report);
   check::check_frames(motion, report);

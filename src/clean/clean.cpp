@@ -14,6 +14,7 @@
 #include "clean/feet_step.hpp"
 #include "clean/gap_step.hpp"
 #include "clean/selection.hpp"
+#include "motion/calibration.hpp"
 
 namespace kinemend {
 
@@ -25,41 +26,6 @@ Selection make_selection(const Clip& clip, const CleanSettings& settings) {
   selection.root_position = settings.root_position && clip.joint_count() > 0 &&
                             selection.joints[0] != 0 && clip.skeleton.has_position_channels(0);
   return selection;
-}
-
-// The arrays of a clip that have so many values a frame.
-template <class Visit>
-void for_each_array(Clip& clip, const Visit& visit) {
-  const std::size_t translated = clip.translated_joints.size();
-  visit(clip.root_positions, std::size_t{1});
-  visit(clip.local_rotations, clip.joint_count());
-  visit(clip.joint_translations, translated);
-  visit(clip.observed, clip.joint_count());
-  visit(clip.observed_positions, 1 + translated);
-}
-
-// Takes the first frames off, without a second copy of the others.
-Clip take_front(Clip& clip, std::size_t frames) {
-  Clip front = slice(clip, 0, frames);
-  if (frames == 0) return front;
-  for_each_array(clip, [&](auto& values, std::size_t width) {
-    if (!values.empty())
-      values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(frames * width));
-  });
-  return front;
-}
-
-template <class T>
-void put_front(std::vector<T>& values, const std::vector<T>& front) {
-  if (!values.empty()) values.insert(values.begin(), front.begin(), front.end());
-}
-
-void put_front(Clip& clip, const Clip& front) {
-  put_front(clip.root_positions, front.root_positions);
-  put_front(clip.local_rotations, front.local_rotations);
-  put_front(clip.joint_translations, front.joint_translations);
-  put_front(clip.observed, front.observed);
-  put_front(clip.observed_positions, front.observed_positions);
 }
 
 // The input without its rotations, and how to get from it to the result.
@@ -302,13 +268,13 @@ CleanResult clean_clip(Clip&& clip, const Cleaner& cleaner, const CleanSettings&
                   frame_weights(settings, frames, first, clip.frame_rate_hz),
                   std::vector<double>(frames - first, 0.0)};
   result.clip = std::move(clip);
-  const Clip calibration = take_front(result.clip, first);
-  if (settings.fill || settings.feet) {
-    clean_whole(result.clip, cleaner, work, report);
-  } else {
-    clean_joint_by_joint(result.clip, cleaner, work, report);
-  }
-  put_front(result.clip, calibration);
+  on_motion(result.clip, first, [&](Clip& motion) {
+    if (settings.fill || settings.feet) {
+      clean_whole(motion, cleaner, work, report);
+    } else {
+      clean_joint_by_joint(motion, cleaner, work, report);
+    }
+  });
   if (report.feet && takes_part_only(settings) && !report.feet->contacts.empty())
     report.feet->after = feet_figures(result.clip, report.feet->contacts);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

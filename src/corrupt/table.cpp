@@ -6,6 +6,7 @@
 #include "corrupt/damage_kind.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/kinematics.hpp"
+#include "motion/calibration.hpp"
 
 namespace kinemend {
 
@@ -76,26 +77,16 @@ const Damage& find_damage(std::string_view name) {
   throw Error(ErrorKind::usage, fmt::format("unknown damage \"{}\"; there are {}", name, names));
 }
 
-template <class Value>
-void put_back(std::vector<Value>& all, const std::vector<Value>& part) {
-  std::copy(part.begin(), part.end(), all.end() - static_cast<std::ptrdiff_t>(part.size()));
-}
-
 }  // namespace
 
 DamageReport apply_damage(Clip& clip, std::string_view name, const OptionValues& values,
                           Random& random) {
   const Damage& damage = find_damage(name);
   const std::size_t calibration = leading_calibration_frames(clip);
-  if (calibration == 0) return damage.apply(clip, random, values);
-  Clip motion = slice(clip, calibration, clip.frame_count());
-  DamageReport report = damage.apply(motion, random, values);
-  put_back(clip.root_positions, motion.root_positions);
-  put_back(clip.local_rotations, motion.local_rotations);
-  if (!motion.observed.empty()) {
-    clip.observed.resize(clip.local_rotations.size(), 1);
-    put_back(clip.observed, motion.observed);
-  }
+  DamageReport report;
+  on_motion(clip, calibration,
+            [&](Clip& motion) { report = damage.apply(motion, random, values); });
+  if (calibration == 0) return report;
   report.notes.push_back(
       fmt::format("the first {} (a calibration pose) stays as it is",
                   calibration == 1 ? "frame" : fmt::format("{} frames", calibration)));

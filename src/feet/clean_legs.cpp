@@ -16,6 +16,7 @@
 #include "feet/placement.hpp"
 #include "feet/root.hpp"
 #include "kinemend/error.hpp"
+#include "motion/calibration.hpp"
 
 namespace kinemend {
 
@@ -278,15 +279,9 @@ FeetReport clean_feet(Clip& clip, const FeetSettings& settings) {
   if (first == 0) return feet::clean_legs(clip, settings);
   FeetSettings own = settings;
   if (own.contacts) feet::shift_contacts(*own.contacts, first, 0);
-  Clip motion = slice(clip, first, clip.frame_count());
-  FeetReport report = feet::clean_legs(motion, own);
+  FeetReport report;
+  on_motion(clip, first, [&](Clip& motion) { report = feet::clean_legs(motion, own); });
   feet::shift_contacts(report.contacts, 0, first);
-  const auto put_back = [first](auto& whole, const auto& part, std::size_t width) {
-    std::copy(part.begin(), part.end(), whole.begin() + static_cast<std::ptrdiff_t>(first * width));
-  };
-  put_back(clip.local_rotations, motion.local_rotations, clip.joint_count());
-  put_back(clip.root_positions, motion.root_positions, 1);
-  put_back(clip.joint_translations, motion.joint_translations, clip.translated_joints.size());
   report.changed.insert(report.changed.begin(), first * clip.joint_count(), 0);
   report.root_changed.insert(report.root_changed.begin(), first, 0);
   return report;

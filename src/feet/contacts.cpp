@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "feet/clean_legs.hpp"
 #include "feet/soles.hpp"
 #include "kinemend/error.hpp"
+#include "motion/calibration.hpp"
 
 namespace kinemend {
 
@@ -219,7 +221,8 @@ void sort_contacts(std::vector<FootContact>& contacts) {
 std::vector<FootContact> find_contacts(const Clip& clip, const ContactSettings& settings) {
   feet::check_settings(settings);
   const std::size_t first = leading_calibration_frames(clip);
-  const Clip motion = slice(clip, first, clip.frame_count());
+  std::optional<Clip> part;
+  const Clip& motion = frames_from(clip, first, part);
   feet::LegMotion legs = feet::leg_motion(motion, find_legs(clip.skeleton));
   const std::optional<feet::Up> up = feet::up_of(legs, settings.up);
   if (!up) return {};

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "feet/clean_legs.hpp"
 #include "feet/floor.hpp"
+#include "motion/calibration.hpp"
 
 namespace kinemend {
 
@@ -77,8 +79,8 @@ FeetFigures figures_of(const LegMotion& motion, const std::vector<FootContact>& 
 
 FeetFigures feet_figures(const Clip& clip, const std::vector<FootContact>& contacts) {
   const std::size_t first = leading_calibration_frames(clip);
-  const Clip clip_part = first == 0 ? Clip{} : slice(clip, first, clip.frame_count());
-  const Clip& motion = first == 0 ? clip : clip_part;
+  std::optional<Clip> part;
+  const Clip& motion = frames_from(clip, first, part);
   feet::LegMotion legs = feet::leg_motion(motion, find_legs(clip.skeleton));
   feet::check_contacts(contacts, legs, first);
   const std::optional<feet::Up> up = feet::up_of(legs, std::nullopt);

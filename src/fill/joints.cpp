@@ -10,6 +10,7 @@
 #include "fill/joint_trials.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/fill.hpp"
+#include "motion/calibration.hpp"
 #include "motion/name_pattern.hpp"
 
 namespace kinemend {
@@ -284,11 +285,6 @@ void refuse_gaps(const Clip& calibration, const FillSettings& settings, FillRepo
   }
 }
 
-template <class Values>
-void put_back(const Values& part, Values& whole) {
-  std::copy(part.begin(), part.end(), whole.end() - static_cast<std::ptrdiff_t>(part.size()));
-}
-
 }  // namespace
 
 FillReport fill_gaps(Clip& clip, const FillSettings& settings) {
@@ -296,16 +292,9 @@ FillReport fill_gaps(Clip& clip, const FillSettings& settings) {
   const std::vector<const JointMethod*> methods = chosen_methods(settings.method);
   const std::size_t calibration = leading_calibration_frames(clip);
   FillReport report;
-  if (calibration == 0) {
-    report = fill_motion(clip, methods, settings, 0);
-  } else {
-    Clip motion = slice(clip, calibration, clip.frame_count());
-    report = fill_motion(motion, methods, settings, calibration);
-    put_back(motion.root_positions, clip.root_positions);
-    put_back(motion.local_rotations, clip.local_rotations);
-    put_back(motion.joint_translations, clip.joint_translations);
-    put_back(motion.observed, clip.observed);
-    put_back(motion.observed_positions, clip.observed_positions);
+  on_motion(clip, calibration,
+            [&](Clip& motion) { report = fill_motion(motion, methods, settings, calibration); });
+  if (calibration > 0) {
     for (GapOutcome& outcome : report.gaps) {
       outcome.gap.first_frame += calibration;
       outcome.gap.last_frame += calibration;

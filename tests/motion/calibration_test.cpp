@@ -1,0 +1,95 @@
+#include "motion/calibration.hpp"
+
+#include <gtest/gtest.h>
+
+#include "kinemend/error.hpp"
+#include "motion/clips.hpp"
+
+namespace kinemend {
+namespace {
+
+constexpr std::size_t joints = 4, frames = 10, tracks = 3;
+
+// Four joints of which two are translated; no sample is like another.
+Clip moving_clip() {
+  Clip clip = testing::chain_clip(joints, frames);
+  clip.translated_joints = {1, 3};
+  for (std::size_t f = 0; f < frames; ++f) {
+    const double at = static_cast<double>(f);
+    clip.root_positions[f] = {at, 0, 0};
+    for (std::size_t j = 0; j < joints; ++j)
+      clip.rotation(f, j) = testing::about_z(0.01 * at + 0.1 * static_cast<double>(j));
+    clip.joint_translations.insert(clip.joint_translations.end(), {{at, 1, 0}, {at, 3, 0}});
+  }
+  return clip;
+}
+
+void damage(Clip& motion) {
+  for (Vec3& position : motion.root_positions) position.y += 1;
+  for (Quat& rotation : motion.local_rotations) rotation = rotation * testing::about_z(1);
+  for (Vec3& translation : motion.joint_translations) translation.z += 2;
+  motion.observed.assign(motion.local_rotations.size(), 0);
+  motion.observed_positions.assign(motion.frame_count() * tracks, 0);
+}
+
+void expect_same(const Clip& a, const Clip& b) {
+  EXPECT_EQ(a.root_positions, b.root_positions);
+  EXPECT_EQ(a.local_rotations, b.local_rotations);
+  EXPECT_EQ(a.joint_translations, b.joint_translations);
+  EXPECT_EQ(a.observed, b.observed);
+  EXPECT_EQ(a.observed_positions, b.observed_positions);
+}
+
+TEST(OnMotion, ChangesWhatItsWorkChangesAndNothingBefore) {
+  const Clip clip = moving_clip();
+  for (const std::size_t first : {0u, 1u, 3u}) {
+    Clip alone = slice(clip, first, frames);
+    damage(alone);
+    Clip whole = clip;
+    on_motion(whole, first, [&](Clip& motion) {
+      EXPECT_EQ(motion.frame_count(), frames - first);
+      expect_same(motion, slice(clip, first, frames));
+      damage(motion);
+    });
+    whole.validate();
+    expect_same(slice(whole, first, frames), alone);
+    Clip front = slice(clip, 0, first);
+    front.observed.assign(first * joints, 1);
+    front.observed_positions.assign(first * tracks, 1);
+    expect_same(slice(whole, 0, first), front);
+  }
+}
+
+TEST(OnMotion, KeepsWhatIsMissingBeforeTheMotion) {
+  Clip clip = moving_clip();
+  clip.observed.assign(frames * joints, 1);
+  clip.observed_positions.assign(frames * tracks, 1);
+  clip.observed[1] = clip.observed_positions[2] = 0;
+  const Clip before = clip;
+  on_motion(clip, 1, [](Clip&) {});
+  expect_same(clip, before);
+  on_motion(clip, 1, [](Clip& motion) {
+    motion.observed.clear();
+    motion.observed_positions.clear();
+  });
+  expect_same(clip, before);
+}
+
+TEST(OnMotion, PutsTheFramesBackWhereItsWorkFails) {
+  const Clip before = moving_clip();
+  Clip clip = before;
+  const auto fail = [](Clip&) { throw Error(ErrorKind::usage, "no"); };
+  EXPECT_THROW(on_motion(clip, 2, fail), Error);
+  expect_same(clip, before);
+}
+
+TEST(FramesFrom, AreTheClipItselfWhereNothingStandsBefore) {
+  const Clip clip = moving_clip();
+  std::optional<Clip> part;
+  EXPECT_EQ(&frames_from(clip, 0, part), &clip);
+  EXPECT_FALSE(part);
+  expect_same(frames_from(clip, 3, part), slice(clip, 3, frames));
+}
+
+}  // namespace
+}  // namespace kinemend
