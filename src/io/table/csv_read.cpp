@@ -6,10 +6,10 @@
 #include <memory>
 #include <utility>
 
-#include "io/stated_rate.hpp"
 #include "io/table/csv.hpp"
 #include "io/table/csv_document.hpp"
 #include "io/table/csv_joints.hpp"
+#include "io/table/table_rate.hpp"
 #include "motion/frame_numbers.hpp"
 
 namespace kinemend {
@@ -108,27 +108,11 @@ class CsvReader {
 
   double choose_rate(MarkerClip& clip) {
     for (double& time : labels_.times_s) time *= header_.seconds_per_time;
-    const RowRate times = check_row_labels(text_, diagnostics_, document_.table, labels_, clip);
-    const double declared =
-        usable_rate(text_, diagnostics_, header_.frame_rate_hz, header_.labels_line);
-    if (declared > 0) {
-      constexpr double tolerance = 0.01;
-      const double step_s = 1 / declared;
-      if (times.rate_hz > 0 &&
-          std::fabs(step_s - times.step_s) > tolerance * step_s + times.tolerance_s) {
-        note("time_mismatch", header_.data_begin,
-             fmt::format("the head says {} Hz, the times {:.6g} Hz: the head is taken", declared,
-                         times.rate_hz));
-      }
-      return declared;
-    }
-    const double of_times = usable_rate(text_, diagnostics_, times.rate_hz, header_.data_begin);
-    if (of_times > 0) return of_times;
-    if (options_.frame_rate_hz > 0) return options_.frame_rate_hz;
-    note("frame_rate_assumed", header_.labels_line,
-         fmt::format("neither usable times nor a line '# rate_hz: 120': {} Hz assumed",
-                     rate_when_unknown_hz));
-    return rate_when_unknown_hz;
+    return table_rate(text_, diagnostics_,
+                      check_row_labels(text_, diagnostics_, document_.table, labels_, clip),
+                      {header_.frame_rate_hz, header_.labels_line, header_.data_begin,
+                       options_.frame_rate_hz, rate_when_unknown_hz, "the head", header_.data_begin,
+                       "neither usable times nor a line '# rate_hz: 120'", false});
   }
 
   CsvDocument& document_;

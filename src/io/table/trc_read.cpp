@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "io/stated_rate.hpp"
+#include "io/table/table_rate.hpp"
 #include "io/table/trc.hpp"
 #include "io/table/trc_document.hpp"
 
@@ -37,7 +37,11 @@ class TrcReader {
     const TableFinding rows = read_rows();
     name_the_unnamed();
     check_counts();
-    choose_rate(check_row_labels(text_, diagnostics_, table, rows.labels, clip_));
+    clip_.frame_rate_hz = table_rate(
+        text_, diagnostics_, check_row_labels(text_, diagnostics_, table, rows.labels, clip_),
+        {header_.number("DataRate"), header_.values_line, table.begin, options_.frame_rate_hz,
+         rate_when_unknown_hz, "DataRate", header_.values_line, "the header has no usable DataRate",
+         true});
     clip_.is_position.assign(clip_.marker_count(), 1);
     note_facts();
     return finish();
@@ -119,32 +123,6 @@ class TrcReader {
                   clip_.unit.empty() ? "the file names no unit"
                                      : fmt::format("unknown unit {}", quote(clip_.unit)));
     }
-  }
-
-  void choose_rate(const RowRate& times) {
-    constexpr double tolerance = 0.01;
-    const double declared =
-        usable_rate(text_, diagnostics_, header_.number("DataRate"), header_.values_line);
-    if (declared > 0) {
-      clip_.frame_rate_hz = declared;
-      const double off_s = std::fabs(1 / declared - times.step_s);
-      if (times.rate_hz > 0 && off_s > tolerance / declared + times.tolerance_s) {
-        note_repair(text_, diagnostics_, "time_mismatch", header_.values_line,
-                    fmt::format("DataRate says {} Hz, the times {:.6g} Hz: DataRate is taken",
-                                declared, times.rate_hz));
-      }
-      return;
-    }
-    const double of_times = usable_rate(text_, diagnostics_, times.rate_hz, document_.table.begin);
-    const bool by_times = of_times > 0, by_options = options_.frame_rate_hz > 0;
-    clip_.frame_rate_hz = by_times     ? of_times
-                          : by_options ? options_.frame_rate_hz
-                                       : rate_when_unknown_hz;
-    note_repair(text_, diagnostics_, "frame_rate_assumed", header_.values_line,
-                fmt::format("the header has no usable DataRate: {:.6g} Hz {}", clip_.frame_rate_hz,
-                            by_times     ? "from the times"
-                            : by_options ? "as asked for"
-                                         : "assumed"));
   }
 
   void note_facts() {

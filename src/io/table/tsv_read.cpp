@@ -5,8 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include "io/stated_rate.hpp"
 #include "io/table/csv_head.hpp"
+#include "io/table/table_rate.hpp"
 #include "io/table/tsv.hpp"
 #include "io/table/tsv_document.hpp"
 
@@ -143,7 +143,11 @@ class TsvReader {
     }
     name_the_unnamed();
     check_counts();
-    choose_rate(check_row_labels(text_, diagnostics_, table, found.labels, clip_));
+    // FREQUENCY is a word where the cameras were driven from outside.
+    clip_.frame_rate_hz = table_rate(
+        text_, diagnostics_, check_row_labels(text_, diagnostics_, table, found.labels, clip_),
+        {rate_.number, rate_.place, table.begin, options_.frame_rate_hz, rate_when_unknown_hz,
+         "FREQUENCY", rate_.place, "the head has no usable FREQUENCY", true});
   }
 
   // `Frame`, `Time`, then three for each marker.
@@ -204,32 +208,6 @@ class TsvReader {
     };
     compare(frames_, document_.table.frames, "frame_count_mismatch", "frames");
     compare(markers_, clip_.marker_count(), "marker_count_mismatch", "markers");
-  }
-
-  // FREQUENCY is a word where the cameras were driven from outside.
-  void choose_rate(const RowRate& times) {
-    constexpr double tolerance = 0.01;
-    const double stated = usable_rate(text_, diagnostics_, rate_.number, rate_.place);
-    if (stated > 0) {
-      clip_.frame_rate_hz = stated;
-      const double off_s = std::fabs(1 / stated - times.step_s);
-      if (times.rate_hz > 0 && off_s > tolerance / stated + times.tolerance_s) {
-        note("time_mismatch", rate_.place,
-             fmt::format("FREQUENCY says {} Hz, the times {:.6g} Hz: FREQUENCY is taken", stated,
-                         times.rate_hz));
-      }
-      return;
-    }
-    const double of_times = usable_rate(text_, diagnostics_, times.rate_hz, document_.table.begin);
-    const bool by_times = of_times > 0, by_options = options_.frame_rate_hz > 0;
-    clip_.frame_rate_hz = by_times     ? of_times
-                          : by_options ? options_.frame_rate_hz
-                                       : rate_when_unknown_hz;
-    note("frame_rate_assumed", rate_.place,
-         fmt::format("the head has no usable FREQUENCY: {:.6g} Hz {}", clip_.frame_rate_hz,
-                     by_times     ? "from the times"
-                     : by_options ? "as asked for"
-                                  : "assumed"));
   }
 
   TsvDocument& document_;
