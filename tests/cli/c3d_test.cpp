@@ -7,23 +7,16 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-class C3dFiles : public C3dLaw {
- protected:
-  std::string fixture(const std::string& name) {
-    fs::copy_file(fs::path(KINEMEND_TEST_FIXTURES) / "c3d/good" / (name + ".c3d"),
-                  folder / (name + ".c3d"));
-    return name + ".c3d";
-  }
-};
+using C3dFiles = C3dLaw;
 
 TEST_F(C3dFiles, KeepWhatAnOptionDoesNotConcernOrNameIt) {
   for (const char* const name : {"laboratory", "laboratory_integer", "plates_only", "analog_only",
                                  "rotation_section", "origin"})
-    expect_lawful_in_every_option(fixture(name));
+    expect_lawful_in_every_option(c3d_fixture(name));
 }
 
 TEST_F(C3dFiles, AreTheSameInTheirOwnUnitRateAndAxes) {
-  const std::string take = fixture("laboratory"), bytes = contents(folder / take);
+  const std::string take = c3d_fixture("laboratory"), bytes = contents(folder / take);
   const std::vector<std::vector<std::string>> options{
       {}, {"--unit", "mm"}, {"--fps", "50"}, {"--up", "z", "--from-up", "z"}};
   for (const auto& option : options) {
@@ -37,7 +30,7 @@ TEST_F(C3dFiles, AreTheSameInTheirOwnUnitRateAndAxes) {
 }
 
 TEST_F(C3dFiles, ARateThatAnalogChannelsCannotFollowIsNamed) {
-  const std::string take = fixture("laboratory");
+  const std::string take = c3d_fixture("laboratory");
   const Ran ran = run({"convert", take, "--fps", "60", "-o", "out.c3d"});
   EXPECT_EQ(ran.code, 0);
   EXPECT_THAT(ran.err, HasSubstr("laboratory.c3d: 3 analog channels at 200 Hz are left out: their "
@@ -50,7 +43,7 @@ TEST_F(C3dFiles, ARateThatAnalogChannelsCannotFollowIsNamed) {
 }
 
 TEST_F(C3dFiles, WhatAnotherFormatCannotHoldIsNamed) {
-  const std::string take = fixture("laboratory");
+  const std::string take = c3d_fixture("laboratory");
   const std::vector<std::vector<std::string>> commands{
       {"convert", take}, {"clean", take, "--quiet"}, {"fill", take}};
   for (std::vector<std::string> words : commands) {
@@ -67,7 +60,7 @@ TEST_F(C3dFiles, WhatAnotherFormatCannotHoldIsNamed) {
 }
 
 TEST_F(C3dFiles, WithoutPointsAreToldAsSuch) {
-  const std::string take = fixture("plates_only"), bytes = contents(folder / take);
+  const std::string take = c3d_fixture("plates_only"), bytes = contents(folder / take);
   const std::string what = "36 analog frames, no points";
   EXPECT_THAT(run({"info", take}).out, AllOf(HasSubstr(what), Not(HasSubstr("0 frames"))));
   EXPECT_THAT(run({"check", take}).out, HasSubstr(what + ": nothing to check"));
@@ -89,7 +82,7 @@ TEST_F(C3dFiles, WithoutPointsAreToldAsSuch) {
 
 // Places in a C3D file are bytes, and there are no lines; lines of text stay lines.
 TEST_F(C3dFiles, NameTheByteOfWhatWasRepaired) {
-  const std::string take = fixture("header_scale");
+  const std::string take = c3d_fixture("header_scale");
   const std::string place = "header_scale.c3d: byte 12: the header's scale is 0.5";
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"clean", take, "-o", "a.c3d"},
@@ -116,7 +109,7 @@ TEST_F(C3dFiles, NameTheByteOfWhatWasRepaired) {
 
 // A marker on a force plate's corner, in every command and format.
 TEST_F(C3dFiles, AMarkerAtTheOriginComesBack) {
-  const std::string take = fixture("laboratory");
+  const std::string take = c3d_fixture("laboratory");
   const auto expect_there = [&](const std::string& name) {
     SCOPED_TRACE(name);
     EXPECT_EQ(info(name).at("markers").at(1).at("missing_frames"), 0);

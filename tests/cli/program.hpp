@@ -79,6 +79,13 @@ class Program : public testing::Test {
     return ran;
   }
 
+  /// A copy in the test's folder of what stands at `path` among the fixtures; its name.
+  std::string fixture(const fs::path& path) {
+    fs::copy_file(fs::path(KINEMEND_TEST_FIXTURES) / path, folder / path.filename());
+    return path.filename().string();
+  }
+  std::string c3d_fixture(const std::string& name) { return fixture("c3d/good/" + name + ".c3d"); }
+
   /// A short synthetic take, in the test's folder.
   void synth(const std::string& name, const std::string& motion = "walk",
              const std::string& duration_s = "0.5") {

@@ -12,14 +12,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-class ReportWords : public Program {
- protected:
-  std::string fixture(const std::string& name) {
-    fs::copy_file(fs::path(KINEMEND_TEST_FIXTURES) / "c3d/good" / (name + ".c3d"),
-                  folder / (name + ".c3d"));
-    return name + ".c3d";
-  }
-};
+using ReportWords = Program;
 
 TEST_F(ReportWords, NameTheMethodThatDidTheWork) {
 #if defined(KINEMEND_SANITIZED)
@@ -108,7 +101,7 @@ TEST_F(ReportWords, StrictPassesNoGreatChangeUnnoticed) {
 }
 
 TEST_F(ReportWords, PointsThatAreNoPositionsBecomeMarkersOnlyWhereAskedFor) {
-  const std::string take = fixture("laboratory");
+  const std::string take = c3d_fixture("laboratory");
   const Ran ran = run({"convert", take, "-o", "markers.trc"});
   ASSERT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.err, HasSubstr("a point that is no position"));
@@ -123,7 +116,7 @@ TEST_F(ReportWords, PointsThatAreNoPositionsBecomeMarkersOnlyWhereAskedFor) {
 }
 
 TEST_F(ReportWords, NumbersInAnotherEncodingAreNamedAndNoLoss) {
-  const std::string take = fixture("laboratory_integer");
+  const std::string take = c3d_fixture("laboratory_integer");
   const Ran ran = run({"convert", take, "-o", "new.c3d", "--plain", "--strict"});
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.err, HasSubstr("become Intel reals"));

@@ -9,11 +9,6 @@ using testing::HasSubstr;
 /// Tables as laboratories export them.
 class Tables : public Program {
  protected:
-  std::string fixture(const std::string& name) {
-    const fs::path path = fs::path(KINEMEND_TEST_FIXTURES) / name;
-    fs::copy_file(path, folder / path.filename());
-    return path.filename();
-  }
   Json info(const std::string& take) {
     const Ran ran = run({"info", take, "--json"});
     EXPECT_EQ(ran.code, 0) << ran.err;
