@@ -4,17 +4,36 @@
 #include <cstddef>
 #include <vector>
 
+// Medians, quantiles, and what they are of normal numbers.
 namespace kinemend {
+
+/// From the median size of normal numbers of mean 0, or a median absolute deviation, to their
+/// standard deviation: 1 / Phi^-1(3/4).
+inline constexpr double deviations_per_median = 1.482602218505602;
+/// Median length of a vector of three independent standard normal components: the root of the
+/// median of the chi-squared distribution of three degrees of freedom.
+inline constexpr double median_of_chi3 = 1.5381722544550522;
+
+/// The value of rank `rank`, which is below their number, by reordering them: no value before it
+/// is larger then, and none behind it smaller.
+inline double of_rank(std::vector<double>& values, std::size_t rank) {
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
 
 /// The value that `share` (0..1) of them do not exceed, by reordering them; 0 for none.
 inline double quantile_of(std::vector<double>& values, double share) {
   if (values.empty()) return 0;
-  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
+  return of_rank(values, static_cast<std::size_t>(share * static_cast<double>(values.size() - 1)));
 }
 
-/// The middle of values, by reordering them; 0 for none.
+/// The middle of values, the lower of the two middle ones of an even number, by reordering them; 0
+/// for none.
 inline double median_of(std::vector<double>& values) { return quantile_of(values, 0.5); }
+/// The same with the upper of the two.
+inline double upper_median_of(std::vector<double>& values) {
+  return values.empty() ? 0 : of_rank(values, values.size() / 2);
+}
 
 }  // namespace kinemend

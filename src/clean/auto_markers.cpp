@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/quantiles.hpp"
 #include "clean/clip_tracks.hpp"
 #include "clean/whole_markers.hpp"
 #include "tracks/track_cleaning.hpp"
@@ -11,12 +12,6 @@
 namespace kinemend {
 
 namespace {
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // A bridge follows the sample it starts at, also where that is a spike: the samples beside gaps are
 // the first to be doubted.
@@ -53,10 +48,11 @@ std::vector<std::vector<std::size_t>> rigid_neighbours(const MarkerClip& clip,
               norm(clip.position(f, markers[n]) - clip.position(f, markers[other])));
       }
       if (distances.size() < std::min(least_frames, sampled) || distances.empty()) continue;
-      const double usual = median(distances);
+      const double usual = upper_median_of(distances);
       if (usual > farthest * body_height) continue;
       for (double& distance : distances) distance = std::fabs(distance - usual);
-      if (median(distances) < largest_spread * body_height) near.emplace_back(usual, other);
+      if (upper_median_of(distances) < largest_spread * body_height)
+        near.emplace_back(usual, other);
     }
     std::sort(near.begin(), near.end());
     for (std::size_t i = 0; i < std::min(near.size(), most_neighbours); ++i)

@@ -52,8 +52,7 @@ constexpr double trimmed_share = 0.9, trimmed_of_one = 0.64;
 double trimmed_mean(std::vector<double>& squares) {
   const auto kept = std::max<std::size_t>(
       1, static_cast<std::size_t>(trimmed_share * static_cast<double>(squares.size())));
-  std::nth_element(squares.begin(), squares.begin() + static_cast<std::ptrdiff_t>(kept - 1),
-                   squares.end());
+  of_rank(squares, kept - 1);
   double sum = 0;
   for (std::size_t i = 0; i < kept; ++i) sum += squares[i];
   return sum / static_cast<double>(kept);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/quantiles.hpp"
 #include "clean/clip_tracks.hpp"
 #include "clean/live_frames.hpp"
 #include "clean/marker_tracks.hpp"
@@ -24,9 +25,6 @@ const OptionTable<HampelOptions>& table() {
                   "smaller deviations are no spikes");
   return options;
 }
-
-// Median length of a vector of three independent standard normal components.
-constexpr double median_length = 1.5381722544550522;
 
 struct Rule {
   std::size_t half = 1;       // frames
@@ -66,9 +64,7 @@ class Despiker {
     if (own <= rule_.least_distance) return false;
     distances_.clear();
     for (std::size_t f = first; f <= last; ++f) distances_.push_back(medoids_.distance(middle, f));
-    const auto half = distances_.begin() + static_cast<std::ptrdiff_t>(distances_.size() / 2);
-    std::nth_element(distances_.begin(), half, distances_.end());
-    if (own <= rule_.threshold * *half / median_length) return false;
+    if (own <= rule_.threshold * upper_median_of(distances_) / median_of_chi3) return false;
     return last - first == 2 * rule_.half || stands_alone(t, first, last, own);
   }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/quantiles.hpp"
 #include "kinemend/rotation.hpp"
 
 namespace kinemend {
@@ -28,9 +29,7 @@ class RunningNoise {
   bool known() const { return values_.size() >= least_frames; }
   double variance() const {
     std::vector<double> sorted(values_.begin(), values_.end());
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    return *middle;
+    return upper_median_of(sorted);
   }
 
  private:
@@ -168,10 +167,9 @@ class CausalNonlocal final : public FrameFilter {
   void keep_nearest(std::vector<double>& distances) const {
     if (settings_.neighbours == 0 || settings_.neighbours >= distances.size()) return;
     std::vector<double> sorted = distances;
-    const auto limit = sorted.begin() + static_cast<std::ptrdiff_t>(settings_.neighbours - 1);
-    std::nth_element(sorted.begin(), limit, sorted.end());
+    const double limit = of_rank(sorted, settings_.neighbours - 1);
     for (double& value : distances) {
-      if (value > *limit) value = std::numeric_limits<double>::infinity();
+      if (value > limit) value = std::numeric_limits<double>::infinity();
     }
   }
 

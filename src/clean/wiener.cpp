@@ -34,7 +34,6 @@ const OptionTable<WienerOptions>& table() {
   return options;
 }
 
-constexpr double deviations_per_median = 1.4826;
 constexpr double least_noise_deg = 1e-3;
 constexpr std::size_t fewest_differences = 8;
 constexpr double dense_share = 0.03, strong_noise_deg = 3;
@@ -53,9 +52,8 @@ double channel_noise(const PriorWork& work, std::span<const std::uint8_t> suspec
     sizes.push_back(std::abs(signal::fourth_difference(y, f, channel)));
   }
   if (sizes.size() < fewest_differences) return work.noise[channel];
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return deviations_per_median * *middle / std::sqrt(signal::fourth_difference_variance);
+  return deviations_per_median * upper_median_of(sizes) /
+         std::sqrt(signal::fourth_difference_variance);
 }
 
 double share_of(const std::vector<std::uint8_t>& suspect, const PriorWork& work) {

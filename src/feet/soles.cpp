@@ -18,7 +18,7 @@ ContactThresholds thresholds_of(const ContactSettings& s) {
 
 // Of a coordinate of one frame, from third differences, which motion hardly has.
 double noise_of(const BodyPoints& body, std::size_t point) {
-  constexpr double deviation_of_median = 1.4826, of_third_differences = 4.4721359549995796;
+  constexpr double of_third_differences = 4.4721359549995796;
   std::vector<double> differences;
   for (std::size_t f = 3; f < body.frames; ++f) {
     const Vec3 third = body.at(f, point) - 3.0 * body.at(f - 1, point) +
@@ -27,7 +27,7 @@ double noise_of(const BodyPoints& body, std::size_t point) {
     differences.push_back(std::fabs(third.y));
     differences.push_back(std::fabs(third.z));
   }
-  return deviation_of_median * median_of(differences) / of_third_differences;
+  return deviations_per_median * median_of(differences) / of_third_differences;
 }
 
 // So far that the noise of a speed stays well below what counts as slow.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/quantiles.hpp"
 #include "fill/natural_spline.hpp"
 #include "kinemend/rotation.hpp"
 
@@ -65,16 +66,14 @@ double fitted_slope(std::span<const double> u, std::span<const double> y, std::s
 // Huber's weights, by iterated least squares about the median deviation.
 double robust_slope(std::span<const double> u, std::span<const double> y) {
   constexpr int rounds = 4;
-  constexpr double huber = 1.5 * 1.4826;
+  constexpr double huber = 1.5 * deviations_per_median;
   if (u.size() < 2) return 0;
   std::vector<double> weights(u.size(), 1.0), residuals(u.size()), sizes(u.size());
   double slope = fitted_slope(u, y, weights, residuals);
   for (int round = 0; round < rounds && u.size() >= 5; ++round) {
     std::transform(residuals.begin(), residuals.end(), sizes.begin(),
                    [](double r) { return std::fabs(r); });
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    const double limit = huber * *middle;
+    const double limit = huber * upper_median_of(sizes);
     if (!(limit > 0)) break;
     for (std::size_t i = 0; i < u.size(); ++i) {
       weights[i] = std::fabs(residuals[i]) <= limit ? 1.0 : limit / std::fabs(residuals[i]);

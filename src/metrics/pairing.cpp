@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/quantiles.hpp"
 #include "kinemend/error.hpp"
 
 namespace kinemend::metrics {
@@ -45,11 +46,10 @@ double percentile_of(std::vector<double> values, double percentile) {
   if (values.empty()) return 0;
   const double position = percentile / 100 * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::size_t>(position);
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(below);
-  std::nth_element(values.begin(), at, values.end());
-  const double low = *at;
-  if (below + 1 >= values.size()) return low;
-  const double high = *std::min_element(at + 1, values.end());
+  const double low = of_rank(values, below);
+  const auto above = values.begin() + static_cast<std::ptrdiff_t>(below) + 1;
+  if (above == values.end()) return low;
+  const double high = *std::min_element(above, values.end());
   return low + (position - static_cast<double>(below)) * (high - low);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/quantiles.hpp"
+
 namespace kinemend {
 
 namespace {
@@ -17,9 +19,7 @@ double noise_of(std::span<const Sample> track, std::size_t most_samples) {
   for (std::size_t t = 0; t < count; t += step) {
     lengths.push_back(second_difference(track[t], track[t + 1], track[t + 2]));
   }
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle * noise_per_second_difference;
+  return upper_median_of(lengths) * noise_per_second_difference;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <span>
 
+#include "base/quantiles.hpp"
 #include "kinemend/rotation.hpp"
 
 namespace kinemend {
@@ -19,6 +20,6 @@ double track_noise(std::span<const Vec3> track, std::size_t most_samples = 4096)
 double second_difference(Quat a, Quat b, Quat c);
 double second_difference(Vec3 a, Vec3 b, Vec3 c);
 /// Noise per axis divided by the median second difference.
-inline constexpr double noise_per_second_difference = 1 / (1.5381722544550522 * 2.449489742783178);
+inline constexpr double noise_per_second_difference = 1 / (median_of_chi3 * 2.449489742783178);
 
 }  // namespace kinemend

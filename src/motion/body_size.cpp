@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/quantiles.hpp"
 #include "kinemend/kinematics.hpp"
 #include "kinemend/marker_clip.hpp"
 #include "kinemend/skeleton.hpp"
@@ -55,12 +56,7 @@ double body_height(const MarkerClip& clip) {
     }
   }
   const double unit_m = metres_per_unit(clip.unit);
-  double quartile = 0;
-  if (!distances.empty()) {
-    const auto rank = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 4);
-    std::nth_element(distances.begin(), rank, distances.end());
-    quartile = *rank;
-  }
+  const double quartile = distances.empty() ? 0 : of_rank(distances, distances.size() / 4);
   if (!(quartile > 0)) return unit_m > 0 ? usual_m / unit_m : 1.0;
   const double height = heights_per_quartile * quartile;
   return unit_m > 0 ? std::min(height, tallest_m / unit_m) : height;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "base/quantiles.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/frame_rate.hpp"
 
@@ -56,9 +57,7 @@ bool is_near_rest(const Clip& clip, std::size_t frame) {
 double usual_step(const Clip& clip, std::size_t first, std::size_t last) {
   std::vector<double> steps;
   for (std::size_t f = first; f + 1 < last; ++f) steps.push_back(turn_between(clip, f, f + 1).mean);
-  const auto at = steps.begin() + static_cast<std::ptrdiff_t>((steps.size() - 1) * 9 / 10);
-  std::nth_element(steps.begin(), at, steps.end());
-  return *at;
+  return of_rank(steps, (steps.size() - 1) * 9 / 10);
 }
 
 }  // namespace

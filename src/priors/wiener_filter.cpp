@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/quantiles.hpp"
 #include "nn/gemm.hpp"
 #include "priors/wiener_posterior.hpp"
 #include "priors/wiener_rest.hpp"
@@ -24,7 +25,6 @@ using Eigen::VectorXd;
 constexpr double window_weight = 0.25;
 constexpr double adaptation_weight = 0.5;
 constexpr std::size_t chunk_windows = 16;
-constexpr double deviations_per_mad = 1.4826;
 
 // sin^2, which sums to a constant where windows follow each other by a quarter.
 VectorXd taper(Index frames) {
@@ -50,12 +50,6 @@ MatrixXd product(const nn::MatrixView& a_transposed, const MatrixXd& b) {
                {result.data(), static_cast<std::size_t>(b.cols()), a_transposed.columns,
                 a_transposed.columns});
   return result;
-}
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 class Filtering {
@@ -260,7 +254,8 @@ class Filtering {
         distances.push_back(std::abs(take_.poses(f, channel) - estimate(f, channel)));
     }
     if (distances.empty()) return settings_.least_outlier_deg;
-    const double spread = std::max(take_.noise[channel], deviations_per_mad * median(distances));
+    const double spread =
+        std::max(take_.noise[channel], deviations_per_median * upper_median_of(distances));
     return std::max(settings_.outlier_deviations * spread, settings_.least_outlier_deg);
   }
 

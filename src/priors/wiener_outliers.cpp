@@ -13,7 +13,6 @@ namespace kinemend {
 namespace {
 
 constexpr int passes = 2;
-constexpr double deviations_per_mad = 1.4826;
 constexpr double outlier_deviations = 4;
 constexpr double least_outlier_deg = 1;
 
@@ -53,8 +52,8 @@ void judge(const WienerTake& take, const PoseMatrix& estimate, std::vector<std::
     for (std::size_t f = 0; f < estimate.frames; ++f) {
       if (is_observed(take, f * channels + d)) distances.push_back(distance(f));
     }
-    const double limit =
-        std::max(least_outlier_deg, outlier_deviations * deviations_per_mad * median_of(distances));
+    const double limit = std::max(
+        least_outlier_deg, outlier_deviations * deviations_per_median * median_of(distances));
     double sum = 0, count = 0;
     const std::size_t first = d - d % 3, last = std::min(first + 3, channels);
     for (std::size_t f = 0; f < estimate.frames; ++f) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/quantiles.hpp"
 #include "kinemend/frame_rate.hpp"
 
 namespace kinemend::representation {
@@ -33,11 +34,7 @@ void bridge(std::vector<Value>& track, std::span<const double> weights) {
   for (std::size_t g = before == frames ? 0 : before + 1; g < frames; ++g) track[g] = last;
 }
 
-double middle_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+double middle_of(std::vector<double>& values) { return upper_median_of(values); }
 
 Vec3 middle_of(std::vector<Vec3>& values) {
   Vec3 best = values.front();

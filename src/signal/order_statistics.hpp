@@ -8,10 +8,6 @@
 
 namespace kinemend::signal {
 
-/// From a median absolute deviation to the standard deviation of a normal distribution: 1 /
-/// Phi^-1(3/4).
-inline constexpr double mad_to_sigma = 1.482602218505602;
-
 /// The mean of the two middle values for an even count, 0 for none.
 double median(std::span<const double> values);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/quantiles.hpp"
 #include "kinemend/signal.hpp"
 #include "signal/checks.hpp"
 #include "signal/order_statistics.hpp"
@@ -81,7 +82,7 @@ std::vector<double> noise_of(const PoseMatrix& finest, CoefficientRange range, d
   signal::for_each_column(finest.row(range.first).data(), range.count, finest.channels,
                           [&](std::size_t channel, std::span<double> values) {
                             for (double& x : values) x = std::abs(x);
-                            noise[channel] = scale * signal::mad_to_sigma * signal::median(values);
+                            noise[channel] = scale * deviations_per_median * signal::median(values);
                           });
   return noise;
 }

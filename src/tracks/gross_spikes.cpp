@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/quantiles.hpp"
 #include "tracks/spikes.hpp"
 
 namespace kinemend {
@@ -52,10 +53,10 @@ std::vector<double> deviations(const std::vector<Quat>& track) {
   return result;
 }
 
-double median(std::vector<double> values) {
-  const auto middle_value = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle_value, values.end());
-  return *middle_value;
+double median_within(const std::vector<double>& values, std::size_t first, std::size_t last) {
+  std::vector<double> part(values.begin() + static_cast<std::ptrdiff_t>(first),
+                           values.begin() + static_cast<std::ptrdiff_t>(last));
+  return upper_median_of(part);
 }
 
 bool is_clear_peak(const std::vector<double>& deviation, std::size_t t, double usual) {
@@ -65,9 +66,7 @@ bool is_clear_peak(const std::vector<double>& deviation, std::size_t t, double u
     if (deviation[k] > deviation[t]) return false;
   }
   const std::size_t first = t < reach ? 0 : t - reach, last = std::min(t + reach + 1, frames);
-  const double about = median({deviation.begin() + static_cast<std::ptrdiff_t>(first),
-                               deviation.begin() + static_cast<std::ptrdiff_t>(last)});
-  return deviation[t] > clear_ratio * about;
+  return deviation[t] > clear_ratio * median_within(deviation, first, last);
 }
 
 }  // namespace
@@ -78,7 +77,7 @@ std::vector<std::uint8_t> replace_gross_spikes(std::vector<Quat>& track) {
   if (frames < 5) return marks;
   for (int pass = 0; pass < 4; ++pass) {
     const std::vector<double> deviation = deviations(track);
-    const double usual = median({deviation.begin() + 1, deviation.end() - 1});
+    const double usual = median_within(deviation, 1, deviation.size() - 1);
     std::vector<std::size_t> peaks;
     for (std::size_t t = 0; t < frames; ++t) {
       if (is_clear_peak(deviation, t, usual)) peaks.push_back(t);

@@ -5,18 +5,12 @@
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "base/quantiles.hpp"
 #include "tracks/vector_tracks.hpp"
 
 namespace kinemend {
 
 namespace {
-
-// Rank `share` (0..1) of values, by reordering them.
-double quantile(std::vector<double>& values, double share) {
-  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
-}
 
 double squared(double x) { return x * x; }
 
@@ -54,7 +48,6 @@ std::vector<double> mean_squares(const std::vector<Vec3>& vectors) {
   return squares;
 }
 
-constexpr double median_of_chi3 = 1.5381722544550522;  // of the length of a standard normal vector
 constexpr double chance_excess = 1.01;  // the least of several estimates is a little low
 
 // Averages over ten differences in a row; their lower quartile is 0.853^2 of the mean for white
@@ -69,7 +62,7 @@ double quiet_quarter(const std::vector<double>& squares) {
     if (i >= window) sum -= squares[i - window];
     if (i + 1 >= window) averages.push_back(std::max(0.0, sum / window));
   }
-  return std::sqrt(quantile(averages, 0.25)) / quartile_bias;
+  return std::sqrt(quantile_of(averages, 0.25)) / quartile_bias;
 }
 
 double round_level(std::span<const Vec3> track, std::span<const std::uint8_t> marked) {
@@ -77,12 +70,12 @@ double round_level(std::span<const Vec3> track, std::span<const std::uint8_t> ma
   std::vector<double> squares = mean_squares(differences(track, marked, third_difference));
   if (squares.size() >= 3) {
     if (squares.size() >= 30) least = quiet_quarter(squares);
-    least = std::min(least, std::sqrt(3 * quantile(squares, 0.5)) / median_of_chi3);
+    least = std::min(least, std::sqrt(3 * median_of(squares)) / median_of_chi3);
   }
   if (track.size() >= 20) {
     squares = mean_squares(differences(track, marked, fifth_difference));
     if (squares.size() >= 3)
-      least = std::min(least, std::sqrt(3 * quantile(squares, 0.5)) / median_of_chi3);
+      least = std::min(least, std::sqrt(3 * median_of(squares)) / median_of_chi3);
   }
   return std::isfinite(least) ? chance_excess * least : 0;
 }
@@ -95,7 +88,7 @@ double robust_deviation(std::vector<double> numbers) {
   if (numbers.empty()) return 0;
   for (double& number : numbers) number = std::abs(number);
   std::vector<double> ordered = numbers;
-  double deviation = quantile(ordered, 0.5) / median_size;
+  double deviation = median_of(ordered) / median_size;
   for (int round = 0; round < rounds; ++round) {
     double sum = 0;
     for (const double number : numbers) sum += squared(std::min(number, cut * deviation));
@@ -186,7 +179,7 @@ std::vector<double> cleaning_shares(const std::vector<double>& noise, double fra
   constexpr double start_noisy = 0.15, whole_noisy = 0.35, start_clean = 0.35, whole_clean = 0.7;
   const double folding = std::max(1.0, std::pow(120 / frame_rate_hz, 0.75));
   std::vector<double> sorted = noise;
-  const double median = quantile(sorted, 0.5) / folding;
+  const double median = median_of(sorted) / folding;
   const double noisy = std::clamp((median - 0.15) / 0.15, 0.0, 1.0);
   const double start = start_clean + (start_noisy - start_clean) * noisy;
   const double whole = whole_clean + (whole_noisy - whole_clean) * noisy;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/parallel.hpp"
+#include "base/quantiles.hpp"
 #include "tracks/nonlocal_ends.hpp"
 #include "tracks/nonlocal_kernels.hpp"
 #include "tracks/orientation_filter.hpp"
@@ -368,12 +369,10 @@ class Averager {
   void keep_nearest(std::size_t count, Weights& weights) const {
     if (settings_.neighbours >= weights.neighbours.size()) return;
     const std::size_t stride = count + lane_room;
-    const auto limit = static_cast<std::ptrdiff_t>(settings_.neighbours) - 1;
     std::vector<double> column(weights.neighbours.size());
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t n = 0; n < column.size(); ++n) column[n] = weights.values[n * stride + i];
-      std::nth_element(column.begin(), column.begin() + limit, column.end());
-      const double farthest = column[settings_.neighbours - 1];
+      const double farthest = of_rank(column, settings_.neighbours - 1);
       for (std::size_t n = 0; n < column.size(); ++n) {
         double& value = weights.values[n * stride + i];
         if (value > farthest) value = infinite;

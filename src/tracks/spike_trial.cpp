@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/quantiles.hpp"
+
 namespace kinemend {
 
 namespace {
@@ -174,18 +176,10 @@ void acquit_habit(const SpikeTrial& trial, std::size_t n, SampleMarks& guilty) {
     if (guilty(t, n) != 0) errors.push_back(trial.predictions.errors(t, n));
   }
   if (errors.empty()) return;
-  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
-  std::nth_element(errors.begin(), middle, errors.end());
+  const double middle = upper_median_of(errors);
   for (std::size_t t = 0; t < guilty.frames; ++t) {
-    guilty(t, n) = guilty(t, n) != 0 && trial.predictions.errors(t, n) > beyond * *middle;
+    guilty(t, n) = guilty(t, n) != 0 && trial.predictions.errors(t, n) > beyond * middle;
   }
-}
-
-double at_share(std::vector<double>& values, double share) {
-  const auto place =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
 }
 
 // What damage of a take does at least, told by the spikes that are surely there: where these are
@@ -201,8 +195,8 @@ double least_damage(const SpikeTrial& trial, const SampleMarks& sure) {
     }
   }
   if (sizes.empty()) return 0;
-  const double usual = at_share(sizes, 0.5);
-  return std::min(most * usual, usual - reach * (usual - at_share(sizes, low)));
+  const double usual = quantile_of(sizes, 0.5);
+  return std::min(most * usual, usual - reach * (usual - quantile_of(sizes, low)));
 }
 
 }  // namespace

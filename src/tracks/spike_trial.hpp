@@ -11,7 +11,6 @@ inline constexpr double least_noise =
     0.25;  // degrees: what a spike is measured against on a noiseless track
 inline constexpr double least_deviation =
     6;  // degrees: what is nearer to its prediction is no spike
-inline constexpr double median_of_chi3 = 1.54;  // of the length of a standard normal vector
 
 /// How far each sample is from where the others of its track put it.
 struct Predictions {

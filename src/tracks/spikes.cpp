@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "base/quantiles.hpp"
 #include "kinemend/frame_rate.hpp"
 #include "signal/leave_one_out.hpp"
 #include "tracks/spike_trial.hpp"
@@ -141,8 +142,7 @@ double median_about(const std::vector<double>& values, std::size_t t, std::size_
     if (at >= frames) at = 2 * (frames - 1) - at;
     window.push_back(values[static_cast<std::size_t>(at)]);
   }
-  std::nth_element(window.begin(), window.begin() + reach, window.end());
-  return window[static_cast<std::size_t>(reach)];
+  return median_of(window);
 }
 
 // A track's next suspects: of those accused before, whoever still does not fit; of the others, the

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/quantiles.hpp"
+
 namespace kinemend {
 
 namespace {
@@ -37,9 +39,7 @@ class MarkerPath {
         steps.push_back(norm(clip_.position(f, marker_) - clip_.position(f - 1, marker_)));
     }
     if (steps.empty()) return std::nullopt;
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    return *middle;
+    return upper_median_of(steps);
   }
 
  private:
