@@ -41,41 +41,34 @@ struct Training {
   bool force = false, json = false, quiet = false, skip_unreadable = false;
 };
 
-Take read_training_take(const Training& training, const std::string& path, bool warns) {
+Take read_training_take(const Training& training, const std::string& path) {
   TakeResult read = read_take(std::filesystem::path(path), training.reading);
-  if (warns && !training.quiet) warn_of_repairs(source_of(read.take), read.diagnostics);
-  if (!training.fill.empty()) {
-    FillSettings settings;
-    settings.method = training.fill;
-    std::visit([&](auto& clip) { fill_gaps(clip, settings); }, read.take);
-  }
+  if (!training.quiet) warn_of_repairs(source_of(read.take), read.diagnostics);
   return std::move(read.take);
 }
 
-/// The takes that can be read; what cannot is said.
-std::vector<std::string> readable_takes(const Training& training) {
-  std::vector<std::string> readable;
-  for (const std::string& path : training.takes) {
-    try {
-      read_take(std::filesystem::path(path), training.reading);
-      readable.push_back(path);
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::unreadable_input) throw;
-      say_warning(fmt::format("{} (left out)", error.what()));
-    }
+/// Nothing where it cannot be read and such takes are left out, which is said.
+std::optional<Take> training_take(const Training& training, const std::string& path) {
+  std::optional<Take> take;
+  try {
+    take = read_training_take(training, path);
+  } catch (const Error& error) {
+    if (!training.skip_unreadable || error.kind() != ErrorKind::unreadable_input) throw;
+    say_warning(fmt::format("{} (left out)", error.what()));
+    return take;
   }
-  return readable;
+  if (!training.fill.empty()) {
+    FillSettings settings;
+    settings.method = training.fill;
+    std::visit([&](auto& clip) { fill_gaps(clip, settings); }, *take);
+  }
+  return take;
 }
 
-/// Reads each take whenever it is asked for, so that they are never in memory together; what had
-/// to be repaired is said once.
 TrainingTakes takes_of(const Training& training, ProgressLine& progress) {
-  auto seen = std::make_shared<std::vector<bool>>(training.takes.size(), false);
-  return {training.takes.size(), [&training, &progress, seen](std::size_t index) {
-            const bool is_first = !(*seen)[index];
-            (*seen)[index] = true;
-            if (is_first) progress.clear();
-            return read_training_take(training, training.takes[index], is_first);
+  return {training.takes.size(), [&training, &progress](std::size_t index) {
+            progress.clear();
+            return training_take(training, training.takes[index]);
           }};
 }
 
@@ -140,14 +133,12 @@ std::vector<std::string> inputs_of(const Arguments& arguments) {
   }
   if (inputs.empty())
     throw Error(ErrorKind::usage, "train: TAKE or --list is missing (see kinemend train -h)");
-  if (std::find(inputs.begin(), inputs.end(), "-") != inputs.end())
-    throw Error(ErrorKind::usage, "train: takes are read more than once, so - cannot be one");
   return takes_below(inputs);
 }
 
 Training training_of(const Arguments& arguments) {
   Training training;
-  training.method = find_train_method(arguments.positionals.front()).name;
+  training.method = find_learned_method(arguments.positionals.front()).name;
   training.options =
       parse_group_options(arguments.command->groups, training.method, arguments.group_texts);
   training.output = arguments.text("output");
@@ -172,6 +163,9 @@ Training training_of(const Arguments& arguments) {
       command.empty() ? command_text(arguments) : command, arguments.text("figures")};
   training.takes = inputs_of(arguments);
   const std::string list = arguments.text("list");
+  std::vector<std::string> read = training.takes;
+  read.push_back(list);
+  check_single_use(read, {}, false);
   for (const std::vector<std::string>& inputs : {training.takes, {list}}) {
     check_is_no_input("--output", training.output, inputs);
     check_is_no_input("--card", training.card, inputs);
@@ -194,7 +188,6 @@ int run(const Arguments& arguments) {
   if (const auto jobs = static_cast<std::size_t>(arguments.whole("jobs")); jobs > 0)
     limit.emplace(tbb::global_control::max_allowed_parallelism, jobs);
   const auto begin = std::chrono::steady_clock::now();
-  if (training.skip_unreadable) training.takes = readable_takes(training);
   ProgressLine progress;
   training.settings.progress = [&](std::string_view stage, double done) {
     if (!training.quiet) progress.show(stage, done);
@@ -269,7 +262,7 @@ std::vector<Flag> flags() {
 
 std::vector<std::string> train_method_names() {
   std::vector<std::string> names;
-  for (const TrainMethod& method : train_methods()) names.push_back(method.name);
+  for (const LearnedMethod& method : learned_methods()) names.push_back(method.name);
   return names;
 }
 
@@ -284,12 +277,13 @@ Command train_command() {
       "kinemend clean --method METHOD --model FILE. All takes are of joints, or all of markers. "
       "Bodies may differ in size and in the names of their parts; calibration frames are left "
       "out.\n\n"
-      "Takes are read one at a time and more than once, so that memory does not grow with their "
-      "number. The same takes and options give the same bytes.";
+      "Takes are read one at a time and once. What is learned from is kept in memory up to half a "
+      "gigabyte, then in the temporary folder (TMPDIR). The same takes and options give the same "
+      "bytes.";
   command.positionals = {{"METHOD", "which model, see below", 1, 1, train_method_names()},
                          {"TAKE", "take, or folder in which all takes are meant", 0, 1000000, {}}};
   command.flags = flags();
-  for (const TrainMethod& method : train_methods())
+  for (const LearnedMethod& method : learned_methods())
     command.groups.push_back({method.name, method.summary, "", method.options});
   command.group_heading = "Options of %";
   command.groups_are_flags = true;

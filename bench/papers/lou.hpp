@@ -83,7 +83,7 @@ std::shared_ptr<const Model> learned(const std::string& method, const std::vecto
 }
 
 inline bool is_trained(const std::string& method) {
-  for (const TrainMethod& entry : train_methods()) {
+  for (const LearnedMethod& entry : learned_methods()) {
     if (entry.name == method) return true;
   }
   return false;

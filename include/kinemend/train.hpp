@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,33 +17,38 @@
 // Fitting models to clean takes.
 namespace kinemend {
 
-/// Clean takes of one kind, handed out one at a time, so that memory does not grow with their
-/// number. Each is asked for more than once.
+/// Clean takes of one kind, handed out one at a time: each is asked for once, in order.
 struct TrainingTakes {
   std::size_t count = 0;
-  std::function<std::variant<Clip, MarkerClip>(std::size_t index)> take;
+  /// Nothing for a take that is to be left out.
+  std::function<std::optional<std::variant<Clip, MarkerClip>>(std::size_t index)> take;
 };
 
 /// What does not depend on the method.
 struct TrainSettings {
   std::vector<std::string> names;  ///< joints or markers, or shell patterns; empty: all that move
   ModelCard card;
+  /// Bytes of motion that may lie in memory at once; what is more lies in a nameless file of the
+  /// temporary folder.
+  std::size_t most_memory = std::size_t{1} << 29;
   /// Called as work goes on with what is being done and how far it is (0..1).
   std::function<void(std::string_view stage, double done)> progress;
 };
 
-/// A kind of model that can be trained.
-struct TrainMethod {
+/// A method with a learned model, as training and model files know it; `find_method(name)` is the
+/// cleaner.
+struct LearnedMethod {
   std::string name;     ///< that of the cleaning method
-  std::string summary;  ///< one line
-  std::vector<OptionSpec> options;
+  int version = 1;      ///< of the model's tensors and numbers: the newest that is read, as written
+  std::string summary;  ///< what is fitted, one line
+  std::vector<OptionSpec> options;  ///< of the training
   Model (*train)(const TrainingTakes& takes, const OptionValues& values,
                  const TrainSettings& settings);
 };
 
-std::span<const TrainMethod> train_methods();
+std::span<const LearnedMethod> learned_methods();
 /// Errors: `ErrorKind::usage`, with the names there are.
-const TrainMethod& find_train_method(std::string_view name);
+const LearnedMethod& find_learned_method(std::string_view name);
 /// Calibration frames are left out. Errors: `ErrorKind::usage` for an unknown method or option, a
 /// value out of range, no takes, takes of different kinds or bodies (with the parts named), and
 /// takes that are all shorter than a window.

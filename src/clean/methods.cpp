@@ -23,9 +23,9 @@ std::span<const Method> methods() {
     list.push_back(wavelet_method());
     list.push_back(weighted_mean_method());
     list.push_back(kalman_method());
-    list.push_back(example_method());
-    list.push_back(wiener_method());
-    list.push_back(kalman_learned_method());
+#define KINEMEND_LIST(name) list.push_back(name##_method());
+    KINEMEND_LEARNED_METHODS(KINEMEND_LIST)
+#undef KINEMEND_LIST
     list.push_back(one_euro_method());
     return list;
   }();

@@ -4,10 +4,11 @@
 #include <cstdint>
 
 #include "kinemend/error.hpp"
+#include "kinemend/train.hpp"
 #include "priors/channel_ranges.hpp"
 #include "priors/example_prior.hpp"
+#include "priors/learned_list.hpp"
 #include "priors/mssa.hpp"
-#include "priors/train_list.hpp"
 #include "priors/training_sequences.hpp"
 
 namespace kinemend {
@@ -59,23 +60,26 @@ std::size_t window_frames(const ExampleTraining& options, std::size_t channels) 
 
 Model train(const TrainingTakes& takes, const OptionValues& values, const TrainSettings& settings) {
   const ExampleTraining options = table().parse(values);
+  const TrainingSequences sequences =
+      encode_takes(takes, settings, options.rate_hz, options.trend_s);
   Model model;
-  model.layout = learn_layout(takes, settings, options.trend_s);
+  model.layout = sequences.layout;
+  model.takes = sequences.takes;
   const std::size_t channels = model.layout.channel_count();
   const std::size_t window = window_frames(options, channels);
   LagCovariance covariance(window, channels);
   ChannelRanges ranges(channels);
   std::array<LagCovariance, 2> halves{LagCovariance(window, channels),
                                       LagCovariance(window, channels)};
-  model.seconds = for_each_sequence(takes, model.layout, options.rate_hz, window, settings,
-                                    [&](const TrainingSequence& sequence) {
-                                      covariance.add(sequence.poses, sequence.weight);
-                                      for_each_half(sequence, takes.count, window,
-                                                    [&](std::size_t half, const PoseMatrix& poses) {
-                                                      halves[half].add(poses, sequence.weight);
-                                                    });
-                                      ranges.add(sequence.poses, sequence.weight);
-                                    });
+  model.seconds =
+      for_each_sequence(sequences, window, settings, [&](const TrainingSequence& sequence) {
+        covariance.add(sequence.poses, sequence.weight);
+        for_each_half(sequence, sequences.takes, window,
+                      [&](std::size_t half, const PoseMatrix& poses) {
+                        halves[half].add(poses, sequence.weight);
+                      });
+        ranges.add(sequence.poses, sequence.weight);
+      });
   if (covariance.windows() <= 0) {
     throw Error(ErrorKind::usage, "no take has a stretch without gaps of " +
                                       std::to_string(window) + " frames, which is a window");
@@ -97,8 +101,8 @@ Model train(const TrainingTakes& takes, const OptionValues& values, const TrainS
 
 }  // namespace
 
-TrainMethod example_training() {
-  return {"example", "filter bases by M-SSA (Lou & Chai 2010, section 3.1)", table().specs(),
+LearnedMethod example_learned() {
+  return {"example", 1, "filter bases by M-SSA (Lou & Chai 2010, section 3.1)", table().specs(),
           train};
 }
 

@@ -1,8 +1,9 @@
 #include <cstdint>
 
 #include "kinemend/error.hpp"
+#include "kinemend/train.hpp"
+#include "priors/learned_list.hpp"
 #include "priors/linear_dynamics.hpp"
-#include "priors/train_list.hpp"
 #include "priors/training_sequences.hpp"
 
 namespace kinemend {
@@ -32,12 +33,14 @@ const OptionTable<KalmanLearnedTraining>& table() {
 
 Model train(const TrainingTakes& takes, const OptionValues& values, const TrainSettings& settings) {
   const KalmanLearnedTraining options = table().parse(values);
+  const TrainingSequences sequences = encode_takes(takes, settings, options.rate_hz);
   Model model;
-  model.layout = learn_layout(takes, settings);
+  model.layout = sequences.layout;
+  model.takes = sequences.takes;
   const auto order = static_cast<std::size_t>(options.order);
   LinearDynamicsFit fit(model.layout.channel_count(), order);
   model.seconds = for_each_sequence(
-      takes, model.layout, options.rate_hz, order + 1, settings,
+      sequences, order + 1, settings,
       [&](const TrainingSequence& sequence) { fit.add(sequence.poses, sequence.weight); });
   if (fit.transitions() <= 0)
     throw Error(ErrorKind::usage, "no take has two neighbouring frames that are whole");
@@ -49,8 +52,8 @@ Model train(const TrainingTakes& takes, const OptionValues& values, const TrainS
 
 }  // namespace
 
-TrainMethod kalman_learned_training() {
-  return {"kalman-learned", "linear dynamical system (Lou & Chai 2010, section 4.2)",
+LearnedMethod kalman_learned_learned() {
+  return {"kalman-learned", 1, "linear dynamical system (Lou & Chai 2010, section 4.2)",
           table().specs(), train};
 }
 

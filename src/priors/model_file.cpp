@@ -14,7 +14,7 @@
 #include "kinemend/content_hash.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/model.hpp"
-#include "priors/model_versions.hpp"
+#include "kinemend/train.hpp"
 
 // Models as files. docs/models.md describes the layout.
 namespace kinemend {
@@ -112,12 +112,12 @@ class ModelReader {
 
   void check_version(const std::string& method, int version) const {
     std::vector<std::string_view> known;
-    for (const ModelVersion& entry : model_versions) {
-      known.push_back(entry.method);
-      if (entry.method != method) continue;
-      if (version <= entry.newest) return;
+    for (const LearnedMethod& entry : learned_methods()) {
+      known.push_back(entry.name);
+      if (entry.name != method) continue;
+      if (version <= entry.version) return;
       refuse(fmt::format("the model is version {} of {}, and this program reads up to {}", version,
-                         method, entry.newest));
+                         method, entry.version));
     }
     refuse("method", fmt::format("one of {}", fmt::join(known, ", ")), method);
   }

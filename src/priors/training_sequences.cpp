@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "kinemend/convert.hpp"
 #include "kinemend/error.hpp"
+#include "priors/take_store.hpp"
 
 namespace kinemend {
 
@@ -66,7 +69,6 @@ std::vector<Stretch> whole_stretches(const BodyChannels& channels) {
 template <class AnyClip>
 BodyChannels channels_at_rate(AnyClip clip, const BodyLayout& layout, double rate_hz,
                               std::size_t& phases) {
-  clip = motion_of(std::move(clip));
   phases = whole_ratio(clip.frame_rate_hz, rate_hz);
   if (phases == 0) {
     clip = resample(clip, rate_hz);
@@ -82,43 +84,85 @@ PoseMatrix frames_of(const PoseMatrix& poses, std::size_t first, std::size_t las
   return part;
 }
 
-}  // namespace
-
-BodyLayout learn_layout(const TrainingTakes& takes, const TrainSettings& settings, double trend_s) {
-  if (takes.count == 0) throw Error(ErrorKind::usage, "no takes to learn from");
-  BodyLayoutBuilder builder(settings.names, trend_s);
-  for (std::size_t i = 0; i < takes.count; ++i) {
-    report(settings, "looking at bodies", i, takes.count);
-    std::visit([&](auto&& clip) { builder.add(motion_of(std::forward<decltype(clip)>(clip))); },
-               takes.take(i));
+void add_sequences(const BodyChannels& channels, std::size_t phases, std::size_t take,
+                   TrainingSequences& sequences) {
+  for (const Stretch& stretch : whole_stretches(channels)) {
+    for (std::size_t phase = 0; phase < phases && stretch.first + phase < stretch.last; ++phase) {
+      const PoseMatrix poses = thinned(channels.poses, stretch.first + phase, stretch.last, phases);
+      sequences.entries.push_back({poses.frames, 1 / static_cast<double>(phases), take});
+      append_values<double>(sequences.values, poses.values);
+    }
   }
-  return builder.finish();
 }
 
-double for_each_sequence(const TrainingTakes& takes, const BodyLayout& layout, double rate_hz,
-                         std::size_t least_frames, const TrainSettings& settings,
-                         const std::function<void(const TrainingSequence&)>& use) {
-  double frames = 0;
+}  // namespace
+
+TrainingSequences encode_takes(const TrainingTakes& takes, const TrainSettings& settings,
+                               double rate_hz, double trend_s) {
+  BodyLayoutBuilder builder(settings.names, trend_s);
+  // Channels need the body, and the body all takes: they are kept in between.
+  TakeStore store(settings.most_memory / 2);
   for (std::size_t i = 0; i < takes.count; ++i) {
-    report(settings, "learning motion", i, takes.count);
+    report(settings, "reading takes", i, takes.count);
+    std::optional<std::variant<Clip, MarkerClip>> take = takes.take(i);
+    if (!take) continue;
+    std::visit(
+        [&](auto& clip) {
+          clip = motion_of(std::move(clip));
+          builder.add(clip);
+          store.add(std::move(clip));
+        },
+        *take);
+  }
+  if (store.count() == 0) throw Error(ErrorKind::usage, "no takes to learn from");
+  TrainingSequences sequences;
+  sequences.layout = builder.finish();
+  sequences.rate_hz = rate_hz;
+  sequences.takes = store.count();
+  sequences.values = Spool(settings.most_memory / 2);
+  for (std::size_t i = 0; i < store.count(); ++i) {
+    report(settings, "encoding motion", i, store.count());
     std::size_t phases = 1;
     const BodyChannels channels = std::visit(
         [&](auto&& clip) {
-          return channels_at_rate(std::forward<decltype(clip)>(clip), layout, rate_hz, phases);
+          return channels_at_rate(std::forward<decltype(clip)>(clip), sequences.layout, rate_hz,
+                                  phases);
         },
-        takes.take(i));
-    for (const Stretch& stretch : whole_stretches(channels)) {
-      for (std::size_t phase = 0; phase < phases && stretch.first + phase < stretch.last; ++phase) {
-        TrainingSequence sequence{
-            thinned(channels.poses, stretch.first + phase, stretch.last, phases),
-            1 / static_cast<double>(phases), i};
-        if (sequence.poses.frames < std::max<std::size_t>(least_frames, 1)) continue;
-        frames += sequence.weight * static_cast<double>(sequence.poses.frames);
-        use(sequence);
-      }
-    }
+        store.take(i));
+    add_sequences(channels, phases, i, sequences);
   }
-  return frames / rate_hz;
+  return sequences;
+}
+
+TrainingSequence sequence_at(const TrainingSequences& sequences, std::size_t index,
+                             std::size_t first, std::size_t last) {
+  const TrainingSequences::Entry& entry = sequences.entries[index];
+  last = std::min(last, entry.frames);
+  first = std::min(first, last);
+  TrainingSequence sequence;
+  sequence.weight = entry.weight;
+  sequence.take = entry.take;
+  sequence.poses.frames = last - first;
+  sequence.poses.channels = sequences.layout.channel_count();
+  const std::size_t channels = sequence.poses.channels;
+  sequence.poses.values =
+      read_values<double>(sequences.values, index, first * channels, (last - first) * channels);
+  return sequence;
+}
+
+double for_each_sequence(const TrainingSequences& sequences, std::size_t least_frames,
+                         const TrainSettings& settings,
+                         const std::function<void(const TrainingSequence&)>& use) {
+  double frames = 0;
+  const std::size_t count = sequences.entries.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    report(settings, "learning motion", i, count);
+    const TrainingSequences::Entry& entry = sequences.entries[i];
+    if (entry.frames < std::max<std::size_t>(least_frames, 1)) continue;
+    frames += entry.weight * static_cast<double>(entry.frames);
+    use(sequence_at(sequences, i));
+  }
+  return frames / sequences.rate_hz;
 }
 
 void for_each_half(const TrainingSequence& sequence, std::size_t takes, std::size_t least_frames,

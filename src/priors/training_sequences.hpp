@@ -2,18 +2,17 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
+#include <vector>
 
+#include "base/spool.hpp"
 #include "kinemend/body.hpp"
 #include "kinemend/pose_matrix.hpp"
 #include "kinemend/train.hpp"
 
-// What every fit of a model starts from: takes as stretches of channels at the model's rate.
+// What every fit of a model starts from: takes as stretches of channels at the model's rate, read
+// and encoded once, and walked through as often as a method likes.
 namespace kinemend {
-
-/// The layout of a set of takes; each is asked for once. Errors: `ErrorKind::usage` as of
-/// `BodyLayoutBuilder`, and for no takes.
-BodyLayout learn_layout(const TrainingTakes& takes, const TrainSettings& settings,
-                        double trend_s = BodyLayout{}.trend_s);
 
 /// Motion without gaps.
 struct TrainingSequence {
@@ -22,12 +21,37 @@ struct TrainingSequence {
   std::size_t take = 0;  ///< where it comes from
 };
 
-/// Calls `use` with every stretch of every take in which no part is missing, of at least
-/// `least_frames` frames; each take is asked for once. Of a take whose rate is a multiple of
-/// `rate_hz` every phase is a sequence, and their weights add up to 1; any other is resampled.
-/// Returns the seconds of motion that were used.
-double for_each_sequence(const TrainingTakes& takes, const BodyLayout& layout, double rate_hz,
-                         std::size_t least_frames, const TrainSettings& settings,
+/// The takes of a training in the channels of the body that they share. Of a take whose rate is a
+/// multiple of `rate_hz` every phase is a sequence, and their weights add up to 1; any other is
+/// resampled. Stretches in which a part is missing are left out.
+struct TrainingSequences {
+  struct Entry {
+    std::size_t frames = 0;
+    double weight = 1;
+    std::size_t take = 0;
+  };
+
+  BodyLayout layout;
+  double rate_hz = 0;
+  std::size_t takes = 0;       ///< that were read
+  std::vector<Entry> entries;  ///< in the order of takes
+  Spool values{0};             ///< a record an entry, F x D doubles
+};
+
+/// Reads each take once. Memory is bounded by `settings.most_memory` and the largest take. Errors:
+/// `ErrorKind::usage` as of `BodyLayoutBuilder` and `match_body`, and for no takes; as of `Spool`.
+TrainingSequences encode_takes(const TrainingTakes& takes, const TrainSettings& settings,
+                               double rate_hz, double trend_s = BodyLayout{}.trend_s);
+
+/// Frames [first, last) of a sequence, all of it by default. Safe from several threads.
+TrainingSequence sequence_at(const TrainingSequences& sequences, std::size_t index,
+                             std::size_t first = 0,
+                             std::size_t last = std::numeric_limits<std::size_t>::max());
+
+/// Calls `use` with every sequence of at least `least_frames` frames, in order. Returns the seconds
+/// of motion that were used.
+double for_each_sequence(const TrainingSequences& sequences, std::size_t least_frames,
+                         const TrainSettings& settings,
                          const std::function<void(const TrainingSequence&)>& use);
 
 /// A sequence as of one of the halves of all takes, 0 or 1, so that what is learned of one can be

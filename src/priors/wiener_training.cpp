@@ -1,6 +1,7 @@
 #include <cstdint>
 
-#include "priors/train_list.hpp"
+#include "kinemend/train.hpp"
+#include "priors/learned_list.hpp"
 #include "priors/training_sequences.hpp"
 #include "priors/wiener_fit.hpp"
 
@@ -41,8 +42,10 @@ const OptionTable<WienerTraining>& table() {
 
 Model train(const TrainingTakes& takes, const OptionValues& values, const TrainSettings& settings) {
   const WienerTraining options = table().parse(values);
+  const TrainingSequences sequences = encode_takes(takes, settings, options.rate_hz);
   Model model;
-  model.layout = learn_layout(takes, settings);
+  model.layout = sequences.layout;
+  model.takes = sequences.takes;
   model.rate_hz = options.rate_hz;
   WienerFitSettings fitting;
   fitting.rate_hz = options.rate_hz;
@@ -54,15 +57,15 @@ Model train(const TrainingTakes& takes, const OptionValues& values, const TrainS
   fitting.windows = static_cast<std::size_t>(options.windows);
   fitting.seed = static_cast<std::uint64_t>(options.seed);
   WienerFit fit(model.layout.channel_count(), fitting);
-  model.seconds = for_each_sequence(takes, model.layout, options.rate_hz, fit.window_frames(),
-                                    settings, [&](const TrainingSequence& sequence) {
-                                      for_each_half(sequence, takes.count, fit.window_frames(),
+  model.seconds = for_each_sequence(sequences, fit.window_frames(), settings,
+                                    [&](const TrainingSequence& sequence) {
+                                      for_each_half(sequence, sequences.takes, fit.window_frames(),
                                                     [&](std::size_t half, const PoseMatrix& poses) {
                                                       fit.add_moments(poses, sequence.weight, half);
                                                     });
                                     });
   fit.find_basis();
-  for_each_sequence(takes, model.layout, options.rate_hz, fit.window_frames(), settings,
+  for_each_sequence(sequences, fit.window_frames(), settings,
                     [&](const TrainingSequence& sequence) { fit.add_windows(sequence.poses); });
   store_wiener_prior(fit.finish(), model);
   return model;
@@ -70,8 +73,9 @@ Model train(const TrainingTakes& takes, const OptionValues& values, const TrainS
 
 }  // namespace
 
-TrainMethod wiener_training() {
-  return {"wiener", "mixture of Gaussians over windows, in a temporal DCT", table().specs(), train};
+LearnedMethod wiener_learned() {
+  return {"wiener", 1, "mixture of Gaussians over windows, in a temporal DCT", table().specs(),
+          train};
 }
 
 }  // namespace kinemend

@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "clean/takes.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/train.hpp"
 
 namespace kinemend::test {
 namespace {
@@ -45,6 +48,23 @@ TEST(Methods, AreMadeFromTheirOwnDefaultsAndDescribeEveryOption) {
       EXPECT_NE(method.make(defaults), nullptr);
     }
   }
+}
+
+TEST(Methods, WithALearnedModelAreThoseThatModelsAreTrainedFor) {
+  std::vector<std::string> cleaning, trained;
+  for (const Method& method : methods()) {
+    if (method.learned) cleaning.push_back(method.name);
+  }
+  for (const LearnedMethod& method : learned_methods()) {
+    trained.push_back(method.name);
+    EXPECT_GE(method.version, 1) << method.name;
+    EXPECT_NE(method.train, nullptr) << method.name;
+    const std::vector<OptionSpec>& options = find_method(method.name).options;
+    EXPECT_TRUE(std::any_of(options.begin(), options.end(), [](const OptionSpec& option) {
+      return option.name == "model";
+    })) << method.name;
+  }
+  EXPECT_EQ(cleaning, trained);
 }
 
 TEST(Methods, ThatDoNotExistAreRefusedWithTheNearestName) {

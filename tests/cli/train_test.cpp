@@ -131,6 +131,22 @@ TEST_F(Train, ATakeThatCannotBeReadEndsItUnlessItMayBeLeftOut) {
   EXPECT_EQ(Json::parse(ran.out)["takes"], 2);
 }
 
+TEST_F(Train, ATakeMayComeOverStandardInput) {
+  walks();
+  const std::vector<std::string> words = {"train",     "wiener", "-o",     "m.kmodel",
+                                          "--command", "x",      "--force"};
+  const auto bytes = [&](const std::string& take, const std::string& input) {
+    std::vector<std::string> all = words;
+    all.push_back(take);
+    Setting setting;
+    setting.in = input;
+    const Ran ran = run(all, setting);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return contents(folder / "m.kmodel");
+  };
+  EXPECT_EQ(bytes("-", contents(folder / "a.bvh")), bytes("a.bvh", ""));
+}
+
 TEST_F(Train, RefusesWhatMakesNoSense) {
   walks();
   const auto message = [&](std::vector<std::string> words, int code = 2) {
@@ -144,7 +160,8 @@ TEST_F(Train, RefusesWhatMakesNoSense) {
   EXPECT_THAT(message({"exampel", "a.bvh", "-o", "m"}), HasSubstr("did you mean example?"));
   EXPECT_THAT(message({"example", "a.bvh"}), HasSubstr("--output is missing"));
   EXPECT_THAT(message({"example", "-o", "m"}), HasSubstr("TAKE or --list is missing"));
-  EXPECT_THAT(message({"example", "-", "-o", "m"}), HasSubstr("more than once"));
+  EXPECT_THAT(message({"example", "-", "-", "-o", "m"}), HasSubstr("only once"));
+  EXPECT_THAT(message({"example", "-", "--list", "-", "-o", "m"}), HasSubstr("only once"));
   EXPECT_THAT(message({"example", "a.bvh", "-o", "m", "--ridge", "0.1"}),
               HasSubstr("--ridge is an option of kalman-learned, not of example"));
   EXPECT_THAT(message({"example", "a.bvh", "-o", "m", "--window-s", "0"}),

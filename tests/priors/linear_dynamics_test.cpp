@@ -7,7 +7,6 @@
 #include "kinemend/error.hpp"
 #include "kinemend/train.hpp"
 #include "priors/dynamics_support.hpp"
-#include "priors/train_list.hpp"
 
 namespace kinemend::test {
 namespace {

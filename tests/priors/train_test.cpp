@@ -35,9 +35,9 @@ TrainingTakes walks(std::size_t count) {
           }};
 }
 
-TEST(TrainMethods, AreCleaningMethodsWithOptionsOfTheirOwn) {
+TEST(LearnedMethods, AreCleaningMethodsWithOptionsOfTheirOwn) {
   std::vector<std::string> names;
-  for (const TrainMethod& method : train_methods()) {
+  for (const LearnedMethod& method : learned_methods()) {
     names.push_back(method.name);
     EXPECT_FALSE(method.summary.empty()) << method.name;
     for (const OptionSpec& option : method.options) EXPECT_FALSE(option.help.empty());
@@ -45,11 +45,11 @@ TEST(TrainMethods, AreCleaningMethodsWithOptionsOfTheirOwn) {
   EXPECT_THAT(names, ::testing::ElementsAre("example", "wiener", "kalman-learned"));
 }
 
-TEST(TrainMethods, AnswersAnUnknownNameWithTheOneMeant) {
-  EXPECT_EQ(usage_error_of([] { find_train_method("exampel"); }),
+TEST(LearnedMethods, AnswersAnUnknownNameWithTheOneMeant) {
+  EXPECT_EQ(usage_error_of([] { find_learned_method("exampel"); }),
             "no model is trained for \"exampel\"; did you mean example? (there are example, "
             "wiener, kalman-learned)");
-  EXPECT_EQ(find_train_method("wiener").name, "wiener");
+  EXPECT_EQ(find_learned_method("wiener").name, "wiener");
 }
 
 TEST(TrainModel, RefusesWhatMakesNoSenseBeforeATakeIsRead) {
@@ -57,7 +57,7 @@ TEST(TrainModel, RefusesWhatMakesNoSenseBeforeATakeIsRead) {
                                ADD_FAILURE() << "a take was read";
                                return Clip();
                              }};
-  for (const TrainMethod& method : train_methods()) {
+  for (const LearnedMethod& method : learned_methods()) {
     const auto message = [&](const OptionValues& values) {
       return usage_error_of([&] { train_model(method.name, unread, values); });
     };
@@ -88,7 +88,7 @@ TEST(TrainModel, FillsInWhatDoesNotDependOnTheMethod) {
 }
 
 TEST(TrainModel, GivesTheSameBytesForTheSameTakes) {
-  for (const TrainMethod& method : train_methods()) {
+  for (const LearnedMethod& method : learned_methods()) {
     const auto bytes = [&] { return write_model(train_model(method.name, walks(2))); };
     const std::string first = bytes();
     EXPECT_EQ(bytes(), first) << method.name;

@@ -1,0 +1,95 @@
+#include "base/spool.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cassert>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include "kinemend/error.hpp"
+
+namespace kinemend {
+
+namespace {
+
+std::string words_of(int number) {
+  return std::error_code(number, std::generic_category()).message();
+}
+
+[[noreturn]] void fail(ErrorKind kind, const std::string& folder, const char* what, int number) {
+  throw Error(kind, fmt::format("{}: temporary file: {}: {}", folder, what, words_of(number)));
+}
+
+std::string temporary_folder() {
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+  if (!error) return folder.string();
+  const char* named = std::getenv("TMPDIR");
+  fail(ErrorKind::cannot_write, named != nullptr ? named : "/tmp", "cannot be made", error.value());
+}
+
+// Its name goes at once; the file stays as long as it is open.
+int nameless_file(const std::string& folder) {
+  std::string name = folder + "/kinemend-XXXXXX";
+  const int descriptor = ::mkostemp(name.data(), O_CLOEXEC);
+  if (descriptor < 0) fail(ErrorKind::cannot_write, folder, "cannot be made", errno);
+  ::unlink(name.c_str());
+  return descriptor;
+}
+
+}  // namespace
+
+std::size_t Spool::append(std::span<const std::byte> bytes) {
+  Record record;
+  record.size = bytes.size();
+  if (!file_ && bytes.size() <= room_) {
+    record.memory.assign(bytes.begin(), bytes.end());
+    room_ -= bytes.size();
+  } else {
+    record.place = file_end_;
+    write_to_file(bytes);
+  }
+  records_.push_back(std::move(record));
+  return records_.size() - 1;
+}
+
+void Spool::write_to_file(std::span<const std::byte> bytes) {
+  if (!file_) file_ = std::make_unique<Descriptor>(nameless_file(temporary_folder()));
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t count = ::pwrite(file_->get(), bytes.data() + done, bytes.size() - done,
+                                   static_cast<off_t>(file_end_ + done));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0)
+      fail(ErrorKind::cannot_write, temporary_folder(), "cannot be written",
+           count < 0 ? errno : EIO);
+    done += static_cast<std::size_t>(count);
+  }
+  file_end_ += bytes.size();
+}
+
+void Spool::read(std::size_t record, std::size_t from, std::span<std::byte> bytes) const {
+  const Record& entry = records_[record];
+  assert(from + bytes.size() <= entry.size);
+  if (bytes.empty()) return;
+  if (!entry.memory.empty()) {
+    std::memcpy(bytes.data(), entry.memory.data() + from, bytes.size());
+    return;
+  }
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t count = ::pread(file_->get(), bytes.data() + done, bytes.size() - done,
+                                  static_cast<off_t>(entry.place + from + done));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0)
+      fail(ErrorKind::unreadable_input, temporary_folder(), "cannot be read",
+           count < 0 ? errno : EIO);
+    done += static_cast<std::size_t>(count);
+  }
+}
+
+}  // namespace kinemend

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/descriptor.hpp"
+
+namespace kinemend {
+
+/// Records of bytes that are written once and read in any order as often as one likes. They lie in
+/// memory as long as there is room, then in a file of the temporary folder. It has no name, so that
+/// nothing is left of it however the program ends. Reading is safe from several threads.
+class Spool {
+ public:
+  /// `most_memory`: bytes of records that may lie in memory.
+  explicit Spool(std::size_t most_memory) : room_(most_memory) {}
+
+  /// Returns the number of the record: 0, 1, ... Errors: `ErrorKind::cannot_write`, naming the
+  /// folder.
+  std::size_t append(std::span<const std::byte> bytes);
+  /// As many bytes as `bytes` has, from byte `from` of the record on, which has them. Errors:
+  /// `ErrorKind::unreadable_input`.
+  void read(std::size_t record, std::size_t from, std::span<std::byte> bytes) const;
+
+  std::size_t count() const noexcept { return records_.size(); }
+  /// Bytes of a record.
+  std::size_t size(std::size_t record) const { return records_[record].size; }
+  /// Bytes that lie in the file.
+  std::uint64_t bytes_in_file() const noexcept { return file_end_; }
+
+ private:
+  struct Record {
+    std::vector<std::byte> memory;  // empty: in the file
+    std::uint64_t place = 0;        // in the file
+    std::size_t size = 0;
+  };
+
+  void write_to_file(std::span<const std::byte> bytes);
+
+  std::vector<Record> records_;
+  std::size_t room_;  // left in memory
+  std::unique_ptr<Descriptor> file_;
+  std::uint64_t file_end_ = 0;
+};
+
+/// The same of values that are plain bytes.
+template <class Value>
+std::size_t append_values(Spool& spool, std::span<const Value> values) {
+  return spool.append(std::as_bytes(values));
+}
+/// Values [first, first + count) of a record of such values.
+template <class Value>
+std::vector<Value> read_values(const Spool& spool, std::size_t record, std::size_t first,
+                               std::size_t count) {
+  std::vector<Value> values(count);
+  spool.read(record, first * sizeof(Value), std::as_writable_bytes(std::span(values)));
+  return values;
+}
+template <class Value>
+std::vector<Value> read_values(const Spool& spool, std::size_t record) {
+  return read_values<Value>(spool, record, 0, spool.size(record) / sizeof(Value));
+}
+
+}  // namespace kinemend

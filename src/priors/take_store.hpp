@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <variant>
+#include <vector>
+
+#include "base/spool.hpp"
+#include "kinemend/clip.hpp"
+#include "kinemend/marker_clip.hpp"
+
+namespace kinemend {
+
+/// Takes put aside to be taken up again: their frames in a spool, all else in memory (some
+/// kilobytes a take).
+class TakeStore {
+ public:
+  /// `most_memory`: bytes of frames that may lie in memory.
+  explicit TakeStore(std::size_t most_memory) : frames_(most_memory) {}
+
+  /// What is kept of the file that the take came from is dropped. Errors: as of `Spool`.
+  void add(std::variant<Clip, MarkerClip> take);
+  std::size_t count() const noexcept { return takes_.size(); }
+  /// To the bit what was added. Errors: as of `Spool`.
+  std::variant<Clip, MarkerClip> take(std::size_t index) const;
+
+ private:
+  struct Entry {
+    std::variant<Clip, MarkerClip> head;  // without frames
+    std::size_t first_record = 0;
+  };
+
+  std::vector<Entry> takes_;
+  Spool frames_;
+};
+
+}  // namespace kinemend
