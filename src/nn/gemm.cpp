@@ -18,16 +18,19 @@ constexpr std::size_t least_parallel_products = std::size_t{1} << 21;
 constexpr std::size_t rows_per_task = 32;
 // Of a symmetric product so many columns at once are made from the diagonal down: two panels of the
 // widest vectors.
-constexpr std::size_t symmetric_columns = 48;
+template <class Real>
+constexpr std::size_t symmetric_columns = 48 * sizeof(double) / sizeof(Real);
 
+template <class Real>
 std::size_t packed_columns(std::size_t columns) {
-  const std::size_t panel = gemm_panel_columns();
+  const std::size_t panel = gemm_panel_columns<Real>();
   return (columns + panel - 1) / panel * panel;
 }
 
 // What rows [first, first + depth) of b, packed, bring to c.
-void multiply_packed(const MatrixView& a, std::size_t first, std::size_t depth,
-                     const double* packed, const MutableMatrixView& c, Product product) {
+template <class Real>
+void multiply_packed(const BasicMatrixView<Real>& a, std::size_t first, std::size_t depth,
+                     const Real* packed, const BasicMutableMatrixView<Real>& c, Product product) {
   const auto rows = [&](std::size_t begin, std::size_t end) {
     multiply_rows(a, first, depth, packed, c, begin, end, product);
   };
@@ -43,12 +46,13 @@ void multiply_packed(const MatrixView& a, std::size_t first, std::size_t depth,
 }
 
 // `panels(first, depth)`: rows of b, packed.
-template <typename Panels>
-void multiply_in_depth(const MatrixView& a, std::size_t depth, const MutableMatrixView& c,
-                       Product product, const Panels& panels) {
+template <class Real, class Panels>
+void multiply_in_depth(const BasicMatrixView<Real>& a, std::size_t depth,
+                       const BasicMutableMatrixView<Real>& c, Product product,
+                       const Panels& panels) {
   if (depth == 0 && product == Product::overwrite) {
     for (std::size_t r = 0; r < c.rows; ++r) {
-      std::fill_n(c.values + r * c.row_stride, c.columns, 0.0);
+      std::fill_n(c.values + r * c.row_stride, c.columns, Real{0});
     }
   }
   for (std::size_t first = 0; first < depth; first += gemm_depth) {
@@ -57,27 +61,27 @@ void multiply_in_depth(const MatrixView& a, std::size_t depth, const MutableMatr
   }
 }
 
-}  // namespace
-
-void multiply(const MatrixView& a, const MatrixView& b, const MutableMatrixView& c,
-              Product product) {
+template <class Real>
+void product_of(const BasicMatrixView<Real>& a, const BasicMatrixView<Real>& b,
+                const BasicMutableMatrixView<Real>& c, Product product) {
   assert(a.rows == c.rows && a.columns == b.rows && b.columns == c.columns);
   if (c.rows == 0 || c.columns == 0) return;
-  std::vector<double> packed(std::min(gemm_depth, b.rows) * packed_columns(b.columns));
+  std::vector<Real> packed(std::min(gemm_depth, b.rows) * packed_columns<Real>(b.columns));
   multiply_in_depth(a, b.rows, c, product, [&](std::size_t first, std::size_t depth) {
     pack_panels(b, first, depth, packed.data());
     return packed.data();
   });
 }
 
-void multiply_symmetric(const MatrixView& a, const MatrixView& b, const MutableMatrixView& c,
-                        Product product) {
+template <class Real>
+void symmetric_product_of(const BasicMatrixView<Real>& a, const BasicMatrixView<Real>& b,
+                          const BasicMutableMatrixView<Real>& c, Product product) {
   assert(c.rows == c.columns);
   const std::size_t n = c.rows;
-  for (std::size_t first = 0; first < n; first += symmetric_columns) {
-    const std::size_t width = std::min(symmetric_columns, n - first);
-    multiply(a.block(first, 0, n - first, a.columns), b.block(0, first, b.rows, width),
-             c.block(first, first, n - first, width), product);
+  for (std::size_t first = 0; first < n; first += symmetric_columns<Real>) {
+    const std::size_t width = std::min(symmetric_columns<Real>, n - first);
+    product_of(a.block(first, 0, n - first, a.columns), b.block(0, first, b.rows, width),
+               c.block(first, first, n - first, width), product);
   }
   for (std::size_t row = 0; row < n; ++row) {
     for (std::size_t column = 0; column < row; ++column)
@@ -85,29 +89,68 @@ void multiply_symmetric(const MatrixView& a, const MatrixView& b, const MutableM
   }
 }
 
-PackedMatrix::PackedMatrix(const MatrixView& b)
-    : rows_(b.rows), columns_(b.columns), panels_(b.rows * packed_columns(b.columns)) {
+}  // namespace
+
+template <class Real>
+BasicPackedMatrix<Real>::BasicPackedMatrix(const BasicMatrixView<Real>& b)
+    : rows_(b.rows), columns_(b.columns), panels_(b.rows * packed_columns<Real>(b.columns)) {
   for (std::size_t first = 0; first < rows_; first += gemm_depth) {
     pack_panels(b, first, std::min(gemm_depth, rows_ - first),
-                &panels_[first * packed_columns(columns_)]);
+                &panels_[first * packed_columns<Real>(columns_)]);
   }
 }
 
-PackedMatrix::PackedMatrix(std::size_t rows, std::size_t columns, std::span<const float> values)
+template <class Real>
+BasicPackedMatrix<Real>::BasicPackedMatrix(std::size_t rows, std::size_t columns,
+                                           std::span<const float> values)
     : rows_(rows), columns_(columns), panels_(values.begin(), values.end()) {
-  assert(panels_.size() == rows * packed_columns(columns));
+  assert(panels_.size() == rows * packed_columns<Real>(columns));
 }
 
-const double* PackedMatrix::panels(std::size_t first) const noexcept {
-  return panels_.data() + first * packed_columns(columns_);
+template <class Real>
+const Real* BasicPackedMatrix<Real>::panels(std::size_t first) const noexcept {
+  return panels_.data() + first * packed_columns<Real>(columns_);
 }
 
-void multiply(const MatrixView& a, const PackedMatrix& b, const MutableMatrixView& c,
-              Product product) {
+template class BasicPackedMatrix<double>;
+template class BasicPackedMatrix<float>;
+
+namespace {
+
+template <class Real>
+void product_of(const BasicMatrixView<Real>& a, const BasicPackedMatrix<Real>& b,
+                const BasicMutableMatrixView<Real>& c, Product product) {
   assert(a.rows == c.rows && a.columns == b.rows() && b.columns() == c.columns);
   if (c.rows == 0 || c.columns == 0) return;
   multiply_in_depth(a, b.rows(), c, product,
                     [&](std::size_t first, std::size_t) { return b.panels(first); });
+}
+
+}  // namespace
+
+void multiply(const MatrixView& a, const MatrixView& b, const MutableMatrixView& c,
+              Product product) {
+  product_of(a, b, c, product);
+}
+void multiply(const MatrixViewF& a, const MatrixViewF& b, const MutableMatrixViewF& c,
+              Product product) {
+  product_of(a, b, c, product);
+}
+void multiply_symmetric(const MatrixView& a, const MatrixView& b, const MutableMatrixView& c,
+                        Product product) {
+  symmetric_product_of(a, b, c, product);
+}
+void multiply_symmetric(const MatrixViewF& a, const MatrixViewF& b, const MutableMatrixViewF& c,
+                        Product product) {
+  symmetric_product_of(a, b, c, product);
+}
+void multiply(const MatrixView& a, const PackedMatrix& b, const MutableMatrixView& c,
+              Product product) {
+  product_of(a, b, c, product);
+}
+void multiply(const MatrixViewF& a, const PackedMatrixF& b, const MutableMatrixViewF& c,
+              Product product) {
+  product_of(a, b, c, product);
 }
 
 }  // namespace kinemend::nn

@@ -11,15 +11,24 @@ namespace kinemend::nn {
 inline constexpr std::size_t gemm_depth = 192;
 
 /// Columns of a full panel on this processor; the last panel of a matrix is as wide as it needs.
+template <class Real>
 std::size_t gemm_panel_columns();
+template <>
+std::size_t gemm_panel_columns<double>();
+template <>
+std::size_t gemm_panel_columns<float>();
 
 /// Copies rows [first, first + depth) of b panel by panel: of each panel its rows one after
 /// another, `gemm_panel_columns()` values each, zeros where b has no more columns.
 void pack_panels(const MatrixView& b, std::size_t first, std::size_t depth, double* packed);
+void pack_panels(const MatrixViewF& b, std::size_t first, std::size_t depth, float* packed);
 
 /// c[r] = or += a[r, first .. first + depth) * packed for rows [first_row, last_row) of c.
 void multiply_rows(const MatrixView& a, std::size_t first, std::size_t depth, const double* packed,
                    const MutableMatrixView& c, std::size_t first_row, std::size_t last_row,
+                   Product product);
+void multiply_rows(const MatrixViewF& a, std::size_t first, std::size_t depth, const float* packed,
+                   const MutableMatrixViewF& c, std::size_t first_row, std::size_t last_row,
                    Product product);
 
 }  // namespace kinemend::nn
