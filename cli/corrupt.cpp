@@ -137,18 +137,16 @@ int run(const Arguments& arguments) {
   check_free(output, force);
   TakeResult read = read_take(std::filesystem::path(input), read_options(arguments));
   warn_of_repairs(source_of(read.take), read.diagnostics);
-  Clip* const clip = std::get_if<Clip>(&read.take);
-  if (clip == nullptr) {
-    throw Error(ErrorKind::usage,
-                fmt::format("{}: holds markers; joints are wanted here", input_name(input)));
-  }
   Random random(static_cast<std::uint64_t>(arguments.whole("seed")));
   std::vector<DamageReport> reports;
   reports.reserve(requests.size());
-  for (const DamageRequest& request : requests)
-    reports.push_back(apply_damage(*clip, request.name, request.values, random));
-  const std::string format = format_for(output, clip->source);
-  check_holds_joints(input_name(input), format);
+  for (const DamageRequest& request : requests) {
+    reports.push_back(std::visit(
+        [&](auto& clip) { return apply_damage(clip, request.name, request.values, random); },
+        read.take));
+  }
+  const std::string format = format_for(output, source_of(read.take));
+  if (std::holds_alternative<Clip>(read.take)) check_holds_joints(input_name(input), format);
   for (const std::string& line :
        loss_lines(input_name(input), read.take, format, arguments.flag("strict")))
     say_warning(line);

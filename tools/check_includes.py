@@ -21,7 +21,7 @@ USES = {
     "tracks": {"rotation", "signal"},
     "fill": {"motion", "signal"},
     "nn": {"base"},
-    "priors": {"representation", "tracks", "nn"},
+    "priors": {"representation", "tracks", "nn", "corrupt"},
     "feet": {"motion", "metrics"},
     "clean": {"representation", "tracks", "priors", "metrics", "fill", "feet"},
     "check": {"clean"},

@@ -1,13 +1,16 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "kinemend/clip.hpp"
+#include "kinemend/marker_clip.hpp"
 #include "kinemend/options.hpp"
+#include "kinemend/pose_matrix.hpp"
 #include "kinemend/random.hpp"
 
 namespace kinemend {
@@ -15,12 +18,28 @@ namespace kinemend {
 /// What a damage did, as realised by this seed.
 struct DamageReport {
   std::string kind;
-  std::size_t samples = 0;  ///< joint samples in the clip
+  std::size_t samples = 0;  ///< of joints or markers; of these the ones that are seen
   std::size_t samples_damaged = 0;
-  double rms_deg = 0;  ///< geodesic, over all joint samples
+  double rms_deg = 0;  ///< geodesic, over all samples; of positions as an arc
   double max_deg = 0;
-  double rms_position = 0;         ///< of joint positions, file units
+  double rms_position = 0;         ///< of joints or markers, file units
   std::vector<std::string> notes;  ///< anything realised otherwise than asked
+};
+
+/// Motion of N tracks of three numbers, which is what markers and the sequences that models are
+/// trained on have in common.
+struct VectorMotion {
+  PoseMatrix values;                   ///< F x 3 N
+  std::vector<std::uint8_t> observed;  ///< F x N, 1 where seen; anything else stays as it is
+  double frame_rate_hz = 0;
+  std::vector<std::string> names;         ///< N
+  std::vector<std::uint8_t> is_rotation;  ///< N, 1: a rotation vector, 0: a position
+  std::vector<std::uint8_t> is_root;      ///< N
+  /// What a radian is worth: of rotations the unit of the vectors, of positions an arc that long.
+  double per_radian = 1;
+  double per_cm = 0;  ///< what a centimetre is worth; 0: not known
+
+  std::size_t track_count() const noexcept { return names.size(); }
 };
 
 /// An entry of the table of damages.
@@ -31,13 +50,23 @@ struct Damage {
   std::vector<OptionSpec> options;
   /// Applies to all frames of the clip, in place.
   DamageReport (*apply)(Clip& clip, Random& random, const OptionValues& values);
+  /// The same where there is no skeleton; nullptr of a damage that needs one. Limbs are single
+  /// tracks. Positions are noisy or scaled as they are, about the mean of their frame.
+  DamageReport (*apply_to_vectors)(VectorMotion& motion, Random& random,
+                                   const OptionValues& values);
 };
 
 std::span<const Damage> damages();
 /// Applies the damage called `name`, leaving calibration frames at the start alone. Damages compose
 /// by calling this again. Errors: `ErrorKind::usage` for an unknown name or option or a value out
-/// of range.
+/// of range, and for a damage that needs a skeleton where there is none.
 DamageReport apply_damage(Clip& clip, std::string_view name, const OptionValues& values,
+                          Random& random);
+/// Angles are arcs of a quarter of the stature (`body_height`). Markers that are not seen, and
+/// points that are no positions, stay as they are.
+DamageReport apply_damage(MarkerClip& clip, std::string_view name, const OptionValues& values,
+                          Random& random);
+DamageReport apply_damage(VectorMotion& motion, std::string_view name, const OptionValues& values,
                           Random& random);
 
 }  // namespace kinemend

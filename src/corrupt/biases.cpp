@@ -39,13 +39,13 @@ struct Bias {
     }();
     return options;
   }
-  static void damage(Clip& clip, const Random& random, const Options& options, Notes&) {
+  template <class Motion>
+  static void damage(Motion& motion, const Random& random, const Options& options, Notes&) {
     if (options.bias_deg == 0) return;
-    for (const std::size_t j : target_joints(clip.skeleton, options)) {
+    for (const std::size_t j : target_tracks(motion, options)) {
       Random own = random.fork(j);
-      const Quat turn = exp(options.bias_deg * radians_per_degree * axis_of(options.axis, own));
-      for (std::size_t f = 0; f < clip.frame_count(); ++f)
-        set_rotation(clip, f, j, clip.rotation(f, j) * turn);
+      const Vec3 n = options.bias_deg * radians_per_degree * axis_of(options.axis, own);
+      for (std::size_t f = 0; f < frame_count(motion); ++f) turn(motion, f, j, n);
     }
   }
 };
@@ -72,17 +72,18 @@ struct Sinusoid {
     }();
     return options;
   }
-  static void damage(Clip& clip, const Random& random, const Options& options, Notes&) {
+  template <class Motion>
+  static void damage(Motion& motion, const Random& random, const Options& options, Notes&) {
     if (options.amplitude_deg == 0) return;
-    for (const std::size_t j : target_joints(clip.skeleton, options)) {
+    for (const std::size_t j : target_tracks(motion, options)) {
       Random own = random.fork(j);
       const Vec3 axis = axis_of(options.axis, own);
       const double phase = own.uniform(0, 2 * pi);
-      for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-        const double turns = options.frequency_hz * static_cast<double>(f) / clip.frame_rate_hz;
+      for (std::size_t f = 0; f < frame_count(motion); ++f) {
+        const double turns = options.frequency_hz * static_cast<double>(f) / motion.frame_rate_hz;
         const double angle =
             options.amplitude_deg * radians_per_degree * std::sin(2 * pi * turns + phase);
-        set_rotation(clip, f, j, clip.rotation(f, j) * exp(angle * axis));
+        turn(motion, f, j, angle * axis);
       }
     }
   }

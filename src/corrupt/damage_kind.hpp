@@ -14,19 +14,32 @@ using Notes = std::vector<std::string>;
 /// Runs `damage` on the clip and reports what it changed.
 DamageReport measured(std::string kind, Clip& clip, const std::function<void(Notes&)>& damage);
 
+DamageReport measured(std::string kind, VectorMotion& motion,
+                      const std::function<void(Notes&)>& damage);
+
 /// A kind of damage is a struct with `name`, `summary`, `paper`, `Options`, `table()` and
 /// `damage(clip, random, options, notes)`. The generator it is given is its own: the same for every
-/// joint, to be forked.
-template <class Kind>
-DamageReport apply_kind(Clip& clip, Random& random, const OptionValues& values) {
+/// joint, to be forked. `damage` also takes a `VectorMotion`, unless it needs a skeleton: then it
+/// takes a `Clip` only.
+template <class Kind, class Motion>
+DamageReport apply_kind(Motion& motion, Random& random, const OptionValues& values) {
   const auto options = Kind::table().parse(values);
   const Random own(random.next());
-  return measured(Kind::name, clip, [&](Notes& notes) { Kind::damage(clip, own, options, notes); });
+  return measured(Kind::name, motion,
+                  [&](Notes& notes) { Kind::damage(motion, own, options, notes); });
 }
 
 template <class Kind>
 Damage entry() {
-  return {Kind::name, Kind::summary, Kind::paper, Kind::table().specs(), &apply_kind<Kind>};
+  Damage damage{
+      Kind::name, Kind::summary, Kind::paper, Kind::table().specs(), &apply_kind<Kind, Clip>,
+      nullptr};
+  if constexpr (requires(VectorMotion & motion, const Random& random,
+                         const typename Kind::Options& options,
+                         Notes& notes) { Kind::damage(motion, random, options, notes); }) {
+    damage.apply_to_vectors = &apply_kind<Kind, VectorMotion>;
+  }
+  return damage;
 }
 
 /// The parts of the table, one a source file.

@@ -76,6 +76,39 @@ void lose_channel(Clip& clip, std::size_t joint, std::size_t channel,
   }
 }
 
+// What was last seen before a span; zero where nothing was.
+Vec3 last_seen(const VectorMotion& motion, std::size_t track, std::size_t first) {
+  for (std::size_t f = first; f-- > 0;) {
+    if (is_observed(motion, f, track)) return vector_at(motion, f, track);
+  }
+  return {};
+}
+
+// `channel`: -1 for all three.
+void lose_vector(VectorMotion& motion, std::size_t track, int channel,
+                 const std::vector<Span>& spans, Filling filling) {
+  for (const Span span : spans) {
+    const Vec3 held = filling.rest ? Vec3{} : last_seen(motion, track, span.first);
+    for (std::size_t f = span.first; f < span.last; ++f) {
+      if (!is_observed(motion, f, track)) continue;
+      Vec3 value = vector_at(motion, f, track);
+      if (channel < 0 || channel == 0) value.x = held.x;
+      if (channel < 0 || channel == 1) value.y = held.y;
+      if (channel < 0 || channel == 2) value.z = held.z;
+      set_vector(motion, f, track, value);
+    }
+  }
+  if (!filling.mark) return;
+  for (const Span span : spans) {
+    for (std::size_t f = span.first; f < span.last; ++f)
+      motion.observed[f * motion.track_count() + track] = 0;
+  }
+}
+
+void lose(VectorMotion& motion, const Unit& unit, const std::vector<Span>& spans, Filling filling) {
+  for (const std::size_t n : unit.joints) lose_vector(motion, n, unit.channel, spans, filling);
+}
+
 void lose(Clip& clip, const Unit& unit, const std::vector<Span>& spans, Filling filling) {
   for (const std::size_t j : unit.joints) {
     if (unit.channel < 0) {
@@ -128,8 +161,9 @@ struct Frozen {
     }();
     return options;
   }
-  static void damage(Clip& clip, const Random& random, const Options& options, Notes& notes) {
-    const double mean_frames = std::max(1.0, options.mean_length_s * clip.frame_rate_hz);
+  template <class Motion>
+  static void damage(Motion& motion, const Random& random, const Options& options, Notes& notes) {
+    const double mean_frames = std::max(1.0, options.mean_length_s * motion.frame_rate_hz);
     // A span and the frame it repeats last mean_frames + 1; the wait for the next start is 1/p - 1
     // more.
     double start = options.share / std::max(mean_frames * (1 - options.share), 1e-9);
@@ -138,9 +172,9 @@ struct Frozen {
       notes.push_back(fmt::format("spans of {:.3g} frames freeze {:.3g} of the frames at most",
                                   mean_frames, mean_frames / (mean_frames + 1)));
     }
-    for (const Unit& unit : units(clip.skeleton, options, options.scope)) {
-      lose(clip, unit,
-           random_spans(unit_random(random, unit), 1, clip.frame_count(), start, mean_frames),
+    for (const Unit& unit : units(motion, options, options.scope)) {
+      lose(motion, unit,
+           random_spans(unit_random(random, unit), 1, frame_count(motion), start, mean_frames),
            {false, false});
     }
   }
@@ -168,12 +202,13 @@ struct Gaps {
     }();
     return options;
   }
-  static void damage(Clip& clip, const Random& random, const Options& options, Notes&) {
-    const double mean_frames = std::max(1.0, options.mean_length_s * clip.frame_rate_hz);
-    for (const Unit& unit : units(clip.skeleton, options, options.scope)) {
-      lose(clip, unit,
-           random_spans(unit_random(random, unit), 0, clip.frame_count(), options.start_probability,
-                        mean_frames),
+  template <class Motion>
+  static void damage(Motion& motion, const Random& random, const Options& options, Notes&) {
+    const double mean_frames = std::max(1.0, options.mean_length_s * motion.frame_rate_hz);
+    for (const Unit& unit : units(motion, options, options.scope)) {
+      lose(motion, unit,
+           random_spans(unit_random(random, unit), 0, frame_count(motion),
+                        options.start_probability, mean_frames),
            {options.hold == "rest", true});
     }
   }
@@ -198,14 +233,15 @@ struct LongGap {
     }();
     return options;
   }
-  static void damage(Clip& clip, const Random& random, const Options& options, Notes& notes) {
-    const auto places = units(clip.skeleton, options, options.scope);
-    const std::size_t frames = clip.frame_count();
+  template <class Motion>
+  static void damage(Motion& motion, const Random& random, const Options& options, Notes& notes) {
+    const auto places = units(motion, options, options.scope);
+    const std::size_t frames = frame_count(motion);
     if (frames < 3 || places.empty()) {
       notes.emplace_back("no room for a gap with a seen frame on either side");
       return;
     }
-    const double wanted = std::max(1.0, std::round(options.length_s * clip.frame_rate_hz));
+    const double wanted = std::max(1.0, std::round(options.length_s * motion.frame_rate_hz));
     const auto length = static_cast<std::size_t>(std::min(wanted, static_cast<double>(frames - 2)));
     if (static_cast<double>(length) < wanted) {
       notes.push_back(
@@ -215,7 +251,7 @@ struct LongGap {
       Random own = random.fork(static_cast<std::uint64_t>(gap));
       const Unit& unit = places[own.below(places.size())];
       const std::size_t first = 1 + own.below(frames - 1 - length);
-      lose(clip, unit, {{first, first + length}}, {options.hold == "rest", true});
+      lose(motion, unit, {{first, first + length}}, {options.hold == "rest", true});
     }
   }
 };

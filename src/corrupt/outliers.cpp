@@ -7,14 +7,14 @@ namespace kinemend::corrupt {
 
 namespace {
 
-// q <- q Exp(n) for a share of the samples of every joint.
-template <class Jump>
-void hit_share(Clip& clip, const Random& random, const TargetOptions& options, double share,
-               Jump jump) {
-  for (const std::size_t j : target_joints(clip.skeleton, options)) {
+// `hit(f, j, own)` for a share of the samples of every track.
+template <class Motion, class Hit>
+void hit_share(const Motion& motion, const Random& random, const TargetOptions& options,
+               double share, const Hit& hit) {
+  for (const std::size_t j : target_tracks(motion, options)) {
     Random own = random.fork(j);
-    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-      if (own.chance(share)) set_rotation(clip, f, j, jump(clip.rotation(f, j), own));
+    for (std::size_t f = 0; f < frame_count(motion); ++f) {
+      if (own.chance(share)) hit(f, j, own);
     }
   }
 }
@@ -42,10 +42,13 @@ struct Outliers {
     }();
     return options;
   }
-  static void damage(Clip& clip, const Random& random, const Options& options, Notes&) {
+  template <class Motion>
+  static void damage(Motion& motion, const Random& random, const Options& options, Notes&) {
     const double deviation = options.std_deg * radians_per_degree;
-    hit_share(clip, random, options, options.share,
-              [&](Quat q, Random& own) { return q * exp(deviation * normal_vector(own)); });
+    hit_share(motion, random, options, options.share,
+              [&](std::size_t f, std::size_t j, Random& own) {
+                turn(motion, f, j, deviation * normal_vector(own));
+              });
   }
 };
 
@@ -66,12 +69,14 @@ struct Impulse {
     }();
     return options;
   }
-  static void damage(Clip& clip, const Random& random, const Options& options, Notes&) {
+  template <class Motion>
+  static void damage(Motion& motion, const Random& random, const Options& options, Notes&) {
     const double size = options.size_deg * radians_per_degree;
-    hit_share(clip, random, options, options.share, [&](Quat q, Random& own) {
-      const Vec3 n = normal_vector(own);
-      return q * exp(size / norm(n) * n);
-    });
+    hit_share(motion, random, options, options.share,
+              [&](std::size_t f, std::size_t j, Random& own) {
+                const Vec3 n = normal_vector(own);
+                turn(motion, f, j, size / norm(n) * n);
+              });
   }
 };
 
@@ -99,8 +104,9 @@ struct OutlierScale {
   }
   static void damage(Clip& clip, const Random& random, const Options& options, Notes&) {
     if (options.value == "rotation") {
-      hit_share(clip, random, options, options.share,
-                [&](Quat q, Random&) { return exp(options.factor * log(q)); });
+      hit_share(clip, random, options, options.share, [&](std::size_t f, std::size_t j, Random&) {
+        set_rotation(clip, f, j, exp(options.factor * log(clip.rotation(f, j))));
+      });
       return;
     }
     std::vector<Vec3> targets = joint_positions(clip);
@@ -116,6 +122,25 @@ struct OutlierScale {
       }
     }
     refit_to(clip, targets, options);
+  }
+  // Coordinates about the mean of the frame's positions; whole rotation vectors.
+  static void damage(VectorMotion& motion, const Random& random, const Options& options, Notes&) {
+    std::vector<Vec3> means(frame_count(motion));
+    for (std::size_t f = 0; f < means.size(); ++f) means[f] = mean_position(motion, f);
+    for (const std::size_t n : target_tracks(motion, options)) {
+      Random own = random.fork(n);
+      const bool turns = motion.is_rotation[n] != 0;
+      for (std::size_t f = 0; f < means.size(); ++f) {
+        const Vec3 centre = turns ? Vec3{} : means[f];
+        Vec3 p = vector_at(motion, f, n) - centre;
+        const bool all = own.chance(options.share);
+        for (double* coordinate : {&p.x, &p.y, &p.z}) {
+          const bool hit = own.chance(options.share);
+          if (turns ? all : hit) *coordinate *= options.factor;
+        }
+        if (is_observed(motion, f, n)) set_vector(motion, f, n, centre + p);
+      }
+    }
   }
 };
 

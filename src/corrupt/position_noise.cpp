@@ -5,6 +5,7 @@
 
 #include "corrupt/damage_kind.hpp"
 #include "corrupt/position_targets.hpp"
+#include "kinemend/error.hpp"
 #include "kinemend/kinematics.hpp"
 
 namespace kinemend::corrupt {
@@ -21,6 +22,18 @@ void add_noise(std::vector<Vec3>& positions, std::size_t joint_count,
     for (std::size_t i = j; i < positions.size(); i += joint_count) {
       const double x = own.normal(), y = own.normal(), z = own.normal();
       positions[i] += deviations[j] * Vec3{x, y, z};
+    }
+  }
+}
+
+void add_noise(VectorMotion& motion, const std::vector<double>& deviations, const Random& random) {
+  for (std::size_t n = 0; n < deviations.size(); ++n) {
+    if (deviations[n] == 0 || motion.is_rotation[n] != 0) continue;
+    Random own = random.fork(n);
+    for (std::size_t f = 0; f < frame_count(motion); ++f) {
+      const double x = own.normal(), y = own.normal(), z = own.normal();
+      if (is_observed(motion, f, n))
+        set_vector(motion, f, n, vector_at(motion, f, n) + deviations[n] * Vec3{x, y, z});
     }
   }
 }
@@ -56,15 +69,32 @@ struct PositionNoise {
     std::vector<double> deviations(clip.joint_count(), 0.0);
     for (const std::size_t j : position_joints(clip.skeleton, options))
       deviations[j] = options.std_cm / scale;
-    if (options.spread == "ends") {
-      const auto ends = wrists_and_ankles(clip.skeleton);
-      if (ends.empty())
-        notes.emplace_back("no wrist or ankle found by name: the noise is the same at all joints");
-      for (const std::size_t j : ends) deviations[j] *= options.ends_factor;
-    }
+    spread(clip.skeleton.names, options, deviations, notes);
     std::vector<Vec3> targets = joint_positions(clip);
     add_noise(targets, clip.joint_count(), deviations, random);
     refit_to(clip, targets, options);
+  }
+  // Of positions only.
+  static void damage(VectorMotion& motion, const Random& random, const Options& options,
+                     Notes& notes) {
+    const double per_cm = options.cm_per_unit > 0 ? 1 / options.cm_per_unit : motion.per_cm;
+    if (!(per_cm > 0))
+      throw Error(ErrorKind::usage, "cm_per_unit: the length of a centimetre is not known here");
+    if (options.cm_per_unit <= 0)
+      notes.push_back(fmt::format("a file unit is taken as {:.4g} cm", 1 / per_cm));
+    std::vector<double> deviations(motion.track_count(), 0.0);
+    for (const std::size_t n : target_tracks(motion, options))
+      deviations[n] = options.std_cm * per_cm;
+    spread(motion.names, options, deviations, notes);
+    add_noise(motion, deviations, random);
+  }
+  static void spread(const std::vector<std::string>& names, const Options& options,
+                     std::vector<double>& deviations, Notes& notes) {
+    if (options.spread != "ends") return;
+    const auto ends = wrists_and_ankles(names);
+    if (ends.empty())
+      notes.emplace_back("no wrist or ankle found by name: the noise is the same at all joints");
+    for (const std::size_t j : ends) deviations[j] *= options.ends_factor;
   }
   static double cm_per_unit(const Skeleton& skeleton, const Options& options, Notes& notes) {
     if (options.cm_per_unit > 0) return options.cm_per_unit;
@@ -144,6 +174,29 @@ struct Snr {
         "{:.2f} dB before the bones have their lengths again, {:.2f} dB after",
         realised_snr_db(power, clean, targets, clip.joint_count(), joints),
         realised_snr_db(power, clean, joint_positions(clip), clip.joint_count(), joints)));
+  }
+  // Of positions only, about the mean of their frame.
+  static void damage(VectorMotion& motion, const Random& random, const Options& options,
+                     Notes& notes) {
+    const auto tracks = target_tracks(motion, options);
+    double sum = 0, count = 0;
+    for (std::size_t f = 0; f < frame_count(motion); ++f) {
+      const Vec3 mean = mean_position(motion, f);
+      for (const std::size_t n : tracks) {
+        if (motion.is_rotation[n] != 0 || !is_observed(motion, f, n)) continue;
+        const Vec3 p = vector_at(motion, f, n) - mean;
+        sum += dot(p, p);
+        count += 3;
+      }
+    }
+    if (sum == 0) {
+      notes.emplace_back("all positions are one: there is no signal to scale the noise by");
+      return;
+    }
+    std::vector<double> deviations(motion.track_count(), 0.0);
+    for (const std::size_t n : tracks)
+      deviations[n] = std::sqrt(sum / count * std::pow(10, -options.snr_db / 10));
+    add_noise(motion, deviations, random);
   }
 };
 

@@ -40,13 +40,13 @@ void refit_to(Clip& clip, std::span<const Vec3> targets, const TargetOptions& op
   refit(clip, targets, may_turn, options.root);
 }
 
-std::vector<std::size_t> wrists_and_ankles(const Skeleton& skeleton) {
+std::vector<std::size_t> wrists_and_ankles(const std::vector<std::string>& names) {
   static constexpr std::array<std::string_view, 4> ends{"hand", "wrist", "foot", "ankle"};
   static constexpr std::array<std::string_view, 8> beyond{"thumb", "index",  "middle", "ring",
                                                           "pinky", "little", "finger", "toe"};
   std::vector<std::size_t> found;
-  for (std::size_t j = 0; j < skeleton.joint_count(); ++j) {
-    const std::string name = lower(skeleton.names[j]);
+  for (std::size_t j = 0; j < names.size(); ++j) {
+    const std::string name = lower(names[j]);
     if (has_part(name, ends) && !has_part(name, beyond)) found.push_back(j);
   }
   return found;

@@ -15,6 +15,6 @@ std::vector<std::size_t> position_joints(const Skeleton& skeleton, const TargetO
 void refit_to(Clip& clip, std::span<const Vec3> targets, const TargetOptions& options);
 
 /// Wrists and ankles, by their names (`hand`, `wrist`, `foot`, `ankle`; not fingers and toes).
-std::vector<std::size_t> wrists_and_ankles(const Skeleton& skeleton);
+std::vector<std::size_t> wrists_and_ankles(const std::vector<std::string>& names);
 
 }  // namespace kinemend::corrupt

@@ -18,13 +18,14 @@ Vec3 normal_vector(Random& random, double deviation) {
 
 // q <- q Exp(n(f)) for every frame of every joint; `noise` draws from the joint's own generator,
 // frame after frame.
-void turn_each(Clip& clip, const Random& random, const TargetOptions& options,
+template <class Motion>
+void turn_each(Motion& motion, const Random& random, const TargetOptions& options,
                const std::function<Vec3(Random&)>& noise) {
-  for (const std::size_t j : target_joints(clip.skeleton, options)) {
+  for (const std::size_t j : target_tracks(motion, options)) {
     Random own = random.fork(j);
-    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    for (std::size_t f = 0; f < frame_count(motion); ++f) {
       const Vec3 n = noise(own);
-      if (!(n == Vec3{})) set_rotation(clip, f, j, clip.rotation(f, j) * exp(n));
+      if (!(n == Vec3{})) turn(motion, f, j, n);
     }
   }
 }
@@ -45,9 +46,10 @@ struct Gaussian {
     }();
     return options;
   }
-  static void damage(Clip& clip, const Random& random, const Options& options, Notes&) {
+  template <class Motion>
+  static void damage(Motion& motion, const Random& random, const Options& options, Notes&) {
     const double deviation = options.std_deg * radians_per_degree;
-    turn_each(clip, random, options, [&](Random& own) { return normal_vector(own, deviation); });
+    turn_each(motion, random, options, [&](Random& own) { return normal_vector(own, deviation); });
   }
 };
 
@@ -67,9 +69,10 @@ struct Uniform {
     }();
     return options;
   }
-  static void damage(Clip& clip, const Random& random, const Options& options, Notes&) {
+  template <class Motion>
+  static void damage(Motion& motion, const Random& random, const Options& options, Notes&) {
     const double half = options.half_width_deg * radians_per_degree;
-    turn_each(clip, random, options, [&](Random& own) {
+    turn_each(motion, random, options, [&](Random& own) {
       const double x = own.uniform(-half, half), y = own.uniform(-half, half),
                    z = own.uniform(-half, half);
       return Vec3{x, y, z};
@@ -115,10 +118,11 @@ struct GaussianLog {
   }
 };
 
-// Standard deviation over frames of each Euler channel; 0 for one that does not move.
+// Standard deviation over frames of each channel; 0 for one that moves by less than `moving`.
 std::array<double, 3> channel_deviations(const std::vector<std::array<double, 3>>& track,
-                                         std::size_t channels) {
+                                         std::size_t channels, double moving = moving_range) {
   std::array<double, 3> deviations{};
+  if (track.empty()) return deviations;
   const auto frames = static_cast<double>(track.size());
   for (std::size_t c = 0; c < channels; ++c) {
     double mean = 0, square = 0, least = track[0][c], most = track[0][c];
@@ -128,7 +132,7 @@ std::array<double, 3> channel_deviations(const std::vector<std::array<double, 3>
       most = std::max(most, angles[c]);
     }
     for (const auto& angles : track) square += (angles[c] - mean) * (angles[c] - mean) / frames;
-    if (most - least > moving_range) deviations[c] = std::sqrt(square);
+    if (most - least > moving) deviations[c] = std::sqrt(square);
   }
   return deviations;
 }
@@ -156,6 +160,28 @@ struct GaussianChannels {
     bool any = false;
     for (const std::size_t j : target_joints(clip.skeleton, options)) {
       any = damage_joint(clip, random.fork(j), j, options.k) || any;
+    }
+    if (!any) notes.emplace_back("no channel moves: nothing to scale the noise by");
+  }
+  // Of rotation vectors and positions the three numbers.
+  static void damage(VectorMotion& motion, const Random& random, const Options& options,
+                     Notes& notes) {
+    bool any = false;
+    for (const std::size_t n : target_tracks(motion, options)) {
+      Random own = random.fork(n);
+      std::vector<std::array<double, 3>> seen;
+      for (std::size_t f = 0; f < frame_count(motion); ++f) {
+        const Vec3 v = vector_at(motion, f, n);
+        if (is_observed(motion, f, n)) seen.push_back({v.x, v.y, v.z});
+      }
+      const auto s = channel_deviations(seen, 3, moving_range * motion.per_radian);
+      any = any || s != std::array<double, 3>{};
+      for (std::size_t f = 0; f < frame_count(motion); ++f) {
+        const double x = own.normal(), y = own.normal(), z = own.normal();
+        if (is_observed(motion, f, n))
+          set_vector(motion, f, n,
+                     vector_at(motion, f, n) + options.k * Vec3{s[0] * x, s[1] * y, s[2] * z});
+      }
     }
     if (!any) notes.emplace_back("no channel moves: nothing to scale the noise by");
   }
@@ -200,16 +226,17 @@ struct Ar1 {
     if (options.time_constant_s <= 0) return 0;
     return std::exp(-1 / (frame_rate_hz * options.time_constant_s));
   }
-  static void damage(Clip& clip, const Random& random, const Options& options, Notes&) {
-    const double rho = correlation_of(options, clip.frame_rate_hz);
+  template <class Motion>
+  static void damage(Motion& motion, const Random& random, const Options& options, Notes&) {
+    const double rho = correlation_of(options, motion.frame_rate_hz);
     const double deviation = options.std_deg * radians_per_degree;
     const double fresh = deviation * std::sqrt(1 - rho * rho);
-    for (const std::size_t j : target_joints(clip.skeleton, options)) {
+    for (const std::size_t j : target_tracks(motion, options)) {
       Random own = random.fork(j);
       Vec3 n = normal_vector(own, deviation);
-      for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+      for (std::size_t f = 0; f < frame_count(motion); ++f) {
         if (f > 0) n = rho * n + normal_vector(own, fresh);
-        if (!(n == Vec3{})) set_rotation(clip, f, j, clip.rotation(f, j) * exp(n));
+        if (!(n == Vec3{})) turn(motion, f, j, n);
       }
     }
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "corrupt/damage_kind.hpp"
+#include "corrupt/targets.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/kinematics.hpp"
 #include "motion/calibration.hpp"
@@ -50,6 +51,45 @@ DamageReport measured(std::string kind, Clip& clip, const std::function<void(Not
   return report;
 }
 
+namespace {
+
+// Radians of a sample's change: of a rotation the angle between, of a position an arc.
+double turn_between(const VectorMotion& motion, std::size_t track, Vec3 old, Vec3 now) {
+  if (motion.is_rotation[track] == 0) return norm(now - old) / motion.per_radian;
+  return angle_between(exp((1 / motion.per_radian) * old), exp((1 / motion.per_radian) * now));
+}
+
+}  // namespace
+
+DamageReport measured(std::string kind, VectorMotion& motion,
+                      const std::function<void(Notes&)>& damage) {
+  DamageReport report;
+  report.kind = std::move(kind);
+  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): `damage` changes `motion`
+  const VectorMotion before = motion;
+  damage(report.notes);
+  double turns = 0, distances = 0;
+  std::size_t positions = 0;
+  for (std::size_t f = 0; f < before.values.frames; ++f) {
+    for (std::size_t n = 0; n < before.track_count(); ++n) {
+      if (!is_observed(before, f, n)) continue;
+      ++report.samples;
+      const bool lost = !is_observed(motion, f, n);
+      const Vec3 old = vector_at(before, f, n), now = vector_at(motion, f, n);
+      if (lost || !(old == now)) ++report.samples_damaged;
+      const double angle = degrees_per_radian * turn_between(motion, n, old, now);
+      turns += angle * angle;
+      report.max_deg = std::max(report.max_deg, angle);
+      if (before.is_rotation[n] != 0) continue;
+      ++positions;
+      distances += dot(now - old, now - old);
+    }
+  }
+  if (report.samples > 0) report.rms_deg = std::sqrt(turns / static_cast<double>(report.samples));
+  if (positions > 0) report.rms_position = std::sqrt(distances / static_cast<double>(positions));
+  return report;
+}
+
 }  // namespace corrupt
 
 std::span<const Damage> damages() {
@@ -90,6 +130,72 @@ DamageReport apply_damage(Clip& clip, std::string_view name, const OptionValues&
   report.notes.push_back(
       fmt::format("the first {} (a calibration pose) stays as it is",
                   calibration == 1 ? "frame" : fmt::format("{} frames", calibration)));
+  return report;
+}
+
+DamageReport apply_damage(VectorMotion& motion, std::string_view name, const OptionValues& values,
+                          Random& random) {
+  const Damage& damage = find_damage(name);
+  if (damage.apply_to_vectors == nullptr) {
+    throw Error(ErrorKind::usage,
+                fmt::format("damage {} turns the joints of a skeleton, and here is none", name));
+  }
+  return damage.apply_to_vectors(motion, random, values);
+}
+
+namespace {
+
+// The markers that are positions.
+std::vector<std::size_t> position_markers(const MarkerClip& clip) {
+  std::vector<std::size_t> markers;
+  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+    if (clip.holds_positions(m)) markers.push_back(m);
+  }
+  return markers;
+}
+
+VectorMotion vectors_of(const MarkerClip& clip, const std::vector<std::size_t>& markers) {
+  constexpr double usual_height_cm = 170;
+  const double height = body_height(clip), unit_m = metres_per_unit(clip.unit);
+  VectorMotion motion;
+  motion.values = PoseMatrix(clip.frame_count(), 3 * markers.size());
+  motion.frame_rate_hz = clip.frame_rate_hz;
+  motion.is_rotation.assign(markers.size(), 0);
+  motion.is_root.assign(markers.size(), 0);
+  motion.per_radian = height / 4;
+  motion.per_cm = unit_m > 0 ? 0.01 / unit_m : height / usual_height_cm;
+  for (const std::size_t m : markers) motion.names.push_back(clip.names[m]);
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    for (std::size_t n = 0; n < markers.size(); ++n) {
+      corrupt::set_vector(motion, f, n, clip.position(f, markers[n]));
+      motion.observed.push_back(clip.is_observed(f, markers[n]) ? 1 : 0);
+    }
+  }
+  return motion;
+}
+
+void put_back(const VectorMotion& motion, const std::vector<std::size_t>& markers,
+              MarkerClip& clip) {
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    for (std::size_t n = 0; n < markers.size(); ++n) {
+      if (!clip.is_observed(f, markers[n])) continue;
+      const bool seen = corrupt::is_observed(motion, f, n);
+      const std::size_t i = f * clip.marker_count() + markers[n];
+      clip.positions[i] = seen ? corrupt::vector_at(motion, f, n) : Vec3{};
+      clip.observed[i] = seen ? 1 : 0;
+      if (!seen && !clip.residuals.empty()) clip.residuals[i] = -1;
+    }
+  }
+}
+
+}  // namespace
+
+DamageReport apply_damage(MarkerClip& clip, std::string_view name, const OptionValues& values,
+                          Random& random) {
+  const std::vector<std::size_t> markers = position_markers(clip);
+  VectorMotion motion = vectors_of(clip, markers);
+  DamageReport report = apply_damage(motion, name, values, random);
+  put_back(motion, markers, clip);
   return report;
 }
 

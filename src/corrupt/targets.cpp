@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "kinemend/error.hpp"
 #include "motion/name_pattern.hpp"
@@ -22,11 +23,11 @@ std::vector<std::string> split(std::string_view list) {
 }
 
 // None where the list holds nothing but commas.
-std::vector<std::uint8_t> named_joints(const Skeleton& skeleton, std::string_view list) {
+std::vector<std::uint8_t> named_tracks(const std::vector<std::string>& names, std::string_view list,
+                                       std::string_view noun) {
   const std::vector<std::string> patterns = split(list);
-  if (patterns.empty() && !list.empty())
-    return std::vector<std::uint8_t>(skeleton.joint_count(), 0);
-  return names_meant(skeleton.names, patterns, "joint");
+  if (patterns.empty() && !list.empty()) return std::vector<std::uint8_t>(names.size(), 0);
+  return names_meant(names, patterns, noun);
 }
 
 std::vector<std::size_t> child_counts(const Skeleton& skeleton) {
@@ -70,7 +71,7 @@ void join_short_parts(const Skeleton& skeleton, std::vector<std::size_t>& heads)
 }  // namespace
 
 std::vector<std::size_t> target_joints(const Skeleton& skeleton, const TargetOptions& options) {
-  const auto named = named_joints(skeleton, options.joints);
+  const auto named = named_tracks(skeleton.names, options.joints, "joint");
   bool any_channels = false;
   for (const auto& channels : skeleton.channels) any_channels = any_channels || !channels.empty();
   std::vector<std::size_t> joints;
@@ -79,6 +80,19 @@ std::vector<std::size_t> target_joints(const Skeleton& skeleton, const TargetOpt
     if (named[j] && turns && (options.root || skeleton.parents[j] >= 0)) joints.push_back(j);
   }
   return joints;
+}
+
+std::vector<std::size_t> target_tracks(const Clip& clip, const TargetOptions& options) {
+  return target_joints(clip.skeleton, options);
+}
+
+std::vector<std::size_t> target_tracks(const VectorMotion& motion, const TargetOptions& options) {
+  const auto named = named_tracks(motion.names, options.joints, "marker");
+  std::vector<std::size_t> tracks;
+  for (std::size_t n = 0; n < motion.track_count(); ++n) {
+    if (named[n] != 0 && (options.root || motion.is_root[n] == 0)) tracks.push_back(n);
+  }
+  return tracks;
 }
 
 std::vector<std::size_t> limbs(const Skeleton& skeleton) {
@@ -114,6 +128,76 @@ std::vector<Unit> units(const Skeleton& skeleton, const TargetOptions& options,
     }
   }
   return result;
+}
+
+std::vector<Unit> units(const Clip& clip, const TargetOptions& options, std::string_view scope) {
+  return units(clip.skeleton, options, scope);
+}
+
+std::vector<Unit> units(const VectorMotion& motion, const TargetOptions& options,
+                        std::string_view scope) {
+  const auto tracks = target_tracks(motion, options);
+  if (scope == "all" && !tracks.empty()) return {{tracks, -1}};
+  std::vector<Unit> result;
+  for (const std::size_t n : tracks) {
+    if (scope != "channel") result.push_back({{n}, -1});
+    for (int c = 0; scope == "channel" && c < 3; ++c) result.push_back({{n}, c});
+  }
+  return result;
+}
+
+Vec3 vector_at(const VectorMotion& motion, std::size_t frame, std::size_t track) {
+  const double* v = motion.values.row(frame).data() + 3 * track;
+  return {v[0], v[1], v[2]};
+}
+
+void set_vector(VectorMotion& motion, std::size_t frame, std::size_t track, Vec3 value) {
+  double* v = motion.values.row(frame).data() + 3 * track;
+  v[0] = value.x;
+  v[1] = value.y;
+  v[2] = value.z;
+}
+
+bool is_observed(const VectorMotion& motion, std::size_t frame, std::size_t track) {
+  return motion.observed[frame * motion.track_count() + track] != 0;
+}
+
+Vec3 mean_position(const VectorMotion& motion, std::size_t frame) {
+  Vec3 sum;
+  double count = 0;
+  for (std::size_t n = 0; n < motion.track_count(); ++n) {
+    if (motion.is_rotation[n] != 0 || !is_observed(motion, frame, n)) continue;
+    sum += vector_at(motion, frame, n);
+    ++count;
+  }
+  return count > 0 ? (1 / count) * sum : sum;
+}
+
+void turn(Clip& clip, std::size_t frame, std::size_t joint, Vec3 n) {
+  set_rotation(clip, frame, joint, clip.rotation(frame, joint) * exp(n));
+}
+
+namespace {
+
+// Of the vectors of a rotation the one nearest to another: they differ by whole turns.
+Vec3 nearest_vector(Vec3 v, Vec3 other) {
+  const double angle = norm(v);
+  if (angle < 1e-12) return v;
+  const double turns = std::round((dot(v, other) / angle - angle) / (2 * pi));
+  return (1 + 2 * pi * turns / angle) * v;
+}
+
+}  // namespace
+
+void turn(VectorMotion& motion, std::size_t frame, std::size_t track, Vec3 n) {
+  if (!is_observed(motion, frame, track)) return;
+  const Vec3 old = vector_at(motion, frame, track);
+  if (motion.is_rotation[track] == 0) {
+    set_vector(motion, frame, track, old + motion.per_radian * n);
+    return;
+  }
+  const Vec3 v = (1 / motion.per_radian) * old;
+  set_vector(motion, frame, track, motion.per_radian * nearest_vector(log(exp(v) * exp(n)), v));
 }
 
 void set_rotation(Clip& clip, std::size_t frame, std::size_t joint, Quat rotation) {

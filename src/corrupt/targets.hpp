@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kinemend/clip.hpp"
+#include "kinemend/corrupt.hpp"
 #include "kinemend/options.hpp"
 
 namespace kinemend::corrupt {
@@ -30,6 +31,12 @@ OptionTable<Options>& add_target_options(OptionTable<Options>& table) {
 /// for a pattern that no joint matches.
 std::vector<std::size_t> target_joints(const Skeleton& skeleton, const TargetOptions& options);
 
+std::vector<std::size_t> target_tracks(const Clip& clip, const TargetOptions& options);
+std::vector<std::size_t> target_tracks(const VectorMotion& motion, const TargetOptions& options);
+
+inline std::size_t frame_count(const Clip& clip) { return clip.frame_count(); }
+inline std::size_t frame_count(const VectorMotion& motion) { return motion.values.frames; }
+
 /// The limb of each joint, as consecutive numbers: roots alone, then the parts between branchings.
 /// Only the first two branchings of a path divide it (hips and chest, not fingers), and a part of
 /// fewer than three joints belongs to its parent's.
@@ -44,9 +51,23 @@ struct Unit {
 inline const std::vector<std::string> scopes{"channel", "joint", "limb", "all"};
 std::vector<Unit> units(const Skeleton& skeleton, const TargetOptions& options,
                         std::string_view scope);
+std::vector<Unit> units(const Clip& clip, const TargetOptions& options, std::string_view scope);
+std::vector<Unit> units(const VectorMotion& motion, const TargetOptions& options,
+                        std::string_view scope);
 
 /// Puts the new rotation of a sample in, as near as the joint's own channels can express it.
 void set_rotation(Clip& clip, std::size_t frame, std::size_t joint, Quat rotation);
+
+/// q Exp(n), or p + n as an arc; what is not seen of vectors stays.
+void turn(Clip& clip, std::size_t frame, std::size_t joint, Vec3 n);
+void turn(VectorMotion& motion, std::size_t frame, std::size_t track, Vec3 n);
+
+/// A sample of vectors.
+Vec3 vector_at(const VectorMotion& motion, std::size_t frame, std::size_t track);
+void set_vector(VectorMotion& motion, std::size_t frame, std::size_t track, Vec3 value);
+bool is_observed(const VectorMotion& motion, std::size_t frame, std::size_t track);
+/// Mean of the positions seen in a frame; zero where none is.
+Vec3 mean_position(const VectorMotion& motion, std::size_t frame);
 
 /// Euler angles (radians) of a joint over the whole clip, continued from frame to frame.
 std::vector<std::array<double, 3>> euler_track(const Clip& clip, std::size_t joint);

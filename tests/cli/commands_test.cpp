@@ -159,6 +159,30 @@ TEST_F(Commands, NumbersDoNotDependOnTheLocale) {
   EXPECT_EQ(run({"info", "hand.bvh"}, german).out, run({"info", "hand.bvh"}).out);
 }
 
+TEST_F(Commands, CorruptDamagesMarkersAsWell) {
+  synth("walk.bvh");
+  ASSERT_EQ(run({"convert", "walk.bvh", "walk.trc"}).code, 0);
+  const std::vector<std::string> words = {"corrupt", "walk.trc", "--seed", "3", "--json"};
+  const auto damage = [&](const std::string& what, const std::string& output) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), {"--damage", what, "-o", output});
+    return run(all);
+  };
+  const Ran ran = damage("gaussian:std_deg=1,joints=Left*", "noisy.trc");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const Json report = Json::parse(ran.out)["damages"][0];
+  EXPECT_GT(report["samples_damaged"], 0);
+  EXPECT_LT(report["samples_damaged"], report["samples"]);
+  EXPECT_GT(report["rms_position"], 0);
+  EXPECT_EQ(damage("gaussian:std_deg=1,joints=Left*", "again.trc").code, 0);
+  EXPECT_EQ(contents(folder / "again.trc"), contents(folder / "noisy.trc"));
+  EXPECT_NE(contents(folder / "walk.trc"), contents(folder / "noisy.trc"));
+  const Ran refused = damage("gaussian-log", "x.trc");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, testing::HasSubstr("turns the joints of a skeleton"));
+  EXPECT_FALSE(fs::exists(folder / "x.trc"));
+}
+
 TEST_F(Commands, CorruptWritesTheFormatOfItsOutputAndNamesWhatThatLoses) {
   synth("walk.bvh");
   for (const std::string format : {"bvh", "csv", "amc"}) {

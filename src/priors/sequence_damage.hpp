@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "kinemend/body.hpp"
+#include "kinemend/corrupt.hpp"
+#include "kinemend/pose_matrix.hpp"
+
+namespace kinemend {
+
+/// Damages a sequence of a body's channels in place, as `apply_damage` does: joints turn, place and
+/// markers move. `observed` (F x N parts, with `with_place` one more; empty: all) becomes 0 where
+/// samples are lost. `joints` of a damage names parts; the place is `place`, a root like the first
+/// joint. The same generator gives the same bytes, so that each sequence forks its own. Errors: as
+/// of `apply_damage`; lengths are not known, so `position-noise` wants `cm_per_unit`.
+DamageReport damage_sequence(const BodyLayout& layout, double rate_hz, PoseMatrix& poses,
+                             std::vector<std::uint8_t>& observed, std::string_view name,
+                             const OptionValues& values, Random& random);
+
+}  // namespace kinemend
