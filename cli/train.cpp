@@ -157,6 +157,7 @@ Training training_of(const Arguments& arguments) {
   training.settings.names = arguments.list("joints");
   const std::vector<std::string> markers = arguments.list("markers");
   training.settings.names.insert(training.settings.names.end(), markers.begin(), markers.end());
+  training.settings.seed = static_cast<std::uint64_t>(arguments.whole("seed"));
   const std::string command = arguments.text("command");
   training.settings.card = {
       arguments.text("title"), arguments.text("data"), arguments.text("licence"),
@@ -247,6 +248,7 @@ std::vector<Flag> flags() {
       names_flag("joints", "joints to learn (default all that move)"),
       names_flag("markers", "the same for markers"),
       fill_flag(),
+      seed_flag("seed of all that is drawn at random"),
       jobs_flag(),
       text_flag("title", "TEXT", "Card", "what the model is, in a line"),
       text_flag("data", "TEXT", "Card", "what it is learned from"),

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -28,6 +29,7 @@ struct TrainingTakes {
 struct TrainSettings {
   std::vector<std::string> names;  ///< joints or markers, or shell patterns; empty: all that move
   ModelCard card;
+  std::uint64_t seed = 1;  ///< of all that is drawn, whatever the method
   /// Bytes of motion that may lie in memory at once; what is more lies in a nameless file of the
   /// temporary folder.
   std::size_t most_memory = std::size_t{1} << 29;

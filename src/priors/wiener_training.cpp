@@ -17,7 +17,6 @@ struct WienerTraining {
   std::int64_t components = 8;
   std::int64_t rounds = 10;
   std::int64_t windows = 12'000;
-  std::int64_t seed = 1;
 };
 
 const OptionTable<WienerTraining>& table() {
@@ -35,8 +34,7 @@ const OptionTable<WienerTraining>& table() {
           .integer(&WienerTraining::rounds, "rounds", "", 0, 1000,
                    "rounds of expectation maximisation")
           .integer(&WienerTraining::windows, "windows", "", 10, 1e6,
-                   "windows that the mixture is fitted to, drawn from all")
-          .integer(&WienerTraining::seed, "seed", "", 0, 1e9, "seed of the drawing");
+                   "windows that the mixture is fitted to, drawn from all");
   return options;
 }
 
@@ -55,7 +53,7 @@ Model train(const TrainingTakes& takes, const OptionValues& values, const TrainS
   fitting.components = static_cast<std::size_t>(options.components);
   fitting.rounds = static_cast<std::size_t>(options.rounds);
   fitting.windows = static_cast<std::size_t>(options.windows);
-  fitting.seed = static_cast<std::uint64_t>(options.seed);
+  fitting.seed = settings.seed;
   WienerFit fit(model.layout.channel_count(), fitting);
   model.seconds = for_each_sequence(sequences, fit.window_frames(), settings,
                                     [&](const TrainingSequence& sequence) {

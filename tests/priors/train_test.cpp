@@ -96,5 +96,27 @@ TEST(TrainModel, GivesTheSameBytesForTheSameTakes) {
   }
 }
 
+// A small mixture: other windows make another one.
+TEST(TrainModel, DrawsFromOneSeed) {
+  const OptionValues few = {{"rate_hz", 30.0},
+                            {"coefficients", std::int64_t{4}},
+                            {"rank", std::int64_t{6}},
+                            {"components", std::int64_t{2}},
+                            {"windows", std::int64_t{20}}};
+  const auto bytes = [&](const std::string& method, std::uint64_t seed) {
+    TrainSettings settings;
+    settings.names = {"Hips", "Left*"};
+    settings.seed = seed;
+    return write_model(
+        train_model(method, walks(2), method == "wiener" ? few : OptionValues{}, settings));
+  };
+  EXPECT_NE(bytes("wiener", 1), bytes("wiener", 2));
+  EXPECT_EQ(bytes("wiener", 2), bytes("wiener", 2));
+  EXPECT_EQ(bytes("kalman-learned", 1), bytes("kalman-learned", 2));
+  for (const LearnedMethod& method : learned_methods()) {
+    for (const OptionSpec& option : method.options) EXPECT_NE(option.name, "seed") << method.name;
+  }
+}
+
 }  // namespace
 }  // namespace kinemend
