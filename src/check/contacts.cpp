@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "check/feet.hpp"
+#include "check/runs.hpp"
 #include "feet/sole_point.hpp"
 
 namespace kinemend::check {
@@ -61,11 +62,7 @@ std::vector<Contact> find_contacts(const BodyPoints& body, Up up) {
       return std::any_of(touching.begin(), touching.end(),
                          [f](const std::vector<std::uint8_t>& t) { return t[f] != 0; });
     };
-    for (std::size_t f = 0; f < body.frames; ++f) {
-      if (!down(f)) continue;
-      FrameSpan span{f, f};
-      while (span.last + 1 < body.frames && down(span.last + 1)) ++span.last;
-      f = span.last;
+    for (const FrameSpan& span : runs_where(body.frames, down)) {
       if (static_cast<double>(span.length()) < shortest_s * body.frame_rate_hz) continue;
       contacts.push_back(measure(points, touching, i, span, body.frame_rate_hz));
     }
@@ -84,15 +81,7 @@ std::vector<FrameSpan> find_flights(const BodyPoints& body, Up up) {
       }
     }
   }
-  std::vector<FrameSpan> flights;
-  for (std::size_t f = 0; f < body.frames; ++f) {
-    if (clear[f] == 0) continue;
-    FrameSpan span{f, f};
-    while (span.last + 1 < body.frames && clear[span.last + 1] != 0) ++span.last;
-    f = span.last;
-    flights.push_back(span);
-  }
-  return flights;
+  return runs_where(body.frames, [&](std::size_t f) { return clear[f] != 0; });
 }
 
 }  // namespace kinemend::check

@@ -4,25 +4,11 @@
 #include <cmath>
 
 #include "check/checks.hpp"
+#include "check/runs.hpp"
 
 namespace kinemend::check {
 
 namespace {
-
-// Runs of frames for which `holds` is true.
-template <class Holds>
-std::vector<FrameSpan> runs_where(std::size_t frames, const Holds& holds) {
-  std::vector<FrameSpan> runs;
-  for (std::size_t t = 0; t < frames; ++t) {
-    if (!holds(t)) continue;
-    if (!runs.empty() && runs.back().last + 1 == t) {
-      runs.back().last = t;
-    } else {
-      runs.push_back({t, t});
-    }
-  }
-  return runs;
-}
 
 // Equal to the frame before in every digit that text holds.
 bool repeats(const Clip& clip, std::size_t frame) {

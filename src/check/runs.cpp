@@ -51,11 +51,8 @@ std::vector<std::vector<FrameSpan>> improbable_runs(const FlagTable& table, std:
   };
   std::vector<std::vector<FrameSpan>> runs(table.tracks);
   for (std::size_t n = 0; n < table.tracks; ++n) {
-    for (std::size_t t = 0; t < table.steps; ++t) {
-      if (table(t, n) != Flag::yes) continue;
-      FrameSpan run{t, t};
-      while (run.last + 1 < table.steps && table(run.last + 1, n) == Flag::yes) ++run.last;
-      t = run.last;
+    const auto is_yes = [&](std::size_t t) { return table(t, n) == Flag::yes; };
+    for (const FrameSpan& run : runs_where(table.steps, is_yes)) {
       if (run.length() >= shortest && is_improbable(n, run)) runs[n].push_back(run);
     }
   }

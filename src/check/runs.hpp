@@ -8,6 +8,21 @@
 
 namespace kinemend::check {
 
+/// Runs of frames for which `holds` is true.
+template <class Holds>
+std::vector<FrameSpan> runs_where(std::size_t frames, const Holds& holds) {
+  std::vector<FrameSpan> runs;
+  for (std::size_t t = 0; t < frames; ++t) {
+    if (!holds(t)) continue;
+    if (!runs.empty() && runs.back().last + 1 == t) {
+      runs.back().last = t;
+    } else {
+      runs.push_back({t, t});
+    }
+  }
+  return runs;
+}
+
 /// One flag a step of each of N tracks, as a track's samples tell it.
 enum class Flag : std::uint8_t {
   no,
