@@ -88,6 +88,8 @@ bool moves_along(const std::vector<double>& steps, const FrameSpan& run, const C
          scale.digits;
 }
 
+constexpr double slack_rad = 1e-4;  // beyond the end of a hinge, by the digits of a file
+
 // The range of a hinge, a joint that turns about one axis alone, as a knee does; none is known of
 // any other joint.
 struct HingeRange {
@@ -97,7 +99,7 @@ struct HingeRange {
 };
 
 std::optional<HingeRange> hinge_range(const Clip& clip, std::size_t joint) {
-  constexpr double part_about_other_axes = 0.05, slack_rad = 1e-4;
+  constexpr double part_about_other_axes = 0.05;
   const auto farthest_from = [&](Quat from) {
     std::pair<Quat, Vec3> farthest{from, {}};
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -123,7 +125,6 @@ std::optional<HingeRange> hinge_range(const Clip& clip, std::size_t joint) {
 }
 
 bool is_at_an_end(const HingeRange& range, Quat rotation) {
-  constexpr double slack_rad = 1e-4;
   const double from_end = dot(log(conjugate(range.end) * rotation), range.axis);
   return from_end <= slack_rad || from_end >= range.rad - slack_rad;
 }

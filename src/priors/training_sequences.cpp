@@ -77,13 +77,6 @@ BodyChannels channels_at_rate(AnyClip clip, const BodyLayout& layout, double rat
   return encode_body(clip, layout, match_body(layout, clip));
 }
 
-PoseMatrix frames_of(const PoseMatrix& poses, std::size_t first, std::size_t last) {
-  PoseMatrix part(last - first, poses.channels);
-  std::copy_n(poses.values.begin() + static_cast<std::ptrdiff_t>(first * poses.channels),
-              part.values.size(), part.values.begin());
-  return part;
-}
-
 void add_sequences(const BodyChannels& channels, std::size_t phases, std::size_t take,
                    TrainingSequences& sequences) {
   for (const Stretch& stretch : whole_stretches(channels)) {
@@ -172,8 +165,8 @@ void for_each_half(const TrainingSequence& sequence, std::size_t takes, std::siz
     use(takes > 1 ? sequence.take % 2 : 0, sequence.poses);
     return;
   }
-  use(0, frames_of(sequence.poses, 0, middle));
-  use(1, frames_of(sequence.poses, middle, sequence.poses.frames));
+  use(0, thinned(sequence.poses, 0, middle, 1));
+  use(1, thinned(sequence.poses, middle, sequence.poses.frames, 1));
 }
 
 }  // namespace kinemend
