@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <utility>
 
 #include "io/table/csv.hpp"
 #include "io/table/csv_document.hpp"
 #include "io/table/csv_joints.hpp"
+#include "io/table/read_table.hpp"
 #include "io/table/table_rate.hpp"
 #include "motion/frame_numbers.hpp"
 
@@ -128,14 +128,7 @@ class CsvReader {
 int sniff_csv(std::string_view head) { return has_csv_header(head) ? 50 : 0; }
 
 TakeResult read_csv(std::string bytes, std::string_view name, const ReadOptions& options) {
-  const auto document = std::make_shared<CsvDocument>();
-  document->bytes = std::move(bytes);
-  TakeResult result = CsvReader(*document, name, options).read();
-  SourceInfo& source = source_of(result.take);
-  source.name = name;
-  source.format = "csv";
-  source.document = document;
-  return result;
+  return read_table<CsvDocument, CsvReader>(std::move(bytes), name, "csv", options);
 }
 
 }  // namespace kinemend

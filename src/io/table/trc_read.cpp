@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <utility>
 
+#include "io/table/read_table.hpp"
 #include "io/table/table_rate.hpp"
 #include "io/table/trc.hpp"
 #include "io/table/trc_document.hpp"
@@ -171,14 +171,7 @@ int sniff_trc(std::string_view head) {
 }
 
 TakeResult read_trc(std::string bytes, std::string_view name, const ReadOptions& options) {
-  const auto document = std::make_shared<TrcDocument>();
-  document->bytes = std::move(bytes);
-  TakeResult result = TrcReader(*document, name, options).read();
-  SourceInfo& source = source_of(result.take);
-  source.name = name;
-  source.format = "trc";
-  source.document = document;
-  return result;
+  return read_table<TrcDocument, TrcReader>(std::move(bytes), name, "trc", options);
 }
 
 }  // namespace kinemend

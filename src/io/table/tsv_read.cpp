@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <utility>
 
 #include "io/table/csv_head.hpp"
+#include "io/table/read_table.hpp"
 #include "io/table/table_rate.hpp"
 #include "io/table/tsv.hpp"
 #include "io/table/tsv_document.hpp"
@@ -237,14 +237,7 @@ int sniff_tsv(std::string_view head) {
 }
 
 TakeResult read_tsv(std::string bytes, std::string_view name, const ReadOptions& options) {
-  const auto document = std::make_shared<TsvDocument>();
-  document->bytes = std::move(bytes);
-  TakeResult result = TsvReader(*document, name, options).read();
-  SourceInfo& source = source_of(result.take);
-  source.name = name;
-  source.format = "tsv";
-  source.document = document;
-  return result;
+  return read_table<TsvDocument, TsvReader>(std::move(bytes), name, "tsv", options);
 }
 
 }  // namespace kinemend
