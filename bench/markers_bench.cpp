@@ -39,7 +39,7 @@ void clean_joints_by(benchmark::State& state, const std::string& method) {
   const auto cleaner = make_cleaner(method);
   for (auto _ : state) {
     Clip copy = clip;
-    cleaner->clean(copy, Selection::all(copy));
+    clean_in_place(*cleaner, copy);
     benchmark::DoNotOptimize(copy.local_rotations.data());
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * clip.frame_count()));
@@ -50,7 +50,7 @@ void clean_markers_by(benchmark::State& state, const std::string& method) {
   const auto cleaner = make_cleaner(method);
   for (auto _ : state) {
     MarkerClip copy = clip;
-    cleaner->clean_markers(copy, MarkerSelection::all(copy));
+    clean_in_place(*cleaner, copy);
     benchmark::DoNotOptimize(copy.positions.data());
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * clip.frame_count()));

@@ -68,12 +68,11 @@ void cleaner_alone(benchmark::State& state, const std::string& method) {
                                     static_cast<std::size_t>(state.range(0)));
   const auto cleaner = make_cleaner(method);
   Clip clip = long_take();
-  const Selection all = Selection::all(clip);
   for (auto _ : state) {
     state.PauseTiming();
     clip.local_rotations = long_take().local_rotations;
     state.ResumeTiming();
-    cleaner->clean(clip, all);
+    clean_in_place(*cleaner, clip);
   }
   count_frames(state, clip.frame_count());
 }
@@ -89,13 +88,10 @@ void live_frame(benchmark::State& state, const std::string& method) {
   const Clip clip = noisy_take(600);
   const auto cleaner = make_cleaner(method);
   const auto stream = make_stream(*cleaner, clip);
-  std::vector<LiveFrame> frames(clip.frame_count());
-  for (std::size_t f = 0; f < frames.size(); ++f) {
-    frames[f].root_position = clip.root_positions[f];
-    for (std::size_t j = 0; j < joint_count; ++j)
-      frames[f].rotations.push_back(clip.rotation(f, j));
-  }
-  LiveFrame out;
+  const TakeView view = view_of(clip);
+  std::vector<Frame> frames;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) frames.push_back(frame_of(view, f));
+  Frame out;
   std::size_t next = 0;
   for (auto _ : state) {
     stream->push(frames[next], out);

@@ -22,6 +22,8 @@
 #include "clean_take.hpp"
 #include "commands.hpp"
 #include "config.hpp"
+#include "json.hpp"
+#include "kinemend/batch_rows.hpp"
 #include "kinemend/content_hash.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/model.hpp"
@@ -48,7 +50,7 @@ struct Batch {
 
 /// What came of one file.
 struct Done {
-  Json row;
+  BatchRow row;
   int code = 0;
   bool is_new = false;   ///< false where an earlier run had done it
   bool is_begun = true;  ///< false where it was refused before anything was done
@@ -109,41 +111,28 @@ bool is_done(const BatchRecord& record, const BatchKey& key, const std::string& 
          content_hash(read_file(output)) == record.output;
 }
 
-/// A row is what `clean --json` says of a take, without its long tables.
-Json row_of(const BatchItem& item, const Json& entry, const char* status) {
-  Json row = {{"name", item.name}, {"status", status}};
-  for (const auto& [key, value] : entry.items()) {
-    const bool is_table = value.is_array() && !value.empty() && value.front().is_object();
-    if (!is_table && key != "options") row[key] = value;
-  }
-  if (row.contains("feet")) row["feet"].erase("contacts");
-  return row;
-}
-
 Done copy_skeleton(const BatchItem& item, const std::string& output, bool may_replace) {
   Done done;
+  done.row = plain_row(item.name, "copied");
   const std::string bytes = read_file(item.input);
   std::error_code ignored;
   if (fs::is_regular_file(output, ignored) && read_file(output) == bytes) {
-    done.row = {{"name", item.name}, {"status", "copied"}};
     return done;
   }
   write_output(output, bytes, may_replace);
-  done.row = {{"name", item.name}, {"status", "copied"}};
   done.is_new = true;
   return done;
 }
 
 Done clean_item(const BatchItem& item, const std::string& output, const Batch& batch,
                 const BatchKey& key) {
-  const Outcome outcome = try_take({item.input, output, true}, batch.plan);
+  const Outcome outcome = try_take({item.input, output, true, item.name}, batch.plan);
   Done done;
   done.is_new = true;
   done.code = outcome.code;
   done.error = outcome.error;
   done.warnings = outcome.warnings;
-  done.row = row_of(item, *outcome.json, outcome.code == 0 ? "cleaned" : "failed");
-  if (!outcome.warnings.empty()) done.row["warnings"] = outcome.warnings;
+  done.row = *outcome.row;
   const std::string result = outcome.code == 0 ? content_hash(read_file(output)) : std::string();
   write_record(batch.folder, item.name, {key, result, done.row});
   return done;
@@ -172,7 +161,7 @@ Done do_item(const BatchItem& item, const Batch& batch) {
   if (record && is_done(*record, key, output)) return {record->row, 0, false, true, {}, {}};
   if (!record) {
     check_is_ours(item, output, batch);
-    write_record(batch.folder, item.name, {key, "", {{"name", item.name}, {"status", "begun"}}});
+    write_record(batch.folder, item.name, {key, "", plain_row(item.name, "begun")});
   }
   return clean_item(item, output, batch, key);
 }
@@ -196,11 +185,7 @@ Done try_item(const BatchItem& item, const Batch& batch) {
     done.error = fmt::format("{}: internal error: {}", item.input, error.what());
   }
   done.is_begun = false;
-  done.row = {{"name", item.name},
-              {"status", "failed"},
-              {"input", item.input},
-              {"error", done.error},
-              {"exit_code", done.code}};
+  done.row = failed_row(item.name, item.input, done.error, done.code);
   return done;
 }
 
@@ -305,7 +290,6 @@ int run(const Arguments& arguments) {
     throw Error(ErrorKind::usage, "batch: --output-dir is missing (see kinemend batch -h)");
   const std::vector<std::string> inputs = inputs_of(arguments);
   batch.plan = make_cleaning(arguments);
-  batch.plan.json = true;
   batch.quiet = arguments.flag("quiet");
   batch.verbose = arguments.flag("verbose");
   batch.options_hash = content_hash(options_text(arguments) + learned_text(batch.plan));
@@ -322,7 +306,9 @@ int run(const Arguments& arguments) {
   const std::vector<Done> done = do_all(mine, batch);
 
   BatchCounts counts;
-  std::vector<Json> rows;
+  counts.part = batch.shard.index;
+  counts.parts = batch.shard.count;
+  std::vector<BatchRow> rows;
   for (const Done& one : done) {
     counts.add(one.row, one.is_new, one.code);
     rows.push_back(one.row);
@@ -330,18 +316,18 @@ int run(const Arguments& arguments) {
   // A batch that could begin nothing leaves no word of itself.
   const bool is_refused =
       std::any_of(done.begin(), done.end(), [](const Done& one) { return !one.is_begun; }) &&
-      std::none_of(done.begin(), done.end(), [](const Done& one) {
-        return one.is_begun && one.row.at("status") != "copied";
-      });
-  const Json summary = summary_of(batch.folder, all, batch.options_hash);
+      std::none_of(done.begin(), done.end(),
+                   [](const Done& one) { return one.is_begun && one.row.status != "copied"; });
+  const BatchSums sums = sums_of(batch.folder, all, batch.options_hash);
+  const std::string summary = to_json(sums, batch.options_hash);
   if (!is_refused) {
     write_rows(batch.folder, batch.shard, all, rows);
     write_summary(batch.folder, summary);
   }
   if (arguments.flag("json")) {
-    write_out(json_text(summary));
+    write_out(summary);
   } else if (!batch.quiet) {
-    write_out(summary_text(counts, summary, batch.shard, worst_rows(rows)));
+    write_out(to_text(counts, sums, worst_rows(rows)));
   }
   return std::max(counts.exit_code, empty_code);
 }

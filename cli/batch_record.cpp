@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "json.hpp"
 #include "kinemend/content_hash.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
@@ -56,7 +57,9 @@ std::optional<BatchRecord> read_record(const std::string& folder, const std::str
                   json.at("options_hash").get<std::string>(),
                   json.at("kinemend").get<std::string>()};
     record.output = json.at("output_hash").get<std::string>();
-    record.row = json.at("row");
+    std::optional<BatchRow> row = parse_row(json.at("row").dump());
+    if (!row) return std::nullopt;
+    record.row = std::move(*row);
     return record;
   } catch (const Json::exception&) {
     return std::nullopt;
@@ -84,7 +87,7 @@ std::vector<std::string> recorded_names(const std::string& folder) {
 bool still_counts(const std::string& folder, const std::string& name, const BatchRecord& record) {
   std::error_code ignored;
   if (!record.output.empty()) return fs::is_regular_file(fs::path(folder) / name, ignored);
-  return fs::exists(record.row.value("input", ""), ignored);
+  return fs::exists(record.row.input, ignored);
 }
 
 void make_folder(const fs::path& folder) {
@@ -129,7 +132,7 @@ void write_record(const std::string& folder, const std::string& name, const Batc
                         {"input_hash", record.key.input},
                         {"options_hash", record.key.options},
                         {"output_hash", record.output},
-                        {"row", record.row}}),
+                        {"row", Json::parse(record.row.json)}}),
              true);
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "json.hpp"
+#include "kinemend/batch_rows.hpp"
 
 // What a batch remembers of each take, so that it can be taken up again: one small file a take
 // below
@@ -23,7 +23,7 @@ struct BatchKey {
 struct BatchRecord {
   BatchKey key;
   std::string output;  ///< hash of the result's bytes; empty where there is none
-  Json row;            ///< the take's line in the table of rows
+  BatchRow row;
 };
 
 std::string record_path(const std::string& folder, const std::string& name);

@@ -9,13 +9,13 @@
 #include <mutex>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "clean_flags.hpp"
 #include "clean_plan.hpp"
 #include "clean_take.hpp"
 #include "commands.hpp"
-#include "json.hpp"
-#include "kinemend/version.hpp"
+#include "kinemend/report.hpp"
 #include "method_options.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
@@ -48,22 +48,19 @@ class Announcer {
     bar_.clear();
     int code = 0;
     std::size_t failed = 0;
-    Json files = Json::array();
-    Json reports = Json::array();
+    std::vector<std::string> files, reports;
     for (std::optional<Outcome>& outcome : outcomes_) {
       code = std::max(code, outcome->code);
       failed += outcome->code != 0 ? 1 : 0;
-      if (outcome->json) files.push_back(*outcome->json);
-      if (outcome->report) reports.push_back(*outcome->report);
+      files.push_back(std::move(outcome->json));
+      reports.push_back(std::move(outcome->report));
     }
     if (outcomes_.size() > 1 && failed > 0)
       say_error(fmt::format("{} of {} failed", failed, counted(outcomes_.size(), "take")));
-    if (plan_.json) write_out(json_text({{"kinemend", version()}, {"takes", std::move(files)}}));
+    if (plan_.json) write_out(report_document("clean", files));
     // Bad input leaves nothing behind.
     if (!plan_.report_path.empty() && failed < outcomes_.size()) {
-      write_output(plan_.report_path,
-                   json_text({{"kinemend", version()}, {"takes", std::move(reports)}}),
-                   plan_.force);
+      write_output(plan_.report_path, report_document("clean", reports), plan_.force);
     }
     if (stdout_is_closed_) throw ClosedPipe();
     return code;

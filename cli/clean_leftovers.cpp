@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <initializer_list>
 
-#include "table.hpp"
+#include "kinemend/text.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "clean_plan.hpp"
 #include "kinemend/check.hpp"
-#include "report_view.hpp"
+#include "kinemend/report.hpp"
 
 namespace kinemend::cli {
 

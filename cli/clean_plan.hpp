@@ -19,6 +19,7 @@ struct CleanJob {
   std::string input;
   std::string output;
   bool may_replace = false;  ///< also without --force
+  std::string row_name{};    ///< of its row in a batch; empty: none is made
 };
 
 /// All that `clean` was asked for, checked.

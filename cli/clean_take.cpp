@@ -9,12 +9,13 @@
 #include <variant>
 
 #include "clean_leftovers.hpp"
-#include "clean_report.hpp"
 #include "kinemend/check.hpp"
 #include "kinemend/frame_numbers.hpp"
 #include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/report.hpp"
 #include "takes.hpp"
+#include "terminal.hpp"
 
 namespace kinemend::cli {
 
@@ -70,13 +71,22 @@ void read_contacts(const Clip& clip, const CleanPlan& plan, CleanSettings& setti
 void read_contacts(const MarkerClip& /*clip*/, const CleanPlan& /*plan*/,
                    CleanSettings& /*settings*/) {}
 
+// Whether anybody asks what was done.
+bool is_reported(const CleanPlan& plan) {
+  return !plan.quiet || plan.json || !plan.report_path.empty();
+}
+
 // Cleans the take in place.
-ReportView clean_in_place(Take& take, const std::string& input, const CleanPlan& plan,
-                          const TakeProgress& progress) {
-  const std::vector<MarkerSwap> swaps = prepare(take, plan);
-  const std::vector<Finding> findings =
-      std::visit([](const auto& clip) { return find_beyond_cleaning(clip); }, take);
-  return std::visit(
+CleanOutcome clean_in_place(Take& take, const std::string& input, const CleanPlan& plan,
+                            const TakeProgress& progress) {
+  CleanOutcome outcome;
+  outcome.options = plan.options;
+  outcome.swaps = prepare(take, plan);
+  if (is_reported(plan)) {
+    outcome.leftovers = leftovers_of(
+        std::visit([](const auto& clip) { return find_beyond_cleaning(clip); }, take), plan, input);
+  }
+  std::visit(
       [&](auto& clip) {
         CleanSettings settings = plan.settings;
         settings.progress = progress;
@@ -87,14 +97,10 @@ ReportView clean_in_place(Take& take, const std::string& input, const CleanPlan&
         auto result =
             tbb::this_task_arena::isolate([&] { return run_cleaner(clip, plan, settings); });
         clip = std::move(result.clip);
-        ReportView view = view_of(std::move(result.report));
-        view.swaps = swaps;
-        view.leftovers = leftovers_of(findings, plan, input);
-        view.first_frame = first_frame_number(clip);
-        view.format = clip.source.format;
-        return view;
+        outcome.report = std::move(result.report);
       },
       take);
+  return outcome;
 }
 
 // Calls `work(tell)` as a stage of its own.
@@ -105,6 +111,18 @@ auto as_stage(const TakeProgress& progress, std::string_view name, const Work& w
   };
   tell(0);
   return work(tell);
+}
+
+// What is left of a take: words.
+void tell(const Report& report, const CleanJob& job, const CleanPlan& plan, Outcome& outcome) {
+  TextOptions options;
+  options.details = plan.jobs.size() == 1 || plan.verbose;
+  options.all = plan.verbose;
+  options.colours = Colours::of_out().on();
+  if (!plan.quiet) outcome.text = to_text(report, options);
+  if (plan.json) outcome.json = to_json(report, false);
+  if (!plan.report_path.empty()) outcome.report = to_json(report);
+  if (!job.row_name.empty()) outcome.row = cleaned_row(job.row_name, report, outcome.warnings);
 }
 
 void clean_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& progress,
@@ -118,25 +136,19 @@ void clean_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& 
   });
   for (const Diagnostic& entry : read.diagnostics.entries())
     outcome.warnings.push_back(diagnostic_line(source_of(read.take), entry));
-  ReportView report = clean_in_place(read.take, job.input, plan, progress);
-  report.contents = pointless_text(read.take);
-  if (plan.strict) refuse_warnings(name, report.warnings);
-  for (const std::string& warning : report.warnings)
+  CleanOutcome cleaned = clean_in_place(read.take, job.input, plan, progress);
+  const std::vector<std::string> warnings = cleaned.report.warnings;
+  if (plan.strict) refuse_warnings(name, warnings);
+  for (const std::string& warning : warnings)
     outcome.warnings.push_back(fmt::format("{}: {}", name, warning));
   const std::string format = format_for(job.output, source_of(read.take));
   for (std::string& line : loss_lines(name, read.take, format, plan.strict))
     outcome.warnings.push_back(std::move(line));
   if (!plan.dry_run)
     as_stage(progress, "writing", [&](const auto&) { write_result(job, read.take, plan); });
-  const bool is_only = plan.jobs.size() == 1;
-  outcome.text = headline(job, report, plan, Colours::of_out());
-  if (is_only || plan.verbose) outcome.text += report_text(report, plan.verbose);
-  const auto entry = [&](bool with_spans) {
-    return std::make_shared<const Json>(
-        report_json(job, report, read.diagnostics, plan, with_spans));
-  };
-  if (plan.json) outcome.json = entry(false);
-  if (!plan.report_path.empty()) outcome.report = entry(true);
+  Report report{facts_of(read.take, job.input, std::move(read.diagnostics)), std::move(cleaned)};
+  if (!plan.dry_run) report.take.output = job.output;
+  tell(report, job, plan, outcome);
 }
 
 }  // namespace
@@ -159,8 +171,10 @@ Outcome try_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress&
     outcome.code = static_cast<int>(ErrorKind::unreadable_input);
     outcome.error = fmt::format("{}: internal error: {}", input_name(job.input), error.what());
   }
-  outcome.json = outcome.report = std::make_shared<const Json>(
-      Json{{"input", job.input}, {"error", outcome.error}, {"exit_code", outcome.code}});
+  outcome.json = outcome.report = failure_json(job.input, outcome.error, outcome.code);
+  if (!job.row_name.empty())
+    outcome.row =
+        failed_row(job.row_name, job.input, outcome.error, outcome.code, outcome.warnings);
   return outcome;
 }
 

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <functional>
-#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "clean_plan.hpp"
-#include "json.hpp"
+#include "kinemend/batch_rows.hpp"
 
 namespace kinemend::cli {
 
@@ -17,8 +17,9 @@ struct Outcome {
   std::string text;
   std::vector<std::string> warnings;
   std::string error;
-  std::shared_ptr<const Json> json;    ///< entry of --json; null when not asked for
-  std::shared_ptr<const Json> report;  ///< entry of --report
+  std::string json;             ///< entry of --json; empty when not asked for
+  std::string report;           ///< entry of --report
+  std::optional<BatchRow> row;  ///< of `CleanPlan::row_name`
 };
 
 /// Told what is being done with a take and how far it is (0..1).

@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "kinemend/cleaner.hpp"
+#include "kinemend/text.hpp"
 #include "method_options.hpp"
-#include "table.hpp"
 
 namespace kinemend::cli {
 

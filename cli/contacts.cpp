@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <variant>
+#include <vector>
 
 #include "commands.hpp"
-#include "feet_report.hpp"
-#include "json.hpp"
 #include "kinemend/feet.hpp"
-#include "kinemend/frame_numbers.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/version.hpp"
+#include "kinemend/report.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -48,9 +46,11 @@ int run(const Arguments& arguments) {
     say_warning(fmt::format("{}: {}", input_name(input), warning));
   const std::string text = contacts_text(clip, report);
   if (json) {
-    Json take = feet_json(report, first_frame_number(clip));
-    take["input"] = input;
-    write_out(json_text({{"kinemend", version()}, {"takes", Json::array({std::move(take)})}}));
+    Report about{take_facts(clip), report};
+    about.take.input = input;
+    about.take.output = output;
+    const std::vector<std::string> takes = {to_json(about)};
+    write_out(report_document("contacts", takes));
   } else if (output.empty()) {
     write_out(text);
   }

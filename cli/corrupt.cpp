@@ -10,7 +10,7 @@
 #include "commands.hpp"
 #include "json.hpp"
 #include "kinemend/io.hpp"
-#include "table.hpp"
+#include "kinemend/text.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 

@@ -12,9 +12,9 @@
 #include "kinemend/io.hpp"
 #include "kinemend/metrics.hpp"
 #include "kinemend/subjects.hpp"
+#include "kinemend/text.hpp"
 #include "kinemend/version.hpp"
 #include "model_view.hpp"
-#include "table.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -86,7 +86,7 @@ std::string noise_text(const Looked& subject, const std::string& kind, const std
 }
 
 std::string unit_text(const Clip& clip) {
-  const double height = skeleton_height(clip.skeleton);
+  const double height = body_height(clip.skeleton);
   if (clip.metres_per_unit > 0) {
     return fmt::format("{} m (the skeleton measures {}, {} m)", figure(clip.metres_per_unit),
                        figure(height), figure(height * clip.metres_per_unit));
@@ -105,7 +105,7 @@ void add_facts(const Looked& subject, const SourceInfo& source, bool has_subject
     if (!is_said) table.add({printable(fact.name), printable(fact.text)});
   }
   for (const Diagnostic& entry : subject.read.diagnostics.entries())
-    table.add({"repaired", printable(diagnostic_text(source, entry))});
+    table.add({"repaired", printable(diagnostic_text(source.format, entry))});
 }
 
 template <class AnyClip>
@@ -276,7 +276,7 @@ Json clip_json(const Looked& subject, const Clip& clip) {
           {"frame_rate_hz", clip.frame_rate_hz},
           {"duration_s", clip.duration_s()},
           {"calibration_frames", leading_calibration_frames(clip)},
-          {"height", skeleton_height(clip.skeleton)},
+          {"height", body_height(clip.skeleton)},
           {"unit_guess", unit ? Json(unit->name) : Json()},
           {"metres_per_unit", stated > 0 ? Json(stated)
                               : unit     ? Json(unit->metres)
@@ -338,21 +338,19 @@ Json subject_json(const Looked& subject) {
 
 void measure_noise(Looked& subject) {
   const auto cleaner = make_cleaner("auto");
-  if (const Clip* clip = std::get_if<Clip>(&subject.read.take)) {
-    for (const JointSummary& joint : clean_clip(*clip, *cleaner).report.joints)
-      subject.noise.push_back({joint.name, joint.noise_deg, joint.frames_repaired});
-    return;
-  }
-  const MarkerResult result = clean_markers(std::get<MarkerClip>(subject.read.take), *cleaner);
-  for (const MarkerSummary& marker : result.report.markers)
-    subject.noise.push_back({marker.name, marker.noise, marker.frames_repaired});
+  const Clip* clip = std::get_if<Clip>(&subject.read.take);
+  const CleanReport report =
+      clip != nullptr ? clean_clip(*clip, *cleaner).report
+                      : clean_markers(std::get<MarkerClip>(subject.read.take), *cleaner).report;
+  for (const TrackSummary& track : report.tracks)
+    subject.noise.push_back({track.name, track.noise, track.frames_repaired});
 }
 
 int run(const Arguments& arguments) {
   const bool json = arguments.flag("json");
   check_single_use(arguments.positionals, {}, json);
   Json takes = Json::array();
-  const int code = for_each_input(arguments.positionals, takes, [&](const std::string& input) {
+  const auto look_at = [&](const std::string& input) {
     if (is_model_path(input)) {
       const ModelFile file = model_file_of(read_file(input), input);
       if (json) {
@@ -371,6 +369,9 @@ int run(const Arguments& arguments) {
       write_out(subject_text(subject, arguments.flag("tree")));
     }
     return 0;
+  };
+  const int code = for_each_input(arguments.positionals, look_at, [&](const std::string& entry) {
+    takes.push_back(Json::parse(entry));
   });
   if (json) write_out(json_text({{"kinemend", version()}, {"takes", std::move(takes)}}));
   return code;

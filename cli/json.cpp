@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "takes.hpp"
+#include "kinemend/report.hpp"
 
 namespace kinemend::cli {
 
@@ -32,15 +32,7 @@ Json json_of(const OptionSpec& spec) {
 }
 
 Json json_of(const Diagnostics& diagnostics, std::string_view format) {
-  const char* const place = places_are_bytes(format) ? "first_byte" : "first_line";
-  Json list = Json::array();
-  for (const Diagnostic& entry : diagnostics.entries()) {
-    list.push_back({{"name", entry.name},
-                    {"message", entry.message},
-                    {place, entry.first_line},
-                    {"count", entry.count}});
-  }
-  return list;
+  return Json::parse(diagnostics_json(diagnostics, format));
 }
 
 }  // namespace kinemend::cli

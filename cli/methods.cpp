@@ -5,8 +5,8 @@
 #include "commands.hpp"
 #include "help.hpp"
 #include "json.hpp"
+#include "kinemend/text.hpp"
 #include "method_options.hpp"
-#include "table.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 

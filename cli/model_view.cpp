@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "json.hpp"
-#include "table.hpp"
+#include "kinemend/text.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -51,7 +51,7 @@ std::string parts_text(const BodyLayout& layout) {
   Table table({Align::left, Align::left}, 4);
   const bool joints = layout.kind == BodyKind::joints;
   table.add({joints ? "joint" : "marker", joints ? "parent" : ""});
-  for (std::size_t i = 0; i < layout.part_count(); ++i) {
+  for (std::size_t i = 0; i < layout.track_count(); ++i) {
     const std::int32_t parent = joints ? layout.parents[i] : -1;
     table.add({printable(layout.names[i]),
                parent < 0 ? "" : printable(layout.names[static_cast<std::size_t>(parent)])});
@@ -87,7 +87,7 @@ bool is_model_path(std::string_view path) { return path.ends_with(".kmodel"); }
 
 std::string body_text(const BodyLayout& layout) {
   return fmt::format(
-      "{}, {}", counted(layout.part_count(), layout.kind == BodyKind::joints ? "joint" : "marker"),
+      "{}, {}", counted(layout.track_count(), layout.kind == BodyKind::joints ? "joint" : "marker"),
       counted(layout.channel_count(), "channel"));
 }
 
@@ -124,7 +124,7 @@ std::string card_markdown(const ModelFile& file) {
   }
   const BodyLayout& layout = file.model.layout;
   text += fmt::format("\nIt knows the {} ", to_string(layout.kind));
-  for (std::size_t i = 0; i < layout.part_count(); ++i)
+  for (std::size_t i = 0; i < layout.track_count(); ++i)
     text += (i == 0 ? "" : ", ") + paragraph(layout.names[i]);
   text += ".\n";
   if (file.model.numbers.empty()) return text;

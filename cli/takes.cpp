@@ -7,11 +7,11 @@
 #include <iterator>
 #include <limits>
 
-#include "json.hpp"
 #include "kinemend/body.hpp"
 #include "kinemend/frame_numbers.hpp"
 #include "kinemend/frame_rate.hpp"
-#include "table.hpp"
+#include "kinemend/report.hpp"
+#include "kinemend/text.hpp"
 #include "terminal.hpp"
 
 namespace kinemend::cli {
@@ -112,8 +112,9 @@ void check_single_use(const std::vector<std::string>& inputs,
   }
 }
 
-int for_each_input(const std::vector<std::string>& inputs, Json& takes,
-                   const std::function<int(const std::string&)>& visit) {
+int for_each_input(const std::vector<std::string>& inputs,
+                   const std::function<int(const std::string&)>& visit,
+                   const std::function<void(std::string entry)>& add_failure) {
   int code = 0;
   for (const std::string& input : inputs) {
     try {
@@ -123,7 +124,7 @@ int for_each_input(const std::vector<std::string>& inputs, Json& takes,
       say_error(error.what());
       const int failure = static_cast<int>(error.kind());
       code = std::max(code, failure);
-      takes.push_back({{"input", input}, {"error", error.what()}, {"exit_code", failure}});
+      add_failure(failure_json(input, error.what(), failure));
     } catch (const std::bad_alloc&) {
       throw Error(ErrorKind::unreadable_input, input_name(input) + ": out of memory");
     } catch (const std::exception& error) {
@@ -132,30 +133,6 @@ int for_each_input(const std::vector<std::string>& inputs, Json& takes,
     }
   }
   return code;
-}
-
-namespace {
-
-std::string counted_message(const Diagnostic& diagnostic) {
-  const std::string times =
-      diagnostic.count > 1 ? fmt::format(" ({} times)", grouped(diagnostic.count)) : "";
-  return diagnostic.message + times;
-}
-
-}  // namespace
-
-bool places_are_bytes(std::string_view format) { return format == "c3d"; }
-
-std::string diagnostic_text(const SourceInfo& source, const Diagnostic& diagnostic) {
-  if (diagnostic.first_line == 0) return counted_message(diagnostic);
-  return fmt::format("{} {}: {}", places_are_bytes(source.format) ? "byte" : "line",
-                     diagnostic.first_line, counted_message(diagnostic));
-}
-
-std::string diagnostic_line(const SourceInfo& source, const Diagnostic& diagnostic) {
-  if (diagnostic.first_line == 0 || places_are_bytes(source.format))
-    return source.name + ": " + diagnostic_text(source, diagnostic);
-  return fmt::format("{}:{}: {}", source.name, diagnostic.first_line, counted_message(diagnostic));
 }
 
 void warn_of_repairs(const SourceInfo& source, const Diagnostics& diagnostics) {
@@ -167,8 +144,16 @@ std::int64_t first_frame_of(const Take& take) {
   return std::visit([](const auto& clip) { return first_frame_number(clip); }, take);
 }
 
-std::int64_t frame_number(std::size_t frame, std::int64_t first) {
-  return static_cast<std::int64_t>(frame) + first;
+std::string pointless_text(const Take& take) {
+  const auto* const markers = std::get_if<MarkerClip>(&take);
+  return markers == nullptr ? "" : contents_without_markers(*markers);
+}
+
+TakeFacts facts_of(const Take& take, std::string input, Diagnostics diagnostics) {
+  TakeFacts facts = std::visit([](const auto& clip) { return take_facts(clip); }, take);
+  facts.input = std::move(input);
+  facts.diagnostics = std::move(diagnostics);
+  return facts;
 }
 
 std::vector<std::string> loss_lines(const std::string& name, const Take& take,
@@ -176,7 +161,7 @@ std::vector<std::string> loss_lines(const std::string& name, const Take& take,
   std::vector<std::string> lines;
   const Diagnostics losses = lost_in_writing(take, format);
   for (const Diagnostic& loss : losses.entries()) {
-    lines.push_back(name + ": " + counted_message(loss));
+    lines.push_back(name + ": " + diagnostic_text(format, loss));
     // Numbers in another encoding are no loss.
     if (strict && loss.name != "encoding_changed")
       throw Error(ErrorKind::quality_limit, lines.back() + " (an error under --strict)");
@@ -184,34 +169,16 @@ std::vector<std::string> loss_lines(const std::string& name, const Take& take,
   return lines;
 }
 
-std::string pointless_text(const Take& take) {
-  const auto* const markers = std::get_if<MarkerClip>(&take);
-  if (markers == nullptr || markers->marker_count() > 0) return "";
-  for (const SourceFact& fact : markers->source.facts) {
-    if (fact.name == "analog frames")
-      return counted(std::stoul(fact.text), "analog frame") + ", no points";
-    if (fact.name == "rotations") return "rotations of " + fact.text + ", no points";
+int say_passed_limits(const Report& report, std::span<const FigureRule> figures,
+                      const Arguments& arguments) {
+  std::vector<FigureLimit> limits;
+  for (const FigureRule& figure : figures) {
+    if (arguments.given(std::string(figure.limit)))
+      limits.push_back({figure.name, arguments.number(std::string(figure.limit))});
   }
-  return "no points";
-}
-
-std::string grouped(std::size_t count) {
-  const std::string digits = fmt::format("{}", count);
-  std::string result;
-  for (std::size_t i = 0; i < digits.size(); ++i) {
-    if (i > 0 && (digits.size() - i) % 3 == 0) result += ',';
-    result += digits[i];
-  }
-  return result;
-}
-
-std::string counted(std::size_t count, std::string_view noun) {
-  return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
-}
-
-std::string length_text(std::size_t frames, double frame_rate_hz) {
-  return fmt::format("{} at {:.6g} Hz ({:.2f} s)", counted(frames, "frame"), frame_rate_hz,
-                     frame_rate_hz > 0 ? static_cast<double>(frames) / frame_rate_hz : 0.0);
+  const std::vector<std::string> lines = passed_limits(report, limits);
+  for (const std::string& line : lines) say_error(line);
+  return lines.empty() ? 0 : static_cast<int>(ErrorKind::quality_limit);
 }
 
 Flag force_flag() {

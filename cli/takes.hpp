@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +11,7 @@
 #include "command.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/known_names.hpp"
+#include "kinemend/report.hpp"
 
 // What the commands that read and write takes have in common.
 namespace kinemend::cli {
@@ -37,39 +38,28 @@ void check_is_no_input(std::string_view option, const std::string& output,
 void check_single_use(const std::vector<std::string>& inputs,
                       const std::vector<std::string>& outputs, bool json);
 /// Calls `visit` with each input and returns the highest exit code. An input that cannot be read is
-/// said, gets an entry in `takes` and stops none of the others; an output that cannot be written
-/// stops all.
-int for_each_input(const std::vector<std::string>& inputs, nlohmann::ordered_json& takes,
-                   const std::function<int(const std::string&)>& visit);
-/// "walk.bvh:12: ...", or "walk.c3d: byte 12: ..." of a format whose places are bytes.
-std::string diagnostic_line(const SourceInfo& source, const Diagnostic& diagnostic);
-/// The same without the name of the take: "line 12: ...", "byte 12: ...".
-std::string diagnostic_text(const SourceInfo& source, const Diagnostic& diagnostic);
+/// said, its entry in JSON goes to `add_failure`, and it stops none of the others; an output that
+/// cannot be written stops all.
+int for_each_input(const std::vector<std::string>& inputs,
+                   const std::function<int(const std::string&)>& visit,
+                   const std::function<void(std::string entry)>& add_failure);
 /// A line a kind of repair, as a warning.
 void warn_of_repairs(const SourceInfo& source, const Diagnostics& diagnostics);
-/// Whether places in files of a format are byte offsets, not lines.
-bool places_are_bytes(std::string_view format);
-
 /// What a file of this format will not hold of the take, a line each. Errors: `quality_limit` with
 /// the first of them when `strict`.
 std::vector<std::string> loss_lines(const std::string& name, const Take& take,
                                     std::string_view format, bool strict);
 
-/// "4,564 analog frames, no points": what a marker file without markers holds; empty for any other
-/// take.
+/// What a marker file without markers holds; empty for any other take.
 std::string pointless_text(const Take& take);
-
+/// What a report says of a take that was read.
+TakeFacts facts_of(const Take& take, std::string input, Diagnostics diagnostics);
 /// The number of the first frame, as the file counts.
 std::int64_t first_frame_of(const Take& take);
-/// The number of a frame of a take whose first has the number `first`.
-std::int64_t frame_number(std::size_t frame, std::int64_t first);
 
-/// "1 frame", "2 frames", "2,404 frames".
-std::string counted(std::size_t count, std::string_view noun);
-/// Digits in groups of three.
-std::string grouped(std::size_t count);
-/// "2,404 frames at 120 Hz (20.03 s)".
-std::string length_text(std::size_t frames, double frame_rate_hz);
+/// A line for each limit that is given and passed: exit code 1, else 0.
+int say_passed_limits(const Report& report, std::span<const FigureRule> figures,
+                      const Arguments& arguments);
 
 /// Flags that several commands share.
 Flag force_flag();

@@ -34,22 +34,6 @@ int write_all(int stream, std::string_view text) {
   return 0;
 }
 
-std::string_view code_of(Paint paint) {
-  switch (paint) {
-    case Paint::bold:
-      return "1";
-    case Paint::dim:
-      return "2";
-    case Paint::red:
-      return "1;31";
-    case Paint::green:
-      return "32";
-    case Paint::yellow:
-      return "33";
-  }
-  return "0";
-}
-
 bool out_was_closed = false;
 
 constexpr std::string_view erase_line = "\r\033[K";
@@ -96,55 +80,7 @@ Colours Colours::of_out() { return Colours(is_colourful(STDOUT_FILENO)); }
 Colours Colours::of_err() { return Colours(is_colourful(STDERR_FILENO)); }
 
 std::string Colours::paint(Paint paint, std::string_view text) const {
-  if (!on_ || text.empty()) return std::string(text);
-  return fmt::format("\033[{}m{}\033[0m", code_of(paint), text);
-}
-
-namespace {
-
-// At most 80 characters of each word, and three dots where it was longer; paths are left whole, as
-// their end says most.
-std::string shortened(std::string_view text) {
-  constexpr std::size_t longest = 80;
-  constexpr std::string_view blanks = " \t\r\n";
-  std::string result;
-  while (!text.empty()) {
-    const std::size_t blank = std::min(text.find_first_not_of(blanks), text.size());
-    result += text.substr(0, blank);
-    text.remove_prefix(blank);
-    const std::string_view word = text.substr(0, text.find_first_of(blanks));
-    text.remove_prefix(word.size());
-    if (word.size() <= longest || word.find('/') != word.npos) {
-      result += word;
-      continue;
-    }
-    // Not within a character of several bytes.
-    std::size_t end = longest;
-    while (end > 0 && (static_cast<unsigned char>(word[end]) & 0xC0) == 0x80) --end;
-    result += word.substr(0, end);
-    result += "...";
-  }
-  return result;
-}
-
-}  // namespace
-
-std::string printable(std::string_view whole) {
-  const std::string text = shortened(whole);
-  std::string result;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0;
-    // U+0080 to U+009F are control characters too.
-    const bool is_c1 = byte == 0xC2 && next >= 0x80 && next <= 0x9F;
-    if (byte < 0x20 || byte == 0x7F || is_c1) {
-      result += fmt::format("\\x{:02x}", is_c1 ? next : byte);
-      i += is_c1 ? 1 : 0;
-    } else {
-      result += text[i];
-    }
-  }
-  return result;
+  return painted(paint, text, on_);
 }
 
 std::string duration_text(double seconds) {

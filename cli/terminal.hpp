@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "kinemend/error.hpp"
+#include "kinemend/text.hpp"
 
 namespace kinemend::cli {
 
@@ -30,23 +31,18 @@ void say(std::string_view text);
 void say_warning(std::string_view text);
 void say_error(std::string_view text);
 
-enum class Paint { bold, dim, red, green, yellow };
-
 /// Colours for one of the standard streams: none unless it is a terminal and NO_COLOR is not set.
 class Colours {
  public:
   static Colours of_out();
   static Colours of_err();
   explicit Colours(bool on) : on_(on) {}
+  bool on() const { return on_; }
   std::string paint(Paint paint, std::string_view text) const;
 
  private:
   bool on_;
 };
-
-/// Control characters as \xNN, so that a name in a file can neither break a line nor command the
-/// terminal, and words cut at 80 characters, so that it cannot fill it. Paths are left whole.
-std::string printable(std::string_view text);
 
 /// A bar on standard error, on a terminal only. Calls may come from any thread.
 class ProgressBar {

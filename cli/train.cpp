@@ -18,10 +18,10 @@
 #include "json.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/text.hpp"
 #include "kinemend/version.hpp"
 #include "method_options.hpp"
 #include "model_view.hpp"
-#include "table.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 

@@ -26,17 +26,18 @@ USES = {
     "clean": {"representation", "tracks", "priors", "metrics", "fill", "feet"},
     "check": {"clean"},
     "stream": {"clean"},
+    "report": {"check", "metrics"},
 }
 
 # The room of every public header.
 PUBLIC = {
     "error": "base", "diagnostics": "base", "random": "base", "options": "base", "pose_matrix": "base",
-    "version": "base", "content_hash": "base", "frame_rate": "base", "rotation": "rotation", "skeleton": "motion", "clip": "motion", "kinematics": "motion",
+    "version": "base", "content_hash": "base", "frame_rate": "base", "rotation": "rotation", "skeleton": "motion", "clip": "motion", "take_view": "motion", "kinematics": "motion",
     "marker_clip": "motion", "convert": "motion", "gaps": "motion", "fill": "fill", "check": "check",
     "io": "io", "representation": "representation", "metrics": "metrics", "corrupt": "corrupt",
     "synth": "synth", "signal": "signal", "cleaner": "clean", "methods": "clean", "clean": "clean",
     "stream": "stream", "tensor": "nn", "body": "representation", "model": "priors", "train": "priors",
-    "feet": "feet", "frame_numbers": "motion", "known_names": "motion", "subjects": "motion",
+    "feet": "feet", "frame_numbers": "motion", "text": "base", "report": "report", "batch_rows": "report", "svg": "report", "curves": "report", "known_names": "motion", "subjects": "motion",
 }
 
 # Folders of programs: they see include/ (and their own folder) only.

@@ -19,13 +19,12 @@
 #include "kinemend/io.hpp"
 #include "kinemend/kinematics.hpp"
 #include "kinemend/metrics.hpp"
-#include "svg.hpp"
+#include "kinemend/svg.hpp"
 
 namespace {
 
 using namespace kinemend;
-using tools::Point;
-using tools::Svg;
+using Point = Svg::Point;
 
 constexpr std::string_view noisy_ink = "#d9480f", noisy_pale = "#f4a582";
 constexpr std::string_view clean_ink = "#0b7285", clean_pale = "#66b8c7";

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -22,58 +23,36 @@ namespace {
 
 using namespace kinemend;
 
-LiveFrame frame_of(const Clip& clip, std::size_t f) {
-  LiveFrame frame;
-  const std::size_t joints = clip.joint_count(), width = clip.translated_joints.size();
-  frame.root_position = clip.root_positions[f];
-  for (std::size_t j = 0; j < joints; ++j) {
-    frame.rotations.push_back(clip.rotation(f, j));
-    frame.observed.push_back(clip.is_observed(f, j) ? 1 : 0);
-  }
-  for (std::size_t i = 0; i < width; ++i)
-    frame.joint_translations.push_back(clip.joint_translations[f * width + i]);
-  return frame;
-}
-
-void set_frame(Clip& clip, std::size_t f, const LiveFrame& frame) {
-  const std::size_t joints = clip.joint_count(), width = clip.translated_joints.size();
-  clip.root_positions[f] = frame.root_position;
+void set_frame(Clip& clip, std::size_t f, const Frame& frame) {
+  const std::size_t joints = clip.joint_count();
   for (std::size_t j = 0; j < joints; ++j) clip.rotation(f, j) = frame.rotations[j];
-  for (std::size_t i = 0; i < width; ++i)
-    clip.joint_translations[f * width + i] = frame.joint_translations[i];
+  for (std::size_t i = 0; i < frame.positions.size(); ++i)
+    set_track(clip, joints + i, std::span(frame.positions).subspan(i, 1), f);
 }
 
-MarkerFrame frame_of(const MarkerClip& clip, std::size_t f) {
-  MarkerFrame frame;
-  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
-    frame.positions.push_back(clip.position(f, m));
-    frame.observed.push_back(clip.is_observed(f, m) ? 1 : 0);
-  }
-  return frame;
-}
-
-void set_frame(MarkerClip& clip, std::size_t f, const MarkerFrame& frame) {
+void set_frame(MarkerClip& clip, std::size_t f, const Frame& frame) {
   for (std::size_t m = 0; m < clip.marker_count(); ++m) clip.position(f, m) = frame.positions[m];
 }
 
 std::unique_ptr<Stream> stream_of(const Cleaner& cleaner, const Clip& clip) {
   return make_stream(cleaner, clip);
 }
-std::unique_ptr<MarkerStream> stream_of(const Cleaner& cleaner, const MarkerClip& clip) {
-  return make_marker_stream(cleaner, clip, body_height(clip));
+std::unique_ptr<Stream> stream_of(const Cleaner& cleaner, const MarkerClip& clip) {
+  return make_stream(cleaner, clip, body_height(clip));
 }
 
 // None of a method that needs the whole take.
-template <class Take, class Frame>
+template <class Take>
 std::optional<Take> streamed(const Take& take, const Method& method, const OptionValues& options) {
   try {
     const auto cleaner = make_cleaner(method.name, options);
     const auto stream = stream_of(*cleaner, take);
+    const TakeView view = view_of(take);
     Take result = take;
     std::size_t next = 0;
     Frame out;
     for (std::size_t f = 0; f < take.frame_count(); ++f) {
-      if (stream->push(frame_of(take, f), out)) set_frame(result, next++, out);
+      if (stream->push(frame_of(view, f), out)) set_frame(result, next++, out);
     }
     while (stream->flush(out)) set_frame(result, next++, out);
     return result;
@@ -83,13 +62,13 @@ std::optional<Take> streamed(const Take& take, const Method& method, const Optio
   }
 }
 
-template <class Take, class Frame>
+template <class Take>
 void stream_all(const Take& take, const std::filesystem::path& folder) {
   const std::vector<std::pair<std::string, OptionValues>> ways{
       {"", {}}, {".causal", {{"causal", true}}}, {".filter", {{"smoother", false}}}};
   for (const Method& method : methods()) {
     for (const auto& [name, options] : ways) {
-      const auto result = streamed<Take, Frame>(take, method, options);
+      const auto result = streamed(take, method, options);
       if (!result) continue;
       const std::string format = take.source.format.empty() ? "bvh" : take.source.format;
       write_file(folder / (method.name + name + "." + format), write_take(*result, format), true);
@@ -108,9 +87,9 @@ int main(int argc, char** argv) {
     const TakeResult read = read_take(std::filesystem::path(argv[1]));
     std::filesystem::create_directories(argv[2]);
     if (const auto* clip = std::get_if<Clip>(&read.take))
-      stream_all<Clip, LiveFrame>(*clip, argv[2]);
+      stream_all(*clip, argv[2]);
     else
-      stream_all<MarkerClip, MarkerFrame>(std::get<MarkerClip>(read.take), argv[2]);
+      stream_all(std::get<MarkerClip>(read.take), argv[2]);
   } catch (const std::exception& error) {
     fmt::print(stderr, "stream_take: {}\n", error.what());
     return 3;

@@ -69,7 +69,7 @@ std::size_t busiest_arm_joint(const Clip& clip) {
 Clip bilateral(Clip clip, double paper_value, std::int64_t passes) {
   const BilateralOptions options{paper_sigma_t_frames / clip.frame_rate_hz,
                                  sigma_g_deg(paper_value), passes, "mirror"};
-  make_bilateral(options)->clean(clip, Selection::all(clip));
+  clean_in_place(*make_bilateral(options), clip);
   return clip;
 }
 

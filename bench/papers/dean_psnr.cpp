@@ -103,7 +103,7 @@ Best best_of(const Clip& truth, const Clip& noisy, const Row& row) {
   Best best;
   for (const OptionValues& values : row.settings) {
     Clip clip = noisy;
-    make_cleaner(row.method, values)->clean(clip, Selection::all(clip));
+    clean_in_place(*make_cleaner(row.method, values), clip);
     const double psnr = psnr_db(truth, clip);
     if (psnr > best.psnr_db) best = {psnr, std::move(clip)};
   }

@@ -146,7 +146,7 @@ inline std::vector<LouMethod> lou_methods(const LouModels& models) {
 }
 
 inline Clip cleaned(const Cleaner& cleaner, Clip clip) {
-  cleaner.clean(clip, Selection::all(clip));
+  clean_in_place(cleaner, clip);
   return clip;
 }
 

@@ -65,7 +65,7 @@ double error_of(const Cleaner& cleaner, const Clip& truth) {
 
 double error_of(const Cleaner& cleaner, const MarkerClip& truth, double cm) {
   MarkerClip filled = without_arms(truth);
-  cleaner.clean_markers(filled, MarkerSelection::all(truth));
+  clean_in_place(cleaner, filled);
   return arm_distance(truth.positions, filled.positions, truth.names, cm);
 }
 

@@ -90,7 +90,7 @@ void frames_of_joints(const Arguments& arguments) {
       const Clip clip = noisy(synthesize({.motion = motion}), noise_deg, 0, 7);
       const Clip local = of_the_world(cleaned(clip, "bilateral"));
       Clip global = of_the_world(clip);
-      make_cleaner("bilateral")->clean(global, Selection::all(global));
+      clean_in_place(*make_cleaner("bilateral"), global);
       double largest = 0;
       for (std::size_t i = 0; i < local.local_rotations.size(); ++i)
         largest =

@@ -20,7 +20,7 @@ namespace kinemend {
 enum class BodyKind : std::uint8_t { joints, markers };
 std::string_view to_string(BodyKind kind);
 
-/// The parts of a body that a model knows, and what its channels are measured from.
+/// The tracks of a body that a model knows, and what its channels are measured from.
 ///
 /// The body's frame at a moment is upright (y up, z ahead), stands on the floor below the body and
 /// turns with its heading. It is a trend: place and heading smoothed over `trend_s`, so that noise
@@ -31,33 +31,33 @@ std::string_view to_string(BodyKind kind);
 /// local rotation in frames that are parallel to the body's when all bones point along `bones`
 /// (of the first joint: its global rotation in the body's frame), and r its reference. Then, with
 /// `with_place`, the position of the first joint in the body's frame less `place`, in degrees: an
-/// arc of a radius that a turn moves a bone's end by, a quarter of the stature.
+/// arc of a radius that a turn moves a bone's end by, a quarter of the body height.
 ///
 /// Markers: three channels each, the position in the body's frame less the marker's mean, in the
 /// same degrees.
 struct BodyLayout {
   BodyKind kind = BodyKind::joints;
-  std::vector<std::string> names;     ///< N parts; joints: parents first, the root foremost
-  std::vector<std::int32_t> parents;  ///< N, joints: the nearest ancestor among the parts; -1
+  std::vector<std::string> names;     ///< N tracks; joints: parents first, the root foremost
+  std::vector<std::int32_t> parents;  ///< N, joints: the nearest ancestor among the tracks; -1
   std::vector<Quat> references;       ///< N, joints
   std::vector<Vec3> bones;            ///< N, joints: direction of the bone from the joint to its
                                       ///< child at rest, unit, body's axes; zero where unknown
   bool with_place = true;             ///< joints
-  Vec3 place;                         ///< joints: mean of the first joint's position, statures
-  std::vector<Vec3> means;            ///< N, markers: mean position, statures
+  Vec3 place;                         ///< joints: mean of the first joint's position, body heights
+  std::vector<Vec3> means;            ///< N, markers: mean position, body heights
   std::vector<std::uint8_t> anchors;  ///< N, markers: 1 for the steadiest, which carry the frame
-  /// N, markers: mean position in a frame that also leans with the anchors, statures.
+  /// N, markers: mean position in a frame that also leans with the anchors, body heights.
   std::vector<Vec3> shape;
   double trend_s = 0.5;  ///< standard deviation of the smoothing of place and heading
 
-  std::size_t part_count() const noexcept { return names.size(); }
-  /// 3 a part, and 3 of the place.
+  std::size_t track_count() const noexcept { return names.size(); }
+  /// 3 a track, and 3 of the place.
   std::size_t channel_count() const noexcept;
   /// "LeftArm x"; "place y".
   std::string channel_name(std::size_t channel) const;
   /// The rules: lengths as above, unit rotations and bones, finite numbers, parents before
-  /// children, three anchors at least. Errors: `ErrorKind::usage` naming the first part that breaks
-  /// a rule.
+  /// children, three anchors at least. Errors: `ErrorKind::usage` naming the first track that
+  /// breaks a rule.
   void validate() const;
 };
 
@@ -71,13 +71,13 @@ class BodyLayoutBuilder {
   ~BodyLayoutBuilder();
   BodyLayoutBuilder(BodyLayoutBuilder&&) noexcept;
 
-  /// The first take says which parts there are; of later ones at least half must be found again.
+  /// The first take says which tracks there are; of later ones at least half must be found again.
   /// All frames are motion: leave a calibration pose out. Errors: `ErrorKind::usage` for a take of
-  /// the other kind, one in which too few parts are found, with their names, and a name or pattern
+  /// the other kind, one in which too few tracks are found, with their names, and a name or pattern
   /// that means nothing.
   void add(const Clip& clip);
   void add(const MarkerClip& clip);
-  /// Joints that turn by less than 0.1 degrees in all takes are left out, and parts that half of
+  /// Joints that turn by less than 0.1 degrees in all takes are left out, and tracks that half of
   /// the takes lack. Errors: `ErrorKind::usage` when there was no take, or nothing that moves.
   BodyLayout finish() const;
 
@@ -89,9 +89,9 @@ class BodyLayoutBuilder {
 /// Names in a take for names in a model: "LeftArm" to "lhumerus".
 using NameMap = std::map<std::string, std::string, std::less<>>;
 /// Reads lines `model name,name in the take` (also with `=`; `#` starts a comment; a name left
-/// empty: the take has no such part). Errors: `ErrorKind::usage`, `<name>:<line>: ...`.
+/// empty: the take has no such track). Errors: `ErrorKind::usage`, `<name>:<line>: ...`.
 NameMap parse_name_map(std::string_view text, std::string_view name);
-/// A mapping file that starts from what is known, for a person to complete: every part of the
+/// A mapping file that starts from what is known, for a person to complete: every track of the
 /// layout with what it matches in the take, if anything, and the other names of the take as
 /// comments. Errors: `ErrorKind::usage` for a take of the other kind and for a name of the map that
 /// there is not.
@@ -99,16 +99,16 @@ std::string name_map_text(const BodyLayout& layout, const Clip& clip, const Name
 std::string name_map_text(const BodyLayout& layout, const MarkerClip& clip,
                           const NameMap& names = {});
 
-/// Which parts of a take are those of a layout.
+/// Which tracks of a take are those of a layout.
 struct BodyMatch {
-  std::vector<std::int32_t> parts;   ///< N: index of the joint or marker in the take; -1: none
-  std::vector<std::string> missing;  ///< parts of the layout that the take lacks
+  std::vector<std::int32_t> tracks;  ///< N: index of the joint or marker in the take; -1: none
+  std::vector<std::string> missing;  ///< tracks of the layout that the take lacks
   std::vector<std::string> unknown;  ///< joints that can turn, or markers, that the layout lacks
   /// N, joints: the take's local rotation u as the layout's is q = before * u * after (of the first
   /// joint: its global rotation, where the joints above it are at rest).
   std::vector<Quat> before, after;
   Quat upright;                    ///< turns the take's axes so that y points up
-  double stature = 1;              ///< of the person, file units
+  double body_height = 1;          ///< of the person, file units
   std::vector<std::int32_t> feet;  ///< joints or markers whose lowest tells the floor; often two
 };
 
@@ -116,8 +116,8 @@ struct BodyMatch {
 /// spellings of one bone are one name), joints of the trunk and the neck by their order, then by
 /// topology: the one joint between two that are matched. A joint whose matched ancestors are not
 /// those of the layout is no match. Of several people in a take of markers the one with the most
-/// markers of the layout. Errors: `ErrorKind::usage` when less than half of the parts are found, or
-/// no root, or fewer than three anchors: `the model knows 24 joints, of which the take lacks 20:
+/// markers of the layout. Errors: `ErrorKind::usage` when less than half of the tracks are found,
+/// or no root, or fewer than three anchors: `the model knows 24 joints, of which the take lacks 20:
 /// ...`; for a name of the map that there is not.
 BodyMatch match_body(const BodyLayout& layout, const Clip& clip, const NameMap& names = {});
 BodyMatch match_body(const BodyLayout& layout, const MarkerClip& clip, const NameMap& names = {});
@@ -133,7 +133,7 @@ struct BodyChannels {
   double degrees_per_unit = 1;
 };
 
-/// Every frame of `clip` is motion. Samples of parts that the take lacks are not observed. Errors:
+/// Every frame of `clip` is motion. Samples of tracks that the take lacks are not observed. Errors:
 /// none beyond those of `match_body`.
 BodyChannels encode_body(const Clip& clip, const BodyLayout& layout, const BodyMatch& match);
 BodyChannels encode_body(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match);
@@ -143,8 +143,8 @@ BodyChannels encode_body(const Clip& clip, const BodyLayout& layout, const BodyM
                          const BodyChannels& guide);
 BodyChannels encode_body(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match,
                          const BodyChannels& guide);
-/// Writes the channels of the parts with `chosen[part]` (N, and one of the place; empty: all) back
-/// into all frames of the clip that they came from. Parts that the take lacks go nowhere. Of
+/// Writes the channels of the tracks with `chosen[track]` (N, and one of the place; empty: all)
+/// back into all frames of the clip that they came from. Parts that the take lacks go nowhere. Of
 /// markers `observed` is left as it is.
 void decode_body(const BodyChannels& channels, const BodyLayout& layout, const BodyMatch& match,
                  Clip& clip, std::span<const std::uint8_t> chosen = {});

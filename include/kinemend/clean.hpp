@@ -51,6 +51,9 @@ struct CleanSettings {
   std::function<void(std::string_view stage, double done)> progress;
 };
 
+/// What the tracks of a take are.
+enum class TakeKind { joints, markers };
+
 /// A run of frames in which one thing was done to one joint or marker.
 struct ReportSpan {
   std::int32_t joint = 0;  ///< or marker; -1 for the root position
@@ -62,33 +65,40 @@ struct ReportSpan {
   double rms_change = 0;
 };
 
-/// One joint over the whole take.
-struct JointSummary {
+/// One joint or marker over the whole take: degrees for joints, file units for markers.
+struct TrackSummary {
   std::string name;
-  double noise_deg = 0;  ///< estimated noise per axis before; 0 where the method estimates none
-  double rms_change_deg = 0;
-  double max_change_deg = 0;
+  double noise = 0;       ///< estimated noise per axis before; 0 where the method estimates none
+  double rms_change = 0;  ///< of a marker over the samples that were observed
+  double max_change = 0;
   std::size_t frames_changed = 0;
   std::size_t frames_repaired = 0;  ///< despiked or filled
-  /// Largest angular speed, repaired samples left out: the turn within `peak_frames` frames, which
-  /// is the shortest time (one frame to 50 ms) in which the noise adds less than a tenth.
-  double peak_speed_before_deg_s = 0;
-  double peak_speed_after_deg_s = 0;
+  std::size_t gaps_left = 0;        ///< markers only
+  std::size_t frames_missing = 0;   ///< in the gaps that are left; markers only
+  /// Largest speed, degrees or file units a second, repaired samples left out: the way within
+  /// `peak_frames` frames, which is the shortest time (one frame to 50 ms) in which the noise adds
+  /// less than a tenth.
+  double peak_speed_before = 0;
+  double peak_speed_after = 0;
   std::size_t peak_frames = 1;
 };
 
+/// What was done to a take of either kind.
 struct CleanReport {
+  TakeKind kind = TakeKind::joints;
   std::string method;
+  std::string unit;  ///< of the tracks: "deg" for joints; the file's for markers, empty if unknown
   std::size_t frames = 0;
-  std::size_t calibration_frames = 0;  ///< at the start, left alone
+  std::size_t calibration_frames = 0;  ///< at the start, left alone; joints only
   double frame_rate_hz = 0;
-  std::vector<JointSummary> joints;  ///< J
-  double root_rms_change = 0;        ///< file units
+  double body_height = 0;            ///< file units: what degrees were measured by; markers only
+  std::vector<TrackSummary> tracks;  ///< J or M
+  double root_rms_change = 0;        ///< file units; joints only
   double root_max_change = 0;
-  std::vector<ReportSpan> spans;  ///< by joint, then frame; spans of `kept` are left out
+  std::vector<ReportSpan> spans;  ///< by track, then frame; spans of `kept` are left out
   FillReport fill;                ///< of `CleanSettings::fill`
-  /// Of `CleanSettings::feet`; not set without. `before` is what the method made of the take,
-  /// `after` the result; `changed` and `root_changed` say what the step did before blending.
+  /// Of `CleanSettings::feet`, for joints; not set without. `before` is what the method made of the
+  /// take, `after` the result; `changed` and `root_changed` say what the step did before blending.
   std::optional<FeetReport> feet;
   std::vector<FallBack> fall_backs;  ///< of the method
   std::vector<std::string> warnings;
@@ -100,39 +110,9 @@ struct CleanResult {
   CleanReport report;
 };
 
-/// One marker over the whole take, in file units.
-struct MarkerSummary {
-  std::string name;
-  double noise = 0;       ///< estimated noise per axis before; 0 where the method estimates none
-  double rms_change = 0;  ///< over the samples that were observed
-  double max_change = 0;
-  std::size_t frames_changed = 0;
-  std::size_t frames_repaired = 0;  ///< despiked or filled
-  std::size_t gaps_left = 0;
-  std::size_t frames_missing = 0;  ///< in the gaps that are left
-  /// Largest speed, file units a second, as in `JointSummary`.
-  double peak_speed_before = 0;
-  double peak_speed_after = 0;
-  std::size_t peak_frames = 1;
-};
-
-struct MarkerReport {
-  std::string method;
-  std::string unit;  ///< of the file; empty where it does not say
-  std::size_t frames = 0;
-  double frame_rate_hz = 0;
-  double body_height = 0;              ///< file units: what options in degrees were measured by
-  std::vector<MarkerSummary> markers;  ///< M
-  std::vector<ReportSpan> spans;       ///< by marker, then frame; spans of `kept` are left out
-  FillReport fill;                     ///< of `CleanSettings::fill`
-  std::vector<FallBack> fall_backs;    ///< of the method
-  std::vector<std::string> warnings;
-  double seconds = 0;  ///< time the cleaning took
-};
-
 struct MarkerResult {
   MarkerClip clip;
-  MarkerReport report;
+  CleanReport report;
 };
 
 /// The main path: takes calibration frames off, runs the cleaner, fills gaps if asked (what was

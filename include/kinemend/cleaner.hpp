@@ -3,33 +3,20 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "kinemend/clip.hpp"
-#include "kinemend/marker_clip.hpp"
 #include "kinemend/options.hpp"
+#include "kinemend/take_view.hpp"
 
 namespace kinemend {
 
-/// What was done to one sample (a joint or a marker in a frame).
+/// What was done to one sample of a track.
 enum class Action : std::uint8_t { kept, denoised, despiked, filled, foot_adjusted, refused };
 
 std::string_view to_string(Action action);
-
-/// Which parts of a clip a cleaner may change.
-struct Selection {
-  std::vector<std::uint8_t> joints;  ///< J, 1 where the rotation may change
-  bool root_position = true;         ///< position of joint 0
-  bool translations = true;          ///< positions of translated joints that are selected
-
-  static Selection all(const Clip& clip) {
-    return {std::vector<std::uint8_t>(clip.joint_count(), 1), true, true};
-  }
-};
 
 /// Where a cleaner gave what another method makes of the take instead of what it makes itself.
 struct FallBack {
@@ -39,42 +26,26 @@ struct FallBack {
   std::vector<double> shares;        ///< how much of each is the other method's (0..1), over frames
 };
 
-/// What a cleaner says of its work beside the cleaned clip.
+/// What a cleaner made of a track: F samples of its space.
+struct CleanedTrack {
+  std::vector<Quat> rotations;
+  std::vector<Vec3> positions;
+  /// F where the cleaner tells samples apart (spikes, fills); else empty. A marker that was not
+  /// seen has a position where it says `filled`, and what stands there else means nothing.
+  std::vector<Action> actions;
+};
+
+/// Takes what a cleaner made of a track. Called at most once a track, from any thread; it may write
+/// into the clip at once, whose samples of this track are not looked at again.
+using TrackSink = std::function<void(std::size_t track, CleanedTrack cleaned)>;
+
+/// What a cleaner says of its work beside the cleaned tracks.
 struct CleanTrace {
-  std::vector<Action>
-      actions;  ///< F x J where the cleaner tells samples apart (spikes, fills); else empty
-  std::vector<Action> root_actions;  ///< F, the same for the root position; else empty
-  /// F x translated joints, the same for their positions; else empty.
-  std::vector<Action> translation_actions;
-  std::vector<double>
-      noise_deg;  ///< J: estimated noise per axis before cleaning, degrees; else empty
-  std::optional<double> root_noise;  ///< the same for the root position, file units
+  /// One a track: estimated noise per axis before cleaning, degrees or file units; else empty.
+  std::vector<double> noise;
   std::vector<FallBack> fall_backs;
   std::vector<std::string> warnings;
 };
-
-/// Which markers a cleaner may change.
-struct MarkerSelection {
-  std::vector<std::uint8_t> markers;  ///< M, 1 where positions may change
-  /// Stature, file units: options in degrees, and what counts as quiet, are measured by it.
-  double body_height = 1;
-
-  /// All that are positions, and the height of these markers.
-  static MarkerSelection all(const MarkerClip& clip);
-};
-
-/// What a cleaner says of its work on markers.
-struct MarkerTrace {
-  std::vector<Action> actions;  ///< F x M where the cleaner tells samples apart; else empty
-  std::vector<double> noise;    ///< M: estimated noise per axis, file units; else empty
-  std::vector<FallBack> fall_backs;
-  std::vector<std::string> warnings;
-};
-
-/// Takes what a cleaner made of a joint: F rotations, and what it says it did to each of them
-/// (empty: nothing in particular). May be called from any thread, at most once a joint.
-using JointSink = std::function<void(std::size_t joint, std::vector<Quat> rotations,
-                                     std::vector<Action> actions)>;
 
 /// What a method can do live.
 struct LiveSupport {
@@ -89,31 +60,23 @@ struct LiveSupport {
 };
 
 /// One frame of live motion.
-struct LiveFrame {
-  Vec3 root_position;
-  std::vector<Quat> rotations;           ///< J
-  std::vector<Vec3> joint_translations;  ///< one a translated joint
-  std::vector<std::uint8_t> observed;    ///< J, 1 where a rotation was measured; empty means all
+struct Frame {
+  std::vector<Quat> rotations;  ///< J
+  /// Root position, then those of the translated joints; or M markers.
+  std::vector<Vec3> positions;
+  /// J or M, 1 where the joint's rotation or the marker was measured; empty means all.
+  std::vector<std::uint8_t> observed;
 };
 
+/// Frame `frame` of a take, as it stands.
+Frame frame_of(const TakeView& take, std::size_t frame);
+
 /// The state of a causal cleaner on one stream: each call takes frame t and returns it cleaned.
+/// Markers that were not seen stay as they came.
 class FrameFilter {
  public:
   virtual ~FrameFilter() = default;
-  virtual void filter(LiveFrame& frame) = 0;
-};
-
-/// One frame of live markers.
-struct MarkerFrame {
-  std::vector<Vec3> positions;         ///< M
-  std::vector<std::uint8_t> observed;  ///< M, 1 where there is a position; empty means all
-};
-
-/// The same for markers. What is missing stays missing.
-class MarkerFilter {
- public:
-  virtual ~MarkerFilter() = default;
-  virtual void filter(MarkerFrame& frame) = 0;
+  virtual void filter(Frame& frame) = 0;
 };
 
 /// A cleaning method with its options. Immutable after construction and safe to share between
@@ -122,40 +85,38 @@ class Cleaner {
  public:
   virtual ~Cleaner() = default;
 
-  /// Cleans the selected parts of `clip` in place. Every frame is motion: calibration frames are
-  /// already off. Any number of frames is accepted, one and two included. The result does not
-  /// depend on the number of threads.
-  virtual CleanTrace clean(Clip& clip, const Selection& selection) const = 0;
-
-  /// The same for a caller who wants no second copy of a long take: positions are cleaned in place,
-  /// and the rotations of those joints that may have changed go to `sink`, which may write them
-  /// into `clip`: they are not looked at again. `CleanTrace::actions` stays empty. `progress`,
-  /// where there is one, is told how far the work is (0..1), by one thread at a time. The default
-  /// cleans a copy, and tells nothing on the way.
-  virtual CleanTrace clean_joints(Clip& clip, const Selection& selection, const JointSink& sink,
-                                  const std::function<void(double)>& progress = {}) const;
-
-  /// Cleans the selected markers in place. What stands in a gap never matters. Gaps up to 0.25 s
-  /// are bridged while a track is filtered, and no filter reaches across longer ones; only methods
-  /// with a learned model fill gaps: what they filled is observed. Errors: `ErrorKind::usage` of a
-  /// method that does not work on markers, which is the default.
-  virtual MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const;
+  /// Cleans the selected tracks and hands them over; tracks that it leaves alone may be left out.
+  /// Every frame is motion: calibration frames are already off. Any number of frames is accepted,
+  /// one and two included. What stands in a gap never matters. The result does not depend on the
+  /// number of threads. `progress`, where there is one, is told how far the work is (0..1), by one
+  /// thread at a time. Errors: `ErrorKind::usage` of a method that does not work on this kind of
+  /// take.
+  virtual CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                           const std::function<void(double)>& progress) const = 0;
 
   /// What the method can do frame by frame at this rate; the default is nothing.
   virtual LiveSupport live_support(double frame_rate_hz) const;
-  /// Live, of a windowed cleaner: frame `frame` of what `clean` makes of `window`, all parts
-  /// selected. The default cleans a copy of the window; a cleaner that can do with less work
-  /// overrides it.
-  virtual LiveFrame clean_frame(const Clip& window, std::size_t frame) const;
-  /// A new stream's state, of a causal cleaner; nullptr of any other. `clean` of a causal cleaner
-  /// gives the same numbers.
-  virtual std::unique_ptr<FrameFilter> make_frame_filter(const Skeleton& skeleton,
-                                                         double frame_rate_hz) const;
-  /// The same for the markers of a clip like this one (its names and its rate; frames do not
-  /// matter); nullptr of a method that is not causal. `clean_markers` gives the same numbers.
-  virtual std::unique_ptr<MarkerFilter> make_marker_filter(const MarkerClip& like,
-                                                           double body_height) const;
+  /// Live, of a windowed cleaner: frame `frame` of what `clean` makes of `window`. The default
+  /// cleans all of the window; a cleaner that can do with less work overrides it.
+  virtual Frame clean_frame(const TakeView& window, std::size_t frame) const;
+  /// A new stream's state, of a causal cleaner, for takes like this one, whose frames do not
+  /// matter; nullptr of any other, and where it does not work on this kind of take. `clean` of a
+  /// causal cleaner gives the same numbers.
+  virtual std::unique_ptr<FrameFilter> make_frame_filter(const TakeView& like) const;
 };
+
+/// What `clean_in_place` did: the trace, and the actions of each track (empty: nothing in
+/// particular).
+struct InPlaceTrace : CleanTrace {
+  std::vector<std::vector<Action>> actions;
+};
+/// The cleaner alone, without the pipeline of `clean_clip`: writes what it makes of the clip back
+/// into it. Markers that it filled become observed.
+InPlaceTrace clean_in_place(const Cleaner& cleaner, Clip& clip, const Selection& selection = {},
+                            const std::function<void(double)>& progress = {});
+InPlaceTrace clean_in_place(const Cleaner& cleaner, MarkerClip& clip,
+                            const Selection& selection = {},
+                            const std::function<void(double)>& progress = {});
 
 /// An entry of the table of methods.
 struct Method {

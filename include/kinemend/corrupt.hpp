@@ -38,6 +38,7 @@ struct VectorMotion {
   /// What a radian is worth: of rotations the unit of the vectors, of positions an arc that long.
   double per_radian = 1;
   double per_cm = 0;  ///< what a centimetre is worth; 0: not known
+  int up_axis = 1;    ///< 0, 1, 2: the axis that points up or down
 
   std::size_t track_count() const noexcept { return names.size(); }
 };
@@ -62,7 +63,7 @@ std::span<const Damage> damages();
 /// of range, and for a damage that needs a skeleton where there is none.
 DamageReport apply_damage(Clip& clip, std::string_view name, const OptionValues& values,
                           Random& random);
-/// Angles are arcs of a quarter of the stature (`body_height`). Markers that are not seen, and
+/// Angles are arcs of a quarter of the body height (`body_height`). Markers that are not seen, and
 /// points that are no positions, stay as they are.
 DamageReport apply_damage(MarkerClip& clip, std::string_view name, const OptionValues& values,
                           Random& random);

@@ -44,8 +44,8 @@ struct FootContact {
 
 struct ContactSettings {
   /// A part is down where it is lower than `begin_height` and slower than `begin_speed`, and stays
-  /// down while below the others (statures above its level; statures a second). Where the body
-  /// goes faster than 1.2 statures a second, as in running, speeds count by as much less.
+  /// down while below the others (body heights above its level; body heights a second). Where the
+  /// body goes faster than 1.2 body heights a second, as in running, speeds count by as much less.
   double begin_height = 0.015, keep_height = 0.03;
   double begin_speed = 0.15, keep_speed = 0.25;
   double least_s = 0.05;   ///< shorter contacts are none, shorter lifts are bridged

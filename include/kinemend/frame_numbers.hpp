@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -17,6 +18,8 @@ namespace kinemend {
 /// an AMC file that of its first row or frame; 1 for files that number none.
 std::int64_t first_frame_number(const Clip& clip);
 std::int64_t first_frame_number(const MarkerClip& clip);
+/// The number of a frame of a take whose first has the number `first`.
+std::int64_t frame_number(std::size_t frame, std::int64_t first);
 
 /// `parse_gaps` of frames that are counted from `first_frame`. Errors: also `unreadable_input` for
 /// a number below that.

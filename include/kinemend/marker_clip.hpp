@@ -69,7 +69,7 @@ MarkerClip make_marker_clip(std::vector<std::string> names, std::size_t frames,
 /// Frames [first, last) as a clip of their own, without its source document.
 MarkerClip slice(const MarkerClip& clip, std::size_t first, std::size_t last);
 
-/// Stature of the person whose markers these are, file units, or of what else was captured: 4.2
+/// Body height of the person whose markers these are, file units, or of what else was captured: 4.2
 /// times the lower quartile of the distances between any two markers in a frame, over at most 64
 /// frames. It does not depend on place, heading or order, hardly on pose, and outliers, props and a
 /// second person count for little; where the unit is known it is no more than 2.2 m. Where no two

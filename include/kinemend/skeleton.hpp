@@ -70,7 +70,7 @@ struct Skeleton {
 
 /// Largest extent of the rest pose along an axis (end sites included), file units: the height, or
 /// the arm span of a T-pose, which is about the same.
-double skeleton_height(const Skeleton& skeleton);
+double body_height(const Skeleton& skeleton);
 
 /// A length unit that files are written in.
 struct LengthUnit {

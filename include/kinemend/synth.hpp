@@ -35,8 +35,8 @@ struct SynthOptions {
 std::span<const std::string_view> synth_motions();
 
 /// Makes a take. Centimetres, y up, facing +z, x to the left; floor at y = 0; 31 joints in ZXY
-/// order, six channels at the root; segment lengths are shares of a stature of 172 +- 6 cm (Drillis
-/// and Contini 1966, in Winter's Biomechanics and Motor Control of Human Movement).
+/// order, six channels at the root; segment lengths are shares of a body height of 172 +- 6 cm
+/// (Drillis and Contini 1966, in Winter's Biomechanics and Motor Control of Human Movement).
 ///
 /// Walking and running follow published mean joint angles by percent of the stride (knee: Schwartz
 /// et al. 2008; hip, ankle, pelvis: Kadaba et al. 1990, Perry and Burnfield 2010; arms: Murray et

@@ -45,7 +45,7 @@ void report_feet(const BodyPoints& body, Up up, const CheckSettings& settings,
 
 // Acceleration of the least-squares parabola through heights, m/s^2, downwards.
 double fall(const BodyPoints& body, Up up, const FrameSpan& span) {
-  // With time centred, the second moment parts the square from the line.
+  // With time centred, the second moment separates the quadratic term from the linear one.
   const auto count = static_cast<double>(span.length());
   const double middle = 0.5 * static_cast<double>(span.first + span.last);
   double mean_square = 0, mean_height = 0;
@@ -63,11 +63,11 @@ double fall(const BodyPoints& body, Up up, const FrameSpan& span) {
   return bottom > 0 ? -2 * top / bottom : 0;
 }
 
-// In the air a body falls at 9.81 m/s^2 whatever it does, and the pelvis with it within a third.
-// What hangs or sits falls more slowly, so that only a rate that is too high can be told.
+// In the air a body falls at 9.81 m/s^2, and the pelvis does so within a third. A hanging or
+// sitting body falls more slowly, so that only a rate that is too high can be detected.
 void report_rate_of_fall(const BodyPoints& body, Up up, CheckReport& report) {
   constexpr double gravity = 9.81, most_ratio = 2.5;  // a rate 1.6 times too high
-  constexpr double least_height_m = 0.05;             // that the centre falls: more than noise does
+  constexpr double least_height_m = 0.05;             // fall of the centre, above the noise
   constexpr std::size_t fewest_flights = 2, fewest_frames = 6;
   std::vector<double> falls;
   for (const FrameSpan& span : find_flights(body, up)) {
@@ -112,7 +112,7 @@ void check_body(const MarkerClip& clip, const std::vector<Subject>& subjects,
     check_points(body_points(clip, subject.markers, report.metres_per_unit, settings.names),
                  settings, own);
     for (Finding& finding : own.findings) {
-      // One person tells of the rate as well as another.
+      // The rate is the same for all persons: one suffices.
       const bool is_rate = finding.kind == FindingKind::rate;
       if (is_rate && std::exchange(has_rate, true)) continue;
       if (!is_rate && !subject.name.empty()) finding.track = subject.name + " " + finding.track;

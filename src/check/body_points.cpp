@@ -30,7 +30,7 @@ std::vector<std::size_t> points_below(const Skeleton& skeleton, std::size_t join
   return points;
 }
 
-// Ankles with what hangs on them: the ankle itself rolls over the foot.
+// Ankles with their descendants: the ankle itself rolls over the foot.
 std::vector<Foot> feet_of(const Skeleton& skeleton, const KnownNames& names) {
   std::vector<Foot> feet;
   Skeleton known = skeleton;
@@ -44,10 +44,10 @@ std::vector<Foot> feet_of(const Skeleton& skeleton, const KnownNames& names) {
 }
 
 bool names_a_sole(std::string_view name) {
-  static constexpr std::array<std::string_view, 12> parts{
+  static constexpr std::array<std::string_view, 12> fragments{
       "TOE", "HEE", "MT1", "MT2", "MT5", "MTP", "FM1", "FM5", "FCC", "CALC", "MET1", "MET5"};
-  return std::any_of(parts.begin(), parts.end(),
-                     [&](std::string_view part) { return name.find(part) != name.npos; });
+  return std::any_of(fragments.begin(), fragments.end(),
+                     [&](std::string_view fragment) { return name.find(fragment) != name.npos; });
 }
 
 std::string upper_case(std::string_view name) {
@@ -83,7 +83,7 @@ BodyPoints body_points(const Clip& clip, double metres_per_unit, const KnownName
   body.points = clip.joint_count() + clip.skeleton.end_sites.size();
   body.frame_rate_hz = clip.frame_rate_hz;
   body.feet = feet_of(clip.skeleton, names);
-  body.height = metres_per_unit * skeleton_height(clip.skeleton);
+  body.height = metres_per_unit * body_height(clip.skeleton);
   if (body.feet.empty()) return body;
   body.positions = joint_positions(clip, true);
   for (Vec3& p : body.positions) p = metres_per_unit * p;

@@ -102,7 +102,7 @@ CheckReport report_on(const MarkerClip& clip, MarkerRows& rows) {
   return report;
 }
 
-// Several people span more than one: the markers of whoever has most, or all without anybody.
+// The markers of the person with the most markers, or all where there are no subjects.
 const std::vector<std::size_t>& largest_of(const std::vector<Subject>& subjects,
                                            const std::vector<std::size_t>& markers) {
   const auto largest = std::max_element(
@@ -153,7 +153,7 @@ CheckReport check_take(const MarkerClip& clip, const CheckSettings& settings) {
   check::check_unit(clip, largest_of(subjects, markers), settings, report);
   check::check_gaps(find_gaps(clip), track_of, report);
   check::check_swaps(clip, track_of, report);
-  // Every other check would see an exchange of labels twice in each of two tracks.
+  // Other checks would report an exchange of labels twice for each of two tracks.
   MarkerClip labelled = clip;
   undo_swaps(labelled, report.swaps);
   check::check_noise_and_spikes(labelled, markers, settings, report);

@@ -7,7 +7,7 @@
 #include "kinemend/check.hpp"
 #include "kinemend/subjects.hpp"
 
-// One function a check. Each adds to a report whose `tracks` are named already; frames count from
+// One function per check. Each adds to a report whose `tracks` are named already; frames count from
 // the first frame of the clip it is given.
 namespace kinemend::check {
 
@@ -39,7 +39,7 @@ void check_euler_flips(const Clip& clip, CheckReport& report);
 /// which some stand.
 void check_zero_frames(const Clip& clip, CheckReport& report);
 
-/// Whole frames that repeat, and a rate that such repeats betray.
+/// Whole frames that repeat, and the rate that such repeats indicate.
 void check_frames(const Clip& clip, CheckReport& report);
 void check_frames(const MarkerClip& clip, const std::vector<std::size_t>& markers,
                   CheckReport& report);

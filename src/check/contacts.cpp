@@ -21,7 +21,7 @@ std::vector<SolePoint> sole_points(const BodyPoints& body, const Foot& foot, Up 
   return points;
 }
 
-// Follows, from frame to frame, the touching point that moves least: a foot turns about it.
+// Follows, from frame to frame, the touching point that moves least, about which the foot turns.
 Contact measure(const std::vector<SolePoint>& points,
                 const std::vector<std::vector<std::uint8_t>>& touching, std::size_t foot,
                 const FrameSpan& span, double frame_rate_hz) {

@@ -43,7 +43,7 @@ struct LeapSize {
   double degrees = 0;
 };
 
-// Degrees of the middle angle to the nearest place where the outer two turn about one axis.
+// Degrees of the middle angle to the nearest gimbal lock.
 double to_gimbal_lock(double middle, RotationOrder order) {
   const bool repeats_axis = order.axes[0] == order.axes[2];
   return std::fabs(wrap_angle(middle - (repeats_axis ? 0 : 90), 90));
@@ -51,7 +51,7 @@ double to_gimbal_lock(double middle, RotationOrder order) {
 
 LeapSize leap_of(const double* before, const double* now, const AngleColumns& joint,
                  double turn_deg) {
-  constexpr double large = 90, part_of_leap = 0.25, near_lock = 8;
+  constexpr double large = 90, share_of_leap = 0.25, near_lock = 8;
   LeapSize result;
   double whole = 0, wrapped = 0;
   for (std::size_t i = 0; i < joint.order.count; ++i) {
@@ -60,13 +60,13 @@ LeapSize leap_of(const double* before, const double* now, const AngleColumns& jo
     whole = std::max(whole, std::fabs(step));
     wrapped = std::max(wrapped, std::fabs(wrap_angle(step, 180)));
   }
-  if (wrapped > large && turn_deg < part_of_leap * wrapped) {
+  if (wrapped > large && turn_deg < share_of_leap * wrapped) {
     result = {Leap::other_branch, wrapped};
     const std::size_t middle = joint.columns[1];
     if (joint.order.count == 3 && std::min(to_gimbal_lock(before[middle], joint.order),
                                            to_gimbal_lock(now[middle], joint.order)) < near_lock)
       result.leap = Leap::gimbal_lock;
-  } else if (whole > 180 && turn_deg < part_of_leap * whole) {
+  } else if (whole > 180 && turn_deg < share_of_leap * whole) {
     result = {Leap::whole_turn, whole};
   }
   return result;

@@ -35,7 +35,7 @@ namespace check {
 
 namespace {
 
-// What spoils most of what is made from a take stands first.
+// Findings that affect most uses of a take come first.
 std::size_t rank_of(FindingKind kind) {
   static constexpr std::array<FindingKind, 16> order{
       FindingKind::swap,    FindingKind::zero_frames, FindingKind::rate,

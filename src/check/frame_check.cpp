@@ -10,7 +10,7 @@ namespace kinemend::check {
 
 namespace {
 
-// Equal to the frame before in every digit that text holds.
+// Equal to the frame before to the precision of text.
 bool repeats(const Clip& clip, std::size_t frame) {
   constexpr double same_angle = 1e-7;
   const Vec3 step = clip.root_positions[frame] - clip.root_positions[frame - 1];
@@ -39,7 +39,7 @@ bool repeats(const MarkerClip& clip, const std::vector<std::size_t>& markers, st
   return seen > 0;
 }
 
-// Most of every second step is a repeat: the take was made of one of half the rate (or a third).
+// Most of every second step repeats: the take was converted from half the rate (or a third).
 void report_low_rate(const std::vector<std::uint8_t>& repeated, CheckReport& report) {
   for (const std::size_t stride : {2, 3, 4, 5}) {
     for (std::size_t phase = 0; phase < stride; ++phase) {
@@ -109,7 +109,7 @@ void check_zero_frames(const Clip& clip, CheckReport& report) {
   const std::vector<FrameSpan> zeros =
       runs_where(frames, [&](std::size_t t) { return is_zero(clip, t); });
   for (const FrameSpan& run : zeros) {
-    // A take that is zero all along does not move, and one such frame at the start is a pose.
+    // A take of zeros only does not move, and one such frame at the start is a pose.
     const bool is_pose = run.last == 0 && report.calibration_frames > 0;
     if (is_pose || run.length() == frames) continue;
     report.findings.push_back({FindingKind::zero_frames, Severity::serious, "", run.first, run.last,

@@ -6,7 +6,7 @@ namespace kinemend::check {
 
 void check_gaps(const std::vector<Gap>& gap_list, const std::vector<std::int32_t>& track_of,
                 CheckReport& report) {
-  constexpr double long_gap_s = 0.5;  // what filling without a model may get wrong
+  constexpr double long_gap_s = 0.5;  // longer gaps need a model to be filled reliably
   std::size_t missing = 0;
   for (const Gap& gap : gap_list) {
     if (track_of[gap.track] < 0) continue;

@@ -9,7 +9,8 @@ namespace kinemend::check {
 
 namespace {
 
-constexpr std::size_t looked_at = 200;  // frames, spread evenly, that tell what is usual
+constexpr std::size_t looked_at =
+    200;  // frames, evenly spread, from which usual lengths are estimated
 
 // The largest value that holds for three frames in a row, and where: single frames are spikes.
 // Negative values are unknown.
@@ -45,7 +46,7 @@ void report_length(const std::vector<double>& change_percent, const std::string&
                              peak.value, "%", std::move(words)});
 }
 
-// Some skeletons hang the body on a point of reference; the way from that to the hips is no bone.
+// Some skeletons have a reference point above the hips; the distance between these is not a bone.
 bool carries_the_body(const Skeleton& skeleton, std::int32_t joint) {
   for (std::int32_t parent = skeleton.parents[static_cast<std::size_t>(joint)]; parent >= 0;
        parent = skeleton.parents[static_cast<std::size_t>(parent)]) {
@@ -60,7 +61,7 @@ struct RigidNeighbour {
   double spread = 0;  // 10th to 90th percentile
 };
 
-// Markers at a distance that hardly changes: those of the same segment.
+// Markers at a nearly constant distance, as on the same segment.
 std::vector<RigidNeighbour> rigid_neighbours(const MarkerClip& clip,
                                              const std::vector<std::size_t>& markers,
                                              std::size_t of) {
@@ -89,7 +90,7 @@ std::vector<RigidNeighbour> rigid_neighbours(const MarkerClip& clip,
   return found;
 }
 
-// A marker that moves on its segment departs from most of its neighbours; they only from it.
+// A marker that slips on its segment changes its distance to most neighbours; these only to it.
 std::vector<double> departures(const MarkerClip& clip, std::size_t marker,
                                const std::vector<RigidNeighbour>& neighbours) {
   std::vector<double> result(clip.frame_count(), -1), now;
@@ -110,7 +111,7 @@ std::vector<double> departures(const MarkerClip& clip, std::size_t marker,
 
 void check_lengths(const Clip& clip, const CheckSettings& settings, CheckReport& report) {
   const std::size_t width = clip.translated_joints.size(), frames = clip.frame_count();
-  const double least_length = 0.01 * skeleton_height(clip.skeleton);
+  const double least_length = 0.01 * body_height(clip.skeleton);
   for (std::size_t i = 0; i < width; ++i) {
     if (carries_the_body(clip.skeleton, clip.translated_joints[i])) continue;
     std::vector<double> lengths(frames);

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "check/checks.hpp"
 #include "kinemend/methods.hpp"
@@ -29,45 +31,71 @@ void add_spike(TrackHealth& track, std::string name, std::size_t frame, double s
                              size, std::move(unit), "stands off the frames about it"});
 }
 
+// What `auto` says of a take.
+struct Verdict {
+  std::vector<double> noise;                               // one a track; empty: too short to tell
+  std::vector<std::map<std::size_t, double>> spike_sizes;  // of each track, by frame
+
+  const double* spike(std::size_t track, std::size_t frame) const {
+    const auto found = spike_sizes[track].find(frame);
+    return found == spike_sizes[track].end() ? nullptr : &found->second;
+  }
+};
+
+Verdict verdict_of(const TakeView& take) {
+  Verdict verdict;
+  verdict.spike_sizes.resize(take.tracks.size());
+  const TrackSink sink = [&](std::size_t n, const CleanedTrack& cleaned) {
+    const Track& track = take.tracks[n];
+    for (std::size_t f = 0; f < cleaned.actions.size(); ++f) {
+      if (cleaned.actions[f] != Action::despiked) continue;
+      verdict.spike_sizes[n][f] =
+          track.space == Space::rotation
+              ? degrees_per_radian * angle_between(track.rotation(f), cleaned.rotations[f])
+              : norm(track.position(f) - cleaned.positions[f]);
+    }
+  };
+  verdict.noise = make_auto({})->clean(take, sink, {}).noise;
+  return verdict;
+}
+
 }  // namespace
 
 void check_noise_and_spikes(const Clip& clip, const CheckSettings& settings, CheckReport& report) {
   const std::size_t frames = clip.frame_count(), joints = clip.joint_count();
   if (frames == 0) return;
-  Clip cleaned = clip;
-  const CleanTrace trace = make_auto({})->clean(cleaned, Selection::all(clip));
-  for (std::size_t j = 0; j < trace.noise_deg.size(); ++j)
-    add_noise(report.tracks[j], trace.noise_deg[j], settings.noise_deg, frames, report);
-  for (std::size_t i = 0; i < trace.actions.size(); ++i) {
-    if (trace.actions[i] != Action::despiked) continue;
-    TrackHealth& track = report.tracks[i % joints];
-    const double size = angle_between(clip.local_rotations[i], cleaned.local_rotations[i]);
-    add_spike(track, track.name, i / joints, degrees_per_radian * size, "deg", report);
+  const Verdict verdict = verdict_of(view_of(clip));
+  for (std::size_t j = 0; j < joints && !verdict.noise.empty(); ++j)
+    add_noise(report.tracks[j], verdict.noise[j], settings.noise_deg, frames, report);
+  // By frame, then joint.
+  for (std::size_t f = 0; f < frames; ++f) {
+    for (std::size_t j = 0; j < joints; ++j) {
+      if (const double* size = verdict.spike(j, f))
+        add_spike(report.tracks[j], report.tracks[j].name, f, *size, "deg", report);
+    }
   }
-  for (std::size_t f = 0; f < trace.root_actions.size(); ++f) {
-    if (trace.root_actions[f] != Action::despiked) continue;
-    const double size = norm(clip.root_positions[f] - cleaned.root_positions[f]);
-    add_spike(report.tracks[0], report.tracks[0].name + " position", f, size, "", report);
+  for (std::size_t f = 0; f < frames; ++f) {
+    if (const double* size = verdict.spike(joints, f))
+      add_spike(report.tracks[0], report.tracks[0].name + " position", f, *size, "", report);
   }
 }
 
 void check_noise_and_spikes(const MarkerClip& clip, const std::vector<std::size_t>& markers,
                             const CheckSettings& settings, CheckReport& report) {
-  const std::size_t frames = clip.frame_count(), width = clip.marker_count();
+  const std::size_t frames = clip.frame_count();
   if (frames == 0 || markers.empty()) return;
-  MarkerClip cleaned = clip;
-  const MarkerTrace trace = make_auto({})->clean_markers(cleaned, MarkerSelection::all(clip));
-  // Without a unit nobody knows how much noise is much.
+  const Verdict verdict = verdict_of(view_of(clip));
+  // Without a unit there is no limit to compare with.
   const double limit = report.metres_per_unit > 0
                            ? 0.01 * settings.noise_cm / report.metres_per_unit
                            : std::numeric_limits<double>::infinity();
   for (std::size_t n = 0; n < markers.size(); ++n) {
     const std::size_t m = markers[n];
-    if (!trace.noise.empty()) add_noise(report.tracks[n], trace.noise[m], limit, frames, report);
-    for (std::size_t f = 0; f < frames && !trace.actions.empty(); ++f) {
-      if (trace.actions[f * width + m] != Action::despiked) continue;
-      const double size = norm(clip.position(f, m) - cleaned.position(f, m));
-      add_spike(report.tracks[n], report.tracks[n].name, f, size, report.noise_unit, report);
+    if (!verdict.noise.empty())
+      add_noise(report.tracks[n], verdict.noise[m], limit, frames, report);
+    for (std::size_t f = 0; f < frames; ++f) {
+      if (const double* size = verdict.spike(m, f))
+        add_spike(report.tracks[n], report.tracks[n].name, f, *size, report.noise_unit, report);
     }
   }
 }

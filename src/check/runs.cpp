@@ -18,10 +18,10 @@ struct Counts {
   }
 };
 
-// As if two more had been seen, one of them a yes: a share is never certain.
-double share_without(const Counts& all, const Counts& part) {
-  return (static_cast<double>(all.yes - part.yes) + 1) /
-         (static_cast<double>(all.known - part.known) + 2);
+// Laplace's rule of succession: a share is never 0 or 1.
+double share_without(const Counts& all, const Counts& subset) {
+  return (static_cast<double>(all.yes - subset.yes) + 1) /
+         (static_cast<double>(all.known - subset.known) + 2);
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ std::vector<std::vector<FrameSpan>> improbable_runs(const FlagTable& table, std:
   std::vector<std::uint8_t> is_witness(table.tracks);
   for (std::size_t n = 0; n < table.tracks; ++n) {
     for (std::size_t t = 0; t < table.steps; ++t) of_track[n].add(table(t, n));
-    // A track that is flagged as a rule says nothing about a moment.
+    // A track that is flagged in most frames does not localise an event.
     is_witness[n] = 2 * of_track[n].yes < of_track[n].known;
     for (std::size_t t = 0; is_witness[n] != 0 && t < table.steps; ++t) of_step[t].add(table(t, n));
   }

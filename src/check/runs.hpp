@@ -23,11 +23,11 @@ std::vector<FrameSpan> runs_where(std::size_t frames, const Holds& holds) {
   return runs;
 }
 
-/// One flag a step of each of N tracks, as a track's samples tell it.
+/// One flag per step of each of N tracks, from the track's samples.
 enum class Flag : std::uint8_t {
   no,
   yes,
-  unknown,  ///< a sample is missing, or the track is not to be looked at
+  unknown,  ///< a sample is missing, or the track is excluded
 };
 
 struct FlagTable {
@@ -41,10 +41,10 @@ struct FlagTable {
   Flag operator()(std::size_t step, std::size_t track) const { return flags[track * steps + step]; }
 };
 
-/// The runs of `yes`, at least `shortest` long, that chance does not make: where p is the share of
-/// `yes` on the track outside the run, or among the other tracks during the run if that is more, a
-/// run of r has p^r below 1e-6. Runs that the other tracks share (p of a half or more) are no
-/// fault of one track. One list a track.
+/// The runs of `yes`, at least `shortest` long, that chance does not explain: where p is the share
+/// of `yes` on the track outside the run, or among the other tracks during the run if that is more,
+/// a run of r has p^r below 1e-6. Runs that the other tracks share (p of a half or more) are not
+/// specific to one track. One list per track.
 std::vector<std::vector<FrameSpan>> improbable_runs(const FlagTable& table, std::size_t shortest);
 
 }  // namespace kinemend::check

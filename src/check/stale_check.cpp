@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t shortest_frozen_steps = 2;    // three samples in a row
 constexpr std::size_t shortest_straight_steps = 3;  // five samples in a row
-constexpr double part_of_usual = 0.01;  // of the usual step or bend: what is not there at all
+constexpr double share_of_usual = 0.01;  // of the usual step or bend, below which it counts as zero
 
 // Sizes of the steps and the bends of one track; negative where a sample is missing. Step t lies
 // between samples t and t + 1, bend t at sample t + 1.
@@ -35,7 +35,7 @@ double usual_size(const std::vector<double>& sizes) {
   return median_of(known);
 }
 
-// Text rounds the samples, so that a repeated or interpolated one is off by some last digits.
+// Text rounds the samples, so that a repeated or interpolated one deviates by some last digits.
 void set_flags(const std::vector<double>& sizes, double most, std::size_t track, FlagTable& table) {
   for (std::size_t t = 0; t < sizes.size(); ++t) {
     if (sizes[t] >= 0) table(t, track) = sizes[t] <= most ? Flag::yes : Flag::no;
@@ -61,7 +61,7 @@ double quantum(const std::vector<double>& sizes) {
 // What counts as a change on a track.
 struct ChangeScale {
   double usual = 0;
-  double digits = 0;  // no more than rounding makes
+  double digits = 0;  // rounding error of the file
 
   ChangeScale() = default;
   explicit ChangeScale(const std::vector<double>& sizes)
@@ -69,8 +69,8 @@ struct ChangeScale {
   double clear() const { return std::max(0.3 * usual, digits); }
 };
 
-// Motion slows down before it rests and bends before it is straight; a stale span has at least one
-// end where it does neither: the size beside it is clear, and not on its way to 0.
+// Motion decelerates before it rests and bends before it is straight; a stale span has at least one
+// end where it does not: the size beside it is large and not decreasing.
 bool has_sharp_end(const std::vector<double>& sizes, const FrameSpan& run,
                    const ChangeScale& scale) {
   constexpr double still_large = 0.6;
@@ -90,8 +90,8 @@ bool moves_along(const std::vector<double>& steps, const FrameSpan& run, const C
 
 constexpr double slack_rad = 1e-4;  // beyond the end of a hinge, by the digits of a file
 
-// The range of a hinge, a joint that turns about one axis alone, as a knee does; none is known of
-// any other joint.
+// The range of a hinge, a joint that turns about one axis alone, as a knee does; other joints have
+// none.
 struct HingeRange {
   Quat end;        // the joint at one end
   Vec3 axis;       // towards the other, in the frame of `end`
@@ -129,7 +129,7 @@ bool is_at_an_end(const HingeRange& range, Quat rotation) {
   return from_end <= slack_rad || from_end >= range.rad - slack_rad;
 }
 
-// A stretched knee stands as still as a frozen one.
+// A stretched knee is as still as a frozen one.
 void leave_out_hinge_ends(const Clip& clip, std::size_t joint, std::vector<FrameSpan>& frozen) {
   if (frozen.empty()) return;
   const std::optional<HingeRange> range = hinge_range(clip, joint);
@@ -139,9 +139,9 @@ void leave_out_hinge_ends(const Clip& clip, std::size_t joint, std::vector<Frame
   });
 }
 
-// How each kind of span lies among the samples.
+// The samples that each kind of span covers.
 struct StaleSpans {
-  std::vector<std::vector<FrameSpan>> frozen, bridged;  // one list a track
+  std::vector<std::vector<FrameSpan>> frozen, bridged;  // one list per track
 };
 
 StaleSpans find_stale(const std::vector<TrackChanges>& tracks, std::size_t frames,
@@ -155,8 +155,8 @@ StaleSpans find_stale(const std::vector<TrackChanges>& tracks, std::size_t frame
     step_scales[n] = ChangeScale(tracks[n].steps);
     bend_scales[n] = ChangeScale(tracks[n].bends);
     if (step_scales[n].usual == 0) return;
-    set_flags(tracks[n].steps, part_of_usual * step_scales[n].usual, n, repeats);
-    set_flags(tracks[n].bends, part_of_usual * bend_scales[n].usual, n, straight);
+    set_flags(tracks[n].steps, share_of_usual * step_scales[n].usual, n, repeats);
+    set_flags(tracks[n].bends, share_of_usual * bend_scales[n].usual, n, straight);
     // A frozen span is a straight line too.
     for (std::size_t t = 0; t + 2 < frames; ++t) {
       if (repeats(t, n) == Flag::yes || repeats(t + 1, n) == Flag::yes) straight(t, n) = Flag::no;

@@ -13,7 +13,7 @@ namespace kinemend::check {
 namespace {
 
 // Velocity a frame at the end of a run of samples; `step` is -1 for the run before `frame`, 1 for
-// the one behind. Across a gap noise counts more, so more samples are used.
+// the one behind. Across a gap noise has more influence, so more samples are used.
 std::optional<Vec3> end_velocity(const MarkerClip& clip, std::size_t marker, std::size_t frame,
                                  std::ptrdiff_t step, std::size_t most_frames) {
   const auto frames = static_cast<std::ptrdiff_t>(clip.frame_count());
@@ -130,7 +130,7 @@ std::vector<Exchange> find_exchanges(const MarkerClip& clip, const std::vector<B
 
 namespace {
 
-constexpr std::size_t most_looked_at = 200;  // frames, spread evenly, that stand for all
+constexpr std::size_t most_looked_at = 200;  // frames, evenly spread
 
 std::vector<std::size_t> spread_frames(const std::vector<std::uint8_t>& swapped,
                                        std::uint8_t wanted) {
@@ -151,7 +151,7 @@ struct Neighbour {
   double spread = 0;  // quartile range of the distance
 };
 
-// The markers that keep their distance best.
+// The markers with the least spread of their distance.
 std::vector<Neighbour> steady_neighbours(const MarkerClip& clip,
                                          const std::vector<std::size_t>& markers, std::size_t of,
                                          std::size_t except,

@@ -8,25 +8,25 @@
 
 namespace kinemend::check {
 
-/// A place where a track does not go on as it was heading, or is missing for a while.
+/// A place where a track departs from its extrapolation, or is missing for a while.
 struct Break {
   std::size_t marker = 0;
   std::size_t before = 0;  ///< last frame seen
   std::size_t after = 0;   ///< next frame seen
-  double mismatch = 0;     ///< how far the two sides miss one another, file units
+  double mismatch = 0;     ///< distance of the extrapolated sides, file units
 };
 
-/// How far the track of `from` up to frame `before` and that of `to` from frame `after` on miss one
-/// another: both are extended to the middle of the time between them with the velocities they have
-/// there. About half the third difference where they are successive frames of one track.
+/// Distance of the track of `from` up to frame `before` and that of `to` from frame `after` on,
+/// both extrapolated to the middle between them with their velocities there. About half the third
+/// difference where they are successive frames of one track.
 double side_mismatch(const MarkerClip& clip, std::size_t from, std::size_t before, std::size_t to,
                      std::size_t after);
 
 /// All gaps between samples, and the successive samples whose mismatch is 6 times the usual one of
-/// their marker. By frame `before`. `markers` are those that are looked at.
+/// their marker. By frame `before`. `markers` are those examined.
 std::vector<Break> find_breaks(const MarkerClip& clip, const std::vector<std::size_t>& markers);
 
-/// Two breaks at which the markers exchange their labels: each track goes on in the other's.
+/// Two breaks at which the markers exchange their labels: each track continues in the other's.
 struct Exchange {
   std::size_t first_marker = 0;  ///< the lower one
   std::size_t second_marker = 0;
@@ -36,17 +36,17 @@ struct Exchange {
   double doubt = 0;             ///< mismatch with labels exchanged over that without
 };
 
-/// No break takes part in two exchanges; the least doubtful ones count. By frame.
+/// No break is in two exchanges; the least doubtful ones are kept. By frame.
 std::vector<Exchange> find_exchanges(const MarkerClip& clip, const std::vector<Break>& breaks);
 
-/// Whether the distances to the markers about them say that two markers are exchanged in some
-/// frames: the mean departure from their usual distances as labelled, and with labels exchanged.
+/// Evidence from distances to nearby markers that two markers are exchanged in some frames: the
+/// mean departure from their usual distances as labelled, and with labels exchanged.
 struct NeighbourVerdict {
   double as_labelled = 0;
   double exchanged = 0;
   bool known = false;  ///< false where no neighbour was seen
 };
-/// `swapped[f]` is 1 in the frames in question, 0 in those that tell what is usual.
+/// `swapped[f]` is 1 in the frames in question, 0 in those that usual distances are from.
 NeighbourVerdict ask_neighbours(const MarkerClip& clip, const std::vector<std::size_t>& markers,
                                 std::size_t first_marker, std::size_t second_marker,
                                 const std::vector<std::uint8_t>& swapped);

@@ -15,7 +15,7 @@ namespace {
 
 using check::Exchange;
 
-// A track that nobody named (`*12` stands for such a one) has no label to lose.
+// An unnamed track (such as `*12`) has no label to exchange.
 bool is_named(const std::string& name) {
   const std::string_view own = without_subject(name);
   return !own.empty() && own.front() != '*' && own.substr(0, 5) != "uname";
@@ -45,13 +45,13 @@ std::vector<FrameSpan> swapped_spans(const std::vector<Exchange>& exchanges, std
   return in_odd <= in_even ? odd : even;
 }
 
-// Across a gap two tracks may seem to cross by chance, so that the neighbours must be sure of it.
+// Across a gap two tracks may seem to cross by chance, so that neighbours must confirm it.
 bool neighbours_agree(const MarkerClip& clip, const std::vector<std::size_t>& markers,
                       const std::pair<std::size_t, std::size_t>& pair, const FrameSpan& span,
                       const std::vector<FrameSpan>& all_spans, std::size_t longest_gap) {
   constexpr double short_gap_s = 0.03;
   std::vector<std::uint8_t> swapped(clip.frame_count());
-  // Other swapped spans of the pair tell nothing of what is usual.
+  // Other swapped spans of the pair are left out of the usual distances.
   for (const FrameSpan& s : all_spans) std::fill_n(swapped.begin() + s.first, s.length(), 2);
   std::fill_n(swapped.begin() + span.first, span.length(), 1);
   const check::NeighbourVerdict verdict =

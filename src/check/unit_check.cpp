@@ -9,7 +9,7 @@ namespace kinemend::check {
 
 namespace {
 
-constexpr std::size_t fewest_joints = 10;  // of a body whose size says anything
+constexpr std::size_t fewest_joints = 10;  // of a body whose size is meaningful
 constexpr std::size_t fewest_markers = 8;
 
 std::string size_text(double metres) {
@@ -58,7 +58,7 @@ Finding finding_of(Severity severity, double size_m, const CheckReport& report, 
 
 void check_unit(const Clip& clip, const CheckSettings& settings, CheckReport& report) {
   const auto guess = guess_length_unit(clip.skeleton);
-  const double height = skeleton_height(clip.skeleton);
+  const double height = body_height(clip.skeleton);
   const double declared = settings.metres_per_unit.value_or(clip.metres_per_unit);
   report.metres_per_unit = declared > 0 ? declared : guess ? guess->metres : 0;
   if (clip.joint_count() < fewest_joints || !(height > 0)) return;
@@ -84,7 +84,7 @@ void check_unit(const MarkerClip& clip, const std::vector<std::size_t>& markers,
   report.metres_per_unit = declared > 0 ? declared : guess != nullptr ? guess->metres : 0;
   if (declared > 0) {
     const double metres = extent * declared;
-    // Part of a body, or several people, are no fault of the unit.
+    // An incomplete body, or several people, do not indicate a wrong unit.
     if (extent == 0 || (metres > 0.12 && metres < 12)) return;
     std::string words = fmt::format("the markers would span {}", size_text(metres));
     if (guess != nullptr)

@@ -1,13 +1,15 @@
 #include <algorithm>
-#include <cmath>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "base/progress.hpp"
-#include "clean/auto_markers.hpp"
-#include "clean/clip_tracks.hpp"
+#include "clean/auto_scale.hpp"
 #include "clean/method_list.hpp"
+#include "clean/neighbours.hpp"
+#include "clean/pieces.hpp"
 #include "kinemend/methods.hpp"
-#include "tracks/moving_chart.hpp"
+#include "tracks/smooth_chart.hpp"
 #include "tracks/spikes.hpp"
 #include "tracks/track_cleaning.hpp"
 #include "tracks/vector_tracks.hpp"
@@ -25,154 +27,145 @@ const OptionTable<AutoOptions>& table() {
   return options;
 }
 
+// A track as vectors in degrees, and back.
+struct Curve {
+  std::vector<Vec3> vectors;           // F
+  std::vector<std::uint8_t> suspects;  // F, the first that may be spikes; empty: none
+};
+
+// A chart takes more room than the vectors that it gives: it is made once for these, and again to
+// come back from them.
+RotationChart chart_of(std::vector<Quat> track, double frame_rate_hz,
+                       std::vector<std::uint8_t>* gross = nullptr) {
+  std::vector<std::uint8_t> marks = replace_gross_spikes(track);
+  if (gross) *gross = std::move(marks);
+  return smooth_chart(track, frame_rate_hz);
+}
+
+// A bridge follows the sample it starts at, also where that is a spike: the samples beside gaps are
+// the first to be doubted.
+std::vector<std::uint8_t> beside_gaps(const Track& track, std::size_t frames) {
+  std::vector<std::uint8_t> marks(frames);
+  for (std::size_t t = 1; t < frames; ++t) {
+    const bool before = track.is_observed(t - 1), now = track.is_observed(t);
+    if (before != now) marks[now ? t : t - 1] = 1;
+  }
+  return marks;
+}
+
+Curve curve_of(const TakeView& take, std::size_t number) {
+  Curve curve;
+  const Track& track = take.tracks[number];
+  if (track.space == Space::rotation) {
+    const std::vector<Quat> rotations = rotation_piece(take, number).samples;
+    const RotationChart chart = chart_of(rotations, take.frame_rate_hz, &curve.suspects);
+    for (std::size_t t = 0; t < take.frames; ++t)
+      curve.vectors.push_back(degrees_per_radian * chart.vector_of(t, rotations[t]));
+    return curve;
+  }
+  const double degrees = degrees_per_unit(take);
+  if (take.markers) curve.suspects = beside_gaps(track, take.frames);
+  curve.vectors = take.markers ? whole_positions(take, number)
+                               : std::move(position_pieces(take, number).front().samples);
+  for (Vec3& vector : curve.vectors) vector = degrees * vector;
+  return curve;
+}
+
+// A cleaned track from its vectors: those of all samples where it is smoothed, else of spikes.
+CleanedTrack track_of(const TakeView& take, std::size_t number, std::span<const Vec3> vectors,
+                      std::span<const std::uint8_t> spikes, bool smoothed) {
+  const Track& track = take.tracks[number];
+  const auto is_new = [&](std::size_t t) { return smoothed || spikes[t] != 0; };
+  if (track.space == Space::rotation) {
+    Piece<Quat> piece = rotation_piece(take, number);
+    piece.actions.assign(take.frames, Action::kept);
+    const RotationChart chart = chart_of(piece.samples, take.frame_rate_hz);
+    for (std::size_t t = 0; t < take.frames; ++t) {
+      if (is_new(t)) piece.samples[t] = chart.rotation_of(t, radians_per_degree * vectors[t]);
+      if (spikes[t] != 0) piece.actions[t] = Action::despiked;
+    }
+    return assemble(std::move(piece));
+  }
+  std::vector<Piece<Vec3>> pieces = position_pieces(take, number);
+  for (Piece<Vec3>& piece : pieces) {
+    piece.actions.assign(piece.samples.size(), Action::kept);
+    for (std::size_t i = 0; i < piece.samples.size(); ++i) {
+      const std::size_t t = piece.first_frame + i;
+      if (is_new(t)) piece.samples[i] = (1 / degrees_per_unit(take)) * vectors[t];
+      if (spikes[t] != 0) piece.actions[i] = Action::despiked;
+    }
+  }
+  return assemble(take, number, pieces);
+}
+
 class Auto final : public Cleaner {
  public:
   explicit Auto(const AutoOptions& options) : options_(options) {}
 
-  CleanTrace clean(Clip& clip, const Selection& selection) const override {
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>& tell) const override {
     CleanTrace trace;
-    const std::vector<std::size_t> joints = selected_joints(clip, selection);
-    bridge_gaps(clip, joints, trace);
-    if (clip.frame_count() < fewest_clean_frames) return trace;
-    if (trace.actions.empty()) trace.actions.assign(clip.local_rotations.size(), Action::kept);
-    const JointSink keep = [&](std::size_t joint, std::vector<Quat> rotations,
-                               std::vector<Action> actions) {
-      set_joint_track(clip, joint, rotations);
-      for (std::size_t t = 0; t < actions.size(); ++t) {
-        Action& action = trace.actions[t * clip.joint_count() + joint];
-        if (action == Action::kept) action = actions[t];
-      }
-    };
-    clean_parts(clip, selection, joints, keep, {}, trace);
+    std::vector<std::size_t> rotations, positions;
+    for (const std::size_t track : changeable_tracks(take))
+      (take.tracks[track].space == Space::rotation ? rotations : positions).push_back(track);
+    if (take.frames < fewest_clean_frames) {
+      keep_bridges(take, rotations, sink);
+      return trace;
+    }
+    ShareProgress progress(tell);
+    trace.noise.assign(take.tracks.size(), 0);
+    clean_together(take, rotations, sink, progress, trace);
+    clean_together(take, positions, sink, progress, trace);
     return trace;
-  }
-
-  CleanTrace clean_joints(Clip& clip, const Selection& selection, const JointSink& sink,
-                          const std::function<void(double)>& progress) const override {
-    // Bridges would take the place of what is there before anybody has seen it.
-    if (!clip.observed.empty()) return Cleaner::clean_joints(clip, selection, sink, progress);
-    CleanTrace trace;
-    if (clip.frame_count() < fewest_clean_frames) return trace;
-    clean_parts(clip, selection, selected_joints(clip, selection), sink, progress, trace);
-    return trace;
-  }
-
-  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
-    return clean_markers_by_evidence(clip, selection, options_);
   }
 
  private:
-  void clean_parts(Clip& clip, const Selection& selection, const std::vector<std::size_t>& joints,
-                   const JointSink& sink, const std::function<void(double)>& tell,
-                   CleanTrace& trace) const {
-    ShareProgress progress(tell);
-    clean_rotations(clip, joints, sink, progress, trace);
-    clean_positions(clip, selected_positions(clip, selection), trace);
-  }
-
-  // A chart takes more room than the vectors that it gives: it is made once for these, and again
-  // to come back from them.
-  static MovingChart chart_of(std::vector<Quat> track, double frame_rate_hz,
-                              std::vector<std::uint8_t>* gross = nullptr) {
-    std::vector<std::uint8_t> marks = replace_gross_spikes(track);
-    if (gross) *gross = std::move(marks);
-    return make_moving_chart(track, frame_rate_hz);
-  }
-
-  void clean_rotations(const Clip& clip, const std::vector<std::size_t>& joints,
-                       const JointSink& sink, ShareProgress& progress, CleanTrace& trace) const {
-    const std::size_t frames = clip.frame_count(), count = joints.size();
+  // Rotations and positions apart: noise of the one says nothing of the other's.
+  void clean_together(const TakeView& take, const std::vector<std::size_t>& numbers,
+                      const TrackSink& sink, ShareProgress& progress, CleanTrace& trace) const {
+    const std::size_t frames = take.frames, count = numbers.size();
+    if (count == 0) return;
     VectorTracks tracks(frames, count);
     SampleMarks suspects(frames, count), gaps(frames, count);
     progress.begin_part(0.2, count);
     for_each_parallel(count, frames * count, [&](std::size_t n) {
-      const std::vector<Quat> track = joint_track(clip, joints[n]);
-      std::vector<std::uint8_t> gross;
-      const MovingChart chart = chart_of(track, clip.frame_rate_hz, &gross);
+      const Curve curve = curve_of(take, numbers[n]);
       for (std::size_t t = 0; t < frames; ++t) {
-        tracks.set(t, n, degrees_per_radian * chart.vector_of(t, track[t]));
-        suspects(t, n) = gross[t];
-        gaps(t, n) = !clip.is_observed(t, joints[n]);
+        tracks.set(t, n, curve.vectors[t]);
+        if (!curve.suspects.empty()) suspects(t, n) = curve.suspects[t];
+        gaps(t, n) = !take.tracks[numbers[n]].is_observed(t);
       }
       progress.step();
     });
-
-    const CleanedTracks verdicts =
-        clean_tracks(tracks, suspects, gaps, tracks_nearby(clip.skeleton, joints),
-                     clip.frame_rate_hz, {options_.sensitivity, options_.despike}, &progress);
-
-    trace.noise_deg.assign(clip.joint_count(), 0);
+    const CleanedTracks verdicts = clean_tracks(
+        tracks, suspects, gaps, tracks_nearby(take, numbers), take.frame_rate_hz,
+        {options_.sensitivity, options_.despike, kind_of(take.tracks[numbers.front()])}, &progress);
     progress.begin_part(1, count);
     for_each_parallel(count, frames * count, [&](std::size_t n) {
-      trace.noise_deg[joints[n]] = verdicts.noise[n];
+      const Track& track = take.tracks[numbers[n]];
+      trace.noise[numbers[n]] = track.space == Space::rotation
+                                    ? verdicts.noise[n]
+                                    : verdicts.noise[n] / degrees_per_unit(take);
       const auto spikes = verdicts.marked.track(n);
       const bool smoothed = verdicts.shares[n] != 0;
-      if (smoothed || std::find(spikes.begin(), spikes.end(), 1) != spikes.end()) {
-        std::vector<Quat> track = joint_track(clip, joints[n]);
-        const MovingChart chart = chart_of(track, clip.frame_rate_hz);
-        std::vector<Action> actions(frames, Action::kept);
-        for (std::size_t t = 0; t < frames; ++t) {
-          if (!smoothed && spikes[t] == 0) continue;
-          track[t] = chart.rotation_of(t, radians_per_degree * tracks.at(t, n));
-          if (spikes[t] != 0) actions[t] = Action::despiked;
-        }
-        sink(joints[n], std::move(track), std::move(actions));
-      }
+      const bool spiked = std::find(spikes.begin(), spikes.end(), 1) != spikes.end();
+      if (smoothed || spiked || needs_bridges(take, numbers[n]))
+        sink(numbers[n], track_of(take, numbers[n], tracks.track(n), spikes, smoothed));
       progress.step();
     });
   }
 
-  // Positions go the same way, on the scale at which a degree moves the end of a typical bone.
-  void clean_positions(Clip& clip, const std::vector<PositionTrack>& positions,
-                       CleanTrace& trace) const {
-    if (positions.empty()) return;
-    const std::size_t frames = clip.frame_count(), count = positions.size();
-    const double degrees_per_unit = degrees_per_radian / typical_bone_length(clip.skeleton);
-    VectorTracks tracks(frames, count);
-    SampleMarks gaps(frames, count);
-    for (std::size_t n = 0; n < count; ++n) {
-      const std::size_t position = position_number(clip, positions[n]);
-      for (std::size_t t = 0; t < frames; ++t) {
-        gaps(t, n) = !clip.is_position_observed(t, position);
-        tracks.set(t, n, degrees_per_unit * positions[n].values[t * positions[n].stride]);
-      }
-    }
-    const SampleMarks none(frames, count);
-    const CleanedTracks verdicts =
-        clean_tracks(tracks, none, gaps, std::vector<std::vector<std::size_t>>(count),
-                     clip.frame_rate_hz, {options_.sensitivity, options_.despike});
-    for (std::size_t n = 0; n < count; ++n) {
-      const ActionTrack actions = position_actions(clip, positions[n], trace);
-      if (is_root(clip, positions[n])) trace.root_noise = verdicts.noise[n] / degrees_per_unit;
-      for (std::size_t t = 0; t < frames; ++t) {
-        const bool spike = verdicts.marked(t, n) != 0;
-        if (verdicts.shares[n] == 0 && !spike) continue;
-        positions[n].values[t * positions[n].stride] = (1 / degrees_per_unit) * tracks.at(t, n);
-        if (spike) actions.values[t * actions.stride] = Action::despiked;
-      }
-    }
+  static TrackKind kind_of(const Track& track) {
+    return track.space == Space::rotation ? TrackKind::rotations : TrackKind::positions;
   }
 
-  // 0: the root's, k + 1: of translated joint k.
-  static std::size_t position_number(const Clip& clip, const PositionTrack& track) {
-    if (is_root(clip, track)) return 0;
-    return 1 + static_cast<std::size_t>(track.values - clip.joint_translations.data());
+  static bool needs_bridges(const TakeView& take, std::size_t number) {
+    return take.gaps == GapTreatment::bridge && !observed_of(take.tracks[number]).empty();
   }
 
-  // The tracks of the joints that are near each joint, where they are cleaned too.
-  static std::vector<std::vector<std::size_t>> tracks_nearby(
-      const Skeleton& skeleton, const std::vector<std::size_t>& joints) {
-    const auto joints_near = joints_nearby(skeleton.parents);
-    std::vector<std::vector<std::size_t>> result(joints.size());
-    for (std::size_t n = 0; n < joints.size(); ++n) {
-      for (const std::size_t other : joints_near[joints[n]]) {
-        const auto found = std::lower_bound(joints.begin(), joints.end(), other);
-        if (found != joints.end() && *found == other) {
-          result[n].push_back(static_cast<std::size_t>(found - joints.begin()));
-        }
-      }
-    }
-    return result;
+  static void keep_bridges(const TakeView& take, const std::vector<std::size_t>& rotations,
+                           const TrackSink& sink) {
+    for (const std::size_t track : rotations) sink(track, assemble(rotation_piece(take, track)));
   }
 
   AutoOptions options_;

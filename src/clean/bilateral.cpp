@@ -1,7 +1,6 @@
 #include <memory>
 
-#include "clean/filter_tracks.hpp"
-#include "clean/marker_tracks.hpp"
+#include "clean/lanes.hpp"
 #include "clean/method_list.hpp"
 #include "kinemend/frame_rate.hpp"
 #include "kinemend/methods.hpp"
@@ -24,42 +23,36 @@ const OptionTable<BilateralOptions>& table() {
   return result;
 }
 
-// A body turned by sigma_g moves its far end by sigma_g times this: the width for positions. Travel
-// is no edge, as it would be for the length of a bone.
-double reach(const Skeleton& skeleton) {
-  const double height = skeleton_height(skeleton);
-  return height > 0 ? height : 1.0;
-}
-
 class BilateralCleaner final : public Cleaner {
  public:
   explicit BilateralCleaner(const BilateralOptions& options) : options_(options) {
     table().validate(options);
   }
 
-  CleanTrace clean(Clip& clip, const Selection& selection) const override {
-    const double sigma_t = options_.sigma_t_s * window_rate_hz(clip.frame_rate_hz);
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>& progress) const override {
+    const double sigma_t = options_.sigma_t_s * window_rate_hz(take.frame_rate_hz);
     const double sigma_g = options_.sigma_g_deg * radians_per_degree;
     const auto passes = static_cast<std::size_t>(options_.passes);
     const BilateralKernel turns = bilateral_kernel(sigma_t, sigma_g);
-    const BilateralKernel moves = bilateral_kernel(sigma_t, sigma_g * reach(clip.skeleton));
-    return filter_tracks(
-        clip, selection,
-        [&](RotationTrack& track, const std::vector<double>& weights) {
-          bilateral_filter(track, weights, turns, passes, ends());
-        },
-        [&](VectorTrack& track) { bilateral_filter(track, {}, moves, passes, ends()); });
-  }
-
-  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
-    const double sigma_t = options_.sigma_t_s * window_rate_hz(clip.frame_rate_hz);
-    const double sigma_g = options_.sigma_g_deg * radians_per_degree;
-    const BilateralKernel moves = bilateral_kernel(sigma_t, sigma_g * selection.body_height);
-    // Bridges count like samples: a mean of one side only would lag behind a marker that travels.
-    return filter_marker_tracks(
-        clip, selection, [&](VectorTrack& track, const std::vector<double>&) {
-          bilateral_filter(track, {}, moves, static_cast<std::size_t>(options_.passes), ends());
-        });
+    // A body turned by sigma_g moves its far end by sigma_g times its height. Travel is no edge, as
+    // it would be for the length of a bone.
+    const BilateralKernel moves = bilateral_kernel(sigma_t, sigma_g * height_of(take));
+    filter_pieces(take, sink, progress,
+                  Overloaded{[&](Piece<Quat>& piece) {
+                               filter_lanes(piece, [&](RotationTrack& track) {
+                                 bilateral_filter(track, lane_weights(piece), turns, passes,
+                                                  ends());
+                               });
+                             },
+                             // Bridges count like samples: a mean of one side only would lag behind
+                             // a marker that travels.
+                             [&](Piece<Vec3>& piece) {
+                               filter_lanes(piece, [&](VectorTrack& track) {
+                                 bilateral_filter(track, {}, moves, passes, ends());
+                               });
+                             }});
+    return {};
   }
 
   LiveSupport live_support(double frame_rate_hz) const override {
@@ -69,6 +62,11 @@ class BilateralCleaner final : public Cleaner {
   }
 
  private:
+  static double height_of(const TakeView& take) {
+    if (take.markers) return take.body_height;
+    const double height = body_height(take.joints->skeleton);
+    return height > 0 ? height : 1;
+  }
   BilateralEnds ends() const {
     return options_.ends == "mirror" ? BilateralEnds::mirror : BilateralEnds::reflect;
   }

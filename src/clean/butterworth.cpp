@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "clean/clip_tracks.hpp"
-#include "clean/live_frames.hpp"
-#include "clean/marker_tracks.hpp"
+#include "clean/causal.hpp"
+#include "clean/filter_channels.hpp"
 #include "clean/method_list.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/representation.hpp"
@@ -26,56 +25,8 @@ const OptionTable<ButterworthOptions>& table() {
   return options;
 }
 
-// Forward filter of all channels of a frame: J quaternions, the root position, translations.
-class ButterworthFrameFilter final : public FrameFilter {
- public:
-  explicit ButterworthFrameFilter(std::vector<Biquad> sections) : state_(std::move(sections)) {}
-
-  void filter(LiveFrame& frame) override {
-    if (held_.empty()) start(frame);
-    row_.clear();
-    for (std::size_t j = 0; j < frame.rotations.size(); ++j) {
-      // A joint that was not seen holds its last rotation.
-      const bool seen = frame.observed.empty() || frame.observed[j] != 0;
-      if (seen) held_[j] = signs_[j].next(frame.rotations[j]);
-      const Quat q = held_[j];
-      row_.insert(row_.end(), {q.w, q.x, q.y, q.z});
-    }
-    append(frame.root_position - origin_);
-    for (std::size_t i = 0; i < origins_.size(); ++i) {
-      append(frame.joint_translations[i] - origins_[i]);
-    }
-    state_.step(row_);
-    const double* next = row_.data();
-    for (Quat& q : frame.rotations) {
-      q = normalized({next[0], next[1], next[2], next[3]});
-      next += 4;
-    }
-    frame.root_position = origin_ + Vec3{next[0], next[1], next[2]};
-    for (std::size_t i = 0; i < origins_.size(); ++i) {
-      next += 3;
-      frame.joint_translations[i] = origins_[i] + Vec3{next[0], next[1], next[2]};
-    }
-  }
-
- private:
-  void start(const LiveFrame& frame) {
-    held_ = frame.rotations;
-    signs_.resize(held_.size());
-    origin_ = frame.root_position;
-    origins_ = frame.joint_translations;
-  }
-  void append(Vec3 p) { row_.insert(row_.end(), {p.x, p.y, p.z}); }
-
-  CausalState state_;
-  std::vector<Quat> held_;
-  std::vector<SignContinuation> signs_;
-  Vec3 origin_;
-  std::vector<Vec3> origins_;
-  std::vector<double> row_;
-};
-
-// Forward filter of one marker. What was not seen holds its last place.
+// Forward filter of one track. What was not seen holds its last value.
+template <class Sample>
 class ButterworthTrack {
  public:
   explicit ButterworthTrack(std::vector<Biquad> sections) : state_(std::move(sections)) {}
@@ -90,9 +41,19 @@ class ButterworthTrack {
     return origin_ + Vec3{row[0], row[1], row[2]};
   }
 
+  Quat step(Quat rotation, bool seen) {
+    if (!started_) held_ = rotation, started_ = true;
+    if (seen) held_ = sign_.next(rotation);
+    double row[] = {held_.w, held_.x, held_.y, held_.z};
+    state_.step(row);
+    return normalized({row[0], row[1], row[2], row[3]});
+  }
+
  private:
   CausalState state_;
-  Vec3 origin_, held_;
+  SignContinuation sign_;
+  Sample held_;
+  Vec3 origin_;
   bool started_ = false;
 };
 
@@ -100,31 +61,19 @@ class Butterworth final : public Cleaner {
  public:
   explicit Butterworth(const ButterworthOptions& options) : options_(options) {}
 
-  CleanTrace clean(Clip& clip, const Selection& selection) const override {
-    if (!acts(clip.frame_rate_hz)) {
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>& progress) const override {
+    if (!acts(take.frame_rate_hz)) {
       CleanTrace trace;
-      trace.warnings.push_back(nothing_to_do(clip.frame_rate_hz));
+      trace.warnings.push_back(nothing_to_do(take.frame_rate_hz));
       return trace;
     }
-    if (options_.causal) return clean_causally(*this, clip, selection);
-    const auto sections = design(clip.frame_rate_hz);
+    if (options_.causal) return clean_causally(*this, take, sink, progress);
+    const auto sections = design(take.frame_rate_hz);
     const std::size_t pad = settling_frames(sections);
-    return clean_channels(clip, selection, ChannelChoice::quaternion, [&](PoseMatrix& channels) {
-      filter_zero_phase(channels, sections, pad);
-    });
-  }
-
-  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
-    if (!acts(clip.frame_rate_hz)) {
-      MarkerTrace trace;
-      trace.warnings.push_back(nothing_to_do(clip.frame_rate_hz));
-      return trace;
-    }
-    if (options_.causal) return clean_markers_causally(*this, clip, selection);
-    const auto sections = design(clip.frame_rate_hz);
-    const std::size_t pad = settling_frames(sections);
-    return filter_marker_channels(
-        clip, selection, [&](PoseMatrix& channels) { filter_zero_phase(channels, sections, pad); });
+    filter_channels(take, ChannelChoice::quaternion, sink, progress,
+                    [&](PoseMatrix& channels) { filter_zero_phase(channels, sections, pad); });
+    return {};
   }
 
   LiveSupport live_support(double) const override {
@@ -132,17 +81,12 @@ class Butterworth final : public Cleaner {
     return {LiveSupport::Kind::causal, 0};
   }
 
-  std::unique_ptr<FrameFilter> make_frame_filter(const Skeleton&, double rate_hz) const override {
+  std::unique_ptr<FrameFilter> make_frame_filter(const TakeView& like) const override {
     if (!options_.causal) return nullptr;
-    return std::make_unique<ButterworthFrameFilter>(acts(rate_hz) ? design(rate_hz)
-                                                                  : std::vector<Biquad>{});
-  }
-
-  std::unique_ptr<MarkerFilter> make_marker_filter(const MarkerClip& like, double) const override {
-    if (!options_.causal) return nullptr;
-    const double rate_hz = like.frame_rate_hz;
-    return std::make_unique<TrackMarkerFilter<ButterworthTrack>>(
-        like, ButterworthTrack(acts(rate_hz) ? design(rate_hz) : std::vector<Biquad>{}));
+    const std::vector<Biquad> sections =
+        acts(like.frame_rate_hz) ? design(like.frame_rate_hz) : std::vector<Biquad>{};
+    return make_track_filter(like, ButterworthTrack<Quat>(sections),
+                             ButterworthTrack<Vec3>(sections));
   }
 
  private:

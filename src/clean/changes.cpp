@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "clean/clip_tracks.hpp"
+#include "base/frame_span.hpp"
 #include "clean/repairs.hpp"
 
 namespace kinemend {
@@ -66,14 +66,6 @@ Action action_of(const std::vector<Action>& stated, std::size_t frame, bool chan
   return action == Action::kept || action == Action::refused ? Action::denoised : action;
 }
 
-std::array<bool, 3> position_axes(const std::vector<Channel>& channels) {
-  std::array<bool, 3> axes{};
-  for (const Channel channel : channels) {
-    if (!is_rotation(channel)) axes[static_cast<std::size_t>(axis_of(channel))] = true;
-  }
-  return axes;
-}
-
 // Blends one position and returns how far it moved.
 double blend_position(Vec3 from, Vec3& to, double weight, std::array<bool, 3> axes, double least) {
   Vec3 shift = weight * (to - from);
@@ -111,22 +103,16 @@ struct RepairBlend {
   }
 };
 
-RepairBlend repair_blend(const std::vector<double>& weights,
-                         const std::vector<std::uint8_t>& observed,
-                         const std::vector<Action>& stated,
-                         const std::function<Vec3(std::size_t)>& residual) {
-  if (!goes_part_way(weights)) return {};
-  RepairBlend blend{evidence_of(weights.size(), observed, stated), {}};
-  blend.residuals = residuals_of_repaired(blend.evidence, residual);
-  return blend;
-}
+Vec3 residual_of(Quat before, Quat after) { return log(conjugate(after) * before); }
+Vec3 residual_of(Vec3 before, Vec3 after) { return before - after; }
 
-RepairBlend repair_blend(const std::vector<double>& weights,
-                         const std::vector<std::uint8_t>& observed,
-                         const std::vector<Action>& stated, std::span<const Vec3> before,
-                         std::span<const Vec3> after) {
-  return repair_blend(weights, observed, stated,
-                      [&](std::size_t f) { return before[f] - after[f]; });
+template <class Sample>
+RepairBlend repair_blend(const std::vector<double>& weights, const TrackEdit<Sample>& track) {
+  if (!goes_part_way(weights)) return {};
+  RepairBlend blend{evidence_of(weights.size(), track.observed, track.stated), {}};
+  blend.residuals = residuals_of_repaired(
+      blend.evidence, [&](std::size_t f) { return residual_of(track.before[f], track.after[f]); });
+  return blend;
 }
 
 }  // namespace
@@ -151,21 +137,26 @@ std::vector<double> frame_weights(const CleanSettings& settings, std::size_t fra
   return weights;
 }
 
-TrackChanges blend_rotations(JointTracks& tracks, RotationOrder order,
-                             const CleanSettings& settings, const std::vector<double>& weights) {
+std::array<bool, 3> position_axes(const std::vector<Channel>& channels) {
+  std::array<bool, 3> axes{};
+  for (const Channel channel : channels) {
+    if (!is_rotation(channel)) axes[static_cast<std::size_t>(axis_of(channel))] = true;
+  }
+  return axes;
+}
+
+TrackChanges blend(TrackEdit<Quat>& track, RotationOrder order, double most_change,
+                   const std::vector<double>& weights) {
   const std::size_t frames = weights.size();
-  const double most_change = settings.max_change_deg * radians_per_degree;
   TrackChanges changes{std::vector<double>(frames), std::vector<Action>(frames, Action::kept)};
-  const RepairBlend repairs = repair_blend(
-      weights, tracks.observed, tracks.stated,
-      [&](std::size_t f) { return log(conjugate(tracks.after[f]) * tracks.before[f]); });
+  const RepairBlend repairs = repair_blend(weights, track);
   std::array<double, 3> angles{};
   for (std::size_t f = 0; f < frames; ++f) {
-    const Quat from = tracks.before[f];
-    Quat& result = tracks.after[f];
+    const Quat from = track.before[f];
+    Quat& result = track.after[f];
     double angle = 0;
     if (weights[f] > 0 && result != from) {
-      const bool seen = tracks.observed.empty() || tracks.observed[f] != 0;
+      const bool seen = track.is_observed(f);
       const double limit = seen ? most_change : 2 * pi;
       // What stands in a gap is no motion to go halfway from.
       double weight = seen ? weights[f] : 1;
@@ -184,50 +175,32 @@ TrackChanges blend_rotations(JointTracks& tracks, RotationOrder order,
     }
     if (angle < least_change_rad) result = from, angle = 0;
     changes.amounts[f] = angle * degrees_per_radian;
-    changes.actions[f] = action_of(tracks.stated, f, angle > 0);
+    changes.actions[f] = action_of(track.stated, f, angle > 0);
   }
   return changes;
 }
 
-TrackChanges blend_positions(std::span<const Vec3> before, std::span<Vec3> after,
-                             const PositionMarks& marks, const std::vector<Channel>& channels,
-                             const std::vector<double>& weights, double least) {
-  const auto axes = position_axes(channels);
-  TrackChanges changes{std::vector<double>(weights.size()), std::vector<Action>(weights.size())};
-  const RepairBlend repairs = repair_blend(weights, marks.observed, marks.stated, before, after);
-  for (std::size_t f = 0; f < weights.size(); ++f) {
-    const bool seen = marks.observed.empty() || marks.observed[f] != 0;
-    double weight = seen || weights[f] <= 0 ? weights[f] : 1;
-    if (const Vec3* residual = repairs.residual(f, weight)) {
-      after[f] += (1 - weight) * *residual;
-      weight = 1;
-    }
-    changes.amounts[f] = blend_position(before[f], after[f], weight, axes, least);
-    changes.actions[f] = action_of(marks.stated, f, changes.amounts[f] > 0);
-  }
-  return changes;
-}
-
-TrackChanges blend_marker(MarkerTrack& track, const std::vector<double>& weights, double max_change,
-                          double least) {
-  constexpr std::array<bool, 3> all_axes{true, true, true};
-  TrackChanges changes{std::vector<double>(weights.size()),
-                       std::vector<Action>(weights.size(), Action::kept)};
-  const RepairBlend repairs =
-      repair_blend(weights, track.observed, track.stated, track.before, track.after);
-  for (std::size_t f = 0; f < weights.size(); ++f) {
-    if (!track.observed[f]) {
-      if (track.observed_after[f]) changes.actions[f] = Action::filled;
+TrackChanges blend(TrackEdit<Vec3>& track, const PositionLimits& limits,
+                   const std::vector<double>& weights) {
+  const std::size_t frames = weights.size();
+  TrackChanges changes{std::vector<double>(frames), std::vector<Action>(frames, Action::kept)};
+  const RepairBlend repairs = repair_blend(weights, track);
+  for (std::size_t f = 0; f < frames; ++f) {
+    const bool seen = track.is_observed(f);
+    if (!seen && limits.gaps == GapTreatment::cut) {
+      const bool filled = !track.stated.empty() && track.stated[f] == Action::filled;
+      if (filled && weights[f] > 0) changes.actions[f] = Action::filled;
       continue;
     }
-    double weight = weights[f];
+    double weight = seen || weights[f] <= 0 ? weights[f] : 1;
     if (const Vec3* residual = repairs.residual(f, weight)) {
       track.after[f] += (1 - weight) * *residual;
       weight = 1;
     }
     const double way = norm(track.after[f] - track.before[f]);
-    if (way * weight > max_change) weight = max_change / way;
-    changes.amounts[f] = blend_position(track.before[f], track.after[f], weight, all_axes, least);
+    if (way * weight > limits.most) weight = limits.most / way;
+    changes.amounts[f] =
+        blend_position(track.before[f], track.after[f], weight, limits.axes, limits.least);
     changes.actions[f] = action_of(track.stated, f, changes.amounts[f] > 0);
   }
   return changes;

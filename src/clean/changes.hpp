@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
-#include <span>
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -24,71 +26,65 @@ struct TrackChanges {
 std::vector<double> frame_weights(const CleanSettings& settings, std::size_t frames,
                                   std::size_t first_frame, double frame_rate_hz);
 
-/// One joint's rotations before and after the cleaner.
-struct JointTracks {
-  std::vector<Quat> before, after;
+/// A track before and after the cleaner.
+template <class Sample>
+struct TrackEdit {
+  std::vector<Sample> before, after;
   std::vector<std::uint8_t> observed;  ///< empty means all
-  std::vector<Action> stated;  ///< what the cleaner says it did; empty: nothing in particular
+  std::vector<Action> stated;  ///< what the steps say they did; empty: nothing in particular
+
+  bool is_observed(std::size_t frame) const { return observed.empty() || observed[frame] != 0; }
 };
 
 /// Blends `after` with `before` in place and says what changed. What was missing or repaired is not
 /// blended with its input, which says nothing. Samples that hardly changed get their input value
-/// back. Joints of one or two axes are turned about these only.
-TrackChanges blend_rotations(JointTracks& tracks, RotationOrder order,
-                             const CleanSettings& settings, const std::vector<double>& weights);
+/// back. Joints of one or two axes are turned about these only. `most_change` in radians.
+TrackChanges blend(TrackEdit<Quat>& track, RotationOrder order, double most_change,
+                   const std::vector<double>& weights);
 
-/// What is known of the samples of a track of positions.
-struct PositionMarks {
-  std::vector<std::uint8_t> observed;  ///< empty means all
-  std::vector<Action> stated;  ///< what the cleaner says it did; empty: nothing in particular
+/// How positions may change.
+struct PositionLimits {
+  GapTreatment gaps = GapTreatment::bridge;
+  std::array<bool, 3> axes{true, true, true};             ///< the others stay
+  double least = 0;                                       ///< smaller changes are none; file units
+  double most = std::numeric_limits<double>::infinity();  ///< file units
 };
+/// The axes that have a channel.
+std::array<bool, 3> position_axes(const std::vector<Channel>& channels);
 
-/// The same of the positions of one joint; axes without a channel stay. Changes below `least` are
-/// none.
-TrackChanges blend_positions(std::span<const Vec3> before, std::span<Vec3> after,
-                             const PositionMarks& marks, const std::vector<Channel>& channels,
-                             const std::vector<double>& weights, double least);
+/// The same of positions. Where gaps are cut, samples that were missing stay out of it: they are
+/// filled where the steps say so and the weight is above 0.
+TrackChanges blend(TrackEdit<Vec3>& track, const PositionLimits& limits,
+                   const std::vector<double>& weights);
 
-/// What the report says of one joint.
-struct JointReport {
-  JointSummary summary;
-  std::vector<ReportSpan> spans;
-  std::vector<std::string> warnings;  ///< of a lost peak, and of what smoothing should not do
-};
-JointReport report_joint(const std::string& name, std::size_t joint, const JointTracks& tracks,
-                         const TrackChanges& changes, std::size_t first_frame, double frame_rate_hz,
-                         double peak_loss_limit);
-
-/// One marker's positions before and after the cleaner.
-struct MarkerTrack {
-  std::vector<Vec3> before, after;
-  std::vector<std::uint8_t> observed, observed_after;
-  std::vector<Action> stated;  ///< what the steps say they did; empty: nothing in particular
-};
-
-/// Blends `after` with `before` in place where both were observed, no further than `max_change`.
-/// Changes below `least` are none.
-TrackChanges blend_marker(MarkerTrack& track, const std::vector<double>& weights, double max_change,
-                          double least);
-
-/// What marker speeds are measured by.
-struct MarkerScale {
+/// What the figures of a report are measured by.
+struct ReportScale {
+  GapTreatment gaps = GapTreatment::bridge;
+  double per_sample_unit = 1;  ///< of speeds and noise, as they are shown
+  std::string unit, speed_unit;
+  double slow = 0;          ///< peak speeds below are no events, as shown
+  double small_change = 0;  ///< of what smoothing does, no event, as shown
+  std::size_t first_frame = 0;
   double frame_rate_hz = 0;
-  double body_height = 1;  ///< file units
-  std::string unit;
+  double peak_loss_limit = 0;
 };
-/// What the report says of one marker.
-struct MarkerTrackReport {
-  MarkerSummary summary;
+/// Of rotations, in degrees.
+ReportScale joint_scale();
+/// Of positions of markers, in their unit (empty: unknown).
+ReportScale marker_scale(const std::string& unit, double body_height);
+
+/// What the report says of one joint or marker.
+struct TrackReport {
+  TrackSummary summary;
   std::vector<ReportSpan> spans;
   std::vector<std::string> warnings;  ///< of a lost peak, and of what smoothing should not do
 };
-MarkerTrackReport report_marker(const std::string& name, std::size_t marker,
-                                const MarkerTrack& track, const TrackChanges& changes,
-                                const MarkerScale& scale, double peak_loss_limit);
+template <class Sample>
+TrackReport report_track(std::string name, std::size_t owner, const TrackEdit<Sample>& track,
+                         const TrackChanges& changes, const ReportScale& scale);
 
 /// The spans of one track, `kept` left out.
-std::vector<ReportSpan> spans_of(std::int32_t joint, const TrackChanges& changes,
+std::vector<ReportSpan> spans_of(std::int32_t owner, const TrackChanges& changes,
                                  std::size_t first_frame);
 
 }  // namespace kinemend

@@ -5,136 +5,19 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
-#include <span>
 #include <string_view>
 #include <utility>
 
 #include "clean/changes.hpp"
-#include "clean/clip_tracks.hpp"
 #include "clean/feet_step.hpp"
 #include "clean/gap_step.hpp"
+#include "clean/pieces.hpp"
 #include "clean/selection.hpp"
 #include "motion/calibration.hpp"
 
 namespace kinemend {
 
 namespace {
-
-Selection make_selection(const Clip& clip, const CleanSettings& settings) {
-  Selection selection = Selection::all(clip);
-  selection.joints = select_names(clip.skeleton.names, settings, "joint");
-  selection.root_position = settings.root_position && clip.joint_count() > 0 &&
-                            selection.joints[0] != 0 && clip.skeleton.has_position_channels(0);
-  return selection;
-}
-
-// The input without its rotations, and how to get from it to the result.
-struct Work {
-  const CleanSettings& settings;
-  const Selection& selection;
-  Clip before;        // positions only
-  std::size_t first;  // frame of the motion: the number of calibration frames
-  std::vector<double> weights, nothing;
-
-  double least_shift() const { return 1e-11 * typical_bone_length(before.skeleton); }
-};
-
-Clip positions_of(const Clip& clip) {
-  Clip positions;
-  positions.skeleton = clip.skeleton;
-  positions.translated_joints = clip.translated_joints;
-  positions.root_positions = clip.root_positions;
-  positions.joint_translations = clip.joint_translations;
-  positions.observed_positions = clip.observed_positions;
-  return positions;
-}
-
-// Blends a joint's rotations with their input, and puts them into the motion.
-JointReport finish_joint(const Work& work, Clip& motion, std::size_t joint, JointTracks tracks) {
-  // The rotation of a joint without rotation channels has no place in a file.
-  const RotationOrder order = motion.skeleton.rotation_order(joint);
-  const bool may_turn = work.selection.joints[joint] && order.count > 0;
-  const TrackChanges changes =
-      blend_rotations(tracks, order, work.settings, may_turn ? work.weights : work.nothing);
-  set_joint_track(motion, joint, tracks.after);
-  return report_joint(motion.skeleton.names[joint], joint, tracks, changes, work.first,
-                      motion.frame_rate_hz, work.settings.peak_loss_limit);
-}
-
-void add_joints(std::vector<JointReport> parts, const CleanTrace& trace, CleanReport& report) {
-  for (std::size_t j = 0; j < parts.size(); ++j) {
-    if (!trace.noise_deg.empty()) parts[j].summary.noise_deg = trace.noise_deg[j];
-    report.joints.push_back(std::move(parts[j].summary));
-    report.spans.insert(report.spans.end(), parts[j].spans.begin(), parts[j].spans.end());
-    std::move(parts[j].warnings.begin(), parts[j].warnings.end(),
-              std::back_inserter(report.warnings));
-  }
-}
-
-// What was observed of a joint; empty: all.
-std::vector<std::uint8_t> observed_of(const std::vector<std::uint8_t>& observed, std::size_t joints,
-                                      std::size_t joint) {
-  std::vector<std::uint8_t> result;
-  for (std::size_t i = joint; i < observed.size(); i += joints) result.push_back(observed[i]);
-  return result;
-}
-
-// Of position track `track` of the take, as `Clip::is_position_observed` counts them.
-std::vector<std::uint8_t> observed_positions(const Work& work, std::size_t track,
-                                             std::size_t frames) {
-  std::vector<std::uint8_t> observed;
-  if (work.before.observed_positions.empty()) return observed;
-  for (std::size_t f = 0; f < frames; ++f)
-    observed.push_back(work.before.is_position_observed(work.first + f, track));
-  return observed;
-}
-
-void finish_root(const Work& work, const CleanTrace& trace, Clip& motion, CleanReport& report) {
-  const auto before = std::span(work.before.root_positions).subspan(work.first);
-  const TrackChanges changes = blend_positions(
-      before, motion.root_positions,
-      {observed_positions(work, 0, motion.frame_count()), trace.root_actions},
-      motion.skeleton.channels[0], work.selection.root_position ? work.weights : work.nothing,
-      work.least_shift());
-  double squares = 0;
-  for (const double change : changes.amounts) {
-    squares += change * change;
-    report.root_max_change = std::max(report.root_max_change, change);
-  }
-  if (!before.empty())
-    report.root_rms_change = std::sqrt(squares / static_cast<double>(before.size()));
-  report.spans = spans_of(-1, changes, work.first);
-}
-
-void finish_translations(const Work& work, const CleanTrace& trace, Clip& motion) {
-  const std::size_t width = motion.translated_joints.size(), frames = motion.frame_count();
-  for (std::size_t i = 0; i < width && frames > 0; ++i) {
-    std::vector<Vec3> before(frames);
-    for (std::size_t f = 0; f < frames; ++f) {
-      before[f] = work.before.joint_translations[(work.first + f) * width + i];
-    }
-    const PositionTrack track{motion.joint_translations.data() + i, width};
-    std::vector<Vec3> after = position_track(track, frames);
-    PositionMarks marks{observed_positions(work, i + 1, frames), {}};
-    for (std::size_t f = 0; f < frames && !trace.translation_actions.empty(); ++f)
-      marks.stated.push_back(trace.translation_actions[f * width + i]);
-    const bool selected = translation_selected(motion, work.selection, i);
-    const auto joint = static_cast<std::size_t>(motion.translated_joints[i]);
-    blend_positions(before, after, marks, motion.skeleton.channels[joint],
-                    selected ? work.weights : work.nothing, work.least_shift());
-    set_position_track(track, after);
-  }
-}
-
-// Also where the cleaner did not look at a gap.
-void state_filled(const std::vector<std::uint8_t>& observed, const Clip& motion,
-                  CleanTrace& trace) {
-  if (observed == motion.observed) return;
-  if (trace.actions.empty()) trace.actions.assign(motion.local_rotations.size(), Action::kept);
-  for (std::size_t i = 0; i < observed.size(); ++i) {
-    if (observed[i] == 0 && motion.observed[i] != 0) trace.actions[i] = Action::filled;
-  }
-}
 
 // Whether blending leaves something of the input.
 bool takes_part_only(const CleanSettings& settings) {
@@ -167,78 +50,254 @@ class Stage {
   std::string_view name_;
 };
 
-// Filling and holding feet look at many joints at once: the whole motion is cleaned beside the
+// How to get from what a cleaner made of a track to the result.
+struct Work {
+  const CleanSettings& settings;
+  Selection selection;
+  std::size_t first;            // frame of the motion: the number of calibration frames
+  std::vector<double> weights;  // one a frame of motion
+  ReportScale scale;
+  double least_shift = 0;  // file units
+};
+
+// The cleaner's tracks one by one, each in the place of its input as soon as it is there.
+template <class AnyClip>
+class Finisher {
+ public:
+  Finisher(const Work& work, const TakeView& take, AnyClip& clip)
+      : work_(work),
+        take_(take),
+        clip_(clip),
+        nothing_(work.weights.size(), 0.0),
+        reports_(take.tracks.size()),
+        finished_(take.tracks.size()) {}
+
+  void finish(std::size_t track, CleanedTrack cleaned) {
+    if (take_.tracks[track].space == Space::rotation) {
+      finish_rotations(track, std::move(cleaned));
+    } else {
+      finish_positions(track, std::move(cleaned));
+    }
+    finished_[track] = 1;
+  }
+
+  // What the cleaner left alone.
+  void finish_others() {
+    for_each_parallel(take_.tracks.size(), take_.tracks.size() * take_.frames, [&](std::size_t n) {
+      if (finished_[n] == 0) finish(n, as_it_stands(n));
+    });
+  }
+
+  void report(const CleanTrace& trace, CleanReport& report) {
+    if (take_.joints) report_root(report);
+    for (std::size_t n = 0; n < take_.owners; ++n) {
+      TrackReport& own = reports_[n];
+      if (!trace.noise.empty()) own.summary.noise = trace.noise[n];
+      report.tracks.push_back(std::move(own.summary));
+      report.spans.insert(report.spans.end(), own.spans.begin(), own.spans.end());
+      std::move(own.warnings.begin(), own.warnings.end(), std::back_inserter(report.warnings));
+    }
+  }
+
+ private:
+  template <class Sample>
+  TrackEdit<Sample> edit_of(std::size_t track, std::vector<Sample> before,
+                            std::vector<Sample> after, std::vector<Action> stated) const {
+    return {std::move(before), std::move(after), observed_of(take_.tracks[track]),
+            std::move(stated)};
+  }
+
+  void finish_rotations(std::size_t joint, CleanedTrack cleaned) {
+    const Track& track = take_.tracks[joint];
+    TrackEdit<Quat> edit = edit_of(joint, rotations_of(track), std::move(cleaned.rotations),
+                                   std::move(cleaned.actions));
+    // The rotation of a joint without rotation channels has no place in a file.
+    const RotationOrder order = take_.joints->skeleton.rotation_order(joint);
+    const bool may_turn = track.selected && order.count > 0;
+    const TrackChanges changes =
+        blend(edit, order, work_.settings.max_change_deg * radians_per_degree,
+              may_turn ? work_.weights : nothing_);
+    put_back(joint, edit.after, changes);
+    reports_[joint] =
+        report_track(take_.joints->skeleton.names[joint], joint, edit, changes, work_.scale);
+  }
+
+  void finish_positions(std::size_t number, CleanedTrack cleaned) {
+    const Track& track = take_.tracks[number];
+    TrackEdit<Vec3> edit = edit_of(number, positions_of(track), std::move(cleaned.positions),
+                                   std::move(cleaned.actions));
+    PositionLimits limits;
+    limits.gaps = take_.gaps;
+    limits.least = work_.least_shift;
+    if (take_.joints) {
+      const auto joint = static_cast<std::size_t>(std::max(track.owner, 0));
+      limits.axes = position_axes(take_.joints->skeleton.channels[joint]);
+    } else {
+      limits.most = work_.settings.max_change;
+    }
+    const TrackChanges changes = blend(edit, limits, track.selected ? work_.weights : nothing_);
+    put_back(number, edit.after, changes);
+    if (take_.markers) {
+      reports_[number] =
+          report_track(take_.markers->names[number], number, edit, changes, work_.scale);
+    } else if (number == take_.root_track()) {
+      root_ = changes;
+    }
+  }
+
+  void put_back(std::size_t track, const std::vector<Quat>& samples,
+                const TrackChanges&) requires std::is_same_v<AnyClip, Clip> {
+    set_track(clip_, track, samples);
+  }
+  void put_back(std::size_t, const std::vector<Quat>&,
+                const TrackChanges&) requires std::is_same_v<AnyClip, MarkerClip> {}
+  void put_back(std::size_t track, const std::vector<Vec3>& samples, const TrackChanges& changes) {
+    if constexpr (std::is_same_v<AnyClip, Clip>) {
+      set_track(clip_, track, samples);
+    } else {
+      for (std::size_t f = 0; f < samples.size(); ++f) {
+        const std::size_t sample = f * take_.owners + track;
+        const bool filled = changes.actions[f] == Action::filled && clip_.observed[sample] == 0;
+        if (clip_.observed[sample] == 0 && !filled) continue;
+        clip_.positions[sample] = samples[f];
+        if (!filled) continue;
+        clip_.observed[sample] = 1;
+        if (!clip_.residuals.empty()) clip_.residuals[sample] = 0;
+      }
+    }
+  }
+
+  CleanedTrack as_it_stands(std::size_t number) const {
+    const Track& track = take_.tracks[number];
+    if (track.space == Space::position && take_.gaps == GapTreatment::bridge)
+      return {{}, std::move(position_pieces(take_, number).front().samples), {}};
+    return {rotations_of(track), positions_of(track), {}};
+  }
+
+  void report_root(CleanReport& report) const {
+    double squares = 0;
+    for (const double change : root_.amounts) {
+      squares += change * change;
+      report.root_max_change = std::max(report.root_max_change, change);
+    }
+    if (take_.frames > 0)
+      report.root_rms_change = std::sqrt(squares / static_cast<double>(take_.frames));
+    report.spans = spans_of(-1, root_, work_.first);
+  }
+
+  const Work& work_;
+  const TakeView& take_;
+  AnyClip& clip_;
+  std::vector<double> nothing_;
+  std::vector<TrackReport> reports_;  // of joints' rotations and markers
+  TrackChanges root_;
+  std::vector<std::uint8_t> finished_;
+};
+
+// Also where the cleaner did not look at a gap.
+void state_filled(const TakeView& measured, const TakeView& filled, InPlaceTrace& trace) {
+  for (std::size_t n = 0; n < measured.owners; ++n) {
+    for (std::size_t f = 0; f < measured.frames; ++f) {
+      if (measured.tracks[n].is_observed(f) || !filled.tracks[n].is_observed(f)) continue;
+      if (trace.actions[n].empty()) trace.actions[n].assign(measured.frames, Action::kept);
+      trace.actions[n][f] = Action::filled;
+    }
+  }
+}
+
+void hold_feet(const Work& work, Clip& cleaned, InPlaceTrace& trace, CleanReport& report) {
+  const Stage stage(work.settings, "feet");
+  report.feet = feet_step(cleaned, work.selection, *work.settings.feet, work.first, trace);
+  report.warnings.insert(report.warnings.end(), report.feet->warnings.begin(),
+                         report.feet->warnings.end());
+  stage.finish();
+}
+
+void hold_feet(const Work&, MarkerClip&, InPlaceTrace&, CleanReport&) {}
+
+void keep_observed(const Clip& cleaned, Clip& motion) {
+  motion.observed = cleaned.observed;
+  motion.observed_positions = cleaned.observed_positions;
+}
+void keep_observed(const MarkerClip&, MarkerClip&) {}
+
+// Filling and holding feet look at many tracks at once: the whole motion is cleaned beside the
 // input.
-void clean_whole(Clip& motion, const Cleaner& cleaner, const Work& work, CleanReport& report) {
-  const Clip input = motion;
+template <class AnyClip>
+void clean_whole(AnyClip& motion, const Cleaner& cleaner, const Work& work, CleanReport& report) {
   const CleanSettings& settings = work.settings;
-  bridge_positions(motion);
+  const TakeView take = view_of(motion, work.selection);
+  AnyClip cleaned = motion;
   const Stage cleaning(settings, "cleaning");
-  CleanTrace trace = cleaner.clean(motion, work.selection);
-  report.warnings = trace.warnings;
+  InPlaceTrace trace = clean_in_place(cleaner, cleaned, work.selection, cleaning.shares());
+  report.warnings.insert(report.warnings.end(), trace.warnings.begin(), trace.warnings.end());
   report.fall_backs = trace.fall_backs;
   cleaning.finish();
   if (settings.fill) {
     const Stage stage(settings, "filling");
     report.fill =
-        fill_step(input, cleaner, work.selection, work.weights, *settings.fill, trace, motion);
+        fill_step(motion, cleaner, work.selection, work.weights, *settings.fill, trace, cleaned);
     for (GapOutcome& outcome : report.fill.gaps) {
       outcome.gap.first_frame += work.first;
       outcome.gap.last_frame += work.first;
     }
     report.warnings.insert(report.warnings.end(), report.fill.warnings.begin(),
                            report.fill.warnings.end());
-    state_filled(input.observed, motion, trace);
+    state_filled(take, view_of(cleaned), trace);
     stage.finish();
   }
-  if (settings.feet) {
-    const Stage stage(settings, "feet");
-    report.feet = feet_step(motion, work.selection, *settings.feet, work.first, trace);
-    report.warnings.insert(report.warnings.end(), report.feet->warnings.begin(),
-                           report.feet->warnings.end());
-    stage.finish();
-  }
-  const std::size_t joints = motion.joint_count(), frames = motion.frame_count();
-  std::vector<JointReport> parts(joints);
-  finish_root(work, trace, motion, report);
-  finish_translations(work, trace, motion);
-  for_each_parallel(joints, motion.local_rotations.size(), [&](std::size_t j) {
-    JointTracks tracks{
-        joint_track(input, j), joint_track(motion, j), observed_of(input.observed, joints, j), {}};
-    for (std::size_t f = 0; f < frames && !trace.actions.empty(); ++f)
-      tracks.stated.push_back(trace.actions[f * joints + j]);
-    parts[j] = finish_joint(work, motion, j, std::move(tracks));
+  if (settings.feet) hold_feet(work, cleaned, trace, report);
+  const TakeView result = view_of(cleaned);
+  Finisher<AnyClip> finisher(work, take, motion);
+  for_each_parallel(take.tracks.size(), take.tracks.size() * take.frames, [&](std::size_t n) {
+    finisher.finish(n, {rotations_of(result.tracks[n]), positions_of(result.tracks[n]),
+                        std::move(trace.actions[n])});
   });
-  add_joints(std::move(parts), trace, report);
+  finisher.report(trace, report);
+  keep_observed(cleaned, motion);
 }
 
-// Each joint takes the place of its input as soon as it is cleaned, so that there is one copy of
+// Each track takes the place of its input as soon as it is cleaned, so that there is one copy of
 // the take.
-void clean_joint_by_joint(Clip& motion, const Cleaner& cleaner, const Work& work,
+template <class AnyClip>
+void clean_track_by_track(AnyClip& motion, const Cleaner& cleaner, const Work& work,
                           CleanReport& report) {
-  const std::size_t joints = motion.joint_count();
-  const std::vector<std::uint8_t> observed = motion.observed;
-  bridge_positions(motion);
-  std::vector<JointReport> parts(joints);
-  std::vector<std::uint8_t> finished(joints);
-  const auto finish = [&](std::size_t joint, std::vector<Quat> after, std::vector<Action> stated) {
-    parts[joint] = finish_joint(work, motion, joint,
-                                {joint_track(motion, joint), std::move(after),
-                                 observed_of(observed, joints, joint), std::move(stated)});
-    finished[joint] = 1;
-  };
+  const TakeView take = view_of(motion, work.selection);
+  Finisher<AnyClip> finisher(work, take, motion);
   const Stage stage(work.settings, "cleaning");
-  const CleanTrace trace = cleaner.clean_joints(motion, work.selection, finish, stage.shares());
+  const CleanTrace trace = cleaner.clean(
+      take,
+      [&](std::size_t track, CleanedTrack cleaned) { finisher.finish(track, std::move(cleaned)); },
+      stage.shares());
   report.warnings.insert(report.warnings.end(), trace.warnings.begin(), trace.warnings.end());
   report.fall_backs = trace.fall_backs;
-  for_each_parallel(joints, motion.local_rotations.size(), [&](std::size_t j) {
-    if (finished[j] == 0) finish(j, joint_track(motion, j), {});
-  });
-  finish_root(work, trace, motion, report);
-  finish_translations(work, trace, motion);
-  add_joints(std::move(parts), trace, report);
+  finisher.finish_others();
+  finisher.report(trace, report);
   stage.finish();
 }
+
+template <class AnyClip>
+void clean_motion(AnyClip& motion, const Cleaner& cleaner, Work work, CleanReport& report) {
+  work.scale.first_frame = work.first;
+  work.scale.frame_rate_hz = motion.frame_rate_hz;
+  work.scale.peak_loss_limit = work.settings.peak_loss_limit;
+  const bool holds_feet = work.settings.feet && std::is_same_v<AnyClip, Clip>;
+  if (work.settings.fill || holds_feet) {
+    clean_whole(motion, cleaner, work, report);
+  } else {
+    clean_track_by_track(motion, cleaner, work, report);
+  }
+}
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 }  // namespace
 
@@ -249,35 +308,52 @@ CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner, const CleanSett
 
 CleanResult clean_clip(Clip&& clip, const Cleaner& cleaner, const CleanSettings& settings,
                        std::string method_name) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   const std::size_t frames = clip.frame_count();
   check_settings(settings, frames);
-  const Selection selection = make_selection(clip, settings);
-
   CleanResult result;
   CleanReport& report = result.report;
   report.method = std::move(method_name);
+  report.unit = "deg";
   report.frames = frames;
   report.frame_rate_hz = clip.frame_rate_hz;
   report.calibration_frames = leading_calibration_frames(clip);
   const std::size_t first = report.calibration_frames;
-  const Work work{settings,
-                  selection,
-                  positions_of(clip),
-                  first,
-                  frame_weights(settings, frames, first, clip.frame_rate_hz),
-                  std::vector<double>(frames - first, 0.0)};
+  const Work work{settings,      selection_of(clip, settings),
+                  first,         frame_weights(settings, frames, first, clip.frame_rate_hz),
+                  joint_scale(), 1e-11 * typical_bone_length(clip.skeleton)};
   result.clip = std::move(clip);
-  on_motion(result.clip, first, [&](Clip& motion) {
-    if (settings.fill || settings.feet) {
-      clean_whole(motion, cleaner, work, report);
-    } else {
-      clean_joint_by_joint(motion, cleaner, work, report);
-    }
-  });
+  on_motion(result.clip, first, [&](Clip& motion) { clean_motion(motion, cleaner, work, report); });
   if (report.feet && takes_part_only(settings) && !report.feet->contacts.empty())
     report.feet->after = feet_figures(result.clip, report.feet->contacts);
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report.seconds = stopwatch.seconds();
+  return result;
+}
+
+MarkerResult clean_markers(const MarkerClip& clip, const Cleaner& cleaner,
+                           const CleanSettings& settings, std::string method_name) {
+  const Stopwatch stopwatch;
+  const std::size_t frames = clip.frame_count();
+  check_settings(settings, frames);
+  MarkerResult result{clip, {}};
+  CleanReport& report = result.report;
+  report.kind = TakeKind::markers;
+  report.method = std::move(method_name);
+  report.unit = clip.unit;
+  report.frames = frames;
+  report.frame_rate_hz = clip.frame_rate_hz;
+  report.body_height = body_height(clip);
+  if (settings.feet && settings.feet->mode != FeetMode::off) {
+    report.warnings.emplace_back(
+        "feet: markers are measured points and stay where they are; feet are held in takes of "
+        "joints");
+  }
+  clean_motion(result.clip, cleaner,
+               {settings, selection_of(clip, settings), 0,
+                frame_weights(settings, frames, 0, clip.frame_rate_hz),
+                marker_scale(clip.unit, report.body_height), 1e-13 * report.body_height},
+               report);
+  report.seconds = stopwatch.seconds();
   return result;
 }
 

@@ -2,9 +2,7 @@
 
 #include <utility>
 
-#include "clean/clip_tracks.hpp"
-#include "clean/live_frames.hpp"
-#include "kinemend/error.hpp"
+#include "clean/pieces.hpp"
 
 namespace kinemend {
 
@@ -26,36 +24,66 @@ std::string_view to_string(Action action) {
   return "unknown";
 }
 
-MarkerSelection MarkerSelection::all(const MarkerClip& clip) {
-  return {std::vector<std::uint8_t>(clip.marker_count(), 1), kinemend::body_height(clip)};
+namespace {
+
+void put_back(Clip& clip, std::size_t track, const CleanedTrack& cleaned) {
+  if (!cleaned.rotations.empty()) set_track(clip, track, cleaned.rotations);
+  if (!cleaned.positions.empty()) set_track(clip, track, cleaned.positions);
 }
 
-CleanTrace Cleaner::clean_joints(Clip& clip, const Selection& selection, const JointSink& sink,
-                                 const std::function<void(double)>& /*progress*/) const {
-  Clip cleaned = clip;
-  CleanTrace trace = clean(cleaned, selection);
-  hand_over(clip, std::move(cleaned), sink, trace);
+void put_back(MarkerClip& clip, std::size_t track, const CleanedTrack& cleaned) {
+  for (std::size_t f = 0; f < cleaned.positions.size(); ++f) {
+    const std::size_t sample = f * clip.marker_count() + track;
+    if (clip.observed[sample] == 0) {
+      if (cleaned.actions.empty() || cleaned.actions[f] != Action::filled) continue;
+      clip.observed[sample] = 1;
+      if (!clip.residuals.empty()) clip.residuals[sample] = 0;
+    }
+    clip.positions[sample] = cleaned.positions[f];
+  }
+}
+
+template <class AnyClip>
+InPlaceTrace clean_view(const Cleaner& cleaner, const TakeView& take, AnyClip& clip,
+                        const std::function<void(double)>& progress) {
+  InPlaceTrace trace;
+  trace.actions.resize(take.tracks.size());
+  const TrackSink sink = [&](std::size_t track, CleanedTrack cleaned) {
+    put_back(clip, track, cleaned);
+    trace.actions[track] = std::move(cleaned.actions);
+  };
+  static_cast<CleanTrace&>(trace) = cleaner.clean(take, sink, progress);
   return trace;
 }
 
-MarkerTrace Cleaner::clean_markers(MarkerClip&, const MarkerSelection&) const {
-  throw Error(ErrorKind::usage, "this method works on joints, not on markers");
-}
+}  // namespace
 
 LiveSupport Cleaner::live_support(double) const { return {}; }
 
-LiveFrame Cleaner::clean_frame(const Clip& window, std::size_t frame) const {
-  Clip copy = window;
-  clean(copy, Selection::all(copy));
-  return frame_of(copy, frame);
+Frame Cleaner::clean_frame(const TakeView& window, std::size_t frame) const {
+  Frame result = frame_of(window, frame);
+  const TrackSink sink = [&](std::size_t track, const CleanedTrack& cleaned) {
+    const Track& source = window.tracks[track];
+    if (source.space == Space::rotation) {
+      result.rotations[track] = cleaned.rotations[frame];
+    } else if (window.gaps == GapTreatment::bridge || source.is_observed(frame)) {
+      position_in(window, track, result) = cleaned.positions[frame];
+    }
+  };
+  clean(window, sink, {});
+  return result;
 }
 
-std::unique_ptr<FrameFilter> Cleaner::make_frame_filter(const Skeleton&, double) const {
-  return nullptr;
+std::unique_ptr<FrameFilter> Cleaner::make_frame_filter(const TakeView&) const { return nullptr; }
+
+InPlaceTrace clean_in_place(const Cleaner& cleaner, Clip& clip, const Selection& selection,
+                            const std::function<void(double)>& progress) {
+  return clean_view(cleaner, view_of(clip, selection), clip, progress);
 }
 
-std::unique_ptr<MarkerFilter> Cleaner::make_marker_filter(const MarkerClip&, double) const {
-  return nullptr;
+InPlaceTrace clean_in_place(const Cleaner& cleaner, MarkerClip& clip, const Selection& selection,
+                            const std::function<void(double)>& progress) {
+  return clean_view(cleaner, view_of(clip, selection), clip, progress);
 }
 
 }  // namespace kinemend

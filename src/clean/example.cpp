@@ -68,10 +68,10 @@ PoseMatrix first_guess(const PriorWork& work, const std::vector<double>& mean,
 
 // Whether anything is missing that is to be filled: of what the take has and `auto` does not keep.
 bool has_gaps(const PriorWork& work) {
-  const std::size_t parts = work.match->parts.size();
+  const std::size_t parts = work.match->tracks.size();
   for (std::size_t i = 0; i < work.channels.observed.size(); ++i) {
     const std::size_t part = i % work.channels.poses.channels / 3;
-    const bool lacking = part < parts && work.match->parts[part] < 0;
+    const bool lacking = part < parts && work.match->tracks[part] < 0;
     const bool left_out = !work.left_out.empty() && work.left_out[part] != 0;
     if (!lacking && !left_out && work.channels.observed[i] == 0) return true;
   }

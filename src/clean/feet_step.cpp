@@ -8,24 +8,29 @@ namespace kinemend {
 
 namespace {
 
-void state_adjusted(const std::vector<std::uint8_t>& changed, std::vector<Action>& actions) {
-  if (actions.empty()) actions.assign(changed.size(), Action::kept);
-  for (std::size_t i = 0; i < changed.size(); ++i) {
-    const bool is_repair = actions[i] == Action::filled || actions[i] == Action::despiked;
-    if (changed[i] != 0 && !is_repair) actions[i] = Action::foot_adjusted;
+// `changed`: F rows of `width`, those of a track in column `column`.
+void state_adjusted(const std::vector<std::uint8_t>& changed, std::size_t width, std::size_t column,
+                    std::vector<Action>& actions) {
+  if (changed.empty()) return;
+  if (actions.empty()) actions.assign(changed.size() / width, Action::kept);
+  for (std::size_t f = 0; f < actions.size(); ++f) {
+    const bool is_repair = actions[f] == Action::filled || actions[f] == Action::despiked;
+    if (changed[f * width + column] != 0 && !is_repair) actions[f] = Action::foot_adjusted;
   }
 }
 
 }  // namespace
 
 FeetReport feet_step(Clip& motion, const Selection& selection, const FeetSettings& settings,
-                     std::size_t first, CleanTrace& trace) {
+                     std::size_t first, InPlaceTrace& trace) {
   FeetSettings own = settings;
   if (own.contacts) feet::shift_contacts(*own.contacts, first, 0);
-  const feet::FeetLimits limits{selection.joints, selection.root_position, selection.translations};
+  const feet::FeetLimits limits{selection.owners, selection.root_position, selection.translations};
   FeetReport report = feet::clean_legs(motion, own, limits);
-  state_adjusted(report.changed, trace.actions);
-  state_adjusted(report.root_changed, trace.root_actions);
+  const std::size_t joints = motion.joint_count();
+  for (std::size_t j = 0; j < joints; ++j)
+    state_adjusted(report.changed, joints, j, trace.actions[j]);
+  state_adjusted(report.root_changed, 1, 0, trace.actions[joints]);
   feet::shift_contacts(report.contacts, 0, first);
   report.changed.insert(report.changed.begin(), first * motion.joint_count(), 0);
   report.root_changed.insert(report.root_changed.begin(), first, 0);

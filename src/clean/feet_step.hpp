@@ -12,6 +12,6 @@ namespace kinemend {
 /// `first` of the take, by whose frames settings and report go. What changed is stated in `trace`,
 /// over what the cleaner did; filled and despiked samples stay such.
 FeetReport feet_step(Clip& motion, const Selection& selection, const FeetSettings& settings,
-                     std::size_t first, CleanTrace& trace);
+                     std::size_t first, InPlaceTrace& trace);
 
 }  // namespace kinemend

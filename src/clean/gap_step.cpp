@@ -4,7 +4,6 @@
 #include <memory>
 #include <utility>
 
-#include "clean/clip_tracks.hpp"
 #include "kinemend/methods.hpp"
 
 namespace kinemend {
@@ -13,44 +12,32 @@ namespace {
 
 std::unique_ptr<Cleaner> make_despiker() { return make_auto({.sensitivity = 0, .despike = true}); }
 
-bool holds_more_spikes(const std::vector<Action>& found, const std::vector<Action>& repaired) {
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (found[i] == Action::despiked && (repaired.empty() || repaired[i] != Action::despiked))
-      return true;
+bool holds_more_spikes(const InPlaceTrace& found, const InPlaceTrace& repaired) {
+  for (std::size_t n = 0; n < found.actions.size(); ++n) {
+    for (std::size_t f = 0; f < found.actions[n].size(); ++f) {
+      if (found.actions[n][f] != Action::despiked) continue;
+      if (repaired.actions[n].empty() || repaired.actions[n][f] != Action::despiked) return true;
+    }
   }
   return false;
 }
 
-// What the gaps are filled from: the cleaned take, or one that was cleaned without its spikes.
-Clip evidence_of(const Clip& measured, const Cleaner& cleaner, const Selection& selection,
-                 const CleanTrace& trace, const Clip& cleaned) {
-  Clip evidence = measured;
-  bridge_positions(evidence);
-  const CleanTrace spikes = make_despiker()->clean(evidence, Selection::all(evidence));
-  const bool some_left = holds_more_spikes(spikes.actions, trace.actions) ||
-                         holds_more_spikes(spikes.root_actions, trace.root_actions) ||
-                         holds_more_spikes(spikes.translation_actions, trace.translation_actions);
-  if (some_left)
-    cleaner.clean(evidence, selection);
-  else
-    evidence = cleaned;
-  evidence.observed = measured.observed;
-  evidence.observed_positions = measured.observed_positions;
-  return evidence;
+void keep_gaps(const Clip& measured, Clip& clip) {
+  clip.observed = measured.observed;
+  clip.observed_positions = measured.observed_positions;
 }
+void keep_gaps(const MarkerClip& measured, MarkerClip& clip) { clip.observed = measured.observed; }
 
-MarkerClip evidence_of(const MarkerClip& measured, const Cleaner& cleaner,
-                       const MarkerSelection& selection, const MarkerTrace& trace,
-                       const MarkerClip& cleaned) {
-  MarkerClip evidence = measured;
-  const MarkerTrace spikes =
-      make_despiker()->clean_markers(evidence, MarkerSelection::all(evidence));
-  const bool some_left = holds_more_spikes(spikes.actions, trace.actions);
-  if (some_left)
-    cleaner.clean_markers(evidence, selection);
+// What the gaps are filled from: the cleaned take, or one that was cleaned without its spikes.
+template <class AnyClip>
+AnyClip evidence_of(const AnyClip& measured, const Cleaner& cleaner, const Selection& selection,
+                    const InPlaceTrace& trace, const AnyClip& cleaned) {
+  AnyClip evidence = measured;
+  if (holds_more_spikes(clean_in_place(*make_despiker(), evidence), trace))
+    clean_in_place(cleaner, evidence, selection);
   else
     evidence = cleaned;
-  evidence.observed = measured.observed;
+  keep_gaps(measured, evidence);
   return evidence;
 }
 
@@ -97,28 +84,28 @@ void drop_unselected(FillReport& report, const std::vector<std::uint8_t>& select
 
 FillReport fill_step(const Clip& measured, const Cleaner& cleaner, const Selection& selection,
                      const std::vector<double>& weights, const FillSettings& settings,
-                     const CleanTrace& trace, Clip& cleaned) {
+                     const InPlaceTrace& trace, Clip& cleaned) {
   if (find_gaps(measured).empty() && find_position_gaps(measured).empty()) return {};
   Clip filled = evidence_of(measured, cleaner, selection, trace, cleaned);
   FillReport report = fill_gaps(filled, settings);
-  drop_unselected(report, selection.joints);
-  for_each_filled(measured.observed, filled.observed, selection.joints, weights,
+  drop_unselected(report, selection.owners);
+  for_each_filled(measured.observed, filled.observed, selection.owners, weights,
                   [&](std::size_t i) {
                     cleaned.local_rotations[i] = filled.local_rotations[i];
                     cleaned.observed[i] = 1;
                   });
-  take_over_positions(measured, filled, selection.joints, weights, cleaned);
+  take_over_positions(measured, filled, selection.owners, weights, cleaned);
   return report;
 }
 
-FillReport fill_step(const MarkerClip& measured, const Cleaner& cleaner,
-                     const MarkerSelection& selection, const std::vector<double>& weights,
-                     const FillSettings& settings, const MarkerTrace& trace, MarkerClip& cleaned) {
+FillReport fill_step(const MarkerClip& measured, const Cleaner& cleaner, const Selection& selection,
+                     const std::vector<double>& weights, const FillSettings& settings,
+                     const InPlaceTrace& trace, MarkerClip& cleaned) {
   if (find_gaps(measured).empty()) return {};
   MarkerClip filled = evidence_of(measured, cleaner, selection, trace, cleaned);
   FillReport report = fill_gaps(filled, settings);
-  drop_unselected(report, selection.markers);
-  for_each_filled(measured.observed, filled.observed, selection.markers, weights,
+  drop_unselected(report, selection.owners);
+  for_each_filled(measured.observed, filled.observed, selection.owners, weights,
                   [&](std::size_t i) {
                     cleaned.positions[i] = filled.positions[i];
                     cleaned.observed[i] = 1;

@@ -18,9 +18,9 @@ namespace kinemend {
 /// is selected.
 FillReport fill_step(const Clip& measured, const Cleaner& cleaner, const Selection& selection,
                      const std::vector<double>& weights, const FillSettings& settings,
-                     const CleanTrace& trace, Clip& cleaned);
-FillReport fill_step(const MarkerClip& measured, const Cleaner& cleaner,
-                     const MarkerSelection& selection, const std::vector<double>& weights,
-                     const FillSettings& settings, const MarkerTrace& trace, MarkerClip& cleaned);
+                     const InPlaceTrace& trace, Clip& cleaned);
+FillReport fill_step(const MarkerClip& measured, const Cleaner& cleaner, const Selection& selection,
+                     const std::vector<double>& weights, const FillSettings& settings,
+                     const InPlaceTrace& trace, MarkerClip& cleaned);
 
 }  // namespace kinemend

@@ -2,8 +2,7 @@
 #include <cmath>
 #include <vector>
 
-#include "clean/filter_tracks.hpp"
-#include "clean/marker_tracks.hpp"
+#include "clean/lanes.hpp"
 #include "clean/method_list.hpp"
 #include "kinemend/frame_rate.hpp"
 #include "kinemend/methods.hpp"
@@ -130,19 +129,14 @@ class GaussianCleaner final : public Cleaner {
     table().validate(options);
   }
 
-  CleanTrace clean(Clip& clip, const Selection& selection) const override {
-    const GaussianFilter filter(sigma_frames(clip.frame_rate_hz), clip.frame_count());
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>& progress) const override {
+    const GaussianFilter filter(sigma_frames(take.frame_rate_hz), take.frames);
     if (filter.does_nothing()) return {};
-    return filter_tracks(
-        clip, selection,
-        [&](RotationTrack& track, const std::vector<double>& observed) { filter(track, observed); },
-        [&](VectorTrack& track) { filter(track, {}); });
-  }
-
-  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
-    const GaussianFilter filter(sigma_frames(clip.frame_rate_hz), clip.frame_count());
-    if (filter.does_nothing()) return {};
-    return filter_marker_tracks(clip, selection, filter);
+    filter_pieces(take, sink, progress, [&](auto& piece) {
+      filter_lanes(piece, [&](auto& track) { filter(track, lane_weights(piece)); });
+    });
+    return {};
   }
 
   LiveSupport live_support(double frame_rate_hz) const override {

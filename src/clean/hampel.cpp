@@ -3,10 +3,8 @@
 #include <utility>
 
 #include "base/quantiles.hpp"
-#include "clean/clip_tracks.hpp"
-#include "clean/live_frames.hpp"
-#include "clean/marker_tracks.hpp"
 #include "clean/method_list.hpp"
+#include "clean/pieces.hpp"
 #include "kinemend/frame_rate.hpp"
 #include "kinemend/methods.hpp"
 #include "tracks/medians.hpp"
@@ -90,102 +88,39 @@ class Hampel final : public Cleaner {
  public:
   explicit Hampel(const HampelOptions& options) : options_(options) {}
 
-  CleanTrace clean(Clip& clip, const Selection& selection) const override {
-    CleanTrace trace;
-    const std::vector<std::size_t> joints = selected_joints(clip, selection);
-    const auto positions = selected_positions(clip, selection);
-    bridge_gaps(clip, joints, trace);
-    const std::size_t frames = clip.frame_count();
-    if (trace.actions.empty()) trace.actions.assign(clip.local_rotations.size(), Action::kept);
-    std::vector<ActionTrack> actions;
-    actions.reserve(positions.size());
-    for (const PositionTrack& track : positions)
-      actions.push_back(position_actions(clip, track, trace));
-    const Rule turn = rotation_rule(clip), shift = position_rule(clip);
-    for_each_parallel(joints.size() + positions.size(), joints.size() * frames, [&](std::size_t i) {
-      if (i < joints.size()) {
-        despike_joint(clip, joints[i], turn, trace);
-      } else {
-        despike_positions(positions[i - joints.size()], frames, shift, actions[i - joints.size()]);
-      }
-    });
-    return trace;
-  }
-
-  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
-    const Rule rule = rule_for(clip.frame_rate_hz, marker_reach(selection.body_height));
-    std::vector<Action> actions(clip.positions.size(), Action::kept);
-    MarkerTrace trace = filter_marker_paths(clip, selection, [&](MarkerPath& path) {
-      const std::vector<Vec3> track = path.positions;
-      Despiker<Vec3> despiker(track, rule);
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>& progress) const override {
+    filter_pieces(take, sink, progress, [&]<class Sample>(Piece<Sample>& piece) {
+      const std::vector<Sample> track = piece.samples;
+      Despiker<Sample> despiker(track, rule_for(take, piece.track));
+      piece.actions.assign(track.size(), Action::kept);
       for (std::size_t t = 0; t < track.size(); ++t) {
-        if (despiker.despike(t, path.positions[t])) {
-          actions[(path.first_frame + t) * clip.marker_count() + path.marker] = Action::despiked;
-        }
+        if (despiker.despike(t, piece.samples[t])) piece.actions[t] = Action::despiked;
       }
     });
-    for (std::size_t i = 0; i < actions.size(); ++i) {
-      if (clip.observed[i] == 0) actions[i] = Action::kept;
-    }
-    trace.actions = std::move(actions);
-    return trace;
+    return {};
   }
 
   LiveSupport live_support(double rate_hz) const override {
     return {LiveSupport::Kind::windowed, half_frames(rate_hz)};
   }
 
-  LiveFrame clean_frame(const Clip& window, std::size_t frame) const override {
-    Clip copy = window;
-    CleanTrace trace;
-    const Selection all = Selection::all(copy);
-    const std::vector<std::size_t> joints = selected_joints(copy, all);
-    bridge_gaps(copy, joints, trace);
-    const Rule turn = rotation_rule(copy), shift = position_rule(copy);
-    for (const std::size_t j : joints) {
-      const std::vector<Quat> track = joint_track(copy, j);
-      Despiker<Quat>(track, turn).despike(frame, copy.rotation(frame, j));
-    }
-    for (const PositionTrack& positions : selected_positions(copy, all)) {
-      const std::vector<Vec3> track = position_track(positions, copy.frame_count());
-      Vec3& value = positions.values[frame * positions.stride];
-      Despiker<Vec3>(track, shift).despike(frame, value);
-    }
-    return frame_of(copy, frame);
+  Frame clean_frame(const TakeView& window, std::size_t frame) const override {
+    return filter_frame(
+        window, frame, [&]<class Sample>(const Piece<Sample>& piece, std::size_t i) {
+          Sample sample = piece.samples[i];
+          Despiker<Sample>(piece.samples, rule_for(window, piece.track)).despike(i, sample);
+          return sample;
+        });
   }
 
  private:
   std::size_t half_frames(double rate_hz) const {
     return frames_in(options_.window_s / 2, window_rate_hz(rate_hz), 3);
   }
-  // `scale`: the distance that counts as one radian.
-  Rule rule_for(double rate_hz, double scale) const {
-    return {half_frames(rate_hz), options_.threshold,
-            options_.minimum_deg * radians_per_degree * scale};
-  }
-  Rule rotation_rule(const Clip& clip) const { return rule_for(clip.frame_rate_hz, 1); }
-  Rule position_rule(const Clip& clip) const {
-    return rule_for(clip.frame_rate_hz, typical_bone_length(clip.skeleton));
-  }
-
-  static void despike_joint(Clip& clip, std::size_t joint, const Rule& rule, CleanTrace& trace) {
-    const std::vector<Quat> track = joint_track(clip, joint);
-    Despiker<Quat> despiker(track, rule);
-    for (std::size_t t = 0; t < track.size(); ++t) {
-      if (!despiker.despike(t, clip.rotation(t, joint))) continue;
-      Action& action = trace.actions[t * clip.joint_count() + joint];
-      if (action == Action::kept) action = Action::despiked;
-    }
-  }
-
-  static void despike_positions(const PositionTrack& positions, std::size_t frames,
-                                const Rule& rule, ActionTrack actions) {
-    const std::vector<Vec3> track = position_track(positions, frames);
-    Despiker<Vec3> despiker(track, rule);
-    for (std::size_t t = 0; t < frames; ++t) {
-      Vec3& value = positions.values[t * positions.stride];
-      if (despiker.despike(t, value)) actions.values[t * actions.stride] = Action::despiked;
-    }
+  Rule rule_for(const TakeView& take, std::size_t track) const {
+    return {half_frames(take.frame_rate_hz), options_.threshold,
+            options_.minimum_deg * radians_per_degree * take.tracks[track].radian};
   }
 
   HampelOptions options_;

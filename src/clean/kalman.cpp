@@ -1,9 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clean/clip_tracks.hpp"
-#include "clean/live_frames.hpp"
-#include "clean/marker_tracks.hpp"
+#include "clean/causal.hpp"
 #include "clean/method_list.hpp"
 #include "kinemend/methods.hpp"
 #include "metrics/track_noise.hpp"
@@ -106,35 +104,21 @@ class Kalman final : public Cleaner {
  public:
   explicit Kalman(const KalmanOptions& options) : options_(options) {}
 
-  CleanTrace clean(Clip& clip, const Selection& selection) const override {
-    if (!options_.smoother) return clean_causally(*this, clip, selection);
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>& progress) const override {
+    if (!options_.smoother) return clean_causally(*this, take, sink, progress);
     CleanTrace trace;
-    const std::vector<std::size_t> joints = selected_joints(clip, selection);
-    const auto positions = selected_positions(clip, selection);
-    mark_gaps(clip, joints, trace);
-    trace.noise_deg.assign(clip.joint_count(), 0);
-    const std::size_t frames = clip.frame_count();
-    for_each_parallel(joints.size() + positions.size(), joints.size() * frames, [&](std::size_t i) {
-      if (i < joints.size()) {
-        smooth_joint(clip, joints[i], trace);
-      } else {
-        smooth_positions(clip, positions[i - joints.size()]);
-      }
+    const std::vector<double> levels = noise_of(take);
+    trace.noise = levels;
+    for (std::size_t n = 0; n < levels.size(); ++n) {
+      if (take.tracks[n].space == Space::rotation) trace.noise[n] *= degrees_per_radian;
+    }
+    filter_pieces(take, sink, progress, [&]<class Sample>(Piece<Sample>& piece) {
+      const double radian = take.tracks[piece.track].radian;
+      const double noise = std::max(levels[piece.track], least_noise * radian);
+      piece.samples = kalman_smooth<Sample>(piece.samples, piece.observed, noise, radian,
+                                            model_for(options_, take.frame_rate_hz, radian));
     });
-    return trace;
-  }
-
-  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
-    if (!options_.smoother) return clean_markers_causally(*this, clip, selection);
-    const double reach = marker_reach(selection.body_height);
-    const KalmanModel model = model_for(options_, clip.frame_rate_hz, reach);
-    const std::vector<double> noise = marker_noise(clip, selection, reach);
-    MarkerTrace trace = filter_marker_paths(clip, selection, [&](MarkerPath& path) {
-      path.positions =
-          kalman_smooth<Vec3>(path.positions, path.observed,
-                              std::max(noise[path.marker], least_noise * reach), reach, model);
-    });
-    trace.noise = noise;
     return trace;
   }
 
@@ -143,63 +127,34 @@ class Kalman final : public Cleaner {
     return {LiveSupport::Kind::causal, 0};
   }
 
-  std::unique_ptr<FrameFilter> make_frame_filter(const Skeleton& skeleton,
-                                                 double rate_hz) const override {
+  std::unique_ptr<FrameFilter> make_frame_filter(const TakeView& like) const override {
     if (options_.smoother) return nullptr;
-    using Filter = TrackFrameFilter<LiveTrack<Quat>, LiveTrack<Vec3>>;
-    const double bone = typical_bone_length(skeleton);
-    return std::make_unique<Filter>(skeleton,
-                                    LiveTrack<Quat>(model_for(options_, rate_hz, 1),
-                                                    options_.noise_deg * radians_per_degree, 1),
-                                    LiveTrack<Vec3>(model_for(options_, rate_hz, bone), 0, bone));
-  }
-
-  std::unique_ptr<MarkerFilter> make_marker_filter(const MarkerClip& like,
-                                                   double body_height) const override {
-    if (options_.smoother) return nullptr;
-    const double reach = marker_reach(body_height);
-    return std::make_unique<TrackMarkerFilter<LiveTrack<Vec3>>>(
-        like, LiveTrack<Vec3>(model_for(options_, like.frame_rate_hz, reach),
-                              options_.noise_deg * radians_per_degree * reach, reach));
+    const double rate_hz = like.frame_rate_hz, reach = radian_of_positions(like);
+    return make_track_filter(
+        like,
+        LiveTrack<Quat>(model_for(options_, rate_hz, 1), options_.noise_deg * radians_per_degree,
+                        1),
+        LiveTrack<Vec3>(model_for(options_, rate_hz, reach),
+                        like.joints ? 0 : options_.noise_deg * radians_per_degree * reach, reach));
   }
 
  private:
-  // Of each marker, from all of its observed samples.
-  std::vector<double> marker_noise(const MarkerClip& clip, const MarkerSelection& selection,
-                                   double reach) const {
-    const double given = options_.noise_deg * radians_per_degree * reach;
-    std::vector<double> noise(clip.marker_count());
-    for_each_parallel(noise.size(), clip.positions.size(), [&](std::size_t m) {
-      if (!marker_selected(clip, selection, m)) return;
-      noise[m] = given > 0 ? given : observed_noise(clip, m);
+  // Of each track, from all that was observed of it: radians or file units. The option is not meant
+  // for positions of joints.
+  std::vector<double> noise_of(const TakeView& take) const {
+    std::vector<double> noise(take.tracks.size());
+    const std::vector<std::size_t> tracks = changeable_tracks(take);
+    for_each_parallel(tracks.size(), tracks.size() * take.frames, [&](std::size_t i) {
+      const Track& track = take.tracks[tracks[i]];
+      const double given = options_.noise_deg * radians_per_degree * track.radian;
+      if (track.space == Space::rotation) {
+        noise[tracks[i]] = given > 0 ? given : track_noise(observed_rotations(take, tracks[i]));
+      } else {
+        noise[tracks[i]] =
+            given > 0 && take.markers ? given : track_noise(observed_positions(take, tracks[i]));
+      }
     });
     return noise;
-  }
-
-  void smooth_joint(Clip& clip, std::size_t joint, CleanTrace& trace) const {
-    const std::vector<Quat> track = joint_track(clip, joint);
-    std::vector<Quat> seen;
-    std::vector<std::uint8_t> observed;
-    if (!clip.observed.empty()) {
-      for (std::size_t f = 0; f < track.size(); ++f) {
-        observed.push_back(clip.is_observed(f, joint));
-        if (observed.back()) seen.push_back(track[f]);
-      }
-    }
-    const double given = options_.noise_deg * radians_per_degree;
-    const double noise = given > 0 ? given : track_noise(observed.empty() ? track : seen);
-    trace.noise_deg[joint] = noise * degrees_per_radian;
-    const KalmanModel model = model_for(options_, clip.frame_rate_hz, 1);
-    set_joint_track(clip, joint,
-                    kalman_smooth<Quat>(track, observed, std::max(noise, least_noise), 1, model));
-  }
-
-  void smooth_positions(const Clip& clip, const PositionTrack& positions) const {
-    const double scale = typical_bone_length(clip.skeleton);
-    const std::vector<Vec3> track = position_track(positions, clip.frame_count());
-    const double noise = std::max(track_noise(track), least_noise * scale);
-    const KalmanModel model = model_for(options_, clip.frame_rate_hz, scale);
-    set_position_track(positions, kalman_smooth<Vec3>(track, {}, noise, scale, model));
   }
 
   KalmanOptions options_;

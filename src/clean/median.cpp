@@ -1,9 +1,7 @@
 #include <algorithm>
 
-#include "clean/clip_tracks.hpp"
-#include "clean/live_frames.hpp"
-#include "clean/marker_tracks.hpp"
 #include "clean/method_list.hpp"
+#include "clean/pieces.hpp"
 #include "kinemend/frame_rate.hpp"
 #include "kinemend/methods.hpp"
 #include "tracks/medians.hpp"
@@ -78,28 +76,12 @@ class Median final : public Cleaner {
  public:
   explicit Median(const MedianOptions& options) : options_(options) {}
 
-  CleanTrace clean(Clip& clip, const Selection& selection) const override {
-    CleanTrace trace;
-    const std::vector<std::size_t> joints = selected_joints(clip, selection);
-    const auto positions = selected_positions(clip, selection);
-    bridge_gaps(clip, joints, trace);
-    const std::size_t half = half_frames(clip.frame_rate_hz), frames = clip.frame_count();
-    for_each_parallel(joints.size() + positions.size(), joints.size() * frames, [&](std::size_t i) {
-      if (i < joints.size()) {
-        set_joint_track(clip, joints[i], median_track(joint_track(clip, joints[i]), half));
-      } else {
-        const PositionTrack& track = positions[i - joints.size()];
-        set_position_track(track, median_track(position_track(track, frames), half));
-      }
-    });
-    return trace;
-  }
-
-  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
-    const std::size_t half = half_frames(clip.frame_rate_hz);
-    return filter_marker_paths(clip, selection, [half](MarkerPath& path) {
-      path.positions = median_track(path.positions, half);
-    });
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>& progress) const override {
+    const std::size_t half = half_frames(take.frame_rate_hz);
+    filter_pieces(take, sink, progress,
+                  [half](auto& piece) { piece.samples = median_track(piece.samples, half); });
+    return {};
   }
 
   LiveSupport live_support(double rate_hz) const override {
@@ -109,24 +91,12 @@ class Median final : public Cleaner {
     return {LiveSupport::Kind::windowed, std::max(half, end)};
   }
 
-  LiveFrame clean_frame(const Clip& window, std::size_t frame) const override {
-    Clip copy = window;
-    CleanTrace trace;
-    const Selection all = Selection::all(copy);
-    const std::vector<std::size_t> joints = selected_joints(copy, all);
-    bridge_gaps(copy, joints, trace);
-    const std::size_t half = half_frames(copy.frame_rate_hz), frames = copy.frame_count();
-    std::vector<Vec3> scratch;
-    for (const std::size_t j : joints) {
-      const std::vector<Quat> track = joint_track(copy, j);
-      copy.rotation(frame, j) = median_at(Track<Quat>(track), frame, half, scratch);
-    }
-    for (const PositionTrack& positions : selected_positions(copy, all)) {
-      const std::vector<Vec3> track = position_track(positions, frames);
-      positions.values[frame * positions.stride] =
-          median_at(Track<Vec3>(track), frame, half, scratch);
-    }
-    return frame_of(copy, frame);
+  Frame clean_frame(const TakeView& window, std::size_t frame) const override {
+    const std::size_t half = half_frames(window.frame_rate_hz);
+    return filter_frame(window, frame, [half](const auto& piece, std::size_t i) {
+      std::vector<Vec3> scratch;
+      return median_at(std::span(piece.samples), i, half, scratch);
+    });
   }
 
  private:

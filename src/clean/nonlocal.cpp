@@ -4,13 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "clean/clip_tracks.hpp"
-#include "clean/filter_tracks.hpp"
-#include "clean/live_frames.hpp"
-#include "clean/marker_tracks.hpp"
+#include "clean/causal.hpp"
+#include "clean/lanes.hpp"
 #include "clean/method_list.hpp"
 #include "clean/nonlocal_causal.hpp"
-#include "clean/whole_markers.hpp"
 #include "kinemend/frame_rate.hpp"
 #include "kinemend/methods.hpp"
 #include "metrics/track_noise.hpp"
@@ -69,61 +66,25 @@ class NonlocalCleaner final : public Cleaner {
     }
   }
 
-  CleanTrace clean(Clip& clip, const Selection& selection) const override {
-    if (options_.causal) return clean_causally(*this, clip, selection);
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>& progress) const override {
+    if (options_.causal) return clean_causally(*this, take, sink, progress);
     CleanTrace trace;
-    if (clip.frame_count() < 2) return trace;
-    const std::vector<std::size_t> joints = pose_joints(clip.skeleton);
-    NonlocalTake take;
-    if (clip.observed.empty()) {
-      take = make_take(clip, joints, selection);
-    } else {
-      Clip bridged = clip;  // joints that are not selected belong to the pose, too, but stay
-      CleanTrace unused;
-      bridge_gaps(bridged, joints, unused);
-      take = make_take(bridged, joints, selection);
+    if (take.frames < 2) return trace;
+    Pose pose = pose_of(take);
+    NonlocalSettings settings = settings_for(take.frame_rate_hz);
+    if (take.markers) settings.bandwidth *= radian_of_positions(take);
+    if (options_.bandwidth_deg == 0 && !choose_bandwidth(take, pose, settings, trace)) return trace;
+    nonlocal_filter(pose.take, settings);
+    for (std::size_t i = 0; i < pose.rotations.size(); ++i) {
+      if (pose.take.wanted[i])
+        sink(pose.rotations[i], result_of(take, pose.rotations[i], pose.take.rotations[i]));
     }
-    NonlocalSettings settings = settings_for(clip.frame_rate_hz);
-    if (options_.bandwidth_deg == 0) trace.noise_deg.assign(clip.joint_count(), 0.0);
-    if (options_.bandwidth_deg == 0 && !choose_bandwidth(joints, take, settings, trace)) {
-      return trace;
-    }
-    nonlocal_filter(take, settings);
-    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-      for (std::size_t i = 0; i < joints.size(); ++i) {
-        if (take.wanted[i]) clip.rotation(f, joints[i]) = take.rotations[i][f];
-      }
-    }
-    const auto tracks = selected_positions(clip, selection);
-    for (std::size_t p = 0; p < tracks.size(); ++p) store_positions(take.positions[p], tracks[p]);
-    mark_gaps(clip, selected_joints(clip, selection), trace);
-    return trace;
-  }
-
-  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
-    if (options_.causal) {
-      throw Error(ErrorKind::usage, "nonlocal with causal works on joints, not on markers");
-    }
-    MarkerTrace trace;
-    if (clip.frame_count() < 2) return trace;
-    // Markers that are not selected belong to the pose, too.
-    MarkerSelection everything = selection;
-    everything.markers.assign(clip.marker_count(), 1);
-    const std::vector<WholeMarker> markers = whole_markers(clip, everything);
-    NonlocalTake take;
-    for (const WholeMarker& marker : markers) add_point(clip, marker, take);
-    NonlocalSettings settings = settings_for(clip.frame_rate_hz);
-    settings.bandwidth *= marker_reach(selection.body_height);
-    if (options_.bandwidth_deg == 0 && !choose_bandwidth(clip, markers, take, settings, trace)) {
-      return trace;
-    }
-    nonlocal_filter(take, settings);
-    for (std::size_t p = 0; p < markers.size(); ++p) {
-      const std::size_t m = markers[p].marker;
-      if (!marker_selected(clip, selection, m)) continue;
-      for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-        if (clip.is_observed(f, m)) clip.position(f, m) = take.points[p][f];
-      }
+    for (std::size_t i = 0; i < pose.positions.size(); ++i)
+      sink(pose.positions[i], result_of(pose.take.positions[i]));
+    for (std::size_t i = 0; i < pose.points.size(); ++i) {
+      if (take.tracks[pose.points[i]].selected)
+        sink(pose.points[i], result_of(pose.take.points[i]));
     }
     return trace;
   }
@@ -136,17 +97,16 @@ class NonlocalCleaner final : public Cleaner {
     return {LiveSupport::Kind::windowed, settings.window_radius + settings.patch_radius};
   }
 
-  std::unique_ptr<FrameFilter> make_frame_filter(const Skeleton& skeleton,
-                                                 double frame_rate_hz) const override {
-    if (!options_.causal) return nullptr;
-    const NonlocalSettings offline = settings_for(frame_rate_hz);
+  std::unique_ptr<FrameFilter> make_frame_filter(const TakeView& like) const override {
+    if (!options_.causal || !like.joints) return nullptr;
+    const NonlocalSettings offline = settings_for(like.frame_rate_hz);
     CausalNonlocalSettings settings;
     settings.window = 2 * offline.window_radius;
     settings.patch = 2 * offline.patch_radius + 1;
     settings.neighbours = offline.neighbours;
     settings.bandwidth = offline.bandwidth;
     settings.noise_share = causal_noise_share;
-    return make_causal_nonlocal(settings, pose_joints(skeleton));
+    return make_causal_nonlocal(settings, pose_joints(like.joints->skeleton));
   }
 
  private:
@@ -165,68 +125,83 @@ class NonlocalCleaner final : public Cleaner {
     return settings;
   }
 
-  static NonlocalTake make_take(Clip& clip, const std::vector<std::size_t>& joints,
-                                const Selection& selection) {
+  // What belongs to the pose, selected or not, and the numbers of the tracks that it is made of.
+  struct Pose {
     NonlocalTake take;
-    take.rotations = load_rotations(clip, joints);
-    const std::vector<std::size_t> moving = selected_joints(clip, selection);
-    for (const std::size_t joint : joints) {
-      take.observed.push_back(observed_weights(clip, joint));
-      take.wanted.push_back(std::binary_search(moving.begin(), moving.end(), joint));
-    }
-    for (const PositionTrack& positions : selected_positions(clip, selection)) {
-      take.positions.push_back(load_positions(positions, clip.frame_count()));
-      take.travels.push_back(positions.values == clip.root_positions.data());
-    }
-    return take;
+    std::vector<std::size_t> rotations, positions, points;
+  };
+
+  static Pose pose_of(const TakeView& take) {
+    return take.joints ? pose_of_joints(take) : pose_of_markers(take);
   }
 
-  static void add_point(const MarkerClip& clip, const WholeMarker& marker, NonlocalTake& take) {
-    const std::size_t frames = clip.frame_count();
-    VectorTrack track(frames);
-    std::vector<double> observed(frames + lane_room);
-    std::size_t seen = 0;
-    for (std::size_t f = 0; f < frames; ++f) {
-      track.set(f, marker.positions[f]);
-      observed[f] = clip.is_observed(f, marker.marker) ? 1 : 0;
-      seen += clip.is_observed(f, marker.marker) ? 1 : 0;
+  static Pose pose_of_joints(const TakeView& take) {
+    Pose pose;
+    pose.rotations = pose_joints(take.joints->skeleton);
+    const std::vector<std::size_t> changeable = changeable_tracks(take);
+    for (const std::size_t joint : pose.rotations) {
+      const Piece<Quat> piece = rotation_piece(take, joint);
+      pose.take.rotations.push_back(to_lanes(piece.samples));
+      pose.take.observed.push_back(lane_weights(piece));
+      pose.take.wanted.push_back(std::binary_search(changeable.begin(), changeable.end(), joint));
     }
-    if (seen == frames) observed.clear();
-    take.points.push_back(std::move(track));
-    take.points_observed.push_back(std::move(observed));
+    for (const std::size_t track : changeable) {
+      if (take.tracks[track].space != Space::position) continue;
+      pose.positions.push_back(track);
+      pose.take.positions.push_back(to_lanes(position_pieces(take, track).front().samples));
+      pose.take.travels.push_back(track == take.root_track());
+    }
+    return pose;
   }
 
-  static bool choose_bandwidth(const MarkerClip& clip, const std::vector<WholeMarker>& markers,
-                               const NonlocalTake& take, NonlocalSettings& settings,
-                               MarkerTrace& trace) {
-    trace.noise.assign(clip.marker_count(), 0.0);
-    double sum = 0;
-    for (const WholeMarker& marker : markers) {
-      const double noise = trace.noise[marker.marker] = observed_noise(clip, marker.marker);
-      sum += noise * noise;
+  static Pose pose_of_markers(const TakeView& take) {
+    Pose pose;
+    for (std::size_t m = 0; m < take.owners; ++m) {
+      if (!take.markers->holds_positions(m)) continue;
+      const std::vector<Vec3> positions = whole_positions(take, m);
+      if (positions.empty()) continue;
+      pose.points.push_back(m);
+      pose.take.points.push_back(to_lanes(positions));
+      pose.take.points_observed.push_back(lane_weights(observed_of(take.tracks[m])));
     }
-    if (sum == 0) return false;
-    const double variance = sum / static_cast<double>(markers.size());
-    settings.noise_distance = 2 * variance;
-    settings.bandwidth = best_bandwidth(take, settings, variance);
-    return true;
+    return pose;
+  }
+
+  static CleanedTrack result_of(const VectorTrack& track) {
+    CleanedTrack cleaned;
+    cleaned.positions.reserve(track.frames);
+    for (std::size_t f = 0; f < track.frames; ++f) cleaned.positions.push_back(track[f]);
+    return cleaned;
+  }
+
+  static CleanedTrack result_of(const TakeView& take, std::size_t number,
+                                const RotationTrack& track) {
+    Piece<Quat> piece{number, 0, {}, observed_of(take.tracks[number]), {}};
+    for (std::size_t f = 0; f < track.frames; ++f) piece.samples.push_back(track[f]);
+    return assemble(std::move(piece));
   }
 
   // Bandwidth and distance of noise from the take; false when there is no noise to remove.
-  static bool choose_bandwidth(const std::vector<std::size_t>& joints, const NonlocalTake& take,
-                               NonlocalSettings& settings, CleanTrace& trace) {
+  static bool choose_bandwidth(const TakeView& take, const Pose& pose, NonlocalSettings& settings,
+                               CleanTrace& trace) {
+    trace.noise.assign(take.tracks.size(), 0.0);
     double sum = 0;
-    for (std::size_t i = 0; i < joints.size(); ++i) {
-      std::vector<Quat> track(take.rotations[i].frames);
-      for (std::size_t f = 0; f < track.size(); ++f) track[f] = take.rotations[i][f];
+    for (std::size_t i = 0; i < pose.rotations.size(); ++i) {
+      const RotationTrack& lanes = pose.take.rotations[i];
+      std::vector<Quat> track(lanes.frames);
+      for (std::size_t f = 0; f < track.size(); ++f) track[f] = lanes[f];
       const double noise = track_noise(track);
-      trace.noise_deg[joints[i]] = noise * degrees_per_radian;
+      trace.noise[pose.rotations[i]] = noise * degrees_per_radian;
+      sum += noise * noise;
+    }
+    for (const std::size_t track : pose.points) {
+      const double noise = trace.noise[track] = track_noise(observed_positions(take, track));
       sum += noise * noise;
     }
     if (sum == 0) return false;
-    const double variance = sum / static_cast<double>(joints.size());
+    const double variance = sum / static_cast<double>(pose.rotations.size() + pose.points.size());
     settings.noise_distance = 2 * variance;
-    settings.bandwidth = best_bandwidth(take, settings, variance);
+    settings.bandwidth = best_bandwidth(pose.take, settings, variance);
     return true;
   }
 

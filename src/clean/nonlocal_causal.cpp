@@ -43,16 +43,15 @@ class CausalNonlocal final : public FrameFilter {
   CausalNonlocal(const CausalNonlocalSettings& settings, std::vector<std::size_t> joints)
       : settings_(settings), joints_(std::move(joints)) {}
 
-  void filter(LiveFrame& frame) override {
+  void filter(Frame& frame) override {
     remember(frame);
     const std::vector<double> weights = find_weights();
-    const LiveFrame& present = past_.front();
+    const Frame& present = past_.front();
     for (const std::size_t joint : joints_) {
       frame.rotations[joint] = present.rotations[joint] * exp(mean_turn(joint, weights));
     }
-    for (std::size_t i = 0; i < frame.joint_translations.size(); ++i) {
-      frame.joint_translations[i] = present.joint_translations[i] + mean_move(i, weights);
-    }
+    for (std::size_t i = 1; i < frame.positions.size(); ++i)
+      frame.positions[i] = present.positions[i] + mean_move(i, weights);
   }
 
  private:
@@ -62,12 +61,12 @@ class CausalNonlocal final : public FrameFilter {
     std::vector<double> sums, pairs;
   };
 
-  static bool is_observed(const LiveFrame& frame, std::size_t joint) {
+  static bool is_observed(const Frame& frame, std::size_t joint) {
     return frame.observed.empty() || frame.observed[joint] != 0;
   }
 
   // Puts the frame before the past ones. What was not measured is held.
-  void remember(const LiveFrame& frame) {
+  void remember(const Frame& frame) {
     past_.push_front(frame);
     if (past_.size() > settings_.window + 1) past_.pop_back();
     for (const std::size_t joint : joints_) {
@@ -127,8 +126,7 @@ class CausalNonlocal final : public FrameFilter {
     Vec3 sum;
     double total = 1;
     for (std::size_t lag = 1; lag <= weights.size(); ++lag) {
-      sum += weights[lag - 1] *
-             (past_[lag].joint_translations[column] - past_.front().joint_translations[column]);
+      sum += weights[lag - 1] * (past_[lag].positions[column] - past_.front().positions[column]);
       total += weights[lag - 1];
     }
     return (1 / total) * sum;
@@ -176,7 +174,7 @@ class CausalNonlocal final : public FrameFilter {
   CausalNonlocalSettings settings_;
   std::vector<std::size_t> joints_;
   RunningNoise noise_;
-  std::deque<LiveFrame> past_;       // the present frame first
+  std::deque<Frame> past_;           // the present frame first
   std::deque<Distances> distances_;  // of the frames of a patch, the present one first
 };
 

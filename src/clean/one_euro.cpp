@@ -1,6 +1,4 @@
-#include "clean/clip_tracks.hpp"
-#include "clean/live_frames.hpp"
-#include "clean/marker_tracks.hpp"
+#include "clean/causal.hpp"
 #include "clean/method_list.hpp"
 #include "kinemend/methods.hpp"
 #include "tracks/track_kalman.hpp"
@@ -61,25 +59,15 @@ class OneEuro final : public Cleaner {
  public:
   explicit OneEuro(const OneEuroOptions& options) : options_(options) {}
 
-  CleanTrace clean(Clip& clip, const Selection& selection) const override {
-    return clean_causally(*this, clip, selection);
-  }
-  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
-    return clean_markers_causally(*this, clip, selection);
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>& progress) const override {
+    return clean_causally(*this, take, sink, progress);
   }
   LiveSupport live_support(double) const override { return {LiveSupport::Kind::causal, 0}; }
-  std::unique_ptr<FrameFilter> make_frame_filter(const Skeleton& skeleton,
-                                                 double rate_hz) const override {
-    using Filter = TrackFrameFilter<OneEuroTrack<Quat>, OneEuroTrack<Vec3>>;
-    return std::make_unique<Filter>(
-        skeleton, OneEuroTrack<Quat>(options_, rate_hz, 1),
-        OneEuroTrack<Vec3>(options_, rate_hz, typical_bone_length(skeleton)));
-  }
-
-  std::unique_ptr<MarkerFilter> make_marker_filter(const MarkerClip& like,
-                                                   double body_height) const override {
-    return std::make_unique<TrackMarkerFilter<OneEuroTrack<Vec3>>>(
-        like, OneEuroTrack<Vec3>(options_, like.frame_rate_hz, marker_reach(body_height)));
+  std::unique_ptr<FrameFilter> make_frame_filter(const TakeView& like) const override {
+    const double rate_hz = like.frame_rate_hz;
+    return make_track_filter(like, OneEuroTrack<Quat>(options_, rate_hz, 1),
+                             OneEuroTrack<Vec3>(options_, rate_hz, radian_of_positions(like)));
   }
 
  private:

@@ -5,12 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/file_bytes.hpp"
 #include "base/quantiles.hpp"
-#include "clean/auto_markers.hpp"
-#include "clean/clip_tracks.hpp"
+#include "clean/auto_scale.hpp"
+#include "clean/pieces.hpp"
 #include "clean/prior_fall_backs.hpp"
 #include "clean/prior_hold.hpp"
 #include "kinemend/methods.hpp"
@@ -22,13 +23,33 @@ namespace kinemend {
 
 namespace {
 
-// Which parts of the layout may change, and one of the place behind them.
-std::vector<std::uint8_t> chosen_parts(const BodyMatch& match,
-                                       const std::vector<std::uint8_t>& selected) {
-  std::vector<std::uint8_t> chosen(match.parts.size(), 0);
-  for (std::size_t part = 0; part < chosen.size(); ++part) {
-    const std::int32_t index = match.parts[part];
-    if (index >= 0) chosen[part] = selected[static_cast<std::size_t>(index)];
+// What a take is to a method with a model.
+template <class AnyClip>
+struct PriorTake {
+  const TakeView& view;
+  const AnyClip& clip;  // positions of joints without gaps
+  const BodyLayout& layout;
+  const BodyMatch& match;
+
+  // The track of a part of the layout, or of the place behind them; none of a part that the take
+  // lacks.
+  std::optional<std::size_t> track(std::size_t part) const {
+    if (part == match.tracks.size()) return view.root_track();
+    if (match.tracks[part] < 0) return std::nullopt;
+    return static_cast<std::size_t>(match.tracks[part]);
+  }
+  // With the place of the body, where the layout has one.
+  std::size_t part_count() const { return match.tracks.size() + (has_place() ? 1 : 0); }
+  bool has_place() const { return view.joints != nullptr && layout.with_place; }
+};
+
+// Which parts may change.
+template <class AnyClip>
+std::vector<std::uint8_t> chosen_parts(const PriorTake<AnyClip>& take) {
+  std::vector<std::uint8_t> chosen(take.match.tracks.size() + (take.view.joints ? 1 : 0), 0);
+  for (std::size_t part = 0; part < take.part_count(); ++part) {
+    const auto track = take.track(part);
+    if (track && take.view.tracks[*track].selected) chosen[part] = 1;
   }
   return chosen;
 }
@@ -39,32 +60,73 @@ void mark_part(std::vector<std::uint8_t>& marks, std::size_t channels, std::size
   for (std::size_t axis = 0; axis < 3; ++axis) marks[frame * channels + 3 * part + axis] = 1;
 }
 
-// What `auto` says of each joint or marker.
-struct AutoOpinion {
-  std::vector<double> noise;  // degrees
-  std::vector<double> needs;  // as `PriorWork::needs`
+// What `auto` makes of a take, whatever is selected.
+template <class AnyClip>
+struct AutoRun {
+  AnyClip clip;
+  InPlaceTrace trace;
+
+  bool is_spike(std::size_t track, std::size_t frame) const {
+    return !trace.actions[track].empty() && trace.actions[track][frame] == Action::despiked;
+  }
 };
 
+AutoRun<Clip> run_auto(const PriorTake<Clip>& take) {
+  AutoRun<Clip> run{take.clip, {}};
+  run.trace = clean_in_place(*make_auto(), run.clip);
+  return run;
+}
+
+AutoRun<MarkerClip> run_auto(const PriorTake<MarkerClip>& take) {
+  AutoRun<MarkerClip> run{take.clip, {}};
+  Selection all;
+  all.body_height = take.view.body_height;
+  run.trace = clean_in_place(*make_auto(), run.clip, all);
+  return run;
+}
+
+// How far `auto` smooths each track, 0 to 1: tracks that share their noise are looked at together.
+std::vector<double> needs_of(const TakeView& view, const std::vector<double>& noise) {
+  std::vector<std::size_t> together;
+  std::vector<double> levels, needs(view.tracks.size(), 0);
+  for (std::size_t n = 0; n < view.owners && !noise.empty(); ++n) {
+    if (view.joints ? !moves(view.tracks[n]) : noise[n] <= 0) continue;
+    together.push_back(n);
+    levels.push_back(view.joints ? noise[n] : degrees_per_unit(view) * noise[n]);
+  }
+  const std::vector<double> shares = smoothing_shares(levels, view.frame_rate_hz);
+  for (std::size_t i = 0; i < together.size(); ++i) needs[together[i]] = shares[i];
+  if (view.joints && !noise.empty()) {
+    const double root = degrees_per_unit(view) * noise[view.root_track()];
+    needs[view.root_track()] = smoothing_shares({root}, view.frame_rate_hz).front();
+  }
+  return needs;
+}
+
 // The take's channels in the frame of what `auto` made of it, with what `auto` says of each part's
-// samples; `actions` is by joint or marker.
-PriorWork work_of(BodyChannels channels, PoseMatrix fallback, const BodyMatch& match,
-                  const AutoOpinion& opinion, const std::vector<Action>& actions) {
+// samples.
+template <class AnyClip>
+PriorWork work_of(const PriorTake<AnyClip>& take, const AutoRun<AnyClip>& run) {
+  BodyChannels guide = encode_body(run.clip, take.layout, take.match);
   PriorWork work;
-  work.match = &match;
-  work.channels = std::move(channels);
-  work.fallback = std::move(fallback);
+  work.match = &take.match;
+  work.channels = encode_body(take.clip, take.layout, take.match, guide);
+  work.fallback = std::move(guide.poses);
   const std::size_t frames = work.fallback.frames, width = work.fallback.channels;
   work.noise.assign(width, 0);
   work.needs.assign(width / 3, 1);
   work.suspect.assign(frames * width, 0);
-  for (std::size_t part = 0; part < match.parts.size(); ++part) {
-    if (match.parts[part] < 0) continue;
-    const auto index = static_cast<std::size_t>(match.parts[part]);
-    for (std::size_t axis = 0; axis < 3; ++axis) work.noise[3 * part + axis] = opinion.noise[index];
-    work.needs[part] = opinion.needs[index];
+  const std::vector<double> needs = needs_of(take.view, run.trace.noise);
+  for (std::size_t part = 0; part < take.part_count(); ++part) {
+    const auto track = take.track(part);
+    if (!track) continue;
+    work.needs[part] = needs[*track];
+    const bool turns = take.view.tracks[*track].space == Space::rotation;
+    const double unit = turns ? 1 : work.channels.degrees_per_unit;
+    for (std::size_t axis = 0; axis < 3 && !run.trace.noise.empty(); ++axis)
+      work.noise[3 * part + axis] = unit * run.trace.noise[*track];
     for (std::size_t f = 0; f < frames; ++f) {
-      if (actions[f * opinion.noise.size() + index] == Action::despiked)
-        mark_part(work.suspect, width, f, part);
+      if (run.is_spike(*track, f)) mark_part(work.suspect, width, f, part);
     }
   }
   return work;
@@ -84,62 +146,7 @@ bool is_rejected(const PriorWork& work, std::size_t frame, std::size_t part) {
 
 std::string lacking(const BodyMatch& match) {
   return fmt::format("the take lacks {} of the {} parts that the model knows: {}",
-                     match.missing.size(), match.parts.size(), fmt::join(match.missing, ", "));
-}
-
-// ---- joints
-
-struct JointRun {
-  const BodyLayout& layout;
-  const BodyMatch& match;
-  const Selection& selection;
-  CleanTrace trace;  // of `auto` on the whole take
-  Clip fallback;     // what `auto` makes of it
-
-  std::size_t place_part() const { return layout.part_count(); }
-  bool is_chosen_place() const { return layout.with_place && selection.root_position; }
-};
-
-JointRun run_auto(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,
-                  const Selection& selection) {
-  JointRun run{layout, match, selection, {}, clip};
-  run.trace = make_auto()->clean(run.fallback, Selection::all(clip));
-  if (run.trace.actions.empty())
-    run.trace.actions.assign(clip.local_rotations.size(), Action::kept);
-  if (run.trace.noise_deg.empty()) run.trace.noise_deg.assign(clip.joint_count(), 0);
-  return run;
-}
-
-// As `auto` decides how far to smooth each joint.
-std::vector<double> joint_needs(const Clip& clip, const CleanTrace& trace) {
-  const std::vector<std::size_t> joints = selected_joints(clip, Selection::all(clip));
-  std::vector<double> noise, needs(clip.joint_count(), 0);
-  for (const std::size_t joint : joints) noise.push_back(trace.noise_deg[joint]);
-  const std::vector<double> shares = cleaning_shares(noise, clip.frame_rate_hz);
-  for (std::size_t n = 0; n < joints.size(); ++n) needs[joints[n]] = shares[n];
-  return needs;
-}
-
-double root_need(const Clip& clip, double noise) {
-  const double degrees = degrees_per_radian / typical_bone_length(clip.skeleton) * noise;
-  return cleaning_shares({degrees}, clip.frame_rate_hz).front();
-}
-
-PriorWork work_of(const Clip& clip, const JointRun& run) {
-  BodyChannels guide = encode_body(run.fallback, run.layout, run.match);
-  BodyChannels channels = encode_body(clip, run.layout, run.match, guide);
-  PriorWork work = work_of(std::move(channels), std::move(guide.poses), run.match,
-                           {run.trace.noise_deg, joint_needs(clip, run.trace)}, run.trace.actions);
-  if (!run.layout.with_place) return work;
-  const double noise = run.trace.root_noise.value_or(0);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    work.noise[3 * run.place_part() + axis] = noise * work.channels.degrees_per_unit;
-  work.needs[run.place_part()] = root_need(clip, noise);
-  for (std::size_t f = 0; f < run.trace.root_actions.size(); ++f) {
-    if (run.trace.root_actions[f] == Action::despiked)
-      mark_part(work.suspect, work.fallback.channels, f, run.place_part());
-  }
-  return work;
+                     match.missing.size(), match.tracks.size(), fmt::join(match.missing, ", "));
 }
 
 Vec3 turn_of(const PoseMatrix& poses, std::size_t frame, std::size_t part) {
@@ -153,13 +160,13 @@ constexpr double most_turns = 0.98;  // a few are noise
 
 // A joint that turns away from the model's mean as far as its channels can say, or flips, is
 // nothing that the model knows: to the filter it is missing, and `auto` keeps it.
-void leave_far_turns_to_auto(PriorWork& work, const JointRun& run,
+void leave_far_turns_to_auto(PriorWork& work, const BodyLayout& layout,
                              std::vector<std::uint8_t>& chosen) {
   // Spikes that `auto` left go there and back; a flip stays.
   PoseMatrix steady = work.fallback;
   median_filter(steady, flip_half_frames);
   work.left_out.assign(work.needs.size(), 0);
-  for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
+  for (std::size_t part = 0; part < layout.track_count(); ++part) {
     const auto is_seen = [&](std::size_t frame) {
       return work.channels.observed[frame * steady.channels + 3 * part] != 0;
     };
@@ -187,245 +194,127 @@ void leave_far_turns_to_auto(PriorWork& work, const JointRun& run,
   }
 }
 
-// Of what `auto` made of the take, what the result may need.
-struct KeptFallback {
-  std::vector<std::vector<Quat>> rotations;  // of each joint; none where the filter's are taken
-  std::vector<Vec3> root_positions, joint_translations;
-};
-
-// The filter's rotations are taken of parts that are chosen and not clean; those need `auto` in
-// gaps only, where these are not to be filled.
-KeptFallback keep_fallback(Clip fallback, const JointRun& run, const PriorWork& work,
-                           const std::vector<std::uint8_t>& chosen, bool fill) {
-  std::vector<std::uint8_t> needed(fallback.joint_count(), 1);
-  for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
-    if (chosen[part] == 0 || work.needs[part] == 0 || (!fill && !fallback.observed.empty()))
-      continue;
-    needed[static_cast<std::size_t>(run.match.parts[part])] = 0;
+// What `auto` made of the tracks that the result may need: not of parts whose every sample is the
+// filter's.
+template <class AnyClip>
+std::vector<CleanedTrack> keep_fallback(const PriorTake<AnyClip>& take, AutoRun<AnyClip> run,
+                                        const PriorWork& work,
+                                        const std::vector<std::uint8_t>& chosen, bool fill) {
+  const TakeView view = view_of(run.clip);
+  std::vector<std::uint8_t> needed(view.tracks.size(), 1);
+  for (std::size_t part = 0; part < take.match.tracks.size(); ++part) {
+    if (chosen[part] == 0 || work.needs[part] == 0) continue;
+    const std::size_t track = *take.track(part);
+    if (fill || observed_of(take.view.tracks[track]).empty()) needed[track] = 0;
   }
-  KeptFallback kept;
-  kept.rotations.resize(needed.size());
-  for (std::size_t joint = 0; joint < needed.size(); ++joint) {
-    if (needed[joint] != 0) kept.rotations[joint] = joint_track(fallback, joint);
+  std::vector<CleanedTrack> kept(view.tracks.size());
+  for (std::size_t n = 0; n < kept.size(); ++n) {
+    kept[n].actions = std::move(run.trace.actions[n]);
+    if (needed[n] == 0) continue;
+    kept[n].rotations = rotations_of(view.tracks[n]);
+    kept[n].positions = positions_of(view.tracks[n]);
   }
-  kept.root_positions = std::move(fallback.root_positions);
-  kept.joint_translations = std::move(fallback.joint_translations);
   return kept;
 }
 
-// What `auto` made of the joints and positions that the model does not know, or that are clean;
-// `chosen` includes the place.
-void take_fallback(Clip& clip, const JointRun& run, const KeptFallback& fallback,
-                   const std::vector<std::uint8_t>& chosen) {
-  std::vector<std::uint8_t> known(clip.joint_count(), 0);
-  for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
-    if (chosen[part] != 0) known[static_cast<std::size_t>(run.match.parts[part])] = 1;
-  }
-  for (const std::size_t joint : selected_joints(clip, run.selection)) {
-    if (known[joint] != 0) continue;
-    for (std::size_t f = 0; f < clip.frame_count(); ++f)
-      clip.rotation(f, joint) = fallback.rotations[joint][f];
-  }
-  if (chosen[run.place_part()] == 0 && run.selection.root_position)
-    clip.root_positions = fallback.root_positions;
-  const std::size_t width = clip.translated_joints.size();
-  for (std::size_t i = 0; i < width; ++i) {
-    if (!translation_selected(clip, run.selection, i)) continue;
-    for (std::size_t f = 0; f < clip.frame_count(); ++f)
-      clip.joint_translations[f * width + i] = fallback.joint_translations[f * width + i];
-  }
-}
-
-// Where gaps are not to be filled by the model they hold the bridge that `auto` laid.
-void keep_bridges(Clip& clip, const JointRun& run, const KeptFallback& fallback,
-                  const std::vector<std::uint8_t>& chosen) {
-  for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
-    if (chosen[part] == 0) continue;
-    const auto joint = static_cast<std::size_t>(run.match.parts[part]);
-    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-      if (!clip.is_observed(f, joint)) clip.rotation(f, joint) = fallback.rotations[joint][f];
+// What was done to the samples of a part that is the filter's.
+std::vector<Action> actions_of(const TakeView& view, std::size_t number, const PriorWork& work,
+                               std::size_t part, bool fill, std::vector<Action> actions) {
+  const Track& track = view.tracks[number];
+  if (actions.empty()) actions.assign(view.frames, Action::kept);
+  const bool is_own = !is_fallen_back(work, part);
+  const bool fills = track.space == Space::rotation || (fill && view.markers);
+  for (std::size_t f = 0; f < view.frames; ++f) {
+    if (number < view.owners && !track.is_observed(f)) {
+      actions[f] = fills ? Action::filled : Action::kept;
+    } else if (is_own) {
+      actions[f] = is_rejected(work, f, part) ? Action::despiked : Action::kept;
     }
   }
+  return actions;
 }
 
-CleanTrace trace_of(const Clip& clip, const JointRun& run, const PriorWork& work,
-                    const std::vector<std::uint8_t>& chosen) {
+// The samples of a part that is the filter's; where gaps are not to be filled by the model they
+// hold the bridge that `auto` laid.
+CleanedTrack filtered_track(const TakeView& view, const TakeView& filtered, std::size_t number,
+                            bool fill, const CleanedTrack& fallback) {
+  const Track& track = filtered.tracks[number];
+  CleanedTrack cleaned{rotations_of(track), positions_of(track), {}};
+  if (track.space == Space::position) return cleaned;
+  for (std::size_t f = 0; f < view.frames && !fill; ++f) {
+    if (!view.tracks[number].is_observed(f)) cleaned.rotations[f] = fallback.rotations[f];
+  }
+  return cleaned;
+}
+
+template <class AnyClip>
+CleanTrace clean_known(const PriorTake<AnyClip>& take, bool fill, const PriorFilter& filter,
+                       const TrackSink& sink) {
+  const TakeView& view = take.view;
+  std::vector<std::uint8_t> chosen = chosen_parts(take);
+  AutoRun<AnyClip> run = run_auto(take);
+  PriorWork work = work_of(take, run);
+  if (view.joints) leave_far_turns_to_auto(work, take.layout, chosen);
   CleanTrace trace = run.trace;
-  const std::size_t joints = clip.joint_count(), frames = clip.frame_count();
-  std::vector<std::uint8_t> selected(joints, 0);
-  for (const std::size_t joint : selected_joints(clip, run.selection)) selected[joint] = 1;
-  for (std::size_t i = 0; i < trace.actions.size(); ++i) {
-    if (selected[i % joints] == 0) trace.actions[i] = Action::kept;
+  std::vector<CleanedTrack> fallback = keep_fallback(take, std::move(run), work, chosen, fill);
+  filter(work);
+  hold_to_needs(work);
+  if (view.joints) {
+    add_fall_back(work, "they turn farther or leap more than the model can say",
+                  {work.left_out.begin(), work.left_out.end()});
   }
-  for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
+  leave_alone(work, fill, chosen);
+
+  AnyClip filtered = take.clip;
+  decode_body(work.channels, take.layout, take.match, filtered, chosen);
+  const TakeView result = view_of(filtered);
+  std::vector<std::uint8_t> selected(view.owners, 0);
+  for (std::size_t n = 0; n < view.tracks.size(); ++n) {
+    const Track& track = view.tracks[n];
+    const bool may_change = track.selected && (view.markers || moves(track));
+    if (n < view.owners) selected[n] = may_change ? 1 : 0;
+  }
+  std::vector<std::uint8_t> is_filtered(view.tracks.size(), 0);
+  for (std::size_t part = 0; part < take.part_count(); ++part) {
     if (chosen[part] == 0) continue;
-    const auto joint = static_cast<std::size_t>(run.match.parts[part]);
-    for (std::size_t f = 0; f < frames; ++f) {
-      Action& action = trace.actions[f * joints + joint];
-      if (!clip.is_observed(f, joint)) {
-        action = Action::filled;
-      } else if (!is_fallen_back(work, part)) {
-        action = is_rejected(work, f, part) ? Action::despiked : Action::kept;
-      }
-    }
+    const std::size_t n = *take.track(part);
+    is_filtered[n] = 1;
+    CleanedTrack cleaned = filtered_track(view, result, n, fill, fallback[n]);
+    cleaned.actions = actions_of(view, n, work, part, fill, std::move(fallback[n].actions));
+    sink(n, std::move(cleaned));
   }
-  if (!run.selection.root_position) trace.root_actions.clear();
-  if (chosen[run.place_part()] != 0 && !work.rejected.empty() &&
-      !is_fallen_back(work, run.place_part())) {
-    trace.root_actions.assign(frames, Action::kept);
-    for (std::size_t f = 0; f < frames; ++f) {
-      if (is_rejected(work, f, run.place_part())) trace.root_actions[f] = Action::despiked;
-    }
+  for (std::size_t n = 0; n < view.tracks.size(); ++n) {
+    const bool may_change = n < view.owners ? selected[n] != 0 : view.tracks[n].selected;
+    if (may_change && is_filtered[n] == 0) sink(n, std::move(fallback[n]));
   }
-  trace.fall_backs = fall_backs_of(work, selected, run.is_chosen_place());
-  if (!run.match.missing.empty()) trace.warnings.push_back(lacking(run.match));
+  trace.fall_backs =
+      fall_backs_of(work, selected, take.has_place() && view.tracks[view.root_track()].selected);
+  if (!take.match.missing.empty()) trace.warnings.push_back(lacking(take.match));
   trace.warnings.insert(trace.warnings.end(), work.warnings.begin(), work.warnings.end());
   return trace;
 }
 
-// ---- markers
-
-struct MarkerRun {
-  const BodyLayout& layout;
-  const BodyMatch& match;
-  MarkerTrace trace;
-  MarkerClip fallback;
-};
-
-MarkerRun run_auto(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match,
-                   double body_height) {
-  MarkerRun run{layout, match, {}, clip};
-  MarkerSelection everything = MarkerSelection::all(clip);
-  everything.body_height = body_height;
-  run.trace = make_auto()->clean_markers(run.fallback, everything);
-  if (run.trace.actions.empty()) run.trace.actions.assign(clip.positions.size(), Action::kept);
-  if (run.trace.noise.empty()) run.trace.noise.assign(clip.marker_count(), 0);
-  return run;
-}
-
-std::vector<double> marker_needs(const MarkerClip& clip, const MarkerTrace& trace,
-                                 double body_height) {
-  std::vector<double> noise, needs(clip.marker_count(), 0);
-  std::vector<std::size_t> markers;
-  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
-    if (trace.noise[m] <= 0) continue;
-    markers.push_back(m);
-    noise.push_back(degrees_per_height / body_height * trace.noise[m]);
-  }
-  const std::vector<double> shares = cleaning_shares(noise, clip.frame_rate_hz);
-  for (std::size_t n = 0; n < markers.size(); ++n) needs[markers[n]] = shares[n];
-  return needs;
-}
-
-PriorWork work_of(const MarkerClip& clip, const MarkerRun& run, double body_height) {
-  BodyChannels guide = encode_body(run.fallback, run.layout, run.match);
-  BodyChannels channels = encode_body(clip, run.layout, run.match, guide);
-  std::vector<double> noise = run.trace.noise;
-  for (double& level : noise) level *= channels.degrees_per_unit;
-  return work_of(std::move(channels), std::move(guide.poses), run.match,
-                 {std::move(noise), marker_needs(clip, run.trace, body_height)}, run.trace.actions);
-}
-
-MarkerTrace trace_of(const MarkerClip& clip, const MarkerSelection& selection, const MarkerRun& run,
-                     const PriorWork& work, const std::vector<std::uint8_t>& chosen) {
-  MarkerTrace trace = run.trace;
-  const std::size_t markers = clip.marker_count();
-  for (std::size_t i = 0; i < trace.actions.size(); ++i) {
-    if (selection.markers[i % markers] == 0) trace.actions[i] = Action::kept;
-  }
-  for (std::size_t part = 0; part < run.layout.part_count(); ++part) {
-    if (chosen[part] == 0 || is_fallen_back(work, part)) continue;
-    const auto marker = static_cast<std::size_t>(run.match.parts[part]);
-    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-      trace.actions[f * markers + marker] =
-          is_rejected(work, f, part) && clip.is_observed(f, marker) ? Action::despiked
-                                                                    : Action::kept;
-    }
-  }
-  trace.fall_backs = fall_backs_of(work, selection.markers, false);
-  if (!run.match.missing.empty()) trace.warnings.push_back(lacking(run.match));
-  trace.warnings.insert(trace.warnings.end(), work.warnings.begin(), work.warnings.end());
-  return trace;
-}
-
-// Makes what the model filled a measurement, and puts back what it may not change.
-void settle_gaps(const MarkerClip& before, MarkerClip& clip, const BodyMatch& match,
-                 const std::vector<std::uint8_t>& chosen, bool fill, MarkerTrace& trace) {
-  const std::size_t markers = clip.marker_count();
-  for (std::size_t part = 0; part < match.parts.size(); ++part) {
-    if (chosen[part] == 0) continue;
-    const auto marker = static_cast<std::size_t>(match.parts[part]);
-    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-      const std::size_t sample = f * markers + marker;
-      if (before.is_observed(f, marker)) continue;
-      if (fill) {
-        clip.observed[sample] = 1;
-        if (!clip.residuals.empty()) clip.residuals[sample] = 0;
-        trace.actions[sample] = Action::filled;
-      } else {
-        clip.positions[sample] = before.positions[sample];
-      }
-    }
-  }
+// Gaps in the positions of joints hold their bridges.
+Clip with_bridged_positions(const TakeView& view) {
+  Clip clip = *view.joints;
+  for (std::size_t n = view.owners; n < view.tracks.size() && !clip.observed_positions.empty(); ++n)
+    set_track(clip, n, position_pieces(view, n).front().samples);
+  return clip;
 }
 
 }  // namespace
 
-Clip cleaned_with_prior(const Clip& clip, const Selection& selection, const BodyLayout& layout,
-                        const NameMap& names, bool fill, const PriorFilter& filter,
-                        CleanTrace& trace) {
-  const BodyMatch match = match_body(layout, clip, names);
-  if (clip.frame_count() == 0) return clip;
-  std::vector<std::uint8_t> chosen = chosen_parts(match, selection.joints);
-  JointRun run = run_auto(clip, layout, match, selection);
-  PriorWork work = work_of(clip, run);
-  leave_far_turns_to_auto(work, run, chosen);
-  const KeptFallback fallback = keep_fallback(std::move(run.fallback), run, work, chosen, fill);
-  run.fallback = {};
-  filter(work);
-  hold_to_needs(work);
-  add_fall_back(work, "they turn farther or leap more than the model can say",
-                {work.left_out.begin(), work.left_out.end()});
-  chosen.push_back(run.is_chosen_place() ? 1 : 0);
-  leave_alone(work, fill, chosen);
-
-  Clip result = clip;
-  take_fallback(result, run, fallback, chosen);
-  decode_body(work.channels, layout, match, result, chosen);
-  if (!fill) keep_bridges(result, run, fallback, chosen);
-  trace = trace_of(clip, run, work, chosen);
-  return result;
-}
-
-CleanTrace clean_with_prior(Clip& clip, const Selection& selection, const BodyLayout& layout,
+CleanTrace clean_with_prior(const TakeView& take, const TrackSink& sink, const BodyLayout& layout,
                             const NameMap& names, bool fill, const PriorFilter& filter) {
-  CleanTrace trace;
-  clip = cleaned_with_prior(clip, selection, layout, names, fill, filter, trace);
-  return trace;
-}
-
-MarkerTrace clean_with_prior(MarkerClip& clip, const MarkerSelection& selection,
-                             const BodyLayout& layout, const NameMap& names, bool fill,
-                             const PriorFilter& filter) {
-  const BodyMatch match = match_body(layout, clip, names);
-  if (clip.frame_count() == 0) return {};
-  std::vector<std::uint8_t> chosen = chosen_parts(match, selection.markers);
-  const MarkerRun run = run_auto(clip, layout, match, selection.body_height);
-  PriorWork work = work_of(clip, run, selection.body_height);
-  filter(work);
-  hold_to_needs(work);
-  leave_alone(work, fill, chosen);
-
-  MarkerClip result = clip;
-  for (std::size_t i = 0; i < clip.positions.size(); ++i) {
-    if (selection.markers[i % clip.marker_count()] != 0 && clip.observed[i] != 0)
-      result.positions[i] = run.fallback.positions[i];
-  }
-  decode_body(work.channels, layout, match, result, chosen);
-  MarkerTrace trace = trace_of(clip, selection, run, work, chosen);
-  settle_gaps(clip, result, match, chosen, fill, trace);
-  clip = std::move(result);
-  return trace;
+  const BodyMatch match = take.joints ? match_body(layout, *take.joints, names)
+                                      : match_body(layout, *take.markers, names);
+  if (take.frames == 0) return {};
+  if (take.markers)
+    return clean_known<MarkerClip>({take, *take.markers, layout, match}, fill, filter, sink);
+  if (take.joints->observed_positions.empty())
+    return clean_known<Clip>({take, *take.joints, layout, match}, fill, filter, sink);
+  const Clip bridged = with_bridged_positions(take);
+  return clean_known<Clip>({take, bridged, layout, match}, fill, filter, sink);
 }
 
 namespace {
@@ -438,21 +327,9 @@ class PriorCleaner final : public Cleaner {
         fill_(fill),
         filter_(std::move(filter)) {}
 
-  CleanTrace clean(Clip& clip, const Selection& selection) const override {
-    return clean_with_prior(clip, selection, model_->layout, names_, fill_, filter_);
-  }
-
-  CleanTrace clean_joints(Clip& clip, const Selection& selection, const JointSink& sink,
-                          const std::function<void(double)>& /*progress*/) const override {
-    CleanTrace trace;
-    hand_over(clip,
-              cleaned_with_prior(clip, selection, model_->layout, names_, fill_, filter_, trace),
-              sink, trace);
-    return trace;
-  }
-
-  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
-    return clean_with_prior(clip, selection, model_->layout, names_, fill_, filter_);
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>& /*progress*/) const override {
+    return clean_with_prior(take, sink, model_->layout, names_, fill_, filter_);
   }
 
  private:

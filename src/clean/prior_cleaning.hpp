@@ -47,15 +47,8 @@ using PriorFilter = std::function<void(PriorWork& work)>;
 /// it finds clean and on joints that turn farther from the model's mean than their channels can say
 /// (`tangent_limit_rad`) or flip by more than 60 degrees in a frame; fills gaps of the shared parts
 /// where `fill` is set. Errors: `ErrorKind::usage` as of `match_body`.
-CleanTrace clean_with_prior(Clip& clip, const Selection& selection, const BodyLayout& layout,
+CleanTrace clean_with_prior(const TakeView& take, const TrackSink& sink, const BodyLayout& layout,
                             const NameMap& names, bool fill, const PriorFilter& filter);
-/// The same, as a clip of its own.
-Clip cleaned_with_prior(const Clip& clip, const Selection& selection, const BodyLayout& layout,
-                        const NameMap& names, bool fill, const PriorFilter& filter,
-                        CleanTrace& trace);
-MarkerTrace clean_with_prior(MarkerClip& clip, const MarkerSelection& selection,
-                             const BodyLayout& layout, const NameMap& names, bool fill,
-                             const PriorFilter& filter);
 
 /// A cleaner that does this to every take of joints or markers; `map` is the path of a mapping
 /// file, or empty. Errors: as of `name_map_at`.

@@ -11,7 +11,7 @@ constexpr double least_share = 0.005;  // less is not worth a word
 // The joint or marker of a part, -1 for the root position; nothing where the part is not selected.
 bool track_of(const PriorWork& work, const std::vector<std::uint8_t>& selected, bool place,
               std::size_t part, std::int32_t& track) {
-  const std::vector<std::int32_t>& parts = work.match->parts;
+  const std::vector<std::int32_t>& parts = work.match->tracks;
   track = part < parts.size() ? parts[part] : -1;
   if (part == parts.size()) return place;
   return track >= 0 && selected[static_cast<std::size_t>(track)] != 0;
@@ -49,7 +49,7 @@ std::vector<FallBack> fall_backs_of(const PriorWork& work,
     if (!fall_back.tracks.empty()) result.push_back(std::move(fall_back));
   }
   std::vector<std::uint8_t> unknown = selected;
-  for (const std::int32_t track : work.match->parts) {
+  for (const std::int32_t track : work.match->tracks) {
     if (track >= 0) unknown[static_cast<std::size_t>(track)] = 0;
   }
   FallBack fall_back;

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "clean/changes.hpp"
-#include "clean/clip_tracks.hpp"
 #include "metrics/peaks.hpp"
 #include "metrics/track_noise.hpp"
 
@@ -34,21 +33,23 @@ std::string peak_warning(const std::string& name, const Peaks& peaks, double sca
 }
 
 // Smoothing takes noise away; what it changes by far more than the largest noise there may be was a
-// spike to everybody but the method, or motion. `least` is no event; the first sample is at
-// `begin_s`.
+// spike to everybody but the method, or motion.
 std::string change_warning(const std::string& name, const TrackChanges& changes, double noise,
-                           std::string_view unit, double least, double begin_s, double rate_hz) {
+                           const ReportScale& scale) {
   constexpr double clearly = 2;
-  const double limit = std::max(least, clearly * longest_of_noise(changes.amounts.size()) * noise);
+  const double limit =
+      std::max(scale.small_change, clearly * longest_of_noise(changes.amounts.size()) * noise);
   std::size_t largest = 0, count = 0;
   for (std::size_t f = 0; f < changes.amounts.size(); ++f) {
     if (changes.actions[f] != Action::denoised || changes.amounts[f] <= limit) continue;
     if (count++ == 0 || changes.amounts[f] > changes.amounts[largest]) largest = f;
   }
   if (count == 0) return {};
+  const double begin_s = static_cast<double>(scale.first_frame) / scale.frame_rate_hz;
   return fmt::format(
       "{}: smoothing changes it by {:.3g} {} at {:.2f} s, where its noise is {:.2g}{}", name,
-      changes.amounts[largest], unit, begin_s + static_cast<double>(largest) / rate_hz, noise,
+      changes.amounts[largest], scale.unit,
+      begin_s + static_cast<double>(largest) / scale.frame_rate_hz, noise,
       count > 1 ? fmt::format(" ({} such frames)", count) : "");
 }
 
@@ -77,83 +78,71 @@ std::vector<ReportSpan> spans_of(std::int32_t joint, const TrackChanges& changes
   return spans;
 }
 
-JointReport report_joint(const std::string& name, std::size_t joint, const JointTracks& tracks,
-                         const TrackChanges& changes, std::size_t first_frame, double frame_rate_hz,
-                         double peak_loss_limit) {
-  const std::size_t frames = tracks.before.size();
-  JointReport report;
-  JointSummary& summary = report.summary;
-  summary.name = name;
-  std::vector<std::uint8_t> left_out(frames);
-  double squares = 0;
-  for (std::size_t f = 0; f < frames; ++f) {
-    const double change = changes.amounts[f];
-    squares += change * change;
-    summary.max_change_deg = std::max(summary.max_change_deg, change);
-    summary.frames_changed += change > 0;
-    summary.frames_repaired += repaired(changes.actions[f]);
-    const bool seen = tracks.observed.empty() || tracks.observed[f] != 0;
-    left_out[f] = repaired(changes.actions[f]) || !seen;
-  }
-  if (frames > 0) summary.rms_change_deg = std::sqrt(squares / static_cast<double>(frames));
-  const double noise = track_noise(tracks.before, noise_samples);
-  const Peaks peaks =
-      measure_peaks(tracks.before, tracks.after, std::move(left_out), noise, frame_rate_hz);
-  summary.peak_speed_before_deg_s = peaks.before * degrees_per_radian;
-  summary.peak_speed_after_deg_s = peaks.after * degrees_per_radian;
-  summary.peak_frames = peaks.frames;
-  add(peak_warning(name, peaks, degrees_per_radian, "deg/s", slow_deg_s, peak_loss_limit),
-      report.warnings);
-  add(change_warning(name, changes, noise * degrees_per_radian, "deg", small_change_deg,
-                     static_cast<double>(first_frame) / frame_rate_hz, frame_rate_hz),
-      report.warnings);
-  report.spans = spans_of(static_cast<std::int32_t>(joint), changes, first_frame);
-  return report;
+ReportScale joint_scale() {
+  ReportScale scale;
+  scale.per_sample_unit = degrees_per_radian;
+  scale.unit = "deg";
+  scale.speed_unit = "deg/s";
+  scale.slow = slow_deg_s;
+  scale.small_change = small_change_deg;
+  return scale;
 }
 
-MarkerTrackReport report_marker(const std::string& name, std::size_t marker,
-                                const MarkerTrack& track, const TrackChanges& changes,
-                                const MarkerScale& scale, double peak_loss_limit) {
+ReportScale marker_scale(const std::string& unit, double body_height) {
+  ReportScale scale;
+  scale.gaps = GapTreatment::cut;
+  scale.unit = unit.empty() ? "units" : unit;
+  scale.speed_unit = scale.unit + "/s";
+  scale.slow = slow_heights_s * body_height;
+  scale.small_change = small_change_heights * body_height;
+  return scale;
+}
+
+template <class Sample>
+TrackReport report_track(std::string name, std::size_t owner, const TrackEdit<Sample>& track,
+                         const TrackChanges& changes, const ReportScale& scale) {
   const std::size_t frames = track.before.size();
-  MarkerTrackReport report;
-  MarkerSummary& summary = report.summary;
-  summary.name = name;
+  const bool cut = scale.gaps == GapTreatment::cut;
+  TrackReport report;
+  TrackSummary& summary = report.summary;
+  summary.name = std::move(name);
+  report.spans = spans_of(static_cast<std::int32_t>(owner), changes, scale.first_frame);
   std::vector<std::uint8_t> left_out(frames);
-  std::vector<Vec3> seen;
+  std::vector<Sample> counted;  // of a joint a bridge counts, too
   double squares = 0;
+  bool was_missing = false;
   for (std::size_t f = 0; f < frames; ++f) {
     const double change = changes.amounts[f];
+    const bool seen = track.is_observed(f);
     squares += change * change;
     summary.max_change = std::max(summary.max_change, change);
     summary.frames_changed += changes.actions[f] != Action::kept;
     summary.frames_repaired += repaired(changes.actions[f]);
-    if (!track.observed_after[f]) {
-      ++summary.frames_missing;
-      summary.gaps_left += f == 0 || track.observed_after[f - 1] != 0;
-    }
-    left_out[f] = repaired(changes.actions[f]) || !track.observed[f];
-    if (track.observed[f]) seen.push_back(track.before[f]);
+    const bool is_missing = cut && !seen && changes.actions[f] != Action::filled;
+    summary.frames_missing += is_missing;
+    summary.gaps_left += is_missing && !was_missing;
+    was_missing = is_missing;
+    left_out[f] = repaired(changes.actions[f]) || !seen;
+    if (seen || !cut) counted.push_back(track.before[f]);
   }
-  if (seen.empty()) {
-    report.spans = spans_of(static_cast<std::int32_t>(marker), changes, 0);
-    return report;
-  }
-  summary.rms_change = std::sqrt(squares / static_cast<double>(seen.size()));
-  const double noise = track_noise(seen, noise_samples);
+  if (counted.empty()) return report;
+  summary.rms_change = std::sqrt(squares / static_cast<double>(counted.size()));
+  const double noise = track_noise(counted, noise_samples);
   const Peaks peaks =
       measure_peaks(track.before, track.after, std::move(left_out), noise, scale.frame_rate_hz);
-  summary.peak_speed_before = peaks.before;
-  summary.peak_speed_after = peaks.after;
+  summary.peak_speed_before = peaks.before * scale.per_sample_unit;
+  summary.peak_speed_after = peaks.after * scale.per_sample_unit;
   summary.peak_frames = peaks.frames;
-  const std::string unit = scale.unit.empty() ? "units" : scale.unit;
-  add(peak_warning(name, peaks, 1, unit + "/s", slow_heights_s * scale.body_height,
-                   peak_loss_limit),
+  add(peak_warning(summary.name, peaks, scale.per_sample_unit, scale.speed_unit, scale.slow,
+                   scale.peak_loss_limit),
       report.warnings);
-  add(change_warning(name, changes, noise, unit, small_change_heights * scale.body_height, 0,
-                     scale.frame_rate_hz),
-      report.warnings);
-  report.spans = spans_of(static_cast<std::int32_t>(marker), changes, 0);
+  add(change_warning(summary.name, changes, noise * scale.per_sample_unit, scale), report.warnings);
   return report;
 }
+
+template TrackReport report_track(std::string, std::size_t, const TrackEdit<Quat>&,
+                                  const TrackChanges&, const ReportScale&);
+template TrackReport report_track(std::string, std::size_t, const TrackEdit<Vec3>&,
+                                  const TrackChanges&, const ReportScale&);
 
 }  // namespace kinemend

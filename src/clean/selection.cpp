@@ -35,6 +35,24 @@ void check_settings(const CleanSettings& settings, std::size_t frames) {
   }
 }
 
+Selection selection_of(const Clip& clip, const CleanSettings& settings) {
+  Selection selection;
+  selection.owners = select_names(clip.skeleton.names, settings, "joint");
+  selection.root_position = settings.root_position && clip.joint_count() > 0 &&
+                            selection.owners[0] != 0 && clip.skeleton.has_position_channels(0);
+  return selection;
+}
+
+Selection selection_of(const MarkerClip& clip, const CleanSettings& settings) {
+  Selection selection;
+  selection.owners = select_names(clip.names, settings, "marker");
+  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+    if (!clip.holds_positions(m)) selection.owners[m] = 0;
+  }
+  selection.body_height = body_height(clip);
+  return selection;
+}
+
 std::vector<std::uint8_t> select_names(const std::vector<std::string>& names,
                                        const CleanSettings& settings, std::string_view kind) {
   std::vector<std::uint8_t> marks = names_meant(names, settings.joints, kind);

@@ -1,5 +1,4 @@
-#include "clean/clip_tracks.hpp"
-#include "clean/marker_tracks.hpp"
+#include "clean/filter_channels.hpp"
 #include "clean/method_list.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/signal.hpp"
@@ -42,14 +41,11 @@ class Wavelet final : public Cleaner {
  public:
   explicit Wavelet(const WaveletCleanerOptions& options) : options_(signal_options(options)) {}
 
-  CleanTrace clean(Clip& clip, const Selection& selection) const override {
-    return clean_channels(clip, selection, ChannelChoice::suitable,
-                          [this](PoseMatrix& channels) { wavelet_denoise(channels, options_); });
-  }
-
-  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
-    return filter_marker_channels(
-        clip, selection, [this](PoseMatrix& channels) { wavelet_denoise(channels, options_); });
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>& progress) const override {
+    filter_channels(take, ChannelChoice::suitable, sink, progress,
+                    [this](PoseMatrix& channels) { wavelet_denoise(channels, options_); });
+    return {};
   }
 
  private:

@@ -1,5 +1,4 @@
-#include "clean/clip_tracks.hpp"
-#include "clean/marker_tracks.hpp"
+#include "clean/filter_channels.hpp"
 #include "clean/method_list.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/signal.hpp"
@@ -19,16 +18,12 @@ class WeightedMean final : public Cleaner {
  public:
   explicit WeightedMean(const WeightedMeanOptions& options) : options_(options) {}
 
-  CleanTrace clean(Clip& clip, const Selection& selection) const override {
-    return clean_channels(clip, selection, ChannelChoice::quaternion, [this](PoseMatrix& channels) {
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>& progress) const override {
+    filter_channels(take, ChannelChoice::quaternion, sink, progress, [this](PoseMatrix& channels) {
       weighted_mean_filter(channels, static_cast<int>(options_.passes));
     });
-  }
-
-  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
-    return filter_marker_channels(clip, selection, [this](PoseMatrix& channels) {
-      weighted_mean_filter(channels, static_cast<int>(options_.passes));
-    });
+    return {};
   }
 
   LiveSupport live_support(double) const override {

@@ -13,7 +13,7 @@
 #include "priors/wiener_outliers.hpp"
 #include "priors/wiener_prior.hpp"
 #include "signal/fourth_difference.hpp"
-#include "tracks/noise_shape.hpp"
+#include "tracks/whitening.hpp"
 
 namespace kinemend {
 
@@ -91,8 +91,8 @@ std::vector<Eigen::Matrix3d> noise_axes(const PriorWork& work) {
     }
   }
   std::vector<Eigen::Matrix3d> axes;
-  for (const NoiseShape& shape : noise_shapes(tracks, marks, work.channels.frame_rate_hz))
-    axes.push_back(shape.to_round.rowwise().normalized());
+  for (const Whitening& whitening : estimate_whitening(tracks, marks, work.channels.frame_rate_hz))
+    axes.push_back(whitening.matrix.rowwise().normalized());
   return axes;
 }
 

@@ -18,9 +18,8 @@ DamageReport measured(std::string kind, VectorMotion& motion,
                       const std::function<void(Notes&)>& damage);
 
 /// A kind of damage is a struct with `name`, `summary`, `paper`, `Options`, `table()` and
-/// `damage(clip, random, options, notes)`. The generator it is given is its own: the same for every
-/// joint, to be forked. `damage` also takes a `VectorMotion`, unless it needs a skeleton: then it
-/// takes a `Clip` only.
+/// `damage(clip, random, options, notes)`. It gets its own generator, to be forked for each joint.
+/// `damage` also takes a `VectorMotion`, unless it needs a skeleton: then it takes a `Clip` only.
 template <class Kind, class Motion>
 DamageReport apply_kind(Motion& motion, Random& random, const OptionValues& values) {
   const auto options = Kind::table().parse(values);
@@ -42,11 +41,13 @@ Damage entry() {
   return damage;
 }
 
-/// The parts of the table, one a source file.
+/// The sections of the table, one per source file.
 void add_rotation_noise(std::vector<Damage>& table);
 void add_biases(std::vector<Damage>& table);
 void add_outliers(std::vector<Damage>& table);
 void add_position_noise(std::vector<Damage>& table);
 void add_gaps(std::vector<Damage>& table);
+void add_lower_rates(std::vector<Damage>& table);
+void add_systems(std::vector<Damage>& table);
 
 }  // namespace kinemend::corrupt

@@ -17,8 +17,8 @@ struct Span {
   std::size_t first = 0, last = 0;
 };
 
-// What stands in a span: the value of the frame before it ("last"; the rest pose where there is
-// none) or the rest pose.
+// Values in a span: that of the frame before it ("last"; the rest pose where there is none) or the
+// rest pose.
 struct Filling {
   bool rest = false;
   bool mark = true;  // as not observed
@@ -32,7 +32,7 @@ std::size_t random_length(Random& random, double mean_frames, std::size_t longes
   return length < static_cast<double>(longest) ? static_cast<std::size_t>(length) : longest;
 }
 
-// At each frame whose predecessor is in no span, one begins with the given probability.
+// At each frame whose predecessor is not in a span, one begins with the given probability.
 std::vector<Span> random_spans(Random random, std::size_t first_frame, std::size_t frames,
                                double start_probability, double mean_frames) {
   std::vector<Span> spans;
@@ -40,7 +40,7 @@ std::vector<Span> random_spans(Random random, std::size_t first_frame, std::size
     if (!random.chance(start_probability)) continue;
     const std::size_t length = std::min(random_length(random, mean_frames, frames), frames - f);
     spans.push_back({f, f + length});
-    f += length;  // the frame after a span is in none
+    f += length;  // the frame after a span is not in a span
   }
   return spans;
 }
@@ -76,7 +76,7 @@ void lose_channel(Clip& clip, std::size_t joint, std::size_t channel,
   }
 }
 
-// What was last seen before a span; zero where nothing was.
+// The last sample before a span; zero where there is none.
 Vec3 last_seen(const VectorMotion& motion, std::size_t track, std::size_t first) {
   for (std::size_t f = first; f-- > 0;) {
     if (is_observed(motion, f, track)) return vector_at(motion, f, track);

@@ -1,4 +1,5 @@
 #include "corrupt/damage_kind.hpp"
+#include "corrupt/normal_vector.hpp"
 #include "corrupt/position_targets.hpp"
 #include "corrupt/targets.hpp"
 #include "kinemend/kinematics.hpp"
@@ -17,11 +18,6 @@ void hit_share(const Motion& motion, const Random& random, const TargetOptions& 
       if (own.chance(share)) hit(f, j, own);
     }
   }
-}
-
-Vec3 normal_vector(Random& random) {
-  const double x = random.normal(), y = random.normal(), z = random.normal();
-  return {x, y, z};
 }
 
 struct Outliers {

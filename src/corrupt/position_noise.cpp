@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corrupt/body_parts.hpp"
 #include "corrupt/damage_kind.hpp"
 #include "corrupt/position_targets.hpp"
 #include "kinemend/error.hpp"
@@ -12,8 +13,8 @@ namespace kinemend::corrupt {
 
 namespace {
 
-// Adds Gaussian noise with the given deviation at each joint; the same joint gets the same noise
-// whatever the others get.
+// Adds Gaussian noise with the given deviation at each joint; the noise of a joint does not depend
+// on the other joints.
 void add_noise(std::vector<Vec3>& positions, std::size_t joint_count,
                const std::vector<double>& deviations, const Random& random) {
   for (std::size_t j = 0; j < joint_count; ++j) {
@@ -65,7 +66,8 @@ struct PositionNoise {
     return options;
   }
   static void damage(Clip& clip, const Random& random, const Options& options, Notes& notes) {
-    const double scale = cm_per_unit(clip.skeleton, options, notes);
+    const double scale =
+        options.cm_per_unit > 0 ? options.cm_per_unit : usual_cm_per_unit(clip.skeleton, notes);
     std::vector<double> deviations(clip.joint_count(), 0.0);
     for (const std::size_t j : position_joints(clip.skeleton, options))
       deviations[j] = options.std_cm / scale;
@@ -95,15 +97,6 @@ struct PositionNoise {
     if (ends.empty())
       notes.emplace_back("no wrist or ankle found by name: the noise is the same at all joints");
     for (const std::size_t j : ends) deviations[j] *= options.ends_factor;
-  }
-  static double cm_per_unit(const Skeleton& skeleton, const Options& options, Notes& notes) {
-    if (options.cm_per_unit > 0) return options.cm_per_unit;
-    constexpr double usual_height_cm = 170;
-    const double height = skeleton_height(skeleton);
-    double scale = height > 0 ? usual_height_cm / height : 1.0;
-    if (const auto unit = guess_length_unit(skeleton)) scale = 100 * unit->metres;
-    notes.push_back(fmt::format("a file unit is taken as {:.4g} cm", scale));
-    return scale;
   }
 };
 

@@ -1,29 +1,11 @@
 #include "corrupt/position_targets.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cctype>
+#include <fmt/format.h>
 
 #include "corrupt/refit.hpp"
 #include "kinemend/kinematics.hpp"
 
 namespace kinemend::corrupt {
-
-namespace {
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-template <std::size_t N>
-bool has_part(const std::string& name, const std::array<std::string_view, N>& parts) {
-  return std::any_of(parts.begin(), parts.end(),
-                     [&](std::string_view part) { return name.find(part) != std::string::npos; });
-}
-
-}  // namespace
 
 std::vector<std::size_t> position_joints(const Skeleton& skeleton, const TargetOptions& options) {
   // Every joint has a position, with or without channels.
@@ -40,16 +22,13 @@ void refit_to(Clip& clip, std::span<const Vec3> targets, const TargetOptions& op
   refit(clip, targets, may_turn, options.root);
 }
 
-std::vector<std::size_t> wrists_and_ankles(const std::vector<std::string>& names) {
-  static constexpr std::array<std::string_view, 4> ends{"hand", "wrist", "foot", "ankle"};
-  static constexpr std::array<std::string_view, 8> beyond{"thumb", "index",  "middle", "ring",
-                                                          "pinky", "little", "finger", "toe"};
-  std::vector<std::size_t> found;
-  for (std::size_t j = 0; j < names.size(); ++j) {
-    const std::string name = lower(names[j]);
-    if (has_part(name, ends) && !has_part(name, beyond)) found.push_back(j);
-  }
-  return found;
+double usual_cm_per_unit(const Skeleton& skeleton, Notes& notes) {
+  constexpr double usual_height_cm = 170;
+  const double height = body_height(skeleton);
+  double scale = height > 0 ? usual_height_cm / height : 1.0;
+  if (const auto unit = guess_length_unit(skeleton)) scale = 100 * unit->metres;
+  notes.push_back(fmt::format("a file unit is taken as {:.4g} cm", scale));
+  return scale;
 }
 
 }  // namespace kinemend::corrupt

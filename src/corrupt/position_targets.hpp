@@ -1,20 +1,22 @@
 #pragma once
 
-#include <string_view>
+#include <span>
 #include <vector>
 
+#include "corrupt/damage_kind.hpp"
 #include "corrupt/targets.hpp"
 
 namespace kinemend::corrupt {
 
 /// Joints whose positions are damaged: those asked for, joint 0 only with `root`. Their rotation
-/// channels do not matter: it is the joints above them that turn.
+/// channels do not matter, as the joints above them turn.
 std::vector<std::size_t> position_joints(const Skeleton& skeleton, const TargetOptions& options);
 
 /// Refits the clip to damaged positions; roots turn and move with `root` only.
 void refit_to(Clip& clip, std::span<const Vec3> targets, const TargetOptions& options);
 
-/// Wrists and ankles, by their names (`hand`, `wrist`, `foot`, `ankle`; not fingers and toes).
-std::vector<std::size_t> wrists_and_ankles(const std::vector<std::string>& names);
+/// Length of a file unit where nobody says: the usual unit that makes the skeleton a person, else
+/// such that it is 170 cm tall; with a note of it.
+double usual_cm_per_unit(const Skeleton& skeleton, Notes& notes);
 
 }  // namespace kinemend::corrupt

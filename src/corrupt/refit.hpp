@@ -11,10 +11,11 @@ namespace kinemend::corrupt {
 /// The rotation R nearest to `clean` that turns `from[i]` (the joint's frame) towards `to[i]`
 /// (world), minimising sum_i |to_i - R from_i|^2. One vector: `clean` followed by the smallest turn
 /// that aligns, so that the twist stays. Several: Davenport's solution of Wahba's problem, with a
-/// faint pull (1e-4) to `clean` where they leave R open. `clean` when no vector has a length.
+/// small weight (1e-4) of `clean`, which determines R where they do not. `clean` when no vector has
+/// a length.
 Quat fit_rotation(Quat clean, std::span<const Vec3> from, std::span<const Vec3> to);
 
-/// Turns joints so that joint positions come as near to `targets` (F x J, world) as rigid bones
+/// Turns joints so that joint positions are as near to `targets` (F x J, world) as rigid bones
 /// allow, from the roots down: each joint whose children are away from it points them at their
 /// targets. Bone lengths and translations stay. Joints of which `may_turn` is 0, those without such
 /// children, and joints whose rotation is right to 1e-9 rad keep theirs to the bit. `move_root`

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "corrupt/damage_kind.hpp"
+#include "corrupt/normal_vector.hpp"
 #include "corrupt/targets.hpp"
 
 namespace kinemend::corrupt {
@@ -10,11 +11,6 @@ namespace kinemend::corrupt {
 namespace {
 
 constexpr double moving_range = 0.001 * radians_per_degree;
-
-Vec3 normal_vector(Random& random, double deviation) {
-  const double x = random.normal(), y = random.normal(), z = random.normal();
-  return {deviation * x, deviation * y, deviation * z};
-}
 
 // q <- q Exp(n(f)) for every frame of every joint; `noise` draws from the joint's own generator,
 // frame after frame.
@@ -49,7 +45,7 @@ struct Gaussian {
   template <class Motion>
   static void damage(Motion& motion, const Random& random, const Options& options, Notes&) {
     const double deviation = options.std_deg * radians_per_degree;
-    turn_each(motion, random, options, [&](Random& own) { return normal_vector(own, deviation); });
+    turn_each(motion, random, options, [&](Random& own) { return deviation * normal_vector(own); });
   }
 };
 
@@ -105,13 +101,13 @@ struct GaussianLog {
   static void damage(Clip& clip, const Random& random, const Options& options, Notes&) {
     const double deviation = 2 * options.sigma;
     if (options.about == "sample") {
-      turn_each(clip, random, options, [&](Random& own) { return normal_vector(own, deviation); });
+      turn_each(clip, random, options, [&](Random& own) { return deviation * normal_vector(own); });
       return;
     }
     for (const std::size_t j : target_joints(clip.skeleton, options)) {
       Random own = random.fork(j);
       for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-        const Vec3 n = normal_vector(own, deviation);
+        const Vec3 n = deviation * normal_vector(own);
         if (!(n == Vec3{})) set_rotation(clip, f, j, exp(log(clip.rotation(f, j)) + n));
       }
     }
@@ -233,9 +229,9 @@ struct Ar1 {
     const double fresh = deviation * std::sqrt(1 - rho * rho);
     for (const std::size_t j : target_tracks(motion, options)) {
       Random own = random.fork(j);
-      Vec3 n = normal_vector(own, deviation);
+      Vec3 n = deviation * normal_vector(own);
       for (std::size_t f = 0; f < frame_count(motion); ++f) {
-        if (f > 0) n = rho * n + normal_vector(own, fresh);
+        if (f > 0) n = rho * n + fresh * normal_vector(own);
         if (!(n == Vec3{})) turn(motion, f, j, n);
       }
     }

@@ -5,6 +5,7 @@
 
 #include "corrupt/damage_kind.hpp"
 #include "corrupt/targets.hpp"
+#include "kinemend/convert.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/kinematics.hpp"
 #include "motion/calibration.hpp"
@@ -100,6 +101,8 @@ std::span<const Damage> damages() {
     corrupt::add_outliers(list);
     corrupt::add_position_noise(list);
     corrupt::add_gaps(list);
+    corrupt::add_lower_rates(list);
+    corrupt::add_systems(list);
     return list;
   }();
   return table;
@@ -164,6 +167,7 @@ VectorMotion vectors_of(const MarkerClip& clip, const std::vector<std::size_t>& 
   motion.is_root.assign(markers.size(), 0);
   motion.per_radian = height / 4;
   motion.per_cm = unit_m > 0 ? 0.01 / unit_m : height / usual_height_cm;
+  motion.up_axis = static_cast<int>(guess_up_axis(clip));
   for (const std::size_t m : markers) motion.names.push_back(clip.names[m]);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     for (std::size_t n = 0; n < markers.size(); ++n) {

@@ -13,16 +13,16 @@ namespace kinemend::corrupt {
 namespace {
 
 std::vector<std::string> split(std::string_view list) {
-  std::vector<std::string> parts;
+  std::vector<std::string> names;
   while (!list.empty()) {
     const std::size_t comma = std::min(list.find(','), list.size());
-    if (comma > 0) parts.emplace_back(list.substr(0, comma));
+    if (comma > 0) names.emplace_back(list.substr(0, comma));
     list.remove_prefix(std::min(comma + 1, list.size()));
   }
-  return parts;
+  return names;
 }
 
-// None where the list holds nothing but commas.
+// Empty where the list holds only commas.
 std::vector<std::uint8_t> named_tracks(const std::vector<std::string>& names, std::string_view list,
                                        std::string_view noun) {
   const std::vector<std::string> patterns = split(list);
@@ -38,8 +38,8 @@ std::vector<std::size_t> child_counts(const Skeleton& skeleton) {
   return counts;
 }
 
-// The first joint of the part that each joint is in, short parts not yet joined to others.
-std::vector<std::size_t> part_heads(const Skeleton& skeleton) {
+// The first joint of each joint's limb, before short limbs are joined to others.
+std::vector<std::size_t> limb_heads(const Skeleton& skeleton) {
   constexpr int dividing_branchings = 2;
   const auto children = child_counts(skeleton);
   std::vector<std::size_t> heads(skeleton.joint_count());
@@ -57,7 +57,7 @@ std::vector<std::size_t> part_heads(const Skeleton& skeleton) {
   return heads;
 }
 
-void join_short_parts(const Skeleton& skeleton, std::vector<std::size_t>& heads) {
+void join_short_limbs(const Skeleton& skeleton, std::vector<std::size_t>& heads) {
   constexpr std::size_t shortest = 3;
   for (std::size_t head = skeleton.joint_count(); head-- > 0;) {
     if (heads[head] != head || skeleton.parents[head] < 0) continue;
@@ -96,8 +96,8 @@ std::vector<std::size_t> target_tracks(const VectorMotion& motion, const TargetO
 }
 
 std::vector<std::size_t> limbs(const Skeleton& skeleton) {
-  auto heads = part_heads(skeleton);
-  join_short_parts(skeleton, heads);
+  auto heads = limb_heads(skeleton);
+  join_short_limbs(skeleton, heads);
   std::vector<std::size_t> numbers(heads.size());
   std::size_t next = 0;
   for (std::size_t j = 0; j < heads.size(); ++j)
@@ -179,7 +179,7 @@ void turn(Clip& clip, std::size_t frame, std::size_t joint, Vec3 n) {
 
 namespace {
 
-// Of the vectors of a rotation the one nearest to another: they differ by whole turns.
+// The rotation vector nearest to another among those of one rotation, which differ by full turns.
 Vec3 nearest_vector(Vec3 v, Vec3 other) {
   const double angle = norm(v);
   if (angle < 1e-12) return v;

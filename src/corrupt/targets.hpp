@@ -37,12 +37,12 @@ std::vector<std::size_t> target_tracks(const VectorMotion& motion, const TargetO
 inline std::size_t frame_count(const Clip& clip) { return clip.frame_count(); }
 inline std::size_t frame_count(const VectorMotion& motion) { return motion.values.frames; }
 
-/// The limb of each joint, as consecutive numbers: roots alone, then the parts between branchings.
-/// Only the first two branchings of a path divide it (hips and chest, not fingers), and a part of
+/// The limb of each joint, as consecutive numbers: roots alone, then the chains between branchings.
+/// Only the first two branchings of a path divide it (hips and chest, not fingers), and a chain of
 /// fewer than three joints belongs to its parent's.
 std::vector<std::size_t> limbs(const Skeleton& skeleton);
 
-/// What is damaged together: rotation channel `channel` of one joint, or (-1) whole joints.
+/// Unit of damage: rotation channel `channel` of one joint, or (-1) whole joints.
 struct Unit {
   std::vector<std::size_t> joints;
   int channel = -1;
@@ -55,10 +55,10 @@ std::vector<Unit> units(const Clip& clip, const TargetOptions& options, std::str
 std::vector<Unit> units(const VectorMotion& motion, const TargetOptions& options,
                         std::string_view scope);
 
-/// Puts the new rotation of a sample in, as near as the joint's own channels can express it.
+/// Sets the rotation of a sample, to the nearest that the joint's channels can express.
 void set_rotation(Clip& clip, std::size_t frame, std::size_t joint, Quat rotation);
 
-/// q Exp(n), or p + n as an arc; what is not seen of vectors stays.
+/// q Exp(n), or p + n as an arc; missing vectors are not changed.
 void turn(Clip& clip, std::size_t frame, std::size_t joint, Vec3 n);
 void turn(VectorMotion& motion, std::size_t frame, std::size_t track, Vec3 n);
 

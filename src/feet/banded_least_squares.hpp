@@ -6,7 +6,7 @@
 
 namespace kinemend::feet {
 
-/// The unknowns x for which a sum of squares is least, where each square has neighbours only:
+/// The unknowns x that minimise a sum of squares, each of which holds neighbouring unknowns only:
 /// sum_i weight_i (value_i + sum_j factor_ij x_j)^2. Time and memory grow with size times band.
 class BandedLeastSquares {
  public:
@@ -18,7 +18,7 @@ class BandedLeastSquares {
   /// Unknowns of one square are at most `band` apart.
   BandedLeastSquares(std::size_t size, std::size_t band);
 
-  /// Unknowns in ascending order but for those of factor 0, which do not count.
+  /// Unknowns in ascending order; those of factor 0 are ignored.
   template <std::size_t count>
   void add(const std::array<Term, count>& terms, double value, double weight) {
     for (std::size_t a = 0; a < count; ++a) {
@@ -33,8 +33,7 @@ class BandedLeastSquares {
     }
   }
 
-  /// To be called once. Every unknown must have a square of its own or one that ties it to others
-  /// that do, or else the result is not finite.
+  /// To be called once. The result is not finite unless the squares determine every unknown.
   std::vector<double> solve();
 
  private:

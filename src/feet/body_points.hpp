@@ -12,11 +12,12 @@ namespace kinemend::feet {
 
 /// The points of a foot that touch the floor.
 struct Foot {
-  std::string name;                 ///< of the joint or marker that stands for it
+  std::string name;                 ///< of the joint or marker that represents it
   std::vector<std::size_t> points;  ///< toe, ball, heel: indices into `BodyPoints`
 };
 
-/// What stands and falls: F frames of P points, in one unit of length.
+/// Points of a body in contact with the floor or in flight: F frames of P points, in one unit of
+/// length.
 struct BodyPoints {
   std::size_t frames = 0;
   std::size_t points = 0;
@@ -42,11 +43,11 @@ struct Up {
     return {axis == Axis::x ? sign : 0, axis == Axis::y ? sign : 0, axis == Axis::z ? sign : 0};
   }
 };
-/// Where the body stands above its feet; none where no axis is clearly so.
+/// The axis along which the body is above its feet; none where that is ambiguous.
 std::optional<Up> find_up(const BodyPoints& body);
 
 double along(Vec3 v, Up up);
-/// What is left of `v` without its height.
+/// The horizontal component of `v`.
 Vec3 level_part(Vec3 v, Up up);
 
 }  // namespace kinemend::feet

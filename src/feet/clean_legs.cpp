@@ -24,7 +24,7 @@ namespace feet {
 
 namespace {
 
-// In statures: changes below are rounding, and what is left of a slide above is worth a word.
+// In body heights: smaller changes are rounding; larger remaining slides are reported.
 constexpr double least_shift = 1e-9, noticeable_rest = 0.002;
 constexpr double least_turn_rad = 1e-11;
 
@@ -199,7 +199,7 @@ class FeetCleaning {
     set(model.ankle, turned.ankle);
   }
 
-  // Feet that do not get where they shall be.
+  // Feet that do not reach their targets.
   void warn_of_rest(const std::vector<FootTarget>& targets) {
     double farthest = 0;
     std::size_t frames = 0;
@@ -237,7 +237,7 @@ class FeetCleaning {
 
 namespace {
 
-/// Joints bear other names while it lives.
+/// Renames joints during its lifetime.
 class Renamed {
  public:
   Renamed(Skeleton& skeleton, std::vector<std::string> names)

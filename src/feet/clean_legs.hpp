@@ -8,8 +8,8 @@
 
 namespace kinemend::feet {
 
-// Lengths by which floors are judged, in statures.
-inline constexpr double stature_m = 1.7;         ///< where a metre is asked for
+// Lengths by which floors are judged, in body heights.
+inline constexpr double usual_height_m = 1.7;    ///< converts metres
 inline constexpr double close_to_floor = 0.012;  ///< 2 cm
 
 /// What may change.
@@ -19,8 +19,8 @@ struct FeetLimits {
   bool translations = true;
 };
 
-/// `clean_feet` of a clip of which every frame is motion. Frames of settings and report are those
-/// of the motion too.
+/// `clean_feet` of a clip of which every frame is motion. Frames of settings and report count from
+/// the first frame of the motion.
 FeetReport clean_legs(Clip& motion, const FeetSettings& settings, const FeetLimits& limits = {});
 
 /// Contacts counted from frame `from` are counted from frame `to`. Errors: `ErrorKind::usage` for

@@ -66,7 +66,7 @@ class ContactFinder {
       is_slow = sole.seen[f] != 0 && speeds[f] < limit * height;
       slow[f] = is_slow;
     }
-    // A heel and a toe of one foot need not stand equally high.
+    // A heel and a toe of one foot may have different levels.
     const double above = sole.level - floors_[leg];
     const double offset = above < settings_.begin_height * height ? above : 0;
     std::vector<double> levels(slow.size(), sole.level);
@@ -98,7 +98,7 @@ class ContactFinder {
     return is_step(leg, first, last) ? low : floors_[leg];
   }
 
-  // A foot rests and bears the body: on a step.
+  // A foot is at rest and carries the body: it stands on a step.
   bool is_step(std::size_t leg, std::size_t first, std::size_t last) const {
     constexpr double least_s = 0.15, least_lowest_s = 0.1, most_travel = 0.02;
     if (last - first + 1 < std::max<std::size_t>(frames_in(least_s), 2)) return false;
@@ -123,8 +123,8 @@ class ContactFinder {
                        });
   }
 
-  // Without the ends in which the part still lands or already leaves: faster than it is on the
-  // whole, or at another height.
+  // Without the ends during which the part lands or leaves: faster than its median, or at another
+  // height.
   std::pair<std::size_t, std::size_t> trimmed(const SolePoint& sole,
                                               std::pair<std::size_t, std::size_t> span) const {
     constexpr double times_median = 2.5, sure_speed = 0.05, sure_height = 0.006;
@@ -164,7 +164,7 @@ class ContactFinder {
   const Soles& soles_;
   const ContactSettings& settings_;
   std::vector<std::vector<double>> lowest_;  // by leg
-  std::vector<double> floors_;               // by leg: where it stands as a rule
+  std::vector<double> floors_;               // by leg: its usual level
 };
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::usage, message); }

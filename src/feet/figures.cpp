@@ -69,8 +69,8 @@ FeetFigures figures_of(const LegMotion& motion, const std::vector<FootContact>& 
     places.push_back((1 / count) * sum - offsets[Soles::point_of(c)] * up.direction());
   }
   if (steps > 0) figures.slide /= static_cast<double>(steps);
-  for (const double depth :
-       depths_below_floor(places, up, close_to_floor * motion.height, motion.height / stature_m))
+  for (const double depth : depths_below_floor(places, up, close_to_floor * motion.height,
+                                               motion.height / usual_height_m))
     figures.sink = std::max(figures.sink, depth);
   return figures;
 }

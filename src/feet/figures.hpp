@@ -6,7 +6,7 @@
 
 namespace kinemend::feet {
 
-/// How far each sole point stands above its foot's lower one as a rule, 2 l + part.
+/// Usual height of each sole point above the lower one of its foot, 2 l + part.
 std::vector<double> level_offsets(const Soles& soles);
 
 /// `contacts` in frames of the motion; `offsets` as above.

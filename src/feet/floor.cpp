@@ -28,7 +28,7 @@ struct Plane {
 
 Plane fit(const std::vector<Vec3>& places, const std::vector<double>& weights, Up up,
           double metre) {
-  // A pull towards level ground, too weak to matter once the places cover a metre.
+  // Regularises towards level ground; negligible once the places cover a metre.
   Eigen::Matrix3d normal =
       Eigen::Vector3d(0, 0.1 * metre * metre, 0.1 * metre * metre).asDiagonal();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
@@ -62,7 +62,7 @@ std::vector<double> depths_below_floor(const std::vector<Vec3>& places, Up up, d
     const Plane floor = fit(places, weights, up, metre);
     for (std::size_t i = 0; i < places.size(); ++i) {
       depths[i] = floor.height_at(places[i], up) - along(places[i], up);
-      // Cauchy's weights: what stands off hardly counts.
+      // Cauchy's weights, which are small for outliers.
       weights[i] = 1 / (1 + depths[i] * depths[i] / (close_to * close_to));
     }
   }

@@ -11,10 +11,11 @@ namespace kinemend::feet {
 
 namespace {
 
-// In statures, and statures a second.
-constexpr double least_travel = 0.018;  // 3 cm: what a foot rolls and its skin gives as it stands
-constexpr double least_jitter = 0.13;   // length of the path to and fro a second: 22 cm/s
-constexpr double small_travel = 0.03;   // 5 cm: nobody slides so little on purpose
+// In body heights, and body heights a second.
+constexpr double least_travel =
+    0.018;  // 3 cm: rolling of the foot and movement of the skin during a stand
+constexpr double least_jitter = 0.13;  // length of the path to and fro a second: 22 cm/s
+constexpr double small_travel = 0.03;  // 5 cm: shorter slides are not intended
 constexpr double most_travel = 0.25;
 constexpr double glide_speed = 0.06;
 
@@ -58,7 +59,7 @@ struct Judge {
     return path(c) > least_jitter * soles.height * seconds;
   }
 
-  // For most of the time that feet stand, their paths are far longer than their ways: to and fro.
+  // During most stands the length of the path far exceeds the displacement.
   bool take_jitters() const {
     constexpr double least_ratio = 1.5;
     std::size_t frames = 0, jittery = 0;
@@ -74,7 +75,7 @@ struct Judge {
     return travel(c) < least_travel * soles.height && !(jitters && is_fast(c));
   }
 
-  // While another foot stands and hardly moves, this one does most of its way.
+  // Most of the displacement occurs while another foot stands nearly still.
   bool slides_beside_standing_foot(const FootContact& c, double way) const {
     constexpr double least_share = 0.5, most_other = 0.25;
     for (const FootContact& other : contacts) {
@@ -89,7 +90,7 @@ struct Judge {
     return false;
   }
 
-  // The body goes along with the foot, and not slowly.
+  // The body moves along with the foot, and not slowly.
   bool glides(const FootContact& c) const {
     constexpr double least_share = 0.5, least_cosine = 0.8;
     const Vec3 own = moved(Soles::point_of(c), c.first_frame, c.last_frame);
@@ -106,7 +107,7 @@ struct Judge {
            norm(own) > least_share * norm(body);
   }
 
-  // Why the slide of a contact is no error; empty where it is one.
+  // Why the slide of a contact is not an error; empty where it is one.
   std::string excuse(const FootContact& c) const {
     const double way = travel(c);
     if (way < small_travel * soles.height) return {};
@@ -119,7 +120,7 @@ struct Judge {
     return {};
   }
 
-  // Why the slide of a stand is no error; empty where it is one.
+  // Why the slide of a stand is not an error; empty where it is one.
   std::string excuse(const std::vector<std::size_t>& stand) const {
     for (const std::size_t i : stand) {
       if (std::string found = excuse(contacts[i]); !found.empty()) return found;

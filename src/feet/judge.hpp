@@ -7,7 +7,7 @@
 
 namespace kinemend::feet {
 
-/// Whether the slide of each contact is an error to be taken out.
+/// Whether the slide of each contact is an error to be removed.
 struct Verdicts {
   std::vector<std::uint8_t> held;    ///< one a contact
   std::vector<std::uint8_t> still;   ///< one a contact, 1 where there is no slide
@@ -15,7 +15,7 @@ struct Verdicts {
 };
 
 /// `motion` is in `unit_cm` centimetres a unit of length; 0 where that is not known. Contacts of
-/// one foot that touch in time are one stand and get one verdict.
+/// one foot that touch in time are one stand and are decided together.
 Verdicts judge(const Soles& soles, const LegMotion& motion,
                const std::vector<FootContact>& contacts, double unit_cm);
 

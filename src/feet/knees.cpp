@@ -11,14 +11,14 @@ namespace kinemend::feet {
 
 namespace {
 
-// What weighs as much as a knee whose angle changes by a radian to and fro at `knee_hz`; slower
-// changes of the knee count less by the fourth power of their rate, faster ones more.
+// Changes of equal weight to a knee angle that oscillates by a radian at `knee_hz`; the weight of
+// the knee's changes grows with the fourth power of their rate.
 constexpr double knee_hz = 4;
-constexpr double root_room = 0.02;          // statures, up or down
-constexpr double turn_room = 1;             // radians of the foot about what it stands on
-constexpr double bend_room = 2;             // radians of the knee of a leg that nothing holds
-constexpr double root_hz = 12, leg_hz = 6;  // the rate at which their curvature weighs the same
-constexpr double least_room = 1e-6;         // less is none
+constexpr double root_room = 0.02;          // body heights, up or down
+constexpr double turn_room = 1;             // radians of the foot about its point of contact
+constexpr double bend_room = 2;             // radians of the knee of a leg without contact
+constexpr double root_hz = 12, leg_hz = 6;  // the rate at which their curvature has the same weight
+constexpr double least_room = 1e-6;         // less counts as none
 
 // The leg as a triangle of thigh, shank and the line from hip to ankle.
 struct Triangle {
@@ -32,14 +32,14 @@ struct Triangle {
   }
 };
 
-// How far a leg goes to where its target has the ankle.
+// Distance of a leg's hip from its target for the ankle.
 struct Stretch {
   Vec3 way;                     // from the hip
-  double far = 0, reached = 0;  // its length, and what the leg makes of it
+  double far = 0, reached = 0;  // its length, and the length that the leg reaches
   double cosine = 1;            // of the bend of the knee
 };
 
-// How the bend of a knee follows what is open, radians.
+// Derivatives of the bend of a knee, radians, by the free variables.
 struct LegState {
   double bend = 0;
   double by_distance = 0;  // for a unit of length from hip to ankle ...
@@ -90,7 +90,8 @@ class KneeEasing {
                                             [](const FootTarget& t) { return t.hold > 0; });
   }
 
-  // Frames from `first` until `end`. After the first step only those about which a knee still pops.
+  // Frames from `first` until `end`. After the first step only those near a remaining pop of a
+  // knee.
   void ease_thoroughly(std::size_t first, std::size_t end) {
     constexpr int more_rounds = 2;
     constexpr double around_s = 0.1;
@@ -151,7 +152,7 @@ class KneeEasing {
   }
 
   LegState state(std::size_t i) const {
-    constexpr double least_sine = 0.12;  // a straight knee turns by degrees for a millimetre
+    constexpr double least_sine = 0.12;  // a straight knee turns by degrees per millimetre
     const Stretch stretch = this->stretch(i);
     LegState leg;
     leg.bend = std::acos(stretch.cosine);
@@ -185,7 +186,7 @@ class KneeEasing {
     return frame * (legs_ + 1) + 1 + leg;
   }
 
-  // One step: what makes the sum of squares least if all was as linear as it is nearby.
+  // One Gauss-Newton step.
   void ease(std::size_t first, std::size_t end) {
     for_blocks(first * legs_, end * legs_, [&](std::size_t from, std::size_t until) {
       for (std::size_t i = from; i < until; ++i) {
@@ -258,7 +259,7 @@ class KneeEasing {
     return period * period * period * period / (room * room);
   }
 
-  // The foot turns for its share, and goes nearer to the hip or farther away for the rest.
+  // The foot turns for its share of the change; its distance from the hip provides the rest.
   void apply(std::size_t i, double bend, double by_root) const {
     constexpr double most_turn = 0.35;
     FootTarget& foot = targets_[i];
@@ -273,7 +274,7 @@ class KneeEasing {
     if (foot.hold >= 1) return;
     const Stretch now = stretch(i);
     double wanted = std::acos(now.cosine) + (1 - share) * bend;
-    // What was not linear is made good where nothing holds the foot.
+    // The error of the linearisation is corrected where the foot is free.
     wanted += (1 - foot.hold) * (before.bend + by_root + bend - wanted);
     const double distance = triangles_[i].distance_of(std::max(wanted, 0.0));
     if (now.far > 0) foot.place += ((distance - now.reached) / now.far) * now.way;

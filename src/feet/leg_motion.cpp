@@ -101,8 +101,8 @@ Carrier find_carrier(const Clip& clip, const std::vector<Leg>& legs) {
   return carrier;
 }
 
-// The axis about which the knee bends, in its parent's frame: the mean over the clip, or where it
-// never bends the one that swings the shank back from where the toes point.
+// The axis about which the knee bends, in its parent's frame: the mean over the clip, or, where it
+// never bends, the one that swings the shank away from the toes.
 Vec3 usual_hinge(const LegMotion& motion, std::size_t leg) {
   Vec3 sum, ahead;
   for (std::size_t f = 0; f < motion.frames; ++f) {
@@ -119,7 +119,7 @@ Vec3 usual_hinge(const LegMotion& motion, std::size_t leg) {
   return (1 / norm(sum)) * sum;
 }
 
-// What a joint needs for its own place: itself and all above, parents first.
+// The joints that determine a joint's position: itself and its ancestors, parents first.
 std::vector<std::size_t> needed_joints(const Skeleton& skeleton, const std::vector<Leg>& legs) {
   std::vector<std::size_t> joints;
   for (const Leg& leg : legs) {
@@ -132,7 +132,7 @@ std::vector<std::size_t> needed_joints(const Skeleton& skeleton, const std::vect
 }
 
 // Mean height of a foot's toe below the ankle and way from ankle to toe, in the ankle's frame, over
-// the frames in which both stand where they stand as a rule.
+// the frames in which both are at their usual level.
 std::optional<Vec3> heel_of_flat_foot(const LegMotion& motion, std::size_t leg, Up up) {
   constexpr double behind = 0.25, reach_s = 0.02, least_s = 0.1;
   BodyPoints body;
@@ -164,7 +164,7 @@ std::optional<Vec3> heel_of_flat_foot(const LegMotion& motion, std::size_t leg, 
   return (1 / count) * sum;
 }
 
-// The same of the rest pose, where the toes point ahead in it; else the ankle itself.
+// The same of the rest pose, if the toes point ahead in it; else the ankle itself.
 Vec3 heel_at_rest(const Clip& clip, const LegModel& model, Up up) {
   constexpr double behind = 0.25, least_ahead = 0.5;
   Clip rest;
@@ -228,7 +228,7 @@ LegMotion leg_motion(const Clip& clip, const std::vector<Leg>& legs) {
   LegMotion motion;
   motion.frames = clip.frame_count();
   motion.frame_rate_hz = clip.frame_rate_hz;
-  motion.height = skeleton_height(clip.skeleton);
+  motion.height = body_height(clip.skeleton);
   for (const Leg& leg : legs) {
     LegModel model{leg_joint(clip.skeleton, leg.hip),
                    leg_joint(clip.skeleton, leg.knee),

@@ -17,7 +17,7 @@ struct LegJoint {
   RotationOrder order;
 };
 
-/// What of a leg is the same in all frames.
+/// Constants of a leg.
 struct LegModel {
   LegJoint hip, knee, ankle;
   std::array<Vec3, 2> sole;             ///< by `FootPart`, in the ankle's frame
@@ -35,7 +35,7 @@ struct LegPose {
   }
 };
 
-/// The joint whose position moves the whole body.
+/// The joint whose position channels move the whole body.
 struct Carrier {
   bool found = false;
   std::size_t joint = 0;
@@ -64,12 +64,12 @@ LegMotion leg_motion(const Clip& clip, const std::vector<Leg>& legs);
 /// Poses anew, with the models as they are.
 void update_poses(const Clip& clip, const std::vector<Leg>& legs, LegMotion& motion);
 
-/// Where the body stands above its feet; `wanted` where it is given.
+/// The axis along which the body is above its feet; `wanted` if given.
 std::optional<Up> up_of(const LegMotion& motion, std::optional<Axis> wanted);
 /// Puts a heel where the skeleton has none, from the frames in which the foot stands flat.
 void set_heels(const Clip& clip, Up up, LegMotion& motion);
 
-/// Heel and toe of each leg, points 2 l and 2 l + 1; the heel stands for a toe that is not there.
+/// Heel and toe of each leg, points 2 l and 2 l + 1; a missing toe is represented by the heel.
 BodyPoints sole_points(const LegMotion& motion);
 
 }  // namespace kinemend::feet

@@ -26,13 +26,13 @@ Quat turn_about(Vec3 axis, double cosine, double sine) {
 struct KneeCircle {
   Vec3 hinge;  // world, unit; bending is positive
   double constant = 0, swing = 0;
-  // Of the turn of the shank that takes the ankle farthest away.
+  // Angle of the shank at which the ankle is farthest.
   double straight_cosine = 1, straight_sine = 0;
 
   double most() const { return std::sqrt(std::max(constant + 2 * swing, 0.0)); }
 };
 
-// How the knee's channels can turn it.
+// The rotations that the knee's channels allow.
 enum class KneeTurn : std::uint8_t { none, first_axis, last_axis, free };
 
 Vec3 axis_vector(Axis axis) {
@@ -114,7 +114,7 @@ Quat turn_for(const KneeCircle& circle, double distance) {
                     circle.straight_sine * cosine + circle.straight_cosine * sine);
 }
 
-// What the channels of a joint can hold of a rotation.
+// The nearest rotation that the channels of a joint allow.
 Quat within_channels(Quat rotation, const LegJoint& joint) {
   if (joint.order.count >= 3) return rotation;
   if (joint.order.count == 0) return Quat{};
@@ -164,7 +164,7 @@ class Leg {
     rotations_.ankle =
         within_channels(normalized(conjugate(ankle_frame) * target_.rotation), model_.ankle);
     foot_ = ankle_frame * rotations_.ankle;
-    // What the ankle cannot turn about the line of the leg, the hip can.
+    // The hip turns about the line of the leg by what the ankle cannot.
     if (model_.ankle.order.count < 3 && far > 0)
       twist_ += dot(log(target_.rotation * conjugate(foot_)), way) / far;
   }

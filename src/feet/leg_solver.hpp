@@ -13,16 +13,15 @@ Vec3 turn_between(Vec3 from, Vec3 to);
 /// The same as a rotation.
 Quat least_turn(Vec3 from, Vec3 to);
 
-/// How far a leg reaches from hip to ankle.
+/// Distances from hip to ankle that a leg reaches.
 struct Reach {
   double now = 0;   ///< as it is
-  double easy = 0;  ///< as far as it goes without straightening the knee more than is good
+  double easy = 0;  ///< at the largest extension of the knee that avoids popping
   double most = 0;  ///< with the knee straight
 };
 /// Easy is short of `most` by the share `soft_reach`, or what the leg reaches as it is where that
-/// is farther. A knee that is all but straight turns by degrees for a millimetre, so that a held
-/// leg
-/// (`hold` 1; 0 for a free one) stays short by a quarter of the share even then.
+/// is farther. A nearly straight knee turns by degrees per millimetre, so that a held leg (`hold`
+/// 1; 0 for a free one) stays short by a quarter of the share even then.
 Reach reach_of(const LegPose& pose, const LegModel& model, double soft_reach, double hold);
 
 /// F x L, as the targets hold them.
@@ -40,8 +39,8 @@ struct LegRotations {
 
 /// Closed form: the knee bends about its hinge until the ankle is as far from the hip as its
 /// target is, the hip takes the leg there by the least turn, the ankle gives the foot its rotation.
-/// Where a joint has fewer than three rotation channels it does what they can, and the others make
-/// up for the rest in a few rounds. `hip_shift` is how far the hip itself moves.
+/// Where a joint has fewer than three rotation channels the others compensate for it in a few
+/// iterations. `hip_shift` is how far the hip itself moves.
 LegRotations solve_leg(const LegPose& pose, const LegModel& model, const FootTarget& target,
                        Vec3 hip_shift, double soft_reach);
 

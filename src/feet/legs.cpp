@@ -116,8 +116,8 @@ std::vector<std::size_t> ankles_of(const Skeleton& skeleton) {
 }  // namespace feet
 
 std::vector<Leg> find_legs(const Skeleton& skeleton) {
-  constexpr double shortest_bone = 0.08, shortest_foot = 0.02;  // statures
-  const double height = skeleton_height(skeleton);
+  constexpr double shortest_bone = 0.08, shortest_foot = 0.02;  // body heights
+  const double height = body_height(skeleton);
   std::vector<Leg> legs;
   if (!(height > 0)) return legs;
   for (const std::size_t ankle : feet::ankles_of(skeleton)) {
@@ -130,7 +130,7 @@ std::vector<Leg> find_legs(const Skeleton& skeleton) {
     leg.toe = toe_of(skeleton, leg.ankle, shortest_foot * height);
     legs.push_back(std::move(leg));
   }
-  // A joint that turns two legs is no hip.
+  // A joint that turns two legs is not a hip.
   const std::vector<Leg> all = legs;
   legs.erase(std::remove_if(legs.begin(), legs.end(),
                             [&](const Leg& leg) {

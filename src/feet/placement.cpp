@@ -13,7 +13,7 @@ namespace kinemend::feet {
 
 namespace {
 
-// In statures.
+// In body heights.
 constexpr double most_sink = 0.006;  // 1 cm: deeper is lifted
 
 class Placement {
@@ -45,7 +45,7 @@ class Placement {
     for (std::size_t i = 0; i < contacts_.size(); ++i)
       places.push_back(above_level(i, mean_place(i)));
     std::vector<double> depths = depths_below_floor(
-        places, soles_.up, close_to_floor * soles_.height, soles_.height / stature_m);
+        places, soles_.up, close_to_floor * soles_.height, soles_.height / usual_height_m);
     if (depths.empty()) depths.resize(contacts_.size());
     for (double& depth : depths) {
       if (depth < most_sink * soles_.height) depth = 0;
@@ -53,7 +53,7 @@ class Placement {
     return depths;
   }
 
-  // A joint stands above the floor by what its kind does.
+  // A joint's height above the floor is that of its kind.
   Vec3 above_level(std::size_t contact, Vec3 place) const {
     const std::size_t leg = contacts_[contact].leg;
     const double own = soles_.points[point(contact)].level;
@@ -64,7 +64,7 @@ class Placement {
     return place + (lower - own) * soles_.up.direction();
   }
 
-  // The longest contact stands where it was on the whole; those that overlap it give way.
+  // The longest contact is placed at its mean; overlapping ones are adapted to it.
   void place_stand(std::vector<std::size_t> stand) {
     std::stable_sort(stand.begin(), stand.end(),
                      [&](std::size_t a, std::size_t b) { return length(a) > length(b); });
@@ -116,7 +116,7 @@ class Placement {
 
 double smooth_step(double x) { return x * x * (3 - 2 * x); }
 
-// The end of a contact and what goes on from there.
+// The end of a contact, and the motion beside it.
 struct Edge {
   std::size_t frame = 0;
   Vec3 shift;
@@ -126,7 +126,7 @@ struct Edge {
 // The shift and, by a parabola through three frames inside the contact, its slope.
 Edge edge_at(const BodyPoints& body, const PartCorrection& part, std::size_t frame,
              const FootContact& contact) {
-  constexpr double step_s = 0.008, most_speed = 0.5;  // statures a second: faster is jitter
+  constexpr double step_s = 0.008, most_speed = 0.5;  // body heights a second: faster is jitter
   const auto wanted =
       static_cast<std::size_t>(std::max(1L, std::lround(step_s * body.frame_rate_hz)));
   const std::size_t step = std::min(wanted, (contact.last_frame - contact.first_frame) / 2);
@@ -225,7 +225,7 @@ FootTarget foot_target(const LegPose& pose, const LegModel& model, const PartCor
   target.rotation = pose.ankle;
   const Vec3 heel_shift = heel.shift[frame], toe_shift = toe.shift[frame];
   target.moves = norm(heel_shift) > least_shift || norm(toe_shift) > least_shift;
-  // A part that is in contact is the pivot; between contacts it wanders from one to the other.
+  // A part in contact is the pivot; between contacts the pivot moves from one to the other.
   constexpr double tiny = 1e-12;
   const double share = (1 - h + tiny) / ((1 - h) + (1 - t) + 2 * tiny);
   target.pivot = (1 - share) * model.sole[0] + share * model.sole[1];

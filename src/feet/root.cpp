@@ -8,7 +8,7 @@ namespace kinemend::feet {
 
 namespace {
 
-// The least way down after which the ankle is within reach; 0 where going down does not help.
+// The least way down after which the ankle is within reach; 0 where lowering does not help.
 double drop_for(const LegPose& pose, const Reach& reach, const FootTarget& target, Up up) {
   constexpr double most_share = 0.1, least_cosine = 0.5;
   const Vec3 ankle_at = target.place - rotate(target.rotation, target.pivot);
@@ -74,7 +74,7 @@ std::vector<double> root_drops(const LegMotion& motion, const std::vector<Reach>
     }
   }
   if (!any) return needed;
-  // The maximum over as far as the mean reaches is never undercut by it.
+  // The mean of a maximum over its own width is never below the input.
   const auto reach =
       static_cast<std::size_t>(std::max(1L, std::lround(blend_s * motion.frame_rate_hz / 2)));
   return smoothed(running_maximum(needed, reach), reach);

@@ -7,11 +7,10 @@
 
 namespace kinemend::feet {
 
-/// How far the body goes down in each frame so that all held feet reach their places with a knee
-/// that is no straighter than is good (F, file units, not negative): the least that is enough,
-/// smoothed over time so that it is never less. Zero farther than `blend_s` from where it is
-/// needed. `reaches` and `targets` are F x L. A leg that lies rather than stands asks for nothing,
-/// and no frame for more than a tenth of the leg.
+/// Lowering of the body in each frame so that all held feet reach their places with a sufficiently
+/// bent knee (F, file units, not negative): the least sufficient, smoothed over time without going
+/// below it. Zero farther than `blend_s` from where it is needed. `reaches` and `targets` are F x
+/// L. A lying leg requires none, and the largest is a tenth of the leg.
 std::vector<double> root_drops(const LegMotion& motion, const std::vector<Reach>& reaches,
                                const std::vector<FootTarget>& targets, Up up, double blend_s);
 

@@ -8,18 +8,18 @@
 
 namespace kinemend::feet {
 
-/// One point of a foot, without the jitter that would pass for travel.
+/// One point of a foot, smoothed so that jitter does not count as travel.
 struct SolePoint {
   std::vector<Vec3> path;
   std::vector<double> heights;
   std::vector<Vec3> velocities;  ///< horizontal, a second; of the step that ends in the frame
   std::vector<double> speeds;    ///< in all directions, a second
   std::vector<std::uint8_t> seen;
-  double level = 0;  ///< where it stands as a rule
+  double level = 0;  ///< its usual height when standing
 };
 
-/// What counts as low (statures above a level) and slow (statures a second): thresholds to begin
-/// are tighter than those to go on (hysteresis).
+/// Thresholds of low (body heights above a level) and slow (body heights a second): those to begin
+/// a contact are tighter than those to continue it (hysteresis).
 struct ContactThresholds {
   double begin_height = 0.015, keep_height = 0.03;
   double begin_speed = 0.15, keep_speed = 0.25;

@@ -16,7 +16,7 @@ ContactThresholds thresholds_of(const ContactSettings& s) {
   return {s.begin_height, s.keep_height, s.begin_speed, s.keep_speed};
 }
 
-// Of a coordinate of one frame, from third differences, which motion hardly has.
+// Noise of a coordinate of one frame, from third differences, in which motion is small.
 double noise_of(const BodyPoints& body, std::size_t point) {
   constexpr double of_third_differences = 4.4721359549995796;
   std::vector<double> differences;
@@ -30,7 +30,7 @@ double noise_of(const BodyPoints& body, std::size_t point) {
   return deviations_per_median * median_of(differences) / of_third_differences;
 }
 
-// So far that the noise of a speed stays well below what counts as slow.
+// The reach at which the noise of speeds is well below the threshold of slow.
 double least_reach_s(const BodyPoints& body, std::size_t point, double slow) {
   constexpr double least_s = 0.02, most_s = 0.1, share = 0.3;
   const double allowed = share * slow * body.height;
@@ -39,7 +39,7 @@ double least_reach_s(const BodyPoints& body, std::size_t point, double slow) {
   return std::clamp(needed_s, least_s, most_s);
 }
 
-// Speed of the slower frames in which the point is as low as where it stands.
+// Speed of the slower frames in which the point is at its standing level.
 double standing_speed(const SolePoint& point, double low) {
   constexpr double slower_share = 0.2;
   std::vector<double> speeds;
@@ -50,9 +50,8 @@ double standing_speed(const SolePoint& point, double low) {
   return quantile_of(speeds, slower_share);
 }
 
-// Jitter that a filter left is no white noise: it shows in feet that never seem to stand. Smoothing
-// goes on while it slows them; where stands are short, as in running, it would soon mix them with
-// the swing.
+// Jitter left by a filter is not white; it appears as feet that never stand. Smoothing is increased
+// while it slows them; where stands are short, as in running, more would mix them with the swing.
 SolePoint quiet_sole_point(const BodyPoints& body, std::size_t point, Up up,
                            const ContactSettings& settings) {
   constexpr double quiet = 0.35, times = 1.6, most_s = 0.1, least_gain = 0.15;
@@ -71,10 +70,10 @@ SolePoint quiet_sole_point(const BodyPoints& body, std::size_t point, Up up,
   return best;
 }
 
-// A foot rolls the faster over the floor the faster the body goes, and stands so shortly that
-// smoothing mixes its stand with its swing.
+// A faster body rolls its feet faster, and their stands are so short that smoothing mixes them with
+// the swing.
 std::vector<double> paces_of(const LegMotion& motion, Up up) {
-  constexpr double walk = 1.2;  // statures a second: from 2 m/s on people run
+  constexpr double walk = 1.2;  // body heights a second: from 2 m/s on people run
   constexpr double reach_s = 0.1;
   const auto reach = static_cast<std::size_t>(std::lround(reach_s * motion.frame_rate_hz));
   std::vector<Vec3> hips(motion.frames);

@@ -8,12 +8,12 @@
 
 namespace kinemend::feet {
 
-/// Heels and toes of a motion and how they move: what contacts are found and judged by.
+/// Heels and toes of a motion and their speeds, from which contacts are detected.
 struct Soles {
   BodyPoints body;                ///< as measured; points 2 l + part
-  std::vector<SolePoint> points;  ///< smoothed as far as noise asks for; 2 l + part
-  std::vector<std::uint8_t> has;  ///< 2 l + part; 0 for a part that is not there
-  std::vector<double> paces;      ///< F: how much faster than in a walk the body goes, at least 1
+  std::vector<SolePoint> points;  ///< smoothed according to the noise; 2 l + part
+  std::vector<std::uint8_t> has;  ///< 2 l + part; 0 for a missing part
+  std::vector<double> paces;      ///< F: speed of the body relative to walking, at least 1
   Up up;
   double height = 0;  ///< of the body
 

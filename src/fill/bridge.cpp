@@ -8,6 +8,7 @@ namespace kinemend::fill {
 
 namespace {
 
+// These and the memories were chosen on the takes that docs/methods/fill.md names.
 // The slow part of the errors: its share of their variance, and its memory against the fast one's.
 constexpr double slow_share = 0.4;
 constexpr double slow_memory = 6;

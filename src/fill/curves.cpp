@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+#include <span>
 
 #include "base/quantiles.hpp"
 #include "fill/natural_spline.hpp"
@@ -13,32 +13,42 @@ namespace kinemend::fill {
 
 namespace {
 
-constexpr std::size_t least_support = 48;  // a quintic spline forgets a sample at 2e-18 of it
+// Not swept. A quintic spline forgets a sample at 2e-18 of its value over this support.
+constexpr std::size_t least_support = 48;
+// Below these a spline interpolates, and a line has no outliers. Not swept.
+constexpr std::size_t least_to_smooth = 12, least_robust = 5;
+// Huber's usual constant, of standard deviations; the rounds are not swept.
+constexpr double huber = 1.5 * deviations_per_median;
+constexpr int huber_rounds = 4;
 
 double to_frames(double seconds, const CurveSettings& settings) {
   return seconds * settings.frame_rate_hz;
 }
 
-bool has_sample_before(FrameSpan span) { return span.first > 0; }
-bool has_sample_behind(const Track& track, FrameSpan span) {
-  return span.last + 1 < track.frames();
+template <class Function>
+Vec3 by_component(const Function& function) {
+  return {function(&Vec3::x), function(&Vec3::y), function(&Vec3::z)};
 }
 
-// Up to `most` observed frames before `frame` (not included), ascending.
-std::vector<std::size_t> observed_before(const Track& track, std::size_t frame, std::size_t most) {
-  std::vector<std::size_t> found;
-  for (std::size_t f = frame; f-- > 0 && found.size() < most;) {
-    if (track.observed[f]) found.push_back(f);
-  }
-  std::reverse(found.begin(), found.end());
-  return found;
+// How far a frame of the span is from the last one before it.
+double from_start(FrameSpan span, std::size_t frame) {
+  return static_cast<double>(frame - span.first + 1);
 }
+double steps_across(FrameSpan span) { return static_cast<double>(span.length() + 1); }
 
-std::vector<std::size_t> observed_behind(const Track& track, std::size_t frame, std::size_t most) {
+enum class Side : std::uint8_t { before, behind };
+
+// Up to `most` observed frames on one side of `frame` (not included), ascending.
+std::vector<std::size_t> observed_on(const Track& track, Side side, std::size_t frame,
+                                     std::size_t most) {
+  const bool before = side == Side::before;
+  const std::size_t room = before ? frame : track.frames() - 1 - frame;
   std::vector<std::size_t> found;
-  for (std::size_t f = frame + 1; f < track.frames() && found.size() < most; ++f) {
+  for (std::size_t k = 1; k <= room && found.size() < most; ++k) {
+    const std::size_t f = before ? frame - k : frame + k;
     if (track.observed[f]) found.push_back(f);
   }
+  if (before) std::reverse(found.begin(), found.end());
   return found;
 }
 
@@ -65,12 +75,10 @@ double fitted_slope(std::span<const double> u, std::span<const double> y, std::s
 
 // Huber's weights, by iterated least squares about the median deviation.
 double robust_slope(std::span<const double> u, std::span<const double> y) {
-  constexpr int rounds = 4;
-  constexpr double huber = 1.5 * deviations_per_median;
   if (u.size() < 2) return 0;
   std::vector<double> weights(u.size(), 1.0), residuals(u.size()), sizes(u.size());
   double slope = fitted_slope(u, y, weights, residuals);
-  for (int round = 0; round < rounds && u.size() >= 5; ++round) {
+  for (int round = 0; round < huber_rounds && u.size() >= least_robust; ++round) {
     std::transform(residuals.begin(), residuals.end(), sizes.begin(),
                    [](double r) { return std::fabs(r); });
     const double limit = huber * upper_median_of(sizes);
@@ -83,68 +91,46 @@ double robust_slope(std::span<const double> u, std::span<const double> y) {
   return slope;
 }
 
-// State at `end` from observed frames at one side of a span, no farther than the window.
-EndState state_at(const Track& track, std::size_t end, const std::vector<std::size_t>& frames,
-                  double window) {
-  EndState state;
-  state.known = true;
-  state.value.assign(track.row(end).begin(), track.row(end).end());
+// From observed frames no farther from the end than two windows.
+EndState state_on(const Track& track, Side side, FrameSpan span, const CurveSettings& settings) {
+  const bool before = side == Side::before;
+  if (before ? span.first == 0 : span.last + 1 == track.frames()) return {};
+  const std::size_t window = velocity_window(settings);
+  const std::size_t end = before ? span.first - 1 : span.last + 1;
+  std::vector<std::size_t> frames =
+      observed_on(track, side, before ? span.first : span.last, window);
+  std::erase_if(frames,
+                [&](std::size_t f) { return std::max(f, end) - std::min(f, end) > 2 * window; });
   std::vector<double> u, y(frames.size());
   for (const std::size_t f : frames) {
-    u.push_back((static_cast<double>(f) - static_cast<double>(end)) / window);
+    u.push_back((static_cast<double>(f) - static_cast<double>(end)) / static_cast<double>(window));
   }
-  for (std::size_t c = 0; c < track.channels; ++c) {
-    for (std::size_t i = 0; i < frames.size(); ++i) y[i] = track.row(frames[i])[c];
-    state.velocity.push_back(robust_slope(u, y) / window);
-  }
-  return state;
-}
-
-std::size_t velocity_window(const CurveSettings& settings) {
-  return std::max<std::size_t>(
-      5, static_cast<std::size_t>(std::lround(to_frames(settings.velocity_window_s, settings))));
+  const Vec3 velocity = by_component([&](double Vec3::*c) {
+    for (std::size_t i = 0; i < frames.size(); ++i) y[i] = track.values[frames[i]].*c;
+    return robust_slope(u, y) / static_cast<double>(window);
+  });
+  return {true, track.values[end], velocity};
 }
 
 // u frames beyond an end whose velocity decays.
-double coast(double value, double velocity, double u, double decay_frames) {
-  return value + velocity * decay_frames * (1 - std::exp(-u / decay_frames));
+Vec3 coast(Vec3 value, Vec3 velocity, double u, double decay_frames) {
+  const double reached = 1 - std::exp(-u / decay_frames);
+  return value + reached * (decay_frames * velocity);
 }
 
-void fill_one_sided(const Track& track, FrameSpan span, bool keep_velocity,
+double decay_frames(const CurveSettings& settings) {
+  return std::max(1.0, to_frames(settings.decay_s, settings));
+}
+
+void fill_one_sided(Track& track, FrameSpan span, bool keep_velocity,
                     const CurveSettings& settings) {
-  const bool forward = has_sample_before(span);
+  const bool forward = span.first > 0;
   const EndState end =
       forward ? state_before(track, span, settings) : state_behind(track, span, settings);
-  const double decay = std::max(1.0, to_frames(settings.decay_s, settings));
+  const Vec3 velocity = keep_velocity ? (forward ? 1.0 : -1.0) * end.velocity : Vec3{};
   for (std::size_t f = span.first; f <= span.last; ++f) {
-    const double u =
-        forward ? static_cast<double>(f - span.first + 1) : static_cast<double>(span.last + 1 - f);
-    for (std::size_t c = 0; c < track.channels; ++c) {
-      const double velocity = keep_velocity ? (forward ? 1 : -1) * end.velocity[c] : 0.0;
-      track.row(f)[c] = coast(end.value[c], velocity, u, decay);
-    }
-  }
-}
-
-// Cubic Hermite: slopes per frame.
-double hermite(double y0, double slope0, double y1, double slope1, double length, double u) {
-  const double t = u / length, s = 1 - t;
-  return y0 * s * s * (1 + 2 * t) + y1 * t * t * (1 + 2 * s) +
-         length * t * s * (slope0 * s - slope1 * t);
-}
-
-struct Slopes {
-  std::vector<double> before, behind;
-};
-
-void fill_hermite(const Track& track, FrameSpan span, const Slopes& slopes) {
-  const std::span<const double> y0 = track.row(span.first - 1), y1 = track.row(span.last + 1);
-  const auto length = static_cast<double>(span.length() + 1);
-  for (std::size_t f = span.first; f <= span.last; ++f) {
-    const auto u = static_cast<double>(f - span.first + 1);
-    for (std::size_t c = 0; c < track.channels; ++c) {
-      track.row(f)[c] = hermite(y0[c], slopes.before[c], y1[c], slopes.behind[c], length, u);
-    }
+    const double u = forward ? from_start(span, f) : static_cast<double>(span.last + 1 - f);
+    track.values[f] = coast(end.value, velocity, u, decay_frames(settings));
   }
 }
 
@@ -157,28 +143,25 @@ double fading(double u, double reach) {
 // The straight line between two ends, left and reached with their velocities.
 struct Crossing {
   double length = 0, reach = 0;
-  double value(double y0, double v0, double y1, double v1, double u) const {
-    const double slope = (y1 - y0) / length;
-    return y0 + slope * u + (v0 - slope) * fading(u, reach) -
-           (v1 - slope) * fading(length - u, reach);
+  Vec3 value(const EndState& before, const EndState& behind, double u) const {
+    const Vec3 slope =
+        by_component([&](double Vec3::*c) { return (behind.value.*c - before.value.*c) / length; });
+    return before.value + u * slope + fading(u, reach) * (before.velocity - slope) -
+           fading(length - u, reach) * (behind.velocity - slope);
   }
 };
 
 Crossing crossing_of(FrameSpan span, double reach_s, const CurveSettings& settings) {
-  const auto length = static_cast<double>(span.length() + 1);
+  const double length = steps_across(span);
   return {length, std::min(length, std::max(2.0, to_frames(reach_s, settings)))};
 }
 
-void fill_between_velocities(const Track& track, FrameSpan span, const CurveSettings& settings) {
+void fill_between_velocities(Track& track, FrameSpan span, const CurveSettings& settings) {
   const EndState before = state_before(track, span, settings);
   const EndState behind = state_behind(track, span, settings);
   const Crossing crossing = crossing_of(span, settings.reach_s, settings);
   for (std::size_t f = span.first; f <= span.last; ++f) {
-    const auto u = static_cast<double>(f - span.first + 1);
-    for (std::size_t c = 0; c < track.channels; ++c) {
-      track.row(f)[c] = crossing.value(before.value[c], before.velocity[c], behind.value[c],
-                                       behind.velocity[c], u);
-    }
+    track.values[f] = crossing.value(before, behind, from_start(span, f));
   }
 }
 
@@ -197,79 +180,85 @@ double outer_slope(double h0, double slope0, double h1, double slope1) {
   return slope;
 }
 
-void fill_shape_preserving(const Track& track, FrameSpan span) {
-  const std::size_t left = span.first - 1, right = span.last + 1;
-  const auto before = observed_before(track, left, 1);
-  const auto behind = observed_behind(track, right, 1);
-  const auto length = static_cast<double>(right - left);
-  Slopes slopes{std::vector<double>(track.channels), std::vector<double>(track.channels)};
-  for (std::size_t c = 0; c < track.channels; ++c) {
-    const auto secant = [&](std::size_t from, std::size_t to) {
-      return (track.row(to)[c] - track.row(from)[c]) / static_cast<double>(to - from);
-    };
-    const double middle = secant(left, right);
-    slopes.before[c] = slopes.behind[c] = middle;
-    const double h0 = before.empty() ? 0 : static_cast<double>(left - before[0]);
-    const double h1 = behind.empty() ? 0 : static_cast<double>(behind[0] - right);
-    const double slope0 = before.empty() ? 0 : secant(before[0], left);
-    const double slope1 = behind.empty() ? 0 : secant(right, behind[0]);
-    if (!before.empty()) {
-      slopes.before[c] = inner_slope(h0, slope0, length, middle);
-    } else if (!behind.empty()) {
-      slopes.before[c] = outer_slope(length, middle, h1, slope1);
-    }
-    if (!behind.empty()) {
-      slopes.behind[c] = inner_slope(length, middle, h1, slope1);
-    } else if (!before.empty()) {
-      slopes.behind[c] = outer_slope(length, middle, h0, slope0);
-    }
-  }
-  fill_hermite(track, span, slopes);
+// Cubic Hermite: slopes per frame.
+double hermite(double y0, double slope0, double y1, double slope1, double length, double u) {
+  const double t = u / length, s = 1 - t;
+  return y0 * s * s * (1 + 2 * t) + y1 * t * t * (1 + 2 * s) +
+         length * t * s * (slope0 * s - slope1 * t);
 }
 
-void fill_linear(const Track& track, FrameSpan span) {
-  const std::span<const double> y0 = track.row(span.first - 1), y1 = track.row(span.last + 1);
-  for (std::size_t f = span.first; f <= span.last; ++f) {
-    const double t =
-        static_cast<double>(f - span.first + 1) / static_cast<double>(span.length() + 1);
-    for (std::size_t c = 0; c < track.channels; ++c) {
-      track.row(f)[c] = (1 - t) * y0[c] + t * y1[c];
+void fill_shape_preserving(Track& track, FrameSpan span) {
+  const std::size_t left = span.first - 1, right = span.last + 1;
+  const auto before = observed_on(track, Side::before, left, 1);
+  const auto behind = observed_on(track, Side::behind, right, 1);
+  const double length = steps_across(span);
+  const double h0 = before.empty() ? 0 : static_cast<double>(left - before[0]);
+  const double h1 = behind.empty() ? 0 : static_cast<double>(behind[0] - right);
+  for (double Vec3::*c : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+    const auto secant = [&](std::size_t from, std::size_t to) {
+      return (track.values[to].*c - track.values[from].*c) / static_cast<double>(to - from);
+    };
+    const double middle = secant(left, right);
+    const double outer0 = before.empty() ? 0 : secant(before[0], left);
+    const double outer1 = behind.empty() ? 0 : secant(right, behind[0]);
+    double slope0 = middle, slope1 = middle;
+    if (!before.empty()) {
+      slope0 = inner_slope(h0, outer0, length, middle);
+    } else if (!behind.empty()) {
+      slope0 = outer_slope(length, middle, h1, outer1);
     }
+    if (!behind.empty()) {
+      slope1 = inner_slope(length, middle, h1, outer1);
+    } else if (!before.empty()) {
+      slope1 = outer_slope(length, middle, h0, outer0);
+    }
+    for (std::size_t f = span.first; f <= span.last; ++f) {
+      track.values[f].*c = hermite(track.values[left].*c, slope0, track.values[right].*c, slope1,
+                                   length, from_start(span, f));
+    }
+  }
+}
+
+void fill_linear(Track& track, FrameSpan span) {
+  const Vec3 before = track.values[span.first - 1], behind = track.values[span.last + 1];
+  for (std::size_t f = span.first; f <= span.last; ++f) {
+    const double t = from_start(span, f) / steps_across(span);
+    track.values[f] = (1 - t) * before + t * behind;
   }
 }
 
 // Smoothing leaves the end samples a little beside the curve; the difference goes over from one end
 // to the other with no slope at the ends, which keeps the velocities.
-void meet_end_values(const Track& track, FrameSpan span, std::span<const double> miss_before,
-                     std::span<const double> miss_behind) {
+void meet_end_values(Track& track, FrameSpan span, Vec3 miss_before, Vec3 miss_behind) {
   for (std::size_t f = span.first; f <= span.last; ++f) {
-    const double t =
-        static_cast<double>(f - span.first + 1) / static_cast<double>(span.length() + 1);
+    const double t = from_start(span, f) / steps_across(span);
     const double behind = t * t * (3 - 2 * t);
-    for (std::size_t c = 0; c < track.channels; ++c) {
-      track.row(f)[c] += (1 - behind) * miss_before[c] + behind * miss_behind[c];
-    }
+    track.values[f] += (1 - behind) * miss_before + behind * miss_behind;
   }
 }
 
-void fill_spline(const Track& track, FrameSpan span, bool quintic, const CurveSettings& settings) {
+void fill_spline(Track& track, FrameSpan span, bool quintic, const CurveSettings& settings) {
   const auto support =
       std::max(least_support,
                static_cast<std::size_t>(std::lround(to_frames(settings.support_s, settings))));
-  std::vector<std::size_t> frames = observed_before(track, span.first, support);
+  std::vector<std::size_t> frames = observed_on(track, Side::before, span.first, support);
   const std::size_t left = frames.size() - 1;
-  const auto behind = observed_behind(track, span.last, support);
+  const auto behind = observed_on(track, Side::behind, span.last, support);
   frames.insert(frames.end(), behind.begin(), behind.end());
   const int half_order = quintic ? 3 : 2;
   if (frames.size() < static_cast<std::size_t>(half_order) + 1) return fill_linear(track, span);
 
+  const auto knot_of = [&](std::size_t f) {
+    return static_cast<double>(f) - static_cast<double>(span.first);
+  };
   std::vector<double> knots, values;
   for (const std::size_t f : frames) {
-    knots.push_back(static_cast<double>(f) - static_cast<double>(span.first));
-    values.insert(values.end(), track.row(f).begin(), track.row(f).end());
+    const Vec3 v = track.values[f];
+    knots.push_back(knot_of(f));
+    values.insert(values.end(), {v.x, v.y, v.z});
   }
-  NaturalSpline spline(half_order, std::move(knots), values, track.channels);
-  if (quintic && frames.size() >= 12) {
+  NaturalSpline spline(half_order, std::move(knots), values, 3);
+  if (quintic && frames.size() >= least_to_smooth) {
     // A spline smoothed by s passes half of a wave of w radians a frame where s w^6 = 1.
     const auto smoothing_of = [&](double cutoff_hz) {
       return std::pow(2 * pi * cutoff_hz / settings.frame_rate_hz, -6);
@@ -279,40 +268,34 @@ void fill_spline(const Track& track, FrameSpan span, bool quintic, const CurveSe
   } else {
     spline.fit(0);
   }
+  const auto vector_of = [](std::span<const double> v) { return Vec3{v[0], v[1], v[2]}; };
+  std::array<double, 3> value{};
   for (std::size_t f = span.first; f <= span.last; ++f) {
-    spline.evaluate(static_cast<double>(f) - static_cast<double>(span.first), track.row(f));
+    spline.evaluate(knot_of(f), value);
+    track.values[f] = vector_of(value);
   }
-  std::vector<double> miss_before(track.channels), miss_behind(track.channels);
-  for (std::size_t c = 0; c < track.channels; ++c) {
-    miss_before[c] = track.row(span.first - 1)[c] - spline.knot_values(left)[c];
-    miss_behind[c] = track.row(span.last + 1)[c] - spline.knot_values(left + 1)[c];
-  }
-  meet_end_values(track, span, miss_before, miss_behind);
+  meet_end_values(track, span, track.values[span.first - 1] - vector_of(spline.knot_values(left)),
+                  track.values[span.last + 1] - vector_of(spline.knot_values(left + 1)));
 }
 
 }  // namespace
 
+std::size_t velocity_window(const CurveSettings& settings) {
+  return std::max<std::size_t>(
+      least_robust,
+      static_cast<std::size_t>(std::lround(to_frames(settings.velocity_window_s, settings))));
+}
+
 EndState state_before(const Track& track, FrameSpan span, const CurveSettings& settings) {
-  if (!has_sample_before(span)) return {};
-  const std::size_t window = velocity_window(settings);
-  const std::size_t end = span.first - 1;
-  auto frames = observed_before(track, span.first, window);
-  std::erase_if(frames, [&](std::size_t f) { return end - f > 2 * window; });
-  return state_at(track, end, frames, static_cast<double>(window));
+  return state_on(track, Side::before, span, settings);
 }
 
 EndState state_behind(const Track& track, FrameSpan span, const CurveSettings& settings) {
-  if (!has_sample_behind(track, span)) return {};
-  const std::size_t window = velocity_window(settings);
-  const std::size_t end = span.last + 1;
-  auto frames = observed_behind(track, span.last, window);
-  std::erase_if(frames, [&](std::size_t f) { return f - end > 2 * window; });
-  return state_at(track, end, frames, static_cast<double>(window));
+  return state_on(track, Side::behind, span, settings);
 }
 
-bool fill_with_curve(const Track& track, FrameSpan span, Curve curve,
-                     const CurveSettings& settings) {
-  const bool before = has_sample_before(span), behind = has_sample_behind(track, span);
+bool fill_with_curve(Track& track, FrameSpan span, Curve curve, const CurveSettings& settings) {
+  const bool before = span.first > 0, behind = span.last + 1 < track.frames();
   if (!before && !behind) return false;
   if (!before || !behind) {
     fill_one_sided(track, span, curve != Curve::linear, settings);
@@ -323,10 +306,8 @@ bool fill_with_curve(const Track& track, FrameSpan span, Curve curve,
       fill_linear(track, span);
       break;
     case Curve::cubic:
-      fill_spline(track, span, false, settings);
-      break;
     case Curve::quintic:
-      fill_spline(track, span, true, settings);
+      fill_spline(track, span, curve == Curve::quintic, settings);
       break;
     case Curve::shape_preserving:
       fill_shape_preserving(track, span);
@@ -338,42 +319,30 @@ bool fill_with_curve(const Track& track, FrameSpan span, Curve curve,
   return true;
 }
 
-void place_guess(const Track& track, FrameSpan span, const Guess& guess,
-                 const CurveSettings& settings, double blend_s) {
-  const std::size_t rows = guess.values.size() / track.channels;
-  const std::size_t end_frame = guess.first_frame + rows;
+void place_guess(Track& track, FrameSpan span, const Guess& guess, const CurveSettings& settings) {
   // The difference between samples and guess is a track of its own, seen where the guess is.
-  const std::size_t from = guess.first_frame;
-  std::vector<double> misses(guess.values.size(), 0.0);
-  std::vector<std::uint8_t> seen(rows, 0);
-  for (std::size_t f = from; f < end_frame; ++f) {
-    if (!track.observed[f]) continue;
-    seen[f - from] = 1;
-    for (std::size_t c = 0; c < track.channels; ++c) {
-      const std::size_t at = (f - from) * track.channels + c;
-      misses[at] = track.row(f)[c] - guess.values[at];
-    }
+  const std::size_t from = guess.first_frame, count = guess.values.size();
+  Track misses{std::vector<Vec3>(count), std::vector<std::uint8_t>(count)};
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!track.observed[from + i]) continue;
+    misses.observed[i] = 1;
+    misses.values[i] = track.values[from + i] - guess.values[i];
   }
-  const Track difference{misses, track.channels, seen};
   const FrameSpan inner{span.first - from, span.last - from};
-  const EndState before = state_before(difference, inner, settings);
-  const EndState behind = state_behind(difference, inner, settings);
-  const Crossing crossing = crossing_of(span, blend_s, settings);
-  const double decay = std::max(1.0, to_frames(settings.decay_s, settings));
+  const EndState before = state_before(misses, inner, settings);
+  const EndState behind = state_behind(misses, inner, settings);
+  const Crossing crossing = crossing_of(span, settings.blend_s, settings);
   for (std::size_t f = span.first; f <= span.last; ++f) {
-    const auto u = static_cast<double>(f - span.first + 1);
-    for (std::size_t c = 0; c < track.channels; ++c) {
-      double miss = 0;
-      if (before.known && behind.known) {
-        miss = crossing.value(before.value[c], before.velocity[c], behind.value[c],
-                              behind.velocity[c], u);
-      } else if (before.known) {
-        miss = coast(before.value[c], before.velocity[c], u, decay);
-      } else if (behind.known) {
-        miss = coast(behind.value[c], -behind.velocity[c], crossing.length - u, decay);
-      }
-      track.row(f)[c] = guess.values[(f - from) * track.channels + c] + miss;
+    const double u = from_start(span, f);
+    Vec3 miss;
+    if (before.known && behind.known) {
+      miss = crossing.value(before, behind, u);
+    } else if (before.known) {
+      miss = coast(before.value, before.velocity, u, decay_frames(settings));
+    } else if (behind.known) {
+      miss = coast(behind.value, -behind.velocity, crossing.length - u, decay_frames(settings));
     }
+    track.values[f] = guess.values[f - from] + miss;
   }
 }
 

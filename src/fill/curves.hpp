@@ -2,25 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include "base/frame_span.hpp"
+#include "fill/track.hpp"
 
 namespace kinemend::fill {
-
-/// One joint's or marker's samples in Euclidean channels. Only observed samples are evidence: a
-/// filled one stays marked as missing, so that the order in which gaps are filled does not matter.
-struct Track {
-  std::span<double> values;  ///< frames x channels, the channels of a frame contiguous
-  std::size_t channels = 0;
-  std::span<const std::uint8_t> observed;  ///< frames, 0 where the sample is missing
-
-  std::size_t frames() const noexcept { return observed.size(); }
-  std::span<double> row(std::size_t frame) const {
-    return values.subspan(frame * channels, channels);
-  }
-};
 
 enum class Curve : std::uint8_t {
   linear,
@@ -30,6 +16,8 @@ enum class Curve : std::uint8_t {
   hermite            ///< cubic between robust velocities at both ends, straight far from them
 };
 
+/// The velocity settings (of `velocity_window_s` and `reach_s` on) were chosen on the takes that
+/// docs/methods/fill.md names; the supports and cutoffs are not swept.
 struct CurveSettings {
   double frame_rate_hz = 0;
   double support_s = 0.5;           ///< of the splines: samples used on either side, 48 at least
@@ -37,6 +25,7 @@ struct CurveSettings {
   double most_cutoff_hz = 6;        ///< less would throw the curve where noise is not white
   double velocity_window_s = 0.06;  ///< of end velocities, 5 samples at least
   double reach_s = 0.25;            ///< of `hermite`: end velocities fade so far into the gap
+  double blend_s = 0.1;             ///< of `place_guess`: a miss in velocity fades so far
   double decay_s = 0.15;            ///< an end velocity that nothing continues fades so fast
 };
 
@@ -44,31 +33,32 @@ struct CurveSettings {
 /// in value). At the take's start or end, where only one side is observed, the value goes on with
 /// the end's velocity, which decays (`linear`: is held). False, and nothing is written, where no
 /// sample of the track is observed.
-bool fill_with_curve(const Track& track, FrameSpan span, Curve curve,
-                     const CurveSettings& settings);
+bool fill_with_curve(Track& track, FrameSpan span, Curve curve, const CurveSettings& settings);
 
 /// A guess of a span, such as a regression makes it, with some frames around it.
 struct Guess {
   std::size_t first_frame = 0;
-  std::vector<double> values;  ///< rows of channels from `first_frame` on; at least the span
+  std::vector<Vec3> values;  ///< from `first_frame` on; at least the span
 };
 
 /// Writes the guess into the span, moved so that it meets the samples at the ends in value and
 /// velocity: its difference from them goes over linearly from end to end, the difference in
 /// velocity fades within `blend_s`. The guess has to cover the observed frames next to the span,
 /// about `velocity_window_s` of them on either side; a side it does not cover is not met.
-void place_guess(const Track& track, FrameSpan span, const Guess& guess,
-                 const CurveSettings& settings, double blend_s = 0.1);
+void place_guess(Track& track, FrameSpan span, const Guess& guess, const CurveSettings& settings);
 
 /// Value and velocity (per frame) at one end of a span.
 struct EndState {
   bool known = false;
-  std::vector<double> value;     ///< of the end's own sample
-  std::vector<double> velocity;  ///< of a line through the samples near it, outliers aside
+  Vec3 value;     ///< of the end's own sample
+  Vec3 velocity;  ///< of a line through the samples near it, outliers aside
 };
 
 /// The state at the last observed frame before the span, and at the first one behind it.
 EndState state_before(const Track& track, FrameSpan span, const CurveSettings& settings);
 EndState state_behind(const Track& track, FrameSpan span, const CurveSettings& settings);
+
+/// Frames that an end's velocity is taken from.
+std::size_t velocity_window(const CurveSettings& settings);
 
 }  // namespace kinemend::fill

@@ -8,11 +8,17 @@ namespace kinemend::fill {
 
 namespace {
 
-std::size_t surroundings_of(FrameSpan span, const CurveSettings& settings) {
-  const double frames = std::clamp(0.5 * static_cast<double>(span.length()),
-                                   0.15 * settings.frame_rate_hz, 0.5 * settings.frame_rate_hz);
-  return std::max<std::size_t>(4, static_cast<std::size_t>(std::lround(frames)));
-}
+// Of the surroundings that are compared: a share of the span's length within bounds, and frames at
+// least. Not swept.
+constexpr double compared_share = 0.5, least_compared_s = 0.15, most_compared_s = 0.5;
+constexpr std::size_t least_reach = 4, least_compared = 6;
+// The first search compares so few frames, a lag in every so many seconds, and accepts so many
+// times the largest mismatch (squared); for speed, not swept.
+constexpr std::size_t compared_at_first = 24;
+constexpr double lags_hz = 40, accepted_at_first = 2;
+// A cycle is of use up to so many times the mismatch of the best. Not swept.
+constexpr double worst_of_best = 1.5;
+constexpr double least_square = 1e-6;  // of a mismatch that weighs
 
 // The span with the frames around it that are compared.
 struct Scene {
@@ -20,10 +26,13 @@ struct Scene {
   std::vector<std::size_t> compared;  // observed frames, ascending
 };
 
-Scene scene_of(const Track& track, FrameSpan span, std::size_t reach) {
-  Scene scene;
-  scene.first = span.first - std::min(reach, span.first);
-  scene.last = std::min(span.last + reach, track.frames() - 1);
+Scene scene_of(const Track& track, FrameSpan span, const CurveSettings& settings) {
+  const double frames = std::clamp(compared_share * static_cast<double>(span.length()),
+                                   least_compared_s * settings.frame_rate_hz,
+                                   most_compared_s * settings.frame_rate_hz);
+  const auto reach = std::max(least_reach, static_cast<std::size_t>(std::lround(frames)));
+  const FrameSpan whole = surroundings(span, {}, reach, track.frames());
+  Scene scene{whole.first, whole.last, {}};
   for (std::size_t f = scene.first; f <= scene.last; ++f) {
     if ((f < span.first || f > span.last) && track.observed[f]) scene.compared.push_back(f);
   }
@@ -39,27 +48,27 @@ std::vector<std::size_t> thinned(const std::vector<std::size_t>& frames, std::si
   return chosen;
 }
 
-// Sum over the channels of the squared distances of `value(frame, channel)` from its best line.
+// Sum over the components of the squared distances of `value(frame)` from its best line.
 template <class Value>
-double squares_about_line(const std::vector<std::size_t>& frames, std::size_t channels,
-                          Value value) {
+double squares_about_line(const std::vector<std::size_t>& frames, Value value) {
   double mean_frame = 0, spread = 0;
   const auto count = static_cast<double>(frames.size());
   for (const std::size_t f : frames) mean_frame += static_cast<double>(f) / count;
   for (const std::size_t f : frames) {
     spread += (static_cast<double>(f) - mean_frame) * (static_cast<double>(f) - mean_frame);
   }
+  Vec3 sum, square, product;
+  const Vec3 origin = value(frames[0]);  // keeps the differences of large numbers small
+  for (const std::size_t f : frames) {
+    const Vec3 v = value(f) - origin;
+    sum += v;
+    square += {v.x * v.x, v.y * v.y, v.z * v.z};
+    product += (static_cast<double>(f) - mean_frame) * v;
+  }
   double squares = 0;
-  for (std::size_t c = 0; c < channels; ++c) {
-    double sum = 0, square = 0, product = 0;
-    const double origin = value(frames[0], c);  // keeps the differences of large numbers small
-    for (const std::size_t f : frames) {
-      const double y = value(f, c) - origin;
-      sum += y;
-      square += y * y;
-      product += y * (static_cast<double>(f) - mean_frame);
-    }
-    squares += square - sum * sum / count - (spread > 0 ? product * product / spread : 0.0);
+  for (double Vec3::*c : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+    squares +=
+        square.*c - sum.*c * sum.*c / count - (spread > 0 ? product.*c * product.*c / spread : 0.0);
   }
   return std::max(squares, 0.0);
 }
@@ -83,15 +92,14 @@ class Matcher {
 
   double squares_at(std::ptrdiff_t lag, const std::vector<std::size_t>& frames) const {
     if (!is_usable(lag)) return std::numeric_limits<double>::infinity();
-    return squares_about_line(frames, track_.channels, [&](std::size_t f, std::size_t c) {
+    return squares_about_line(frames, [&](std::size_t f) {
       const auto other = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(f) + lag);
-      return track_.row(other)[c] - track_.row(f)[c];
+      return track_.values[other] - track_.values[f];
     });
   }
 
   double own_squares(const std::vector<std::size_t>& frames) const {
-    return squares_about_line(frames, track_.channels,
-                              [&](std::size_t f, std::size_t c) { return track_.row(f)[c]; });
+    return squares_about_line(frames, [&](std::size_t f) { return track_.values[f]; });
   }
 
  private:
@@ -115,15 +123,14 @@ Cycle refined(const Matcher& matcher, std::ptrdiff_t lag, std::ptrdiff_t step,
 
 std::vector<Cycle> find_cycles(const Track& track, FrameSpan span, const CurveSettings& settings,
                                const CycleSettings& rules) {
-  constexpr std::size_t compared_at_first = 24;
-  const Scene scene = scene_of(track, span, surroundings_of(span, settings));
-  if (scene.compared.size() < 6) return {};
+  const Scene scene = scene_of(track, span, settings);
+  if (scene.compared.size() < least_compared) return {};
   const Matcher matcher(track, scene);
   const std::vector<std::size_t> few = thinned(scene.compared, compared_at_first);
   const double own = matcher.own_squares(scene.compared);
   if (!(own > 0)) return {};
 
-  const auto step = std::max<std::ptrdiff_t>(1, std::lround(settings.frame_rate_hz / 40));
+  const auto step = std::max<std::ptrdiff_t>(1, std::lround(settings.frame_rate_hz / lags_hz));
   const auto farthest =
       std::min(static_cast<std::ptrdiff_t>(track.frames()),
                static_cast<std::ptrdiff_t>(rules.farthest_s * settings.frame_rate_hz));
@@ -134,8 +141,8 @@ std::vector<Cycle> find_cycles(const Track& track, FrameSpan span, const CurveSe
     squares.push_back(matcher.squares_at(lag, few));
   }
   std::vector<Cycle> cycles;
-  const double limit =
-      2 * rules.largest_mismatch * rules.largest_mismatch * matcher.own_squares(few);
+  const double limit = accepted_at_first * rules.largest_mismatch * rules.largest_mismatch *
+                       matcher.own_squares(few);
   for (std::size_t i = 0; i < lags.size(); ++i) {
     const bool is_minimum = (i == 0 || squares[i] <= squares[i - 1]) &&
                             (i + 1 == lags.size() || squares[i] < squares[i + 1]);
@@ -147,28 +154,36 @@ std::vector<Cycle> find_cycles(const Track& track, FrameSpan span, const CurveSe
   std::stable_sort(cycles.begin(), cycles.end(),
                    [](const Cycle& a, const Cycle& b) { return a.mismatch < b.mismatch; });
   if (cycles.size() > rules.most_cycles) cycles.resize(rules.most_cycles);
-  std::erase_if(cycles,
-                [&](const Cycle& cycle) { return cycle.mismatch > 1.5 * cycles[0].mismatch; });
+  std::erase_if(cycles, [&](const Cycle& cycle) {
+    return cycle.mismatch > worst_of_best * cycles[0].mismatch;
+  });
   return cycles;
 }
 
-bool fill_with_cycles(const Track& track, FrameSpan span, std::span<const Cycle> cycles,
+void fill_with_cycles(Track& track, FrameSpan span, std::span<const Cycle> cycles,
                       const CurveSettings& settings) {
-  if (cycles.empty()) return false;
-  const Scene scene = scene_of(track, span, surroundings_of(span, settings));
-  Guess guess{scene.first, {}};
-  guess.values.assign((scene.last - scene.first + 1) * track.channels, 0.0);
+  const Scene scene = scene_of(track, span, settings);
+  Guess guess{scene.first, std::vector<Vec3>(scene.last - scene.first + 1)};
+  const auto weight_of = [](const Cycle& cycle) {
+    return 1 / (cycle.mismatch * cycle.mismatch + least_square);
+  };
   double total = 0;
-  for (const Cycle& cycle : cycles) total += 1 / (cycle.mismatch * cycle.mismatch + 1e-6);
+  for (const Cycle& cycle : cycles) total += weight_of(cycle);
   for (const Cycle& cycle : cycles) {
-    const double weight = 1 / (cycle.mismatch * cycle.mismatch + 1e-6) / total;
+    const double weight = weight_of(cycle) / total;
     const auto from =
         static_cast<std::size_t>(static_cast<std::ptrdiff_t>(scene.first) + cycle.lag);
-    const std::span<const double> source =
-        track.values.subspan(from * track.channels, guess.values.size());
-    for (std::size_t i = 0; i < source.size(); ++i) guess.values[i] += weight * source[i];
+    for (std::size_t i = 0; i < guess.values.size(); ++i)
+      guess.values[i] += weight * track.values[from + i];
   }
   place_guess(track, span, guess, settings);
+}
+
+bool fill_by_cycles(Track& track, FrameSpan span, const CurveSettings& settings,
+                    std::size_t least_cycles) {
+  const std::vector<Cycle> cycles = find_cycles(track, span, settings);
+  if (cycles.size() < least_cycles) return false;
+  fill_with_cycles(track, span, cycles, settings);
   return true;
 }
 

@@ -15,6 +15,7 @@ struct Cycle {
   double mismatch = 0;
 };
 
+/// Not swept, but for `farthest_s`, which bounds the time it takes.
 struct CycleSettings {
   double largest_mismatch = 0.35;
   std::size_t most_cycles = 3;
@@ -32,10 +33,13 @@ struct CycleSettings {
 std::vector<Cycle> find_cycles(const Track& track, FrameSpan span, const CurveSettings& settings,
                                const CycleSettings& rules = {});
 
-/// Fills the span with the mean of these cycles, weighed by how alike they are, moved so that it
-/// meets the samples at its ends in value and velocity (`place_guess`). False, and nothing is
-/// written, without cycles.
-bool fill_with_cycles(const Track& track, FrameSpan span, std::span<const Cycle> cycles,
+/// Fills the span with the mean of these cycles (one at least), weighed by how alike they are,
+/// moved so that it meets the samples at its ends in value and velocity (`place_guess`).
+void fill_with_cycles(Track& track, FrameSpan span, std::span<const Cycle> cycles,
                       const CurveSettings& settings);
+
+/// Both. False, and nothing is written, where fewer than `least_cycles` (at least 1) are found.
+bool fill_by_cycles(Track& track, FrameSpan span, const CurveSettings& settings,
+                    std::size_t least_cycles);
 
 }  // namespace kinemend::fill

@@ -10,12 +10,16 @@ namespace kinemend::fill {
 namespace {
 
 // Exponents of the ratios of mean square differences, for the choice and for the expected error.
-// They and `caution` are from gaps made in the takes that docs/methods/fill.md names.
+// They and `caution` are regressed from gaps made in the takes that docs/methods/fill.md names; the
+// bounds of the ratio are not swept.
 constexpr double choice_exponent = 0.5;
 constexpr double error_exponent = 0.7;
 // Few trials do not show the worst: the error is stated above their root mean square.
 constexpr double caution = 1.3, caution_at_end = 2;
 constexpr double least_ratio = 1.0 / 16, most_ratio = 1e4;
+// Shares of the square of the grain that are added to a spline's square, and to differences that
+// tell of the error. Not swept.
+constexpr double spline_floor = 0.01, error_floor = 0.25;
 
 using Matrix = Eigen::MatrixXd;
 using Indices = std::vector<Eigen::Index>;
@@ -63,18 +67,18 @@ double ratio_of(const Matrix& gap, const std::vector<Matrix>& trials, double flo
 
 }  // namespace
 
-Eigen::MatrixXd products_of(const std::vector<std::vector<Vec3>>& proposals,
-                            std::span<const Vec3> origin) {
-  const auto count = static_cast<Eigen::Index>(proposals.size());
-  Matrix offsets(count, static_cast<Eigen::Index>(3 * origin.size()));
+Eigen::MatrixXd products_of(const Proposals& offsets) {
+  const auto count = static_cast<Eigen::Index>(offsets.size());
+  const std::size_t frames = offsets.empty() ? 0 : offsets.front().size();
+  Matrix rows(count, static_cast<Eigen::Index>(3 * frames));
   for (Eigen::Index c = 0; c < count; ++c) {
-    for (std::size_t i = 0; i < origin.size(); ++i) {
-      const Vec3 off = proposals[static_cast<std::size_t>(c)][i] - origin[i];
+    for (std::size_t i = 0; i < frames; ++i) {
+      const Vec3 off = offsets[static_cast<std::size_t>(c)][i];
       const auto column = static_cast<Eigen::Index>(3 * i);
-      offsets(c, column) = off.x, offsets(c, column + 1) = off.y, offsets(c, column + 2) = off.z;
+      rows(c, column) = off.x, rows(c, column + 1) = off.y, rows(c, column + 2) = off.z;
     }
   }
-  return offsets * offsets.transpose() / static_cast<double>(origin.size());
+  return rows * rows.transpose() / static_cast<double>(frames);
 }
 
 Judgement::Judgement(std::vector<CandidateKind> kinds, Eigen::MatrixXd gap, Trials trials,
@@ -111,7 +115,7 @@ void Judgement::judge_curve(std::size_t candidate) {
   double& square = squares_[candidate];
   if (kinds_[candidate] == CandidateKind::spline) {
     square = std::exp(mean_over(trials_.products, [&](const Matrix& trial) {
-      return std::log(trial(c, c) + 0.01 * floor_ + std::numeric_limits<double>::min());
+      return std::log(trial(c, c) + spline_floor * floor_ + std::numeric_limits<double>::min());
     }));
   } else {
     square = mean_over(trials_.products, [&](const Matrix& trial) { return trial(c, c); });
@@ -150,7 +154,7 @@ double Judgement::expected_error(std::span<const double> weights) const {
   if (others.size() < 2) others = lines_among(kinds_);
   double ratio = 1;
   if (!others.empty()) {
-    ratio = ratio_of(gap_, trials_.products, 0.25 * floor_,
+    ratio = ratio_of(gap_, trials_.products, error_floor * floor_,
                      [&](const Matrix& products) { return spread_about(products, others, w); });
   }
   const double square = mean_over(

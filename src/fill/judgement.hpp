@@ -19,20 +19,23 @@ enum class CandidateKind : std::uint8_t {
 };
 
 /// In gaps of up to this length a spline is hard to beat: another candidate's mean square error has
-/// to be so much less to count as much.
+/// to be so much less to count as much. Chosen on the takes that docs/methods/fill.md names.
 inline constexpr double short_gap_s = 0.1;
 inline constexpr double clearly_better = 4;
 
-/// Mean scalar products, over the frames of one span, of what the candidates propose: C x C. Of a
-/// trial about the truth, so that they are products of errors; of the gap about any one of them.
-Eigen::MatrixXd products_of(const std::vector<std::vector<Vec3>>& proposals,
-                            std::span<const Vec3> origin);
+/// What the candidates propose for some frames of a span, as offsets: from the truth in a trial, in
+/// the gap from any one of them. C x frames.
+using Proposals = std::vector<std::vector<Vec3>>;
+
+/// Their mean scalar products: C x C.
+Eigen::MatrixXd products_of(const Proposals& offsets);
 
 /// Spans of the take that were filled to see how the candidates do.
 struct Trials {
   std::vector<Eigen::MatrixXd> products;  ///< of the candidates' errors; empty: no room
   double longer = 1;                      ///< the gap is, than these; its errors grow with it
   bool at_end = false;                    ///< of the take: one side of the gap tells nothing
+  double weight = 0;  ///< trials that share no frame, fewer where they are shorter than the gap
 };
 
 /// What trials (one at least) tell about the candidates for one gap. The gap may be harder than the

@@ -1,23 +1,17 @@
 #include "fill/local_regression.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
-#include <cmath>
 
 namespace kinemend::fill {
 
 namespace {
 
-constexpr std::size_t most_training_frames = 192;
-constexpr std::size_t most_shape_frames = 64;
-// Observed frames on either side of a gap that tell how a prediction has to be moved.
-constexpr std::size_t most_beside = 12;
-constexpr double reach_s = 0.5;
+constexpr std::size_t most_training_frames = 192, most_shape_frames = 64;  // for speed
+// A distance cannot be known better than to a share of the spread that others have. Not swept.
+constexpr double least_share = 0.003;
 
 // The steadiest companions. They place the group the more, the less their distances vary.
 MarkerGroup make_group(std::span<const Companion> companions, std::size_t most) {
-  // A distance cannot be known better than to a share of the spread that others have.
-  constexpr double least_share = 0.003;
   const std::size_t count = std::min(most, companions.size());
   if (count == 0) return {{}, {}};
   const double floor = least_share * companions[count - 1].spread;
@@ -39,28 +33,23 @@ LocalRegression::LocalRegression(const Samples& samples, const MarkerGap& gap,
                                  std::span<const Companion> companions, std::size_t most_companions)
     : samples_(samples), marker_(gap.marker), group_(make_group(companions, most_companions)) {
   if (group_.markers().empty()) return;
-  const FrameSpan evidence = evidence_around(samples, gap);
-  for (std::size_t f = evidence.first; f <= evidence.last; ++f) {
-    if (samples.measures(f, marker_) && !gap.covers(f) && group_.seen_in(samples, f)) {
-      training_.push_back(f);
-    }
-  }
-  training_ = evenly(training_, most_training_frames);
+  training_.frames = evenly(frames_showing(samples, gap, group_.markers()), most_training_frames);
   if (usable()) learn();
 }
 
 void LocalRegression::learn() {
-  group_.fit_shape(samples_, evenly(training_, most_shape_frames));
-  rows_.resize(static_cast<Eigen::Index>(training_.size()), inputs() + 4);
-  for (std::size_t i = 0; i < training_.size(); ++i) {
-    double* row = &rows_(static_cast<Eigen::Index>(i), 0);
+  const std::vector<std::size_t>& frames = training_.frames;
+  group_.fit_shape(samples_, evenly(frames, most_shape_frames));
+  training_.rows.resize(static_cast<Eigen::Index>(frames.size()), inputs() + 4);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    double* row = &training_.rows(static_cast<Eigen::Index>(i), 0);
     *row++ = 1;
-    const Placement placed = put_inputs(training_[i], row);
-    const Vec3 own = placed.to_local(samples_.at(training_[i], marker_));
+    const Placement placed = put_inputs(frames[i], row);
+    const Vec3 own = placed.to_local(samples_.at(frames[i], marker_));
     row += inputs();
     row[0] = own.x, row[1] = own.y, row[2] = own.z;
   }
-  sums_.noalias() = rows_.transpose() * rows_;
+  training_.sums.noalias() = training_.rows.transpose() * training_.rows;
 }
 
 Placement LocalRegression::put_inputs(std::size_t frame, double* row) const {
@@ -72,28 +61,18 @@ Placement LocalRegression::put_inputs(std::size_t frame, double* row) const {
   return placed;
 }
 
-LocalRegression::Rows LocalRegression::training_inputs() const {
-  return rows_.middleCols(1, inputs());
-}
+Rows LocalRegression::training_inputs() const { return training_.rows.middleCols(1, inputs()); }
 
-LocalRegression::Rows LocalRegression::training_outputs() const { return rows_.rightCols(3); }
-
-// Sums over the training frames outside the span, and how many these are.
-LocalRegression::Rows LocalRegression::sums_without(FrameSpan span, double& count) const {
-  const auto first = std::lower_bound(training_.begin(), training_.end(), span.first);
-  const auto last = std::upper_bound(first, training_.end(), span.last);
-  count = static_cast<double>(rows_.rows() - (last - first));
-  if (first == last) return sums_;
-  const auto hidden = rows_.middleRows(first - training_.begin(), last - first);
-  return sums_ - hidden.transpose() * hidden;
-}
+Rows LocalRegression::training_outputs() const { return training_.rows.rightCols(3); }
 
 LocalRegression::Scene LocalRegression::scene_of(const MarkerGap& gap,
                                                  std::span<const std::size_t> wanted) const {
-  Scene scene{gap.span, {}, {wanted.begin(), wanted.end()}, {}, {}, {}};
-  scene.beside =
-      frames_beside(samples_, gap, most_beside, samples_.frames_in(reach_s, most_beside));
-  std::erase_if(scene.beside, [&](std::size_t f) { return !group_.seen_in(samples_, f); });
+  Scene scene{gap.span,
+              frames_beside(samples_, gap, group_.markers()),
+              {wanted.begin(), wanted.end()},
+              {},
+              {},
+              {}};
   std::vector<std::size_t> frames = scene.beside;
   frames.insert(frames.end(), wanted.begin(), wanted.end());
   scene.inputs.resize(static_cast<Eigen::Index>(frames.size()), inputs());
@@ -108,26 +87,9 @@ LocalRegression::Scene LocalRegression::scene_of(const MarkerGap& gap,
   return scene;
 }
 
-std::vector<LocalRegression::Rows> LocalRegression::predict(
-    const Scene& scene, std::span<const double> stiffness) const {
-  double count = 0;
-  const Rows sums = sums_without(scene.span, count);
-  const double n = std::max(count, 1.0);
-  const Eigen::RowVectorXd mean = sums.row(0) / n;
-  const Eigen::MatrixXd centred = sums - n * mean.transpose() * mean;
-  const Rows deviations = scene.inputs.rowwise() - mean.segment(1, inputs());
-  std::vector<Rows> predictions;
-  for (const double stiff : stiffness) {
-    Rows outputs = mean.tail(3).replicate(scene.inputs.rows(), 1);
-    if (std::isfinite(stiff)) {
-      Eigen::MatrixXd system = centred.block(1, 1, inputs(), inputs());
-      system.diagonal().array() += n * stiff * stiff;
-      outputs.noalias() +=
-          deviations * system.ldlt().solve(centred.block(1, inputs() + 1, inputs(), 3));
-    }
-    predictions.push_back(std::move(outputs));
-  }
-  return predictions;
+std::vector<Rows> LocalRegression::predict(const Scene& scene,
+                                           std::span<const double> stiffness) const {
+  return ridge_regression(training_.sums_without(scene.span, Eigen::all), scene.inputs, stiffness);
 }
 
 Bridge LocalRegression::bridge_of(const Scene& scene, const Bridge::Settings& settings) const {

@@ -1,35 +1,31 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "fill/bridge.hpp"
 #include "fill/marker_group.hpp"
+#include "fill/ridge.hpp"
 
 namespace kinemend::fill {
 
 /// Where a marker is among the markers that keep their distance to it, its companions. In the frame
-/// of reference that moves with them the marker's coordinates y are predicted from theirs, x, by
-/// ridge regression over the frames of the take in which all are seen:
-///
-///     B = argmin |Y - X B|^2 + n stiffness^2 |B|^2,      y = mean(Y) + (x - mean(X)) B.
-///
-/// With infinite stiffness the companions and the marker are one rigid body.
+/// of reference that moves with them the marker's coordinates are predicted from theirs by
+/// `ridge_regression` over the frames of the take in which all are seen; rows are of three
+/// coordinates, or of all companions'. With infinite stiffness the companions and the marker are
+/// one rigid body.
 class LocalRegression {
  public:
-  /// Rows of three coordinates, or of all companions', in the companions' frame of reference.
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
   /// Learns from at most 192 frames outside the gap, with the first `most_companions` of those
-  /// given
-  /// (`companions_of`).
+  /// given (`companions_of`).
   LocalRegression(const Samples& samples, const MarkerGap& gap,
                   std::span<const Companion> companions, std::size_t most_companions);
 
   /// Whether there are companions, and frames to learn from.
-  bool usable() const { return training_.size() >= least_training_frames; }
+  bool usable() const { return training_.frames.size() >= least_training_frames; }
   const MarkerGroup& group() const { return group_; }
 
   /// A span of the take to be predicted: what is seen of the companions in its frames, and of the
@@ -57,22 +53,24 @@ class LocalRegression {
   /// The companions' coordinates about their shape, and the marker's, in the frames learned from.
   Rows training_inputs() const;
   Rows training_outputs() const;
-  const std::vector<std::size_t>& training_frames() const { return training_; }
 
   static constexpr std::size_t least_training_frames = 8;
 
  private:
   Placement put_inputs(std::size_t frame, double* row) const;
   void learn();
-  Rows sums_without(FrameSpan span, double& count) const;
   Eigen::Index inputs() const { return static_cast<Eigen::Index>(3 * group_.markers().size()); }
 
   const Samples& samples_;
   std::size_t marker_;
   MarkerGroup group_;
-  std::vector<std::size_t> training_;
-  Rows rows_;  // training frames x (1, inputs, outputs)
-  Rows sums_;  // rows^T rows
+  TrainingRows training_;  // columns: 1, inputs, outputs
 };
+
+/// How stiff the body is taken to be, from shares of its radius; the last is rigid. Chosen on the
+/// takes that docs/methods/fill.md names.
+inline std::array<double, 3> stiffnesses_of(double radius) {
+  return {0.0015 * radius, 0.008 * radius, std::numeric_limits<double>::infinity()};
+}
 
 }  // namespace kinemend::fill

@@ -3,49 +3,33 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 
-#include "fill/judgement.hpp"
 #include "fill/local_regression.hpp"
 #include "fill/marker_methods.hpp"
+#include "fill/trials.hpp"
 
 namespace kinemend::fill {
 
 namespace {
 
 constexpr std::string_view name = "auto";
+
+// Chosen on the takes that docs/methods/fill.md names. Expected errors beyond this share of the
+// body's radius are refused; none is stated below the other.
+constexpr double largest_error = 0.125, least_error = 1e-4;
+constexpr std::array<std::size_t, 2> group_sizes = {6, 12};  // of companions
+constexpr std::array<double, 2> noises = {1e-4, 2e-2};       // clean samples, and trembling ones
+// A spline goes far astray in a longer gap; a curve whose end velocities fade does not. Not swept.
 constexpr double longest_spline_s = 1;
-constexpr std::size_t trial_frames = 12;
-constexpr std::size_t least_companions = 3;
-// Expected errors beyond this share of the body's radius are refused; none is stated below the
-// other.
-constexpr double largest_error = 0.125;
-constexpr double least_error = 1e-4;
-
-// Groups of companions, and how stiff the body is taken to be (shares of its radius).
-constexpr std::array<std::size_t, 2> group_sizes = {6, 12};
-constexpr std::array<double, 3> stiffnesses = {0.0015, 0.008,
-                                               std::numeric_limits<double>::infinity()};
-// Clean samples, and trembling ones.
-constexpr std::array<double, 2> noises = {1e-4, 2e-2};
-
-std::vector<std::size_t> frames_of(FrameSpan span, std::size_t most) {
-  std::vector<std::size_t> frames(span.length());
-  for (std::size_t i = 0; i < frames.size(); ++i) frames[i] = span.first + i;
-  return evenly(frames, most);
-}
 
 // All ways that a gap may be filled in, ready to be tried on other spans as well.
 class Candidates {
  public:
-  /// One for each candidate: positions in the frames that are asked for.
-  using Proposals = std::vector<std::vector<Vec3>>;
-
   Candidates(const Samples& samples, const MarkerGap& gap)
-      : samples_(samples), companions_(companions_of(samples, gap, helpers_of(samples, gap))) {
-    for (std::size_t s = 0; s < stiffnesses.size(); ++s)
-      stiffness_[s] = stiffnesses[s] * samples.radius;
+      : samples_(samples),
+        companions_(companions_of(samples, gap, helpers_of(samples, gap))),
+        stiffness_(stiffnesses_of(samples.radius)) {
     for (const std::size_t size : group_sizes) {
       if (companions_.size() < least_companions) break;
       if (!regressions_.empty() && companions_.size() <= group_sizes.front()) break;
@@ -77,14 +61,15 @@ class Candidates {
   std::string_view method(std::size_t candidate) const { return methods_[candidate]; }
   std::size_t curve() const { return kinds_.size() - 2; }
 
+  /// One for each candidate: positions in the frames that are asked for.
   Proposals proposals(const MarkerGap& gap, const std::vector<std::size_t>& wanted) const {
     Proposals all;
     for (const LocalRegression& regression : regressions_) {
       const LocalRegression::Scene scene = regression.scene_of(gap, wanted);
-      const std::vector<LocalRegression::Rows> predictions = regression.predict(scene, stiffness_);
+      const std::vector<Rows> predictions = regression.predict(scene, stiffness_);
       for (const double noise : noises) {
         const Bridge bridge = regression.bridge_of(scene, {.noise = noise});
-        for (const LocalRegression::Rows& prediction : predictions)
+        for (const Rows& prediction : predictions)
           all.push_back(LocalRegression::meet_ends(scene, bridge, prediction));
       }
     }
@@ -105,31 +90,37 @@ class Candidates {
 
   const Samples& samples_;
   std::vector<Companion> companions_;
-  std::array<double, stiffnesses.size()> stiffness_{};
+  std::array<double, 3> stiffness_;
   std::vector<LocalRegression> regressions_;
   std::vector<CandidateKind> kinds_;
   std::vector<std::string_view> methods_;
 };
 
-Trials try_out(const Samples& samples, const MarkerGap& gap, const Candidates& candidates) {
-  Trials trials;
-  trials.at_end = gap.span.first == 0 || gap.span.last + 1 == samples.frames;
-  for (const MarkerGap& trial : trial_gaps(samples, gap, candidates.markers_used())) {
-    const std::vector<std::size_t> wanted = frames_of(trial.span, trial_frames);
-    std::vector<Vec3> truth;
-    truth.reserve(wanted.size());
-    for (const std::size_t f : wanted) truth.push_back(samples.at(f, gap.marker));
-    trials.products.push_back(products_of(candidates.proposals(trial, wanted), truth));
-    trials.longer =
-        static_cast<double>(gap.span.length()) / static_cast<double>(trial.span.length());
+Proposals offsets_from(Proposals proposals, const std::vector<Vec3>& origin) {
+  for (std::vector<Vec3>& proposal : proposals) {
+    for (std::size_t i = 0; i < origin.size(); ++i) proposal[i] = proposal[i] - origin[i];
   }
-  return trials;
+  return proposals;
+}
+
+Trials try_candidates(const Samples& samples, const MarkerGap& gap, const Candidates& candidates) {
+  const std::vector<std::size_t> used = candidates.markers_used();
+  TrialRoom room = room_around(gap.span, samples.frames, samples.frame_rate_hz);
+  for (const std::size_t f : frames_showing(samples, gap, used))
+    room.usable[f - room.evidence.first] = 1;
+  return try_out(room, [&](FrameSpan span, const std::vector<std::size_t>& frames) {
+    std::vector<Vec3> truth;
+    truth.reserve(frames.size());
+    for (const std::size_t f : frames) truth.push_back(samples.at(f, gap.marker));
+    return offsets_from(candidates.proposals({gap.marker, span, room.ends}, frames), truth);
+  });
 }
 
 // The proposals for a gap averaged as the trials tell.
 Filling average(const Samples& samples, const MarkerGap& gap, const Candidates& candidates,
-                const Candidates::Proposals& proposals, const Trials& trials) {
-  const Judgement judgement(candidates.kinds(), products_of(proposals, proposals.front()), trials,
+                const Proposals& proposals, const Trials& trials) {
+  const Judgement judgement(candidates.kinds(),
+                            products_of(offsets_from(proposals, proposals.front())), trials,
                             least_error * samples.radius);
   // Curves are candidates in short gaps alone.
   const std::vector<double> weights = judgement.weights(clearly_better);
@@ -137,8 +128,8 @@ Filling average(const Samples& samples, const MarkerGap& gap, const Candidates& 
   Filling filling{std::vector<Vec3>(gap.span.length())};
   for (std::size_t c = 0; c < proposals.size(); ++c) {
     shares[candidates.method(c)] += weights[c];
-    for (std::size_t i = 0; i < filling.positions.size(); ++i)
-      filling.positions[i] += weights[c] * proposals[c][i];
+    for (std::size_t i = 0; i < filling.values.size(); ++i)
+      filling.values[i] += weights[c] * proposals[c][i];
   }
   filling.method = std::max_element(shares.begin(), shares.end(), [](const auto& a, const auto& b) {
                      return a.second < b.second;
@@ -150,18 +141,17 @@ Filling average(const Samples& samples, const MarkerGap& gap, const Candidates& 
 
 Filling without_support(const Samples& samples, const MarkerGap& gap,
                         const MarkerRequest& request) {
-  Filling filling = fill_by_cycles(samples, gap, request);
-  if (!filling.positions.empty()) return filling;
+  Filling filling = fill_marker_by_cycles(samples, gap, request);
+  if (filling.made()) return filling;
   if (request.lenient) {
-    // A spline goes far astray in a long gap; a curve whose end velocities fade does not.
     const bool is_long = gap.span.length() > samples.frames_in(longest_spline_s, 1);
-    return (is_long ? fill_by_hermite : fill_by_spline)(samples, gap, request);
+    return is_long ? fill_by_curve(samples, gap, request, Curve::hermite, "hermite")
+                   : fill_by_curve(samples, gap, request, Curve::cubic, "spline");
   }
-  filling = Filling::refused(name,
-                             "too long for a curve, fewer than three other markers are seen "
-                             "throughout the gap, and no other cycles are alike");
-  filling.may_wait = true;
-  return filling;
+  return Filling::refused(name,
+                          "too long for a curve, fewer than three other markers are seen "
+                          "throughout the gap, and no other cycles are alike",
+                          true);
 }
 
 }  // namespace
@@ -169,9 +159,8 @@ Filling without_support(const Samples& samples, const MarkerGap& gap,
 Filling fill_by_auto(const Samples& samples, const MarkerGap& gap, const MarkerRequest& request) {
   const Candidates candidates(samples, gap);
   if (!candidates.any()) return without_support(samples, gap, request);
-  const Candidates::Proposals proposals =
-      candidates.proposals(gap, frames_of(gap.span, gap.span.length()));
-  const Trials trials = try_out(samples, gap, candidates);
+  const Proposals proposals = candidates.proposals(gap, frames_of(gap.span));
+  const Trials trials = try_candidates(samples, gap, candidates);
   if (trials.products.empty()) {
     if (!request.lenient && !candidates.has_curve() && !candidates.on_a_segment()) {
       return Filling::refused(name, "the marker is seen too little to try a method on it");

@@ -11,6 +11,14 @@ namespace kinemend::fill {
 
 namespace {
 
+// Not swept. Points are taken to lie on one line where the sum of the principal 2 x 2 minors of
+// their scatter is below this share of its squared trace.
+constexpr double least_plane = 0.0025;
+constexpr int shape_rounds = 2;
+constexpr std::size_t most_companion_frames = 192;  // for speed
+// Fewer common frames say nothing about a distance.
+constexpr double least_common = 3;
+
 // The unit quaternion q with the greatest sum of w (R(q) a) . b (Horn 1987), of sums s[i][j] = w
 // a_i b_j. `size` is no less than sum of w |a| |b|: it moves all eigenvalues above zero.
 Quat best_rotation(const double (&s)[3][3], double size) {
@@ -29,11 +37,6 @@ MarkerGroup::MarkerGroup(std::vector<std::size_t> markers, std::vector<double> w
     : markers_(std::move(markers)), weights_(std::move(weights)), shape_(markers_.size()) {
   const double sum = std::accumulate(weights_.begin(), weights_.end(), 0.0);
   for (double& weight : weights_) weight /= sum;
-}
-
-bool MarkerGroup::seen_in(const Samples& samples, std::size_t frame) const {
-  return std::all_of(markers_.begin(), markers_.end(),
-                     [&](std::size_t m) { return samples.sees(frame, m); });
 }
 
 Vec3 MarkerGroup::centre_of(const Samples& samples, std::size_t frame) const {
@@ -77,8 +80,7 @@ void MarkerGroup::fit_shape(const Samples& samples, std::span<const std::size_t>
     take_shape(frames[part * frames.size() / 8]);
     turns_ = spans_a_plane();
   }
-  constexpr int rounds = 2;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < shape_rounds; ++round) {
     std::vector<Vec3> mean(markers_.size());
     for (const std::size_t f : frames) {
       const Placement placed = placement(samples, f);
@@ -95,9 +97,6 @@ void MarkerGroup::fit_shape(const Samples& samples, std::span<const std::size_t>
 
 bool MarkerGroup::spans_a_plane() const {
   if (markers_.size() < 3) return false;
-  // The sum of the principal 2 x 2 minors of the scatter is small beside its squared trace when all
-  // points lie near one line.
-  constexpr double least_share = 0.0025;
   Vec3 centre;
   for (const Vec3& p : shape_) centre += (1 / static_cast<double>(shape_.size())) * p;
   double s[3][3] = {};
@@ -111,18 +110,13 @@ bool MarkerGroup::spans_a_plane() const {
   const double trace = s[0][0] + s[1][1] + s[2][2];
   const double minors = s[0][0] * s[1][1] - s[0][1] * s[0][1] + s[0][0] * s[2][2] -
                         s[0][2] * s[0][2] + s[1][1] * s[2][2] - s[1][2] * s[1][2];
-  return minors > least_share * trace * trace;
+  return minors > least_plane * trace * trace;
 }
 
 std::vector<Companion> companions_of(const Samples& samples, const MarkerGap& gap,
-                                     std::span<const std::size_t> helpers,
-                                     std::size_t most_frames) {
-  std::vector<std::size_t> frames;
-  const FrameSpan evidence = evidence_around(samples, gap);
-  for (std::size_t f = evidence.first; f <= evidence.last; ++f) {
-    if (samples.measures(f, gap.marker) && !gap.covers(f)) frames.push_back(f);
-  }
-  frames = evenly(frames, most_frames);
+                                     std::span<const std::size_t> helpers) {
+  const std::vector<std::size_t> frames =
+      evenly(frames_showing(samples, gap, {}), most_companion_frames);
   std::vector<Companion> companions;
   for (const std::size_t m : helpers) {
     double count = 0, origin = 0, sum = 0, squares = 0;
@@ -135,8 +129,7 @@ std::vector<Companion> companions_of(const Samples& samples, const MarkerGap& ga
       sum += off;
       squares += off * off;
     }
-    // Too few common frames say nothing about a distance.
-    if (count < 3) continue;
+    if (count < least_common) continue;
     const double mean = sum / count;
     companions.push_back({m, std::sqrt(std::max(0.0, squares / count - mean * mean))});
   }

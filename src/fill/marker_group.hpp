@@ -32,7 +32,6 @@ class MarkerGroup {
   /// False for fewer than three markers, or when they lie nearly on one line: the group's turning
   /// is not known then, and placements only shift.
   bool turns() const { return turns_; }
-  bool seen_in(const Samples& samples, std::size_t frame) const;
   Placement placement(const Samples& samples, std::size_t frame) const;
 
  private:
@@ -52,9 +51,8 @@ struct Companion {
 };
 
 /// The helpers by the spread of their distance to the gap's marker, least first; those that are
-/// never seen together with it are left out. At most `most_frames` frames are looked at.
+/// never seen together with it are left out. At most 192 frames are looked at.
 std::vector<Companion> companions_of(const Samples& samples, const MarkerGap& gap,
-                                     std::span<const std::size_t> helpers,
-                                     std::size_t most_frames = 192);
+                                     std::span<const std::size_t> helpers);
 
 }  // namespace kinemend::fill

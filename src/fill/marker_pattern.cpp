@@ -4,21 +4,28 @@
 
 namespace kinemend::fill {
 
+namespace {
+
+// Of the donor's movement beside the gap. Not swept.
+constexpr double beside_s = 0.3;
+constexpr std::size_t least_beside = 16;
+
+}  // namespace
+
 Filling fill_by_pattern(const Samples& samples, const MarkerGap& gap,
                         const MarkerRequest& request) {
   constexpr std::string_view name = "pattern";
   const std::size_t donor = request.donor;
   if (donor == gap.marker) return Filling::refused(name, "the marker is its own donor");
   // The donor's frames without a break that hold the gap, and as many beside it as ends need.
-  const std::size_t reach = samples.frames_in(0.3, 16);
+  const std::size_t reach = samples.frames_in(beside_s, least_beside);
   std::size_t first = gap.span.first, last = gap.span.last;
   for (std::size_t f = first; f <= last; ++f) {
     if (samples.sees(f, donor)) continue;
-    Filling refused =
-        Filling::refused(name, fmt::format("the donor is missing in frame {}",
-                                           static_cast<std::int64_t>(f) + samples.first_frame));
-    refused.may_wait = true;
-    return refused;
+    return Filling::refused(name,
+                            fmt::format("the donor is missing in frame {}",
+                                        static_cast<std::int64_t>(f) + samples.first_frame),
+                            true);
   }
   while (first > 0 && gap.span.first - first < reach && samples.sees(first - 1, donor)) --first;
   while (last + 1 < samples.frames && last - gap.span.last < reach &&
@@ -33,9 +40,12 @@ Filling fill_by_pattern(const Samples& samples, const MarkerGap& gap,
   if (!(before && behind) && !(request.lenient && (before || behind))) {
     return Filling::refused(name, "the donor and the marker are not both seen at the gap's ends");
   }
-  std::vector<Vec3> guess;
-  for (std::size_t f = first; f <= last; ++f) guess.push_back(samples.at(f, donor));
-  return {meet_ends(samples, gap, first, guess), std::string(name)};
+  Track track = track_around(samples, gap);
+  const FrameSpan span = within(track, gap.span);
+  Guess guess{first - track.first_frame, {}};
+  for (std::size_t f = first; f <= last; ++f) guess.values.push_back(samples.at(f, donor));
+  place_guess(track, span, guess, {.frame_rate_hz = samples.frame_rate_hz});
+  return {values_in(track, span), std::string(name)};
 }
 
 }  // namespace kinemend::fill

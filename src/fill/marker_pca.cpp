@@ -1,40 +1,23 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "fill/bridge.hpp"
 #include "fill/marker_methods.hpp"
+#include "fill/ridge.hpp"
 
 namespace kinemend::fill {
 
 namespace {
 
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-constexpr std::size_t least_helpers = 3;
-constexpr std::size_t least_frames = 30;
-constexpr std::size_t most_frames = 1024;
-// Width of the weights by distance: 200 mm on a body whose radius is 450 mm.
+// Not swept, but as Gloersen & Federolf 2016 have it: the width of the weights by distance, 200 mm
+// on a body whose radius is 450 mm.
 constexpr double weight_radius = 0.45;
 constexpr double least_weight = 0.02;
+constexpr std::size_t least_frames = 30;
+constexpr std::size_t most_frames = 1024;  // for speed
 // Components are kept until they hold this share of the weighted variance.
 constexpr double kept_variance = 0.9999;
-
-// Frames that the marker and all helpers are seen in, without the gap.
-std::vector<std::size_t> complete_frames(const Samples& samples, const MarkerGap& gap,
-                                         const std::vector<std::size_t>& helpers) {
-  std::vector<std::size_t> frames;
-  const FrameSpan evidence = evidence_around(samples, gap);
-  for (std::size_t f = evidence.first; f <= evidence.last; ++f) {
-    if (!samples.measures(f, gap.marker) || gap.covers(f)) continue;
-    if (std::all_of(helpers.begin(), helpers.end(),
-                    [&](std::size_t m) { return samples.sees(f, m); })) {
-      frames.push_back(f);
-    }
-  }
-  return frames;
-}
 
 Vec3 centre_of(const Samples& samples, std::size_t frame, const std::vector<std::size_t>& helpers) {
   Vec3 centre;
@@ -113,30 +96,23 @@ Filling fill_by_pca(const Samples& samples, const MarkerGap& gap, const MarkerRe
   constexpr std::string_view name = "pca";
   const std::vector<std::size_t> helpers = helpers_of(samples, gap);
   const std::vector<std::size_t> frames =
-      evenly(complete_frames(samples, gap, helpers), most_frames);
-  if (helpers.size() < least_helpers || frames.size() < least_frames) {
-    Filling refused = Filling::refused(
-        name, helpers.size() < least_helpers
-                  ? "fewer than three other markers are seen throughout the gap"
-                  : "fewer than 30 frames show the marker together with those seen in the gap");
-    refused.may_wait = true;
-    return refused;
+      evenly(frames_showing(samples, gap, helpers), most_frames);
+  if (helpers.size() < least_companions || frames.size() < least_frames) {
+    return Filling::refused(
+        name,
+        helpers.size() < least_companions
+            ? "fewer than three other markers are seen throughout the gap"
+            : "fewer than 30 frames show the marker together with those seen in the gap",
+        true);
   }
   const ComponentRegression regression(samples, gap.marker, helpers, frames, samples.radius);
-  std::vector<std::size_t> beside = frames_beside(samples, gap, 12, samples.frames_in(0.5, 12));
-  std::erase_if(beside, [&](std::size_t f) {
-    return !std::all_of(helpers.begin(), helpers.end(),
-                        [&](std::size_t m) { return samples.sees(f, m); });
-  });
-  std::vector<std::size_t> wanted(gap.span.length());
-  std::iota(wanted.begin(), wanted.end(), gap.span.first);
+  const std::vector<std::size_t> beside = frames_beside(samples, gap, helpers);
+  const std::vector<std::size_t> wanted = frames_of(gap.span);
   std::vector<Vec3> errors, positions;
-  for (const std::size_t f : beside) {
-    errors.push_back(samples.at(f, gap.marker) - regression(f));
-  }
+  for (const std::size_t f : beside) errors.push_back(samples.at(f, gap.marker) - regression(f));
   for (const std::size_t f : wanted) positions.push_back(regression(f));
-  const Bridge bridge(beside, gap.span, wanted, samples.frame_rate_hz, {});
-  const std::vector<Vec3> moves = bridge.carry(errors);
+  const std::vector<Vec3> moves =
+      Bridge(beside, gap.span, wanted, samples.frame_rate_hz, {}).carry(errors);
   for (std::size_t i = 0; i < wanted.size(); ++i) positions[i] += moves[i];
   return {std::move(positions), std::string(name)};
 }

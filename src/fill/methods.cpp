@@ -1,72 +1,176 @@
-#include <array>
+#include "fill/methods.hpp"
 
-#include "kinemend/fill.hpp"
+#include <fmt/format.h>
 
-namespace kinemend {
+#include <algorithm>
+
+#include "kinemend/error.hpp"
+
+namespace kinemend::fill {
 
 namespace {
 
 constexpr bool yes = true, no = false;
 
-// name, summary, paper, rules, markers, joints
+// `about`: name, summary, paper, rules, markers, joints. `joint_rules`: place, kind, usual errors.
 constexpr std::array methods = {
-    FillMethod{"auto", "tries the others on gaps made in the take, and takes what does best", "",
-               "markers: what is expected to be off by less than an eighth of the body's radius; "
-               "joints: what a method's own rule lets it fill, with an expected error of at most "
-               "12.5 degrees "
-               "(positions: 6 % of the skeleton's height)",
-               yes, yes},
-    FillMethod{"spline", "natural cubic spline through the samples around the gap", "",
-               "both ends are seen; at most 0.25 s", yes, yes},
-    FillMethod{
-        "quintic", "quintic spline that smooths as cross-validation tells",
-        "Woltring 1986, A FORTRAN package for generalized, cross-validatory spline smoothing "
-        "and differentiation",
-        "both ends are seen; at most 0.25 s", yes, yes},
-    FillMethod{"pchip", "shape-preserving cubic: no overshoot",
-               "Fritsch & Carlson 1980, Monotone piecewise cubic interpolation",
-               "both ends are seen; at most 0.25 s", yes, yes},
-    FillMethod{"hermite", "cubic between robust velocities at both ends, which fade in long gaps",
-               "", "at most 0.25 s; joints: also 0.1 s at an end of the take", yes, yes},
-    FillMethod{"slerp", "the shortest turn between the ends",
-               "Shoemake 1985, Animating rotation with quaternion curves",
-               "both ends are seen; at most 0.25 s", no, yes},
-    FillMethod{"squad", "smooth turn through the samples around the gap",
-               "Shoemake 1987, Quaternion calculus and fast animation",
-               "both ends are seen; at most 0.25 s", no, yes},
-    FillMethod{"pattern", "the movement of a named marker (the donor), moved to meet both ends", "",
-               "the donor is seen throughout the gap, and with the marker at both ends; any length",
-               yes, no},
-    FillMethod{
-        "rigid-body", "goes with three or more markers of the same segment",
-        "Horn 1987, Closed-form solution of absolute orientation using unit quaternions",
-        "three markers, not on one line, are seen throughout the gap, whose distances to the "
-        "marker spread by at most 2 % of the body's radius; any length",
-        yes, no},
-    FillMethod{
-        "pca", "regression on the principal components of the take",
-        "Gloersen & Federolf 2016, Predicting missing marker trajectories in human motion "
-        "data using marker intercorrelations",
-        "markers: three others are seen throughout the gap, and 30 frames show all of them with "
-        "it, any length; joints: four others are, and 0.5 s and as many frames as the gap has "
-        "show all, at most 5 s",
-        yes, yes},
-    FillMethod{"local-regression",
-               "regressions among the markers that keep their distance, averaged by how likely "
-               "their distances are",
-               "Tits, Tilmanne & Dutoit 2018, Robust and automatic motion-capture data recovery "
-               "using soft skeleton constraints and model averaging",
-               "three other markers are seen throughout the gap, and 8 frames show them with the "
-               "marker; any length",
-               yes, no},
-    FillMethod{"cyclic", "the same phase of other cycles", "",
-               "two other times of the take show the same movement beside the gap, to 35 % of its "
-               "size",
-               yes, yes},
+    Method{.about =
+               {"auto", "tries the others on gaps made in the take, and takes what does best", "",
+                "markers: what is expected to be off by less than an eighth of the body's radius; "
+                "joints: what a method's own rule lets it fill, with an expected error of at most "
+                "12.5 degrees "
+                "(positions: 6 % of the skeleton's height)",
+                yes, yes},
+           .fill_marker = fill_by_auto},
+    Method{.about = {"spline", "natural cubic spline through the samples around the gap", "",
+                     "both ends are seen; at most 0.25 s", yes, yes},
+           .curve = Curve::cubic,
+           .joint_rules = {3, CandidateKind::spline, {1.02, 1.02, 1.03, 1.5, 1.6, 1.9}}},
+    Method{
+        .about =
+            {"quintic", "quintic spline that smooths as cross-validation tells",
+             "Woltring 1986, A FORTRAN package for generalized, cross-validatory spline smoothing "
+             "and differentiation",
+             "both ends are seen; at most 0.25 s", yes, yes},
+        .curve = Curve::quintic,
+        .joint_rules = {4, CandidateKind::curve, {0.87, 0.86, 0.88, 1.6, 2.0, 2.8}}},
+    Method{.about = {"pchip", "shape-preserving cubic: no overshoot",
+                     "Fritsch & Carlson 1980, Monotone piecewise cubic interpolation",
+                     "both ends are seen; at most 0.25 s", yes, yes},
+           .curve = Curve::shape_preserving,
+           .joint_rules = {5, CandidateKind::curve, {0.88, 0.8, 0.84, 0.91, 0.91, 0.95}}},
+    Method{.about = {"hermite",
+                     "cubic between robust velocities at both ends, which fade in long gaps", "",
+                     "at most 0.25 s; joints: also 0.1 s at an end of the take", yes, yes},
+           .curve = Curve::hermite,
+           .joint_rules = {6, CandidateKind::curve, {0.95, 0.92, 0.77, 0.93, 0.97, 1.0}}},
+    Method{.about = {"slerp", "the shortest turn between the ends",
+                     "Shoemake 1985, Animating rotation with quaternion curves",
+                     "both ends are seen; at most 0.25 s", no, yes},
+           .curve = Curve::linear,
+           .joint_rules = {1, CandidateKind::line, {1, 1, 1, 1, 1, 1}}},
+    Method{.about = {"squad", "smooth turn through the samples around the gap",
+                     "Shoemake 1987, Quaternion calculus and fast animation",
+                     "both ends are seen; at most 0.25 s", no, yes},
+           .fill_joint = fill_by_squad,
+           .joint_rules = {2, CandidateKind::curve, {0.95, 1.0, 0.8, 1.1, 1.15, 1.3}}},
+    Method{
+        .about =
+            {"pattern", "the movement of a named marker (the donor), moved to meet both ends", "",
+             "the donor is seen throughout the gap, and with the marker at both ends; any length",
+             yes, no},
+        .fill_marker = fill_by_pattern},
+    Method{
+        .about =
+            {"rigid-body", "goes with three or more markers of the same segment",
+             "Horn 1987, Closed-form solution of absolute orientation using unit quaternions",
+             "three markers, not on one line, are seen throughout the gap, whose distances to the "
+             "marker spread by at most 2 % of the body's radius; any length",
+             yes, no},
+        .fill_marker = fill_by_rigid_body},
+    Method{.about =
+               {"pca", "regression on the principal components of the take",
+                "Gloersen & Federolf 2016, Predicting missing marker trajectories in human motion "
+                "data using marker intercorrelations",
+                "markers: three others are seen throughout the gap, and 30 frames show all of them "
+                "with it, any length; joints: four others are, and 0.5 s and as many frames as the "
+                "gap "
+                "has show all, at most 5 s",
+                yes, yes},
+           .fill_joint = fill_by_poses,
+           .fill_marker = fill_by_pca,
+           .joint_rules = {8,
+                           CandidateKind::model,
+                           {0.98, 0.93, 0.8, 0.72, 0.6, 0.55},
+                           5.0,
+                           1.0,
+                           false,
+                           "too few other joints or frames are observed to predict it from"}},
+    Method{.about =
+               {"local-regression",
+                "regressions among the markers that keep their distance, averaged by how likely "
+                "their distances are",
+                "Tits, Tilmanne & Dutoit 2018, Robust and automatic motion-capture data recovery "
+                "using soft skeleton constraints and model averaging",
+                "three other markers are seen throughout the gap, and 8 frames show them with the "
+                "marker; any length",
+                yes, no},
+           .fill_marker = fill_by_local_regression},
+    Method{.about =
+               {"cyclic", "the same phase of other cycles", "",
+                "two other times of the take show the same movement beside the gap, to 35 % of its "
+                "size",
+                yes, yes},
+           .fill_joint = fill_joint_by_cycles,
+           .fill_marker = fill_marker_by_cycles,
+           .joint_rules = {7,
+                           CandidateKind::model,
+                           {0.88, 0.8, 0.8, 0.85, 0.85, 0.9},
+                           2.0,
+                           1.0,
+                           true,
+                           "no other part of the take is alike around it"}},
 };
 
 }  // namespace
 
-std::span<const FillMethod> fill_methods() { return methods; }
+std::vector<const Method*> joint_methods() {
+  std::vector<const Method*> found;
+  for (const Method& method : methods) {
+    if (method.joint_rules.place > 0) found.push_back(&method);
+  }
+  std::sort(found.begin(), found.end(), [](const Method* a, const Method* b) {
+    return a->joint_rules.place < b->joint_rules.place;
+  });
+  return found;
+}
+
+const Method& find_method(std::string_view name, bool of_joints) {
+  std::vector<std::string_view> known;
+  for (const Method& method : methods) {
+    if (!(of_joints ? method.about.joints : method.about.markers)) continue;
+    if (method.about.name == name) return method;
+    known.push_back(method.about.name);
+  }
+  if (of_joints) {
+    known.resize(1);
+    for (const Method* method : joint_methods()) known.push_back(method->about.name);
+  }
+  throw Error(ErrorKind::usage,
+              fmt::format("fill: expected a method for {} ({}), found \"{}\"",
+                          of_joints ? "joints" : "markers", fmt::join(known, ", "), name));
+}
+
+bool fill_joint(const Method& method, Track& track, FrameSpan span, const JointContext& context) {
+  return method.curve ? fill_with_curve(track, span, *method.curve, context.curve())
+                      : method.fill_joint(track, span, context);
+}
+
+Filling fill_marker(const Method& method, const Samples& samples, const MarkerGap& gap,
+                    const MarkerRequest& request) {
+  return method.curve ? fill_by_curve(samples, gap, request, *method.curve, method.about.name)
+                      : method.fill_marker(samples, gap, request);
+}
+
+}  // namespace kinemend::fill
+
+namespace kinemend {
+
+std::span<const FillMethod> fill_methods() {
+  static const std::vector<FillMethod> all = [] {
+    std::vector<FillMethod> found;
+    found.reserve(fill::methods.size());
+    for (const fill::Method& method : fill::methods) found.push_back(method.about);
+    return found;
+  }();
+  return all;
+}
+
+std::size_t FillReport::filled() const {
+  return static_cast<std::size_t>(
+      std::count_if(gaps.begin(), gaps.end(), [](const GapOutcome& gap) { return gap.filled; }));
+}
+
+std::size_t FillReport::refused() const { return gaps.size() - filled(); }
 
 }  // namespace kinemend

@@ -1,23 +1,28 @@
 #include "fill/pose_regression.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "fill/methods.hpp"
 
 namespace kinemend::fill {
 
 namespace {
 
-// A rotation vector about the mean is smooth up to half a turn; a root's heading says nothing of
-// the pose, its lean does.
+// Not swept. A rotation vector about the mean is smooth up to half a turn; a root's heading says
+// nothing of the pose, its lean does.
 constexpr double farthest_from_mean = 150 * radians_per_degree;
 constexpr double farthest_of_a_root = 45 * radians_per_degree;
+constexpr std::size_t most_frames = 1500;  // for speed
+constexpr std::size_t least_joints = 4;
+constexpr double least_learned_s = 0.5;
+constexpr double stiffness = 1 * radians_per_degree;
 
 Eigen::Index as_index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 }  // namespace
 
-PoseRegression::PoseRegression(const Clip& clip, std::size_t most_frames) : clip_(clip) {
+PoseRegression::PoseRegression(const Clip& clip) : clip_(clip) {
   const std::size_t frames = clip.frame_count(), joints = clip.joint_count();
   step_ = std::max<std::size_t>(1, (frames + most_frames - 1) / most_frames);
   means_.resize(joints);
@@ -41,19 +46,20 @@ PoseRegression::PoseRegression(const Clip& clip, std::size_t most_frames) : clip
   for (std::size_t f = 0; f < frames; f += step_) {
     bool whole = true;
     for (std::size_t j = 0; j < joints && whole; ++j) whole = !usable_[j] || clip.is_observed(f, j);
-    if (whole) frames_.push_back(f);
+    if (whole) training_.frames.push_back(f);
   }
-  rows_ = Rows::Zero(as_index(frames_.size()), as_index(1 + 3 * joints));
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
-    double* row = &rows_(as_index(i), 0);
+  const std::vector<std::size_t>& whole = training_.frames;
+  training_.rows = Rows::Zero(as_index(whole.size()), as_index(1 + 3 * joints));
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    double* row = &training_.rows(as_index(i), 0);
     row[0] = 1;
     for (std::size_t j = 0; j < joints; ++j) {
       if (!usable_[j]) continue;
-      const Vec3 v = vector_of(frames_[i], j);
+      const Vec3 v = vector_of(whole[i], j);
       row[1 + 3 * j] = v.x, row[2 + 3 * j] = v.y, row[3 + 3 * j] = v.z;
     }
   }
-  sums_.noalias() = rows_.transpose() * rows_;
+  training_.sums.noalias() = training_.rows.transpose() * training_.rows;
 }
 
 Vec3 PoseRegression::vector_of(std::size_t frame, std::size_t joint) const {
@@ -72,55 +78,51 @@ std::vector<std::size_t> PoseRegression::predictors_of(std::size_t joint, std::s
   return predictors;
 }
 
-// Sums of products of the columns over the whole frames outside the span.
-PoseRegression::Rows PoseRegression::sums_without(FrameSpan span,
-                                                  const std::vector<Eigen::Index>& columns,
-                                                  std::size_t& count) const {
-  const auto begin = std::lower_bound(frames_.begin(), frames_.end(), span.first);
-  const auto end = std::upper_bound(begin, frames_.end(), span.last);
-  const Eigen::Index at = begin - frames_.begin(), hidden = end - begin;
-  count = frames_.size() - static_cast<std::size_t>(hidden);
-  Rows sums = sums_(columns, columns);
-  if (hidden > 0) {
-    const Rows left_out = rows_.middleRows(at, hidden)(Eigen::all, columns);
-    sums.noalias() -= left_out.transpose() * left_out;
-  }
-  return sums;
-}
-
 std::vector<Quat> PoseRegression::predict(std::size_t joint, FrameSpan span, std::size_t first,
-                                          std::size_t last, double stiffness) const {
+                                          std::size_t last) const {
   if (!usable_[joint]) return {};
   const std::vector<std::size_t> predictors = predictors_of(joint, first, last);
   if (predictors.size() < least_joints) return {};
   std::vector<Eigen::Index> columns = {0};
-  for (const std::size_t j : predictors) {
+  const auto append = [&](std::size_t j) {
     for (std::size_t c = 0; c < 3; ++c) columns.push_back(as_index(1 + 3 * j + c));
-  }
-  for (std::size_t c = 0; c < 3; ++c) columns.push_back(as_index(1 + 3 * joint + c));
-  std::size_t count = 0;
-  Rows sums = sums_without(span, columns, count);
-  const double least = std::max(0.5 * clip_.frame_rate_hz, static_cast<double>(span.length()));
-  if (static_cast<double>(count * step_) < least) return {};
+  };
+  for (const std::size_t j : predictors) append(j);
+  append(joint);
+  const Rows sums = training_.sums_without(span, columns);
+  const double least =
+      std::max(least_learned_s * clip_.frame_rate_hz, static_cast<double>(span.length()));
+  if (sums(0, 0) * static_cast<double>(step_) < least) return {};
 
-  const Eigen::Index inputs = sums.rows() - 3;
-  Eigen::MatrixXd system = sums.topLeftCorner(inputs, inputs);
-  // The mean is not shrunk, up to what keeps the factors finite.
-  system.diagonal().tail(inputs - 1).array() += static_cast<double>(count) * stiffness * stiffness;
-  const Eigen::MatrixXd weights = system.llt().solve(sums.topRightCorner(inputs, 3));
-  std::vector<Quat> rotations;
-  Eigen::RowVectorXd row(inputs);
-  row[0] = 1;
+  Rows inputs(as_index(last - first + 1), as_index(3 * predictors.size()));
   for (std::size_t f = first; f <= last; ++f) {
-    for (std::size_t k = 0; k < predictors.size(); ++k) {
-      const Vec3 v = vector_of(f, predictors[k]);
-      row[as_index(1 + 3 * k)] = v.x, row[as_index(2 + 3 * k)] = v.y,
-                           row[as_index(3 + 3 * k)] = v.z;
+    double* row = &inputs(as_index(f - first), 0);
+    for (const std::size_t j : predictors) {
+      const Vec3 v = vector_of(f, j);
+      *row++ = v.x, *row++ = v.y, *row++ = v.z;
     }
-    const Eigen::RowVector3d y = row * weights;
-    rotations.push_back(means_[joint] * exp({y[0], y[1], y[2]}));
   }
+  const Rows outputs = ridge_regression(sums, inputs, {&stiffness, 1}).front();
+  std::vector<Quat> rotations;
+  rotations.reserve(last - first + 1);
+  for (const auto& y : outputs.rowwise())
+    rotations.push_back(means_[joint] * exp({y[0], y[1], y[2]}));
   return rotations;
+}
+
+// The pose's guess needs frames beside the gap, where it is compared with what was observed.
+bool fill_by_poses(Track& track, FrameSpan span, const JointContext& context) {
+  const CurveSettings settings = context.curve();
+  const auto [first, last] = surroundings(span, {}, velocity_window(settings), track.frames());
+  const std::size_t shift = track.first_frame;
+  const std::vector<Quat> rotations = context.poses.predict(
+      track.joint, {span.first + shift, span.last + shift}, first + shift, last + shift);
+  if (rotations.empty()) return false;
+  Guess guess{first, {}};
+  for (std::size_t f = first; f <= last; ++f)
+    guess.values.push_back(track.chart.vector_of(f, rotations[f - first]));
+  place_guess(track, span, guess, settings);
+  return true;
 }
 
 }  // namespace kinemend::fill

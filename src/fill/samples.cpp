@@ -3,9 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/frame_span.hpp"
+#include "fill/trials.hpp"
 
 namespace kinemend::fill {
+
+namespace {
+
+// The support of the splines, twice for other gaps in it, and at least its frames.
+constexpr double window_s = 0.5;
+constexpr std::size_t least_window = 64;
+// Chosen with the memories of `Bridge`, on the takes that docs/methods/fill.md names.
+constexpr std::size_t most_beside = 12;
+constexpr double beside_s = 0.5;
+constexpr std::size_t most_radius_frames = 64;  // for speed
+
+}  // namespace
 
 std::size_t Samples::frames_in(double seconds, std::size_t least) const {
   return kinemend::frames_in(seconds, frame_rate_hz, least);
@@ -13,8 +25,7 @@ std::size_t Samples::frames_in(double seconds, std::size_t least) const {
 
 double body_radius(const Samples& samples) {
   double sum = 0, count = 0;
-  constexpr std::size_t most_frames = 64;
-  const std::size_t step = samples.frames / most_frames + 1;
+  const std::size_t step = samples.frames / most_radius_frames + 1;
   for (std::size_t f = 0; f < samples.frames; f += step) {
     Vec3 centre;
     double seen = 0;
@@ -32,27 +43,44 @@ double body_radius(const Samples& samples) {
   return count > 0 ? std::sqrt(sum / count) : 0;
 }
 
-FrameSpan evidence_around(const Samples& samples, const MarkerGap& gap) {
-  const std::size_t reach = std::max(samples.frames_in(60, 1), 10 * gap.span.length());
-  return {gap.span.first - std::min(gap.span.first, reach),
-          std::min(samples.frames - 1, gap.span.last + reach)};
+Track track_around(const Samples& samples, const MarkerGap& gap) {
+  const FrameSpan window = surroundings(
+      gap.span, gap.ends, 2 * samples.frames_in(window_s, least_window), samples.frames);
+  Track track{std::vector<Vec3>(window.length()), std::vector<std::uint8_t>(window.length())};
+  track.first_frame = window.first;
+  for (std::size_t f = window.first; f <= window.last; ++f) {
+    if (!samples.measures(f, gap.marker) || gap.covers(f)) continue;
+    track.values[f - window.first] = samples.at(f, gap.marker);
+    track.observed[f - window.first] = 1;
+  }
+  return track;
+}
+
+std::vector<std::size_t> frames_showing(const Samples& samples, const MarkerGap& gap,
+                                        std::span<const std::size_t> others) {
+  const FrameSpan evidence = evidence_around(gap.span, samples.frames, samples.frame_rate_hz);
+  std::vector<std::size_t> frames;
+  for (std::size_t f = evidence.first; f <= evidence.last; ++f) {
+    if (samples.measures(f, gap.marker) && !gap.covers(f) && samples.sees(f, others))
+      frames.push_back(f);
+  }
+  return frames;
 }
 
 std::vector<std::size_t> frames_beside(const Samples& samples, const MarkerGap& gap,
-                                       std::size_t most, std::size_t reach) {
+                                       std::span<const std::size_t> others) {
+  const FrameSpan reached =
+      surroundings(gap.span, gap.ends, samples.frames_in(beside_s, most_beside), samples.frames);
   std::vector<std::size_t> found;
-  const std::size_t before_reach = gap.starts_take ? 0 : reach;
-  const std::size_t lowest = gap.span.first - std::min(gap.span.first, before_reach);
-  for (std::size_t f = gap.span.first; f-- > lowest && found.size() < most;) {
+  for (std::size_t f = gap.span.first; f-- > reached.first && found.size() < most_beside;) {
     if (samples.measures(f, gap.marker)) found.push_back(f);
   }
   std::reverse(found.begin(), found.end());
-  const std::size_t before = found.size();
-  const std::size_t behind_reach = gap.ends_take ? 0 : reach;
-  const std::size_t end = std::min(samples.frames, gap.span.last + 1 + behind_reach);
-  for (std::size_t f = gap.span.last + 1; f < end && found.size() < before + most; ++f) {
+  const std::size_t most = found.size() + most_beside;
+  for (std::size_t f = gap.span.last + 1; f <= reached.last && found.size() < most; ++f) {
     if (samples.measures(f, gap.marker)) found.push_back(f);
   }
+  std::erase_if(found, [&](std::size_t f) { return !samples.sees(f, others); });
   return found;
 }
 
@@ -67,15 +95,6 @@ std::vector<std::size_t> helpers_of(const Samples& samples, const MarkerGap& gap
     if (whole) helpers.push_back(m);
   }
   return helpers;
-}
-
-std::vector<std::size_t> evenly(const std::vector<std::size_t>& frames, std::size_t most) {
-  if (frames.size() <= most) return frames;
-  std::vector<std::size_t> chosen(most);
-  for (std::size_t i = 0; i < most; ++i) {
-    chosen[i] = frames[(2 * i + 1) * frames.size() / (2 * most)];
-  }
-  return chosen;
 }
 
 }  // namespace kinemend::fill

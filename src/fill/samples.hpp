@@ -1,11 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "fill/curves.hpp"
+#include "fill/track.hpp"
 #include "kinemend/marker_clip.hpp"
 
 namespace kinemend::fill {
@@ -32,6 +33,9 @@ struct Samples {
   Vec3 at(std::size_t frame, std::size_t marker) const {
     return positions[frame * markers + marker];
   }
+  bool sees(std::size_t frame, std::span<const std::size_t> all) const {
+    return std::all_of(all.begin(), all.end(), [&](std::size_t m) { return sees(frame, m); });
+  }
   /// Frames in `seconds`, rounded, at least `least`.
   std::size_t frames_in(double seconds, std::size_t least) const;
 };
@@ -41,8 +45,7 @@ struct Samples {
 struct MarkerGap {
   std::size_t marker = 0;
   FrameSpan span;
-  bool starts_take = false;  ///< nothing of the marker is seen before the span
-  bool ends_take = false;    ///< nothing of it is seen behind the span
+  TakeEnds ends = {};  ///< nothing of the marker is seen beyond the span
 
   bool covers(std::size_t frame) const { return frame >= span.first && frame <= span.last; }
 };
@@ -51,19 +54,21 @@ struct MarkerGap {
 /// frames; 0 where no two are seen together.
 double body_radius(const Samples& samples);
 
-/// The frames that a gap is filled from: a minute on either side, or ten times its length where
-/// that is more, so that the cost of a gap does not grow with the take.
-FrameSpan evidence_around(const Samples& samples, const MarkerGap& gap);
+/// The marker's own samples around a gap, which are missing in it: as many as a curve needs, other
+/// gaps between them aside.
+Track track_around(const Samples& samples, const MarkerGap& gap);
 
-/// Observed frames of the gap's marker near the gap, up to `most` on either side and none farther
-/// than `reach` frames, ascending.
+/// The frames of the gap's evidence (`evidence_around`) that show its marker outside the gap and
+/// all of these others.
+std::vector<std::size_t> frames_showing(const Samples& samples, const MarkerGap& gap,
+                                        std::span<const std::size_t> others);
+
+/// Up to 12 observed frames of the gap's marker on either side, which show all of these others too,
+/// within 0.5 s (at least 12 frames) of the gap, ascending: they tell how a guess has to be moved.
 std::vector<std::size_t> frames_beside(const Samples& samples, const MarkerGap& gap,
-                                       std::size_t most, std::size_t reach);
+                                       std::span<const std::size_t> others);
 
 /// The markers that are seen in every frame of the span, without the gap's own.
 std::vector<std::size_t> helpers_of(const Samples& samples, const MarkerGap& gap);
-
-/// Up to `most` of the frames, evenly chosen.
-std::vector<std::size_t> evenly(const std::vector<std::size_t>& frames, std::size_t most);
 
 }  // namespace kinemend::fill

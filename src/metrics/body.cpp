@@ -41,16 +41,17 @@ std::vector<Vec3> track_of(const std::vector<Vec3>& positions, std::size_t joint
 }  // namespace
 
 std::vector<std::size_t> foot_joints(const Skeleton& skeleton) {
-  static constexpr std::array<std::string_view, 5> parts{"foot", "ankle", "heel", "toe", "ball"};
+  static constexpr std::array<std::string_view, 5> fragments{"foot", "ankle", "heel", "toe",
+                                                             "ball"};
   std::vector<std::size_t> found;
   for (std::size_t j = 0; j < skeleton.joint_count(); ++j) {
     std::string name = skeleton.names[j];
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const auto in_name = [&](std::string_view part) {
-      return name.find(part) != std::string::npos;
+    const auto in_name = [&](std::string_view fragment) {
+      return name.find(fragment) != std::string::npos;
     };
-    if (std::any_of(parts.begin(), parts.end(), in_name)) found.push_back(j);
+    if (std::any_of(fragments.begin(), fragments.end(), in_name)) found.push_back(j);
   }
   return found;
 }
@@ -65,7 +66,7 @@ FootSlide foot_slide(const Clip& reference, const Clip& other, const FootSlideSe
                   fmt::format("foot joint {} of {} joints", j, reference.joint_count()));
     }
   }
-  const double height = skeleton_height(reference.skeleton);
+  const double height = body_height(reference.skeleton);
   const double largest_step =
       settings.contact_speed * height / std::max(reference.frame_rate_hz, 1e-9);
   const auto wanted = joint_positions(reference), found = joint_positions(other);

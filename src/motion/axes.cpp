@@ -25,7 +25,7 @@ struct QuarterTurn {
     constexpr double quarter = 0.5 * pi;
     rotation = from == to ? Quat{} : exp(quarter * cross(unit_vector(from), unit_vector(to)));
   }
-  // Without the rounding of the turn, so that coordinates keep their digits.
+  // Exactly, so that coordinates keep their digits.
   Vec3 operator()(Vec3 v) const {
     const Vec3 ex = axis_after(Axis::x), ey = axis_after(Axis::y), ez = axis_after(Axis::z);
     const auto row = [&](std::size_t i) {
@@ -58,7 +58,7 @@ void turn_channels(const QuarterTurn& turn, Skeleton& skeleton) {
   }
 }
 
-// How far the lowest and the highest point of the body wander along an axis.
+// Ranges of the lowest and the highest point of the body along an axis.
 struct Wandering {
   std::vector<double> lowest, highest;
 
@@ -94,7 +94,7 @@ Axis up_axis(std::size_t frames, Axis fallback, Visit visit) {
   std::array<double, 3> least{};
   for (std::size_t a = 0; a < 3; ++a) least[a] = axes[a].least();
   const auto best = std::min_element(least.begin(), least.end()) - least.begin();
-  // A body that does not move tells nothing.
+  // A body that does not move gives no evidence.
   const double most = *std::max_element(least.begin(), least.end());
   return most > 0 ? static_cast<Axis>(best) : fallback;
 }

@@ -11,7 +11,7 @@
 
 namespace kinemend {
 
-double skeleton_height(const Skeleton& skeleton) {
+double body_height(const Skeleton& skeleton) {
   Clip rest;
   rest.skeleton = skeleton;
   rest.root_positions.resize(1);
@@ -29,7 +29,7 @@ std::optional<LengthUnit> guess_length_unit(const Skeleton& skeleton) {
   // The CMU database's unit is 1 / 0.45 inch. The ranges of heights do not overlap.
   static constexpr std::array<LengthUnit, 5> units{
       {{"m", 1.0}, {"CMU unit", 0.0254 / 0.45}, {"inch", 0.0254}, {"cm", 0.01}, {"mm", 0.001}}};
-  const double height = skeleton_height(skeleton);
+  const double height = body_height(skeleton);
   for (const LengthUnit& unit : units) {
     const double metres = height * unit.metres;
     if (metres >= 1.2 && metres <= 2.5) return unit;

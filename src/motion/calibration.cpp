@@ -67,8 +67,8 @@ void on_motion(Clip& clip, std::size_t frames, const std::function<void(Clip&)>&
   put_front(clip, front);
 }
 
-const Clip& frames_from(const Clip& clip, std::size_t first, std::optional<Clip>& part) {
-  return first == 0 ? clip : part.emplace(slice(clip, first, clip.frame_count()));
+const Clip& frames_from(const Clip& clip, std::size_t first, std::optional<Clip>& sliced) {
+  return first == 0 ? clip : sliced.emplace(slice(clip, first, clip.frame_count()));
 }
 
 }  // namespace kinemend

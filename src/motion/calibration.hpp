@@ -6,16 +6,16 @@
 
 #include "kinemend/clip.hpp"
 
-// The motion of a clip without what stands before it (`leading_calibration_frames`).
+// The motion of a clip without its calibration frames (`leading_calibration_frames`).
 namespace kinemend {
 
 /// Calls `work` with the clip without its first `frames` frames, and puts these back as they were,
-/// also where `work` throws. It may change any sample and bring masks along, but not the number of
-/// frames. Of a mask that only it brings, the frames put back are observed.
+/// also where `work` throws. It may change any sample and add masks, but not the number of frames.
+/// In a mask that it adds, the frames put back are observed.
 void on_motion(Clip& clip, std::size_t frames, const std::function<void(Clip&)>& work);
 
-/// The clip from frame `first` on, to be read: itself where that is 0, for a long one is not
-/// copied; else put into `part`.
-const Clip& frames_from(const Clip& clip, std::size_t first, std::optional<Clip>& part);
+/// The clip from frame `first` on, for reading: the clip itself where that is 0, which avoids a
+/// copy; else a slice stored in `sliced`.
+const Clip& frames_from(const Clip& clip, std::size_t first, std::optional<Clip>& sliced);
 
 }  // namespace kinemend

@@ -37,7 +37,7 @@ Turn turn_between(const Clip& clip, std::size_t first, std::size_t second) {
   return turn;
 }
 
-// The pose of a calibration frame: roots may be turned, the joints are nearly at rest. The T-pose
+// The pose of a calibration frame: roots may be turned, joints are nearly at rest. The T-pose
 // of the CMU files turns hips and feet by up to 21 degrees, 3.5 on average.
 bool is_near_rest(const Clip& clip, std::size_t frame) {
   constexpr double largest = 25 * radians_per_degree, largest_mean = 6 * radians_per_degree;
@@ -53,7 +53,7 @@ bool is_near_rest(const Clip& clip, std::size_t frame) {
   return sum <= largest_mean * static_cast<double>(joints);
 }
 
-// Mean turn of the joints that nine steps in ten stay under, from `first` on.
+// 90 % quantile of the joints' mean turn per step, from `first` on.
 double usual_step(const Clip& clip, std::size_t first, std::size_t last) {
   std::vector<double> steps;
   for (std::size_t f = first; f + 1 < last; ++f) steps.push_back(turn_between(clip, f, f + 1).mean);
@@ -103,18 +103,18 @@ Clip slice(const Clip& clip, std::size_t first, std::size_t last) {
     return Values(values.begin() + static_cast<std::ptrdiff_t>(first * width),
                   values.begin() + static_cast<std::ptrdiff_t>(last * width));
   };
-  Clip part;
-  part.skeleton = clip.skeleton;
-  part.frame_rate_hz = clip.frame_rate_hz;
-  part.metres_per_unit = clip.metres_per_unit;
-  part.root_positions = rows(clip.root_positions, 1);
-  part.local_rotations = rows(clip.local_rotations, clip.joint_count());
-  part.translated_joints = clip.translated_joints;
-  part.joint_translations = rows(clip.joint_translations, clip.translated_joints.size());
-  part.observed = rows(clip.observed, clip.joint_count());
-  part.observed_positions = rows(clip.observed_positions, 1 + clip.translated_joints.size());
-  part.source.name = clip.source.name;
-  return part;
+  Clip result;
+  result.skeleton = clip.skeleton;
+  result.frame_rate_hz = clip.frame_rate_hz;
+  result.metres_per_unit = clip.metres_per_unit;
+  result.root_positions = rows(clip.root_positions, 1);
+  result.local_rotations = rows(clip.local_rotations, clip.joint_count());
+  result.translated_joints = clip.translated_joints;
+  result.joint_translations = rows(clip.joint_translations, clip.translated_joints.size());
+  result.observed = rows(clip.observed, clip.joint_count());
+  result.observed_positions = rows(clip.observed_positions, 1 + clip.translated_joints.size());
+  result.source.name = clip.source.name;
+  return result;
 }
 
 std::size_t leading_calibration_frames(const Clip& clip) {
@@ -124,9 +124,9 @@ std::size_t leading_calibration_frames(const Clip& clip) {
   std::size_t count = 0;
   while (count < most_frames && count < frames && is_near_rest(clip, count)) ++count;
   if (count == 0 || count == most_frames || count + 2 > frames) return 0;
-  // Motion that starts from the rest pose speeds up from frame to frame; after a calibration pose
-  // one step stands out. Means over joints and a percentile of the steps keep that true of noisy
-  // takes.
+  // Motion that starts from the rest pose accelerates over several frames; after a calibration pose
+  // one step is an outlier. Means over joints and a percentile of the steps make this robust to
+  // noise.
   const Turn jump = turn_between(clip, count - 1, count);
   const double next = turn_between(clip, count, count + 1).mean;
   const double usual = usual_step(clip, count, frames);

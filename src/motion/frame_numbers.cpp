@@ -34,4 +34,8 @@ std::int64_t first_frame_number(const Clip& clip) {
 
 std::int64_t first_frame_number(const MarkerClip& clip) { return clip.first_frame; }
 
+std::int64_t frame_number(std::size_t frame, std::int64_t first) {
+  return static_cast<std::int64_t>(frame) + first;
+}
+
 }  // namespace kinemend

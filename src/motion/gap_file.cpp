@@ -24,7 +24,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-// Takes the first line off, without its end (LF, CRLF or CR).
+// Removes and returns the first line, without its end (LF, CRLF or CR).
 std::string_view take_line(std::string_view& text) {
   const std::size_t end = text.find_first_of("\r\n");
   const std::string_view line = text.substr(0, end);
@@ -37,8 +37,8 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-// Takes a cell and the comma behind it off; a quoted cell doubles its quotes. None for a quote that
-// does not end, or that ends inside the cell.
+// Removes and returns a cell, and the comma behind it; a quoted cell doubles its quotes. None for a
+// quote that does not end, or that ends inside the cell.
 std::optional<std::string> take_cell(std::string_view& line) {
   line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
   std::string cell;
@@ -76,7 +76,7 @@ std::vector<std::string> cells_of(std::string_view line, std::string_view name,
 
 // From `least` on.
 std::optional<std::int64_t> frame_number(std::string_view text, std::int64_t least) {
-  // Far more than any take has, and far from where sums of two overflow.
+  // More than any take has, and such that sums of two do not overflow.
   constexpr std::int64_t most = std::int64_t{1} << 53;
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -28,7 +28,7 @@ void append_gaps(std::size_t track, std::size_t frames, IsMissing is_missing,
   }
 }
 
-// Calls `mark(track, first, last)` for every track that each gap means.
+// Calls `mark(track, first, last)` for every track of each gap.
 template <class Mark>
 void for_each_named(std::span<const NamedGap> gaps, const std::vector<std::string>& names,
                     std::size_t frames, std::int64_t first_number, std::string_view kind,
@@ -44,7 +44,7 @@ void for_each_named(std::span<const NamedGap> gaps, const std::vector<std::strin
                       kind, gap.name, number(gap.first_frame), number(gap.last_frame), first_number,
                       number(frames) - 1));
     }
-    // The very name first, for a marker without a label may be called *12.
+    // The exact name first: a marker without a label may be called *12.
     const bool has_name = std::find(names.begin(), names.end(), gap.name) != names.end();
     const std::vector<std::uint8_t> meant =
         has_name ? std::vector<std::uint8_t>{} : names_meant(names, gap.name);

@@ -78,7 +78,7 @@ Clip without_rest_rotations(const Clip& clip) {
           make_channels(skeleton.has_position_channels(j), parse_rotation_order("ZYX"));
     }
   }
-  // Limits are angles about axes that are gone.
+  // Limits are angles about axes that no longer exist.
   skeleton.limits.clear();
   for (EndSite& site : skeleton.end_sites) {
     site.offset = rotate(rest_of(site.parent), site.offset);

@@ -99,19 +99,19 @@ MarkerClip positions_only(const MarkerClip& clip) {
 
 MarkerClip slice(const MarkerClip& clip, std::size_t first, std::size_t last) {
   const std::size_t markers = clip.marker_count();
-  MarkerClip part;
-  part.names = clip.names;
-  part.frame_rate_hz = clip.frame_rate_hz;
-  part.first_frame = clip.first_frame + static_cast<std::int64_t>(first);
-  part.positions = rows(clip.positions, first, last, markers);
-  part.observed = rows(clip.observed, first, last, markers);
-  part.residuals = rows(clip.residuals, first, last, markers);
-  part.is_position = clip.is_position;
-  part.unit = clip.unit;
-  part.events = clip.events;
-  part.source.name = clip.source.name;
-  part.source.format = clip.source.format;
-  return part;
+  MarkerClip result;
+  result.names = clip.names;
+  result.frame_rate_hz = clip.frame_rate_hz;
+  result.first_frame = clip.first_frame + static_cast<std::int64_t>(first);
+  result.positions = rows(clip.positions, first, last, markers);
+  result.observed = rows(clip.observed, first, last, markers);
+  result.residuals = rows(clip.residuals, first, last, markers);
+  result.is_position = clip.is_position;
+  result.unit = clip.unit;
+  result.events = clip.events;
+  result.source.name = clip.source.name;
+  result.source.format = clip.source.format;
+  return result;
 }
 
 double metres_per_unit(std::string_view unit) {

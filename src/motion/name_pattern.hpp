@@ -5,21 +5,21 @@
 #include <string_view>
 #include <vector>
 
-// Joints and markers as people name them.
+// Matching of joints and markers by name.
 namespace kinemend {
 
-/// Capitals of ASCII made small.
+/// In lower case (ASCII).
 std::string small_letters(std::string_view text);
-/// Whether two names are the same but for the capitals of ASCII.
+/// Whether two names are equal except for case (ASCII).
 bool same_but_for_case(std::string_view a, std::string_view b);
 
-/// N marks, 1 where a name is meant: it has that very name or matches the shell pattern, with or
-/// without its subject. Where none does, capitals do not count. All are 0 where none is meant.
+/// N marks, 1 where a name equals the given one or matches the shell pattern, with or without its
+/// subject. Where none does, case is ignored. All are 0 without a match.
 std::vector<std::uint8_t> names_meant(const std::vector<std::string>& names,
                                       const std::string& pattern);
 
-/// N marks of all that the patterns mean; of all where there is no pattern. Errors:
-/// `ErrorKind::usage` for a pattern that means none; `kind` ("joint", "marker") stands in it.
+/// N marks of all matches of the patterns; of all names where there is no pattern. Errors:
+/// `ErrorKind::usage` for a pattern without a match, which states `kind` ("joint", "marker").
 std::vector<std::uint8_t> names_meant(const std::vector<std::string>& names,
                                       const std::vector<std::string>& patterns,
                                       std::string_view kind);

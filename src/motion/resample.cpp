@@ -15,7 +15,7 @@ namespace {
 
 constexpr double most_samples = 1e8;
 
-// Where a new frame lies among the old ones: `share` of the way from `before` to `before + 1`.
+// Position of a new frame among the old ones: `share` of the way from `before` to `before + 1`.
 struct Place {
   std::size_t before = 0;
   double share = 0;
@@ -24,7 +24,7 @@ struct Place {
 std::vector<Place> places(std::size_t frames, std::size_t tracks, double old_rate, double rate) {
   check_frame_rate(rate);
   if (frames == 0) return {};
-  constexpr double rounding = 1e-6;  // of a frame: what the rates' own digits leave open
+  constexpr double rounding = 1e-6;  // of a frame: rounding of the rates
   const double step = old_rate / rate, last = static_cast<double>(frames - 1);
   const double count = std::floor(last / step + rounding) + 1;
   if (count * static_cast<double>(std::max<std::size_t>(tracks, 1)) > most_samples) {
@@ -49,7 +49,7 @@ std::array<double, 4> cubic_weights(double u) {
 }
 
 // The four frames about a place; the outer ones are missing where the take ends or a sample is not
-// observed, and then a straight line goes on.
+// observed, and are then extrapolated linearly.
 struct Neighbours {
   std::size_t outer_before, before, after, outer_after;
   bool has_outer_before, has_outer_after;
@@ -85,11 +85,11 @@ Quat interpolate_rotation(const Neighbours& n, double u, At at) {
 
 bool always(std::size_t) { return true; }
 
-// As it is shown: with six digits.
+// With six digits.
 bool is_own_rate(double own, double rate) { return std::fabs(rate - own) <= 5e-6 * own; }
 
-// The number that the new first frame has in a trial whose frame 1 stays where it is, as nearly as
-// whole numbers can say; events are timed from there, and keep their moment of the motion.
+// The number that the new first frame has in a trial whose frame 1 stays where it is, rounded;
+// events are timed from there, and keep their moment of the motion.
 void renumber(const MarkerClip& clip, MarkerClip& result) {
   const double before_s = static_cast<double>(clip.first_frame - 1) / clip.frame_rate_hz;
   result.first_frame = clip.first_frame;

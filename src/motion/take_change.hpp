@@ -7,28 +7,27 @@
 
 namespace kinemend {
 
-/// What a conversion did to all of a take, as far as it concerns what else its file holds.
+/// Changes of a take by a conversion that other contents of its file have to follow.
 struct TakeChange {
   double length_factor = 1;  ///< lengths were multiplied by it
   std::array<Vec3, 3> axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-  ///< where the three unit vectors went: signed unit vectors
-  bool resampled = false;     ///< other frames, from the same first moment on
-  bool drops_layout = false;  ///< the take is to be written anew
+  ///< images of the three unit vectors: signed unit vectors
+  bool resampled = false;     ///< other frames, starting at the same time
+  bool drops_layout = false;  ///< the file is written without its former layout
 
   bool turns() const { return !(axes[0] == Vec3{1, 0, 0} && axes[1] == Vec3{0, 1, 0}); }
   Vec3 turned(Vec3 v) const { return v.x * axes[0] + v.y * axes[1] + v.z * axes[2]; }
 };
 
-/// First one change, then the other.
+/// The composition of a first and a second change.
 TakeChange both(const TakeChange& first, const TakeChange& second);
 
-/// A document whose file holds more than the take, all of which follows the take through a
-/// conversion.
+/// A document of a file with further contents, which follow the take through a conversion.
 struct FollowingDocument : SourceDocument {
   virtual std::shared_ptr<const SourceDocument> after(const TakeChange& change) const = 0;
 };
 
-/// The document of a take after a change; null where it says nothing beyond the take.
+/// The document of a take after a change; null where it holds nothing beyond the take.
 std::shared_ptr<const SourceDocument> document_after(const SourceInfo& source,
                                                      const TakeChange& change);
 

@@ -56,8 +56,8 @@ void multiply_in_depth(const BasicMatrixView<Real>& a, std::size_t depth,
     }
   }
   for (std::size_t first = 0; first < depth; first += gemm_depth) {
-    const std::size_t part = std::min(gemm_depth, depth - first);
-    multiply_packed(a, first, part, panels(first, part), c, first == 0 ? product : Product::add);
+    const std::size_t rows = std::min(gemm_depth, depth - first);
+    multiply_packed(a, first, rows, panels(first, rows), c, first == 0 ? product : Product::add);
   }
 }
 

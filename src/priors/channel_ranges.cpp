@@ -33,11 +33,11 @@ double ChannelRanges::quantile(std::size_t channel, double share) const {
   double below = 0;
   std::size_t bin = 0;
   while (bin + 1 < bins && below + counts[bin] < share * total) below += counts[bin++];
-  // The first bin with anything in it, where the share is 0.
+  // The first non-empty bin, where the share is 0.
   while (bin + 1 < bins && counts[bin] == 0) ++bin;
-  const double part =
+  const double fraction =
       counts[bin] > 0 ? std::clamp((share * total - below) / counts[bin], 0.0, 1.0) : 0.0;
-  return (static_cast<double>(bin) + part) * bin_width - farthest;
+  return (static_cast<double>(bin) + fraction) * bin_width - farthest;
 }
 
 }  // namespace kinemend

@@ -7,8 +7,7 @@
 
 namespace kinemend {
 
-/// How the values of each channel are spread, in degrees, counted in bins: memory does not depend
-/// on how many there are.
+/// Histogram of the values of each channel, in degrees: memory does not depend on their number.
 class ChannelRanges {
  public:
   explicit ChannelRanges(std::size_t channels);

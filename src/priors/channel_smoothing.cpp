@@ -6,7 +6,7 @@
 
 namespace kinemend {
 
-// Channels are brought to one noise, so that it is alike in all directions.
+// Channels are scaled to the same noise, which is then isotropic.
 void smooth_channels(PoseMatrix& poses, std::span<const std::uint8_t> missing,
                      std::span<const double> noise, double frame_rate_hz) {
   constexpr std::size_t fewest_smoothed_frames = 16;

@@ -15,23 +15,23 @@ namespace kinemend {
 
 namespace {
 
-// What is prepared for the products of all iterations is worth it for so many.
+// Number of products for which their preparation is chosen.
 constexpr std::size_t usual_iterations = 12;
-// Less of a plane's area than this, relative to its sides, and it is a line.
+// Least relative area of two directions that count as independent.
 constexpr double least_area = 1e-12;
 
 constexpr std::size_t frames_at_once = 64;
-// What a frame becomes depends on those within a window in the linear filter; in the other one on
-// all, but next to nothing on those farther off than two.
+// A frame of the result depends on frames within a window in the linear filter; in the other on
+// all, but negligibly on those beyond two windows.
 constexpr std::size_t linear_margin = 1, margin = 2;
 
-// The sum over all frames of part(first, last), in an order that does not depend on threads.
-template <typename Sum, typename Part>
-Sum sum_over_frames(std::size_t frames, const Part& part) {
+// The sum over all frames of summand(first, last), in an order independent of threads.
+template <typename Sum, typename Summand>
+Sum sum_over_frames(std::size_t frames, const Summand& summand) {
   const tbb::blocked_range<std::size_t> all(0, frames, frames_at_once);
   return tbb::parallel_deterministic_reduce(
       all, Sum{},
-      [&](const auto& range, const Sum& sum) { return sum + part(range.begin(), range.end()); },
+      [&](const auto& range, const Sum& sum) { return sum + summand(range.begin(), range.end()); },
       std::plus<Sum>());
 }
 
@@ -62,7 +62,7 @@ class Minimisation {
     }
   }
 
-  // The objective before the first iteration and behind each.
+  // The objective before the first iteration and after each.
   std::vector<double> run() {
     std::vector<double> trace;
     scale_ = std::max(settings_.first_welsch, 1.0);
@@ -85,7 +85,7 @@ class Minimisation {
     return trace;
   }
 
-  // What was minimised, which is used up.
+  // Returns the minimiser and invalidates this object.
   PoseMatrix take_poses() {
     PoseMatrix poses = std::move(z_);
     poses.values.resize(frames_ * channels_);
@@ -95,7 +95,7 @@ class Minimisation {
   }
 
  private:
-  // Frames behind the clip belong to nothing, and begin where it ends.
+  // Frames behind the clip are padding, initially its last frame.
   static PoseMatrix padded(PoseMatrix poses, std::size_t frames) {
     const std::size_t channels = poses.channels, last = poses.values.size() - channels;
     poses.values.reserve(frames * channels);
@@ -116,8 +116,8 @@ class Minimisation {
     return z_(f, c) - (measured_[f * channels_ + c] - mean_[c]);
   }
 
-  // The objective at z, whose image is known. What it finds on the way, the next step needs:
-  // eq. 15's weights, w = phi(r) / r.
+  // The objective at z, whose image is known. Also computes eq. 15's weights, w = phi(r) / r, for
+  // the next step.
   double evaluate() {
     return sum_over_frames<double>(
         z_.frames, [&](std::size_t first, std::size_t last) { return evaluate(first, last); });
@@ -139,8 +139,8 @@ class Minimisation {
     return data + patterns / 2;
   }
 
-  // Of the quadratic that majorises the objective at z, less the patterns' part: its diagonal and
-  // where it falls most.
+  // Of the quadratic that majorises the objective at z, without the patterns' term: its diagonal
+  // and its steepest descent.
   struct Slope {
     double diagonal, residual;
   };
@@ -157,7 +157,7 @@ class Minimisation {
       gradient_(f, c) = s.diagonal > 0 ? s.residual / s.diagonal : 0.0;
     });
     if (settings_.solver == ExampleSolver::alternation) {
-      // Eq. 13 and 15: with the coefficients held, each sample has its own minimum.
+      // Eq. 13 and 15: with fixed coefficients, the samples are independent.
       for_frames([&](std::size_t f, std::size_t c) { z_(f, c) += gradient_(f, c); });
       penalty_.multiply(z_, image_);
     } else {
@@ -165,8 +165,8 @@ class Minimisation {
     }
   }
 
-  // To the least of the majorising quadratic on the plane of its preconditioned gradient and the
-  // last step: conjugate gradients, were the weights to stay.
+  // To the minimum of the majorising quadratic on the plane of its preconditioned gradient and the
+  // last step: conjugate gradients, for constant weights.
   void descend() {
     penalty_.multiply(gradient_, gradient_image_);
     const auto plane = sum_over_frames<Plane>(
@@ -230,13 +230,13 @@ class Minimisation {
   const ExampleSettings& settings_;
   PatternPenalty& penalty_;
   double scale_ = 1;       // of p
-  PoseMatrix z_;           // less the mean; frames behind the clip belong to nothing
+  PoseMatrix z_;           // less the mean; frames behind the clip are padding
   PoseMatrix image_;       // A z
   PoseMatrix confidence_;  // F x L: exp(-r^2 / p^2)
   PoseMatrix gradient_, gradient_image_, step_, step_image_;
 };
 
-// The data term has a half in it that the others have not.
+// The data term has a factor of one half, unlike the others.
 std::vector<double> doubled(std::vector<double> values) {
   for (double& value : values) value *= 2;
   return values;
@@ -264,7 +264,7 @@ void put_rows(const PoseMatrix& rows, std::size_t first, std::size_t begin, std:
 PoseMatrix filter_linearly(const PoseMatrix& poses, WindowBases bases,
                            std::span<const double> mean) {
   if (poses.frames == 0) return poses;
-  // What stays is taken first, so that what goes leaves no hole below it.
+  // Kept memory is allocated first, which avoids fragmentation.
   PoseMatrix filtered(poses.frames, poses.channels);
   const Stretches stretches(bases, poses.frames, linear_margin);
   PatternPenalty patterns(std::move(bases), std::vector<double>(mean.size(), 1.0), {},
@@ -299,7 +299,7 @@ std::vector<double> example_filter(PoseMatrix& poses, const PoseMatrix& measured
     Minimisation minimisation(penalty, rows_of(poses, begin, stretches.end(s)), measured, observed,
                               begin, mean, weights, settings);
     objective = minimisation.run();
-    // The margin at the end is the next one's first guess.
+    // The margin at the end is the first guess of the next stretch.
     put_rows(minimisation.take_poses(), begin, stretches.first(s), stretches.end(s), poses);
   }
   return objective;

@@ -43,7 +43,7 @@ void store_example(const ExamplePrior& prior, Model& model) {
 ExamplePrior example_of(const Model& model) {
   ExamplePrior prior;
   prior.rate_hz = model.rate_hz;
-  // Braces alone would be taken for a number of dimensions.
+  // Braces alone would be read as a number of dimensions.
   using Shape = std::vector<std::size_t>;
   const Tensor& bases = model.tensor("bases", 3);
   FilterBases& b = prior.bases;
@@ -68,7 +68,7 @@ ExamplePrior example_of(const Model& model) {
 
 ExampleWeights probable_weights(const ExamplePrior& prior, const WindowBases& bases,
                                 std::span<const double> noise, double welsch_deviations) {
-  // As many windows reach over a frame.
+  // The number of windows over a frame.
   const double overlap =
       std::ceil(static_cast<double>(bases.frames) / static_cast<double>(bases.hop));
   const double windows = std::max(overlap, 1.0);
@@ -77,7 +77,8 @@ ExampleWeights probable_weights(const ExamplePrior& prior, const WindowBases& ba
     const double residual = std::max(prior.bases.residual[c], least_variance);
     weights.data.push_back(1 / (noise[c] * noise[c]));
     weights.welsch.push_back(welsch_deviations * noise[c]);
-    // Motion outside the bases is smooth: between two frames of the model it says nothing new.
+    // Motion outside the bases is smooth: samples between two frames of the model are not
+    // independent.
     weights.prior.push_back(1 / (2 * windows * static_cast<double>(bases.hop) * residual));
   }
   for (std::size_t k = 0; k < bases.count; ++k) {

@@ -10,7 +10,7 @@
 
 namespace kinemend {
 
-/// What a model of the method `example` knows.
+/// Model of the method `example`.
 struct ExamplePrior {
   FilterBases bases;
   double rate_hz = 30;
@@ -25,9 +25,9 @@ void store_example(const ExamplePrior& prior, Model& model);
 ExamplePrior example_of(const Model& model);
 
 /// Weights under which the minimum is the most probable motion, for noise of standard deviation
-/// `noise` in each channel (L, degrees; > 0), coefficients as spread as in the training and
-/// Gaussian motion outside the bases with the variances that they leave. Each of these counts once,
-/// though windows overlap. p is `welsch_deviations` times the noise.
+/// `noise` in each channel (L, degrees; > 0), coefficients distributed as in the training and
+/// Gaussian motion outside the bases with the residual variances. Each of these counts once, though
+/// windows overlap. p is `welsch_deviations` times the noise.
 ExampleWeights probable_weights(const ExamplePrior& prior, const WindowBases& bases,
                                 std::span<const double> noise, double welsch_deviations);
 

@@ -14,7 +14,7 @@ namespace kinemend {
 
 namespace {
 
-// A number that is not known is doubled from here until the energy is reached.
+// An unknown number is doubled from here until the energy is reached.
 constexpr Eigen::Index first_count = 32;
 // Beyond this share of all eigenvectors the full solver is faster.
 constexpr Eigen::Index full_share = 6;
@@ -22,7 +22,7 @@ constexpr Eigen::Index most_restarts = 1000;
 constexpr double rounding = 1e-14;  // of the largest eigenvalue
 
 struct EigenPairs {
-  Eigen::VectorXd values;  // falling
+  Eigen::VectorXd values;  // descending
   Eigen::MatrixXd vectors;
 };
 
@@ -50,7 +50,7 @@ EigenPairs leading_pairs(const MatrixView& matrix, Eigen::Index count, double to
   return {solver.eigenvalues(), solver.eigenvectors(count)};
 }
 
-// How many of the pairs are wanted; all of them where they do not reach the energy.
+// Number of pairs to return; all where they do not reach the energy.
 Eigen::Index wanted_count(const EigenPairs& pairs, double energy, bool& reached) {
   double sum = 0;
   for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {

@@ -8,20 +8,20 @@ namespace kinemend {
 
 struct LeadingEigenvectors {
   std::size_t size = 0;         ///< n
-  std::vector<double> values;   ///< k, falling
+  std::vector<double> values;   ///< k, descending
   std::vector<double> vectors;  ///< n x k, row-major: one vector a column, orthonormal
 };
 
 struct EigenvectorLimits {
-  double energy = 0.99;      ///< as many as sum up to this share of the trace
-  std::size_t count = 0;     ///< as many instead; 0: by energy
+  double energy = 0.99;      ///< the fewest that sum to this share of the trace
+  std::size_t count = 0;     ///< number instead; 0: by energy
   double tolerance = 1e-11;  ///< |A v - value v| relative to the largest eigenvalue
 };
 
 /// The eigenvectors with the largest eigenvalues of a positive semidefinite matrix, n x n and
-/// symmetric, by Spectra's implicitly restarted Lanczos, or by Eigen's full solver where a large
-/// share of them is asked for. The signs make the entry of largest size positive. Eigenvalues that
-/// are 0 to rounding are not returned.
+/// symmetric, by Spectra's implicitly restarted Lanczos, or by Eigen's full solver for a large
+/// share of them. The signs make the entry of largest size positive. Eigenvalues that are 0 to
+/// rounding are not returned.
 LeadingEigenvectors leading_eigenvectors(std::span<const double> matrix, std::size_t n,
                                          const EigenvectorLimits& limits = {});
 

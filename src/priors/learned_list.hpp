@@ -1,9 +1,9 @@
 #pragma once
 
-/// The learned methods, one a line. Line `NAME` stands for two functions: `LearnedMethod
-/// NAME_learned()` of this room, which is how the model is fitted and what its file is called, and
+/// The learned methods, one per line. `NAME` has two functions: `LearnedMethod
+/// NAME_learned()` of this room, which fits the model and names its file, and
 /// `Method NAME_method()` of the room `clean`, which makes the cleaner. Training, the reader of
-/// model files and the table of methods all go by this list.
+/// model files and the table of methods use this list.
 #define KINEMEND_LEARNED_METHODS(METHOD) \
   METHOD(example)                        \
   METHOD(wiener)                         \

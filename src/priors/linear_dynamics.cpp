@@ -19,8 +19,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr double largest_growth = 0.9999;  // of a step, so that the motion's spread is finite
-constexpr double least_variance = 1e-6;    // square degrees: what no channel is known better than
+constexpr double largest_growth = 0.9999;  // of a step, so that the stationary covariance is finite
+constexpr double least_variance = 1e-6;    // square degrees: least measurement variance
 
 MatrixXd symmetric(const MatrixXd& matrix) { return 0.5 * (matrix + matrix.transpose()); }
 
@@ -157,7 +157,7 @@ LinearDynamics LinearDynamicsFit::finish(const LinearDynamicsSettings& settings)
       before.llt().solve(moments.topRightCorner(k, n).transpose()).transpose();
   dynamics.transition = companion(coefficients);
   make_stable(dynamics.transition);
-  // The residual's covariance, with what A has become.
+  // The residual's covariance, with the final A.
   const MatrixXd a = dynamics.transition.topRows(k);
   const MatrixXd across = a * moments.topRightCorner(k, n).transpose();
   const MatrixXd residual = moments.topLeftCorner(k, k) - across - across.transpose() +
@@ -241,7 +241,7 @@ LinearDynamics dynamics_of(const Model& model) {
   }
   const std::size_t n = k * dynamics.order;
   dynamics.transition = square_of(model, "transition", n);
-  // Numbers that were rounded, or changed by hand, are still covariances and a motion that stays.
+  // Rounded or edited numbers become valid covariances and stable dynamics.
   make_stable(dynamics.transition);
   dynamics.drive = covariance_near(square_of(model, "drive", n));
   dynamics.spread = covariance_near(square_of(model, "spread", n));

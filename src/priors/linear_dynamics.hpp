@@ -10,9 +10,9 @@
 // Motion as a linear dynamical system that is learned from clips (Lou & Chai 2010, section 4.2).
 namespace kinemend {
 
-/// How poses follow each other at `rate_hz`, driven by white noise. With the channels less their
-/// mean, in a subspace of K directions, z_t = U^T (x_t - m), and the state s_t of the last `order`
-/// of them (K or 2 K numbers, the newest first):
+/// A linear model of poses at `rate_hz`, driven by white noise. With the channels less their mean,
+/// in a subspace of K directions, z_t = U^T (x_t - m), and the state s_t of the last `order` of
+/// them (K or 2 K numbers, the newest first):
 ///
 ///     s_{t+1} = A s_t + w,  w ~ N(0, Q),      y_t = m + U z_t + v,  v ~ N(0, R)
 ///
@@ -22,10 +22,10 @@ struct LinearDynamics {
   std::size_t order = 1;       ///< 1 (the paper's) or 2
   Eigen::VectorXd mean;        ///< D
   Eigen::MatrixXd basis;       ///< D x K with orthonormal columns; empty: all channels, U = I
-  Eigen::VectorXd outside;     ///< D: variance of what the subspace leaves out; adds to R
+  Eigen::VectorXd outside;     ///< D: variance outside the subspace; added to R
   Eigen::MatrixXd transition;  ///< A
   Eigen::MatrixXd drive;       ///< Q
-  Eigen::MatrixXd spread;      ///< covariance of a state of which nothing is known yet
+  Eigen::MatrixXd spread;      ///< covariance of the initial state
 
   Eigen::Index channels() const { return mean.size(); }
   Eigen::Index directions() const { return basis.size() == 0 ? mean.size() : basis.cols(); }
@@ -39,15 +39,15 @@ struct LinearDynamicsSettings {
   std::size_t directions = 0;  ///< K; 0: all channels
 };
 
-/// Fits A and Q by least squares from second moments of neighbouring poses, which are summed up in
-/// one pass: memory depends on the number of channels only.
+/// Fits A and Q by least squares from second moments of neighbouring poses, accumulated in one
+/// pass: memory depends on the number of channels only.
 class LinearDynamicsFit {
  public:
   LinearDynamicsFit(std::size_t channels, std::size_t order);
-  /// Shorter sequences than order + 1 frames say nothing.
+  /// Sequences shorter than order + 1 frames are ignored.
   void add(const PoseMatrix& poses, double weight = 1);
   double transitions() const noexcept { return weight_; }
-  /// A is scaled down where it would let motion grow without bound. Errors: `ErrorKind::usage` when
+  /// A is scaled to a spectral radius below 1. Errors: `ErrorKind::usage` when
   /// there was no transition.
   LinearDynamics finish(const LinearDynamicsSettings& settings) const;
 
@@ -57,18 +57,19 @@ class LinearDynamicsFit {
 
   std::size_t channels_, order_;
   double weight_ = 0;
-  Eigen::VectorXd shift_;    // D: near the mean, so that no digits are lost
+  Eigen::VectorXd shift_;    // D: near the mean, for numerical accuracy
   Eigen::VectorXd sums_;     // (order + 1) D
   Eigen::MatrixXd moments_;  // of the stacked poses, newest first; lower half
 };
 
 /// The same motion at another rate: A(h) = A^h with h = rate_hz of the model over `rate_hz`, and
-/// the drive that keeps the spread of the motion, Q(h) = S - A(h) S A(h)^T with S = A S A^T + Q:
-/// m steps of 1 / m make exactly one. What no such root has (directions that change sign from
-/// frame to frame) is taken to be forgotten at once.
+/// the drive that keeps the stationary covariance, Q(h) = S - A(h) S A(h)^T with S = A S A^T + Q:
+/// m steps of 1 / m equal one. Directions without such a root, which change sign from frame to
+/// frame, get a transition of 0.
 LinearDynamics at_rate(const LinearDynamics& dynamics, double rate_hz);
 
-/// The model file's form, and back. Errors: `ErrorKind::unreadable_input` naming what does not fit.
+/// To and from tensors of the model file. Errors: `ErrorKind::unreadable_input` naming the
+/// inconsistent tensor.
 void store_dynamics(const LinearDynamics& dynamics, Model& model);
 LinearDynamics dynamics_of(const Model& model);
 

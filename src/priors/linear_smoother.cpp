@@ -17,15 +17,15 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double least_noise_deg = 1e-3;
-// Gains have settled when a frame changes no covariance by more than this, relative to the
+// Gains have converged when a frame changes no covariance by more than this, relative to the
 // variances of the two directions.
 constexpr double settled_change = 1e-9;
-// Covariances kept between the passes; beyond it they are worked out again from every
+// Most covariances kept between the passes; beyond it they are recomputed from every
 // `segment_frames`-th.
 constexpr std::size_t kept_numbers = std::size_t{1} << 24;
 constexpr std::size_t segment_frames = 128;
 
-// The filter's covariance after a frame, which frames share once it has settled.
+// The filter's covariance after a frame, shared by frames once it has converged.
 using Covariance = std::shared_ptr<const MatrixXd>;
 
 struct FilterState {
@@ -35,7 +35,7 @@ struct FilterState {
   bool settled = false;
 };
 
-// What the backward pass needs of a frame.
+// Data of a frame for the backward pass.
 struct FilteredFrame {
   VectorXd mean;     // n, after the update
   VectorXd force;    // n: H^T R^-1 (y - H predicted mean)
@@ -99,7 +99,7 @@ class Filter {
     return weights;
   }
 
-  // Of what is not observed, which has no weight, any finite number.
+  // Unobserved samples have no weight; any finite number serves.
   VectorXd measured(std::size_t frame) const {
     VectorXd values =
         Eigen::Map<const VectorXd>(poses_.row(frame).data(), model_.channels()) - model_.mean;
@@ -112,7 +112,7 @@ class Filter {
   }
 
   // P = P' - B^T B with B = chol(I + V H P' H^T V)^-1 V H P', V^2 = R^-1: the system is well
-  // conditioned whatever the noise, and rows of what is not observed are those of I.
+  // conditioned whatever the noise, and rows of unobserved samples are those of I.
   void advance_covariance(FilterState& state, const VectorXd& weights) const {
     const MatrixXd predicted =
         state.covariance ? predicted_covariance(*state.covariance) : model_.spread;
@@ -162,8 +162,8 @@ void write(PoseMatrix& poses, std::size_t frame, const VectorXd& values,
   Eigen::Map<VectorXd>(poses.row(frame).data(), values.size()) = values + dynamics.mean;
 }
 
-// The forward pass in segments. Those in front are given up where they hold too much, but for the
-// state that each starts from.
+// The forward pass in segments. Earlier ones are freed where memory exceeds its limit, except for
+// the state that each starts from.
 class ForwardPass {
  public:
   ForwardPass(const Filter& filter, std::size_t frames) : filter_(filter), frames_(frames) {
@@ -230,7 +230,7 @@ void filter_with_dynamics(PoseMatrix& poses, const MeasurementFacts& facts,
   }
 }
 
-// With b the force of a frame and J = H^T R^-1 H, what later frames say of this one is
+// With b the force of a frame and J = H^T R^-1 H, the information of later frames is
 //   l = A^T r,   smoothed = mean + P l,   r of the frame before = (I - J P) (b + l).
 void smooth_with_dynamics(PoseMatrix& poses, const MeasurementFacts& facts,
                           const LinearDynamics& dynamics) {

@@ -6,13 +6,13 @@
 #include "kinemend/pose_matrix.hpp"
 #include "priors/linear_dynamics.hpp"
 
-// What a linear dynamical system makes of noisy and missing measurements.
+// Kalman filter and smoother of a linear dynamical system.
 namespace kinemend {
 
-/// What is known of the measurements in a pose matrix.
+/// The measurements in a pose matrix.
 struct MeasurementFacts {
-  std::span<const std::uint8_t> observed;  ///< F x D, 0 where there is none; empty: all are there
-  /// D, standard deviations in degrees, at least 0 (taken for 1e-3 at least).
+  std::span<const std::uint8_t> observed;  ///< F x D, 0 where missing; empty: all observed
+  /// D, standard deviations in degrees, at least 0 (raised to 1e-3).
   std::span<const double> noise_deg;
 };
 
@@ -23,7 +23,7 @@ void filter_with_dynamics(PoseMatrix& poses, const MeasurementFacts& facts,
 
 /// Each frame becomes its expectation given all frames, by a second pass over the filter's
 /// (Bryson & Frazier 1963, which inverts no covariance). The cost is linear in frames; gains are
-/// worked out anew only until they settle, after each change of what is observed.
+/// recomputed until they converge, after each change of the observed channels.
 void smooth_with_dynamics(PoseMatrix& poses, const MeasurementFacts& facts,
                           const LinearDynamics& dynamics);
 

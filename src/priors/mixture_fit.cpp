@@ -31,7 +31,7 @@ std::vector<Index> nearest(const MatrixXd& points, const MatrixXd& centres) {
   return result;
 }
 
-// k-means from centres drawn far from each other (k-means++). W: the cluster of each column.
+// k-means from centres of k-means++. W: the cluster of each column.
 std::vector<Index> clusters(const MatrixXd& points, Index count, std::uint64_t seed) {
   Random random(seed);
   MatrixXd centres(points.rows(), count);

@@ -32,21 +32,21 @@ constexpr std::size_t checksum_digits = 32;
 constexpr std::string_view layout_prefix = "layout.";
 constexpr int most_json_depth = 3;
 
-// Where the checksum stands in a file that has one: its digits. A text of the metadata that looked
-// like this would have its quotes escaped.
+// Position of the checksum's digits in a file. A text of the metadata that contains the same
+// characters has escaped quotes.
 std::size_t checksum_place(std::string_view bytes) {
   const std::string key = fmt::format("\"{}\":\"", checksum_key);
   const std::size_t found = bytes.find(key);
   return found == bytes.npos ? found : found + key.size();
 }
 
-// Of the file with zeros in place of the checksum.
+// Checksum of the file with zeros in its place.
 std::string checksum_of(std::string bytes, std::size_t place) {
   bytes.replace(place, checksum_digits, checksum_digits, '0');
   return content_hash(bytes);
 }
 
-// Reads what a model's metadata and tensors hold; every error names the file.
+// Reads a model's metadata and tensors; every error names the file.
 class ModelReader {
  public:
   ModelReader(TensorFile file, std::string_view bytes, std::string_view name)
@@ -95,7 +95,7 @@ class ModelReader {
     }
   }
 
-  // A number that is wrong is still a number: nothing else tells that a file was damaged.
+  // Only a checksum detects a changed number.
   void check_checksum() const {
     const bool is_stated = file_.metadata.contains(checksum_key);
     if (!is_stated && whole<int>(format_key, 1) < first_with_checksum) return;
@@ -160,7 +160,7 @@ class ModelReader {
     return json;
   }
 
-  // The member of a JSON object as the type asked for.
+  // The member of a JSON object, as the given type.
   template <class Value>
   Value member(const Json& json, const char* name) const {
     try {
@@ -196,25 +196,25 @@ class ModelReader {
     }
   }
 
-  // Takes the tensor out, so that those of the method are left.
-  std::vector<double> layout_tensor(std::string_view part, const std::vector<std::size_t>& shape) {
-    const auto node = file_.tensors.extract(fmt::format("{}{}", layout_prefix, part));
-    if (node.empty()) refuse(fmt::format("tensor \"{}{}\" is missing", layout_prefix, part));
+  // Removes the tensor, so that those of the method remain.
+  std::vector<double> layout_tensor(std::string_view name, const std::vector<std::size_t>& shape) {
+    const auto node = file_.tensors.extract(fmt::format("{}{}", layout_prefix, name));
+    if (node.empty()) refuse(fmt::format("tensor \"{}{}\" is missing", layout_prefix, name));
     if (node.mapped().shape != shape) {
-      refuse(fmt::format("tensor \"{}{}\": expected shape {}, found {}", layout_prefix, part, shape,
+      refuse(fmt::format("tensor \"{}{}\": expected shape {}, found {}", layout_prefix, name, shape,
                          node.mapped().shape));
     }
     return node.mapped().values;
   }
-  std::vector<Vec3> vectors(std::string_view part, std::size_t count) {
-    const std::vector<double> values = layout_tensor(part, {count, 3});
+  std::vector<Vec3> vectors(std::string_view name, std::size_t count) {
+    const std::vector<double> values = layout_tensor(name, {count, 3});
     std::vector<Vec3> result;
     for (std::size_t i = 0; i < values.size(); i += 3)
       result.push_back({values[i], values[i + 1], values[i + 2]});
     return result;
   }
-  std::vector<Quat> quaternions(std::string_view part, std::size_t count) {
-    const std::vector<double> values = layout_tensor(part, {count, 4});
+  std::vector<Quat> quaternions(std::string_view name, std::size_t count) {
+    const std::vector<double> values = layout_tensor(name, {count, 4});
     std::vector<Quat> result;
     for (std::size_t i = 0; i < values.size(); i += 4)
       result.push_back({values[i], values[i + 1], values[i + 2], values[i + 3]});
@@ -256,8 +256,8 @@ Tensor tensor_of(const std::vector<std::uint8_t>& flags) {
 }
 
 void put_layout(const BodyLayout& layout, TensorFile& file) {
-  const auto put = [&](std::string_view part, Tensor tensor) {
-    file.tensors[fmt::format("{}{}", layout_prefix, part)] = std::move(tensor);
+  const auto put = [&](std::string_view name, Tensor tensor) {
+    file.tensors[fmt::format("{}{}", layout_prefix, name)] = std::move(tensor);
   };
   Json json = {
       {"kind", to_string(layout.kind)}, {"names", layout.names}, {"trend_s", layout.trend_s}};

@@ -13,10 +13,10 @@ namespace kinemend {
 
 namespace {
 
-// So many ends of sequences are added to the covariance at a time, as one product.
+// Number of sequence ends that are added to the covariance in one product.
 constexpr std::size_t ends_at_once = 64;
 
-// Of each channel the mean variance over the window: diagonal of C less what is in `kept`.
+// Mean variance of each channel over the window: diagonal of C less `kept`.
 std::vector<double> residual_variances(const FilterBases& bases, std::span<const double> matrix,
                                        std::span<const double> kept) {
   const std::size_t side = bases.window_frames * bases.channels;
@@ -148,10 +148,10 @@ std::vector<double> LagCovariance::covariance_about(std::span<const double> mu) 
     const double row_mean = window_sum_[row] / windows_;
     for (std::size_t column = row; column < side; ++column) {
       const double column_mean = window_sum_[column] / windows_;
-      const double mean_part =
+      const double mean_product =
           row_mean * mu[column % L] + mu[row % L] * column_mean - mu[row % L] * mu[column % L];
       matrix[column * side + row] = matrix[row * side + column] =
-          matrix[row * side + column] / windows_ - mean_part;
+          matrix[row * side + column] / windows_ - mean_product;
     }
   }
   return matrix;
@@ -189,10 +189,10 @@ void cross_validate(FilterBases& bases, LagCovariance& half, LagCovariance& othe
   std::vector<double> eigenvalues(bases.count), counts(bases.count);
   std::vector<double> residual(bases.channels);
   const auto hold = [&](LagCovariance& learned, LagCovariance& held) {
-    const FilterBases part = filter_bases(learned, {.count = bases.count}, centred);
+    const FilterBases learned_half = filter_bases(learned, {.count = bases.count}, centred);
     std::vector<double> along, outside;
-    spread_along(part, held.covariance_about(part.mean), along, outside);
-    for (std::size_t k = 0; k < part.count; ++k) {
+    spread_along(learned_half, held.covariance_about(learned_half.mean), along, outside);
+    for (std::size_t k = 0; k < learned_half.count; ++k) {
       eigenvalues[k] += along[k];
       counts[k] += 1;
     }

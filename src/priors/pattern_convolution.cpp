@@ -17,12 +17,12 @@ namespace {
 // Longer blocks repeat fewer rows and have more frequencies.
 std::size_t rows_of_block(std::size_t window_rows) { return (3 * window_rows) | 1; }
 
-// Frequencies whose matrices are made at once, and values of G that are transformed for them.
+// Frequencies whose matrices are computed at once, and values of G that are transformed for them.
 constexpr std::size_t frequencies_at_once = 2;
 constexpr std::size_t patterns_at_once = 8192;
 // Blocks of about so many columns are transformed at once.
 constexpr std::size_t columns_at_once = 300;
-// Spectra of about so many values are made before they are used: enough for products of matrices.
+// Values of spectra that are computed before they are used: enough for products of matrices.
 constexpr std::size_t spectrum_values = std::size_t{3} << 19;
 
 }  // namespace
@@ -41,8 +41,8 @@ PatternConvolution::PatternConvolution(const std::vector<double>& patterns, std:
     matrices_.resize(frequencies_);
   }
   const tbb::blocked_range<std::size_t> all(0, frequencies_, frequencies_at_once);
-  // Memory that was never touched costs more than the products. While a thread waits for its part
-  // of a product it may not begin with other frequencies, which would overwrite what it holds.
+  // First use of memory costs more than the products. A thread that waits for a nested product must
+  // not start other frequencies, which would overwrite its scratch.
   tbb::enumerable_thread_specific<std::vector<double>> scratch;
   tbb::parallel_for(
       all,

@@ -7,18 +7,18 @@
 
 namespace kinemend {
 
-/// The product with A = sum_s P_s^T G G^T P_s of a sequence that repeats itself, so that windows
-/// which reach over its end go on at its start. A row of the sequence, a hop, is a vector of V
-/// values and a window W rows. A is then a convolution in time with V x V matrices, which is one
-/// product of V x V complex matrices at each frequency: less work than two with all of G where G
-/// has many columns, and work that does not depend on their number.
+/// The product with A = sum_s P_s^T G G^T P_s of a periodic sequence, whose windows wrap around its
+/// end. A row of the sequence, a hop, is a vector of V values and a window W rows. A is then a
+/// convolution in time with V x V matrices, which is one product of V x V complex matrices at each
+/// frequency: less work than two with all of G where G has many columns, and independent of their
+/// /// number.
 ///
-/// Blocks of rows overlap by what the convolution reaches (overlap-save), so that work grows with
-/// length only. Fourier transforms of so few rows are products of matrices, too, one of what is
-/// even about the middle of the block and one of what is odd.
+/// Blocks of rows overlap by the convolution's length (overlap-save), so that work is linear in the
+/// sequence's length. Fourier transforms of so few rows are products of matrices, too: one of the
+/// rows' even component about the middle of the block and one of the odd.
 ///
-/// Matrices of more than `most_exact_bytes` are kept in single precision, which is as far as their
-/// bases are known: the product is then exact to 1e-6 of its size.
+/// Matrices of more than `most_exact_bytes` are kept in single precision, the precision of their
+/// bases: the product then has a relative error of 1e-6.
 class PatternConvolution {
  public:
   /// `patterns`: G, row-major, W V rows and K columns.
@@ -36,9 +36,9 @@ class PatternConvolution {
 
  private:
   void prepare_transforms();
-  // Of frequencies [first, last); `parts` is scratch.
+  // Of frequencies [first, last); `scratch` is overwritten.
   void prepare_matrices(const std::vector<double>& patterns, std::size_t count, std::size_t first,
-                        std::size_t last, std::vector<double>& parts);
+                        std::size_t last, std::vector<double>& scratch);
   bool is_narrow() const;
   // Of blocks [first, last) of those that are transformed at once.
   void transform(const double* z, std::size_t rows, std::size_t first, std::size_t last);

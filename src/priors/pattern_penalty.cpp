@@ -14,12 +14,11 @@ namespace {
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// As many rows of E are weighted at once.
+// Rows of E that are weighted at once.
 constexpr std::size_t gram_rows = 192;
-// What is prepared is written to memory that was never touched, which costs about half as much as
-// the products in it.
+// Prepared matrices are written to fresh memory, which costs about half as much as their products.
 constexpr double cost_of_preparing = 1.5;
-// As many columns of the inverse of a triangle are multiplied with at once.
+// Columns of the inverse of a triangle that are multiplied at once.
 constexpr std::size_t triangle_columns = 48;
 
 // E^T D^2 E + V
@@ -44,13 +43,13 @@ RowMatrix penalty_gram(const WindowBases& bases, std::span<const double> weights
   for (std::size_t k = 0; k < ridge.size() && k < count; ++k) {
     gram(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) += ridge[k];
   }
-  // Bases that a short clip cannot tell apart make the matrix singular.
+  // Bases that are dependent on a short clip make the matrix singular.
   gram.diagonal().array() += 1e-11 * gram.diagonal().maxCoeff() + 1e-300;
   return gram;
 }
 
-// G = D^2 E R^-1 with R^T R the gram matrix, and zeros behind it up to so many rows. The bases are
-// used up.
+// G = D^2 E R^-1 with R^T R the gram matrix, padded with zeros to the given number of rows.
+// Invalidates the bases.
 std::vector<double> penalty_factor(WindowBases& bases, std::span<const double> weights,
                                    std::span<const double> ridge, std::size_t whole_rows) {
   const bool plain = std::all_of(weights.begin(), weights.end(), [](double w) { return w == 1; });
@@ -63,7 +62,7 @@ std::vector<double> penalty_factor(WindowBases& bases, std::span<const double> w
   const Eigen::LLT<Eigen::MatrixXd> cholesky(penalty_gram(bases, weights, ridge));
   const RowMatrix inverse = cholesky.matrixU().solve(Eigen::MatrixXd::Identity(size, size));
   const nn::MatrixView right{inverse.data(), count, count, count};
-  // Row by row, G takes the place of E.
+  // Row by row, G overwrites E.
   std::vector<double> part(gram_rows * count);
   for (std::size_t first_row = 0; first_row < rows; first_row += gram_rows) {
     const std::size_t found = std::min(gram_rows, rows - first_row);
@@ -113,7 +112,7 @@ PatternPenalty::PatternPenalty(WindowBases bases, std::span<const double> weight
 void PatternPenalty::prepare_windows(const std::vector<double>& factor) {
   const std::size_t hop_values = hop_ * channels_;
   analysis_ = nn::PackedMatrix({factor.data(), row_values_, count_, count_});
-  // A hop's frames are sums over the windows that reach over it, the latest window last.
+  // A hop's frames are sums over the windows that contain it, the latest window last.
   std::vector<double> synthesis(overlap_ * count_ * hop_values);
   for (std::size_t b = 0; b < overlap_; ++b) {
     const std::size_t first = (overlap_ - 1 - b) * hop_values;
@@ -158,7 +157,7 @@ void PatternPenalty::multiply_windows(const PoseMatrix& z, PoseMatrix& image) {
 void PatternPenalty::multiply_ends(const PoseMatrix& z) {
   const std::size_t over = overlap_ - 1, values = over * hop_ * channels_;
   if (over == 0) return;
-  // The last hops and the first, one behind the other.
+  // The last hops followed by the first.
   ends_.resize(2 * values);
   std::copy_n(&z.values[z.values.size() - values], values, ends_.begin());
   std::copy_n(z.values.begin(), values, &ends_[values]);

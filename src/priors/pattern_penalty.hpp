@@ -13,16 +13,15 @@
 
 namespace kinemend {
 
-/// How far a sequence is from the patterns of all sliding windows (second term of eq. 11), after
-/// the coefficients c_s have been chosen best (eq. 13), which leaves a quadratic form of the
-/// sequence alone:
+/// Distance of a sequence from the patterns of all sliding windows (second term of eq. 11) for the
+/// best coefficients c_s (eq. 13), a quadratic form of the sequence:
 ///
 ///   sum_s min_c sum (d_l (z_s - E c)_l)^2 + sum_k v_k c_k^2 = z^T (D - A) z
 ///
-/// with D diagonal and A = sum_s P_s^T G G^T P_s, where P_s takes window s out of the sequence.
+/// with D diagonal and A = sum_s P_s^T G G^T P_s, where P_s extracts window s from the sequence.
 class PatternPenalty {
  public:
-  /// How A is applied. Both give the same but for rounding.
+  /// How A is applied. Both agree to rounding.
   enum class Product : std::uint8_t {
     quicker,     ///< of the two
     windows,     ///< G^T, then G, of all windows: matrices that read overlapping windows in place
@@ -30,13 +29,13 @@ class PatternPenalty {
   };
 
   /// `weights`: d_l^2 of each channel, >= 0. `ridge`: v_k of each base, >= 0; empty: none.
-  /// `frames`: of the sequence, at least `bases.frames`. `products`: with A, about as many as will
-  /// be asked for; what is quicker depends on them.
+  /// `frames`: of the sequence, at least `bases.frames`. `products`: expected number of products
+  /// with A, on which the quicker way depends.
   PatternPenalty(WindowBases bases, std::span<const double> weights, std::span<const double> ridge,
                  std::size_t frames, std::size_t products = 1, Product product = Product::quicker);
 
-  /// Frames of the sequences that it works on: `frames` and as many more as make whole hops. The
-  /// windows cover all frames of the clip; what is behind belongs to nothing.
+  /// Frames of the sequences that it takes: `frames`, padded to whole hops. The windows cover all
+  /// frames of the clip; the padding is ignored.
   std::size_t padded_frames() const noexcept { return groups_ * hop_; }
   std::size_t windows() const noexcept { return windows_; }
   bool goes_by_frequencies() const noexcept { return convolution_.has_value(); }
@@ -56,14 +55,14 @@ class PatternPenalty {
 
   std::size_t hop_, channels_, count_;
   std::size_t row_values_;  // M' L
-  std::size_t overlap_;     // hops that a window reaches over
+  std::size_t overlap_;     // hops in a window
   std::size_t windows_, groups_;
   std::vector<double> coefficients_;  // of all windows, with overlap - 1 rows of zeros at each
                                       // end; or of those over the end, K x (overlap - 1)
   // By windows: G and, for each hop, overlap K x hop L.
   nn::PackedMatrix analysis_, synthesis_;
-  // By frequencies: all windows of the take as if it repeated itself, and G, M' L x K, for those of
-  // them that reach over the end (with zeros behind it that make whole hops).
+  // By frequencies: all windows of the periodic take, and G, M' L x K, for those that wrap around
+  // its end (padded with zeros to whole hops).
   std::optional<PatternConvolution> convolution_;
   std::vector<double> factor_;
   std::vector<double> ends_, windows_over_end_;

@@ -11,11 +11,11 @@ DamageReport damage_sequence(const BodyLayout& layout, double rate_hz, PoseMatri
   const std::size_t tracks = poses.channels / 3;
   VectorMotion motion;
   motion.names = layout.names;
-  if (tracks > layout.part_count()) motion.names.emplace_back("place");
+  if (tracks > layout.track_count()) motion.names.emplace_back("place");
   motion.is_rotation.assign(tracks, 0);
   motion.is_root.assign(tracks, 0);
   for (std::size_t n = 0; n < tracks; ++n) {
-    const bool is_place = n >= layout.part_count();
+    const bool is_place = n >= layout.track_count();
     motion.is_rotation[n] = is_joints && !is_place ? 1 : 0;
     motion.is_root[n] = is_joints && (is_place || layout.parents[n] < 0) ? 1 : 0;
   }

@@ -11,8 +11,8 @@
 namespace kinemend {
 
 /// Damages a sequence of a body's channels in place, as `apply_damage` does: joints turn, place and
-/// markers move. `observed` (F x N parts, with `with_place` one more; empty: all) becomes 0 where
-/// samples are lost. `joints` of a damage names parts; the place is `place`, a root like the first
+/// markers move. `observed` (F x N tracks, with `with_place` one more; empty: all) becomes 0 where
+/// samples are lost. `joints` of a damage names tracks; the place is `place`, a root like the first
 /// joint. The same generator gives the same bytes, so that each sequence forks its own. Errors: as
 /// of `apply_damage`; lengths are not known, so `position-noise` wants `cm_per_unit`.
 DamageReport damage_sequence(const BodyLayout& layout, double rate_hz, PoseMatrix& poses,

@@ -8,7 +8,7 @@ namespace {
 
 // A vector of a stretch is about 2 MB.
 constexpr std::size_t values_at_once = std::size_t{1} << 18;
-// Of the margins, so that not too much is done twice.
+// Length in margins, which limits the repeated work.
 constexpr std::size_t least_lengths = 4;
 
 }  // namespace

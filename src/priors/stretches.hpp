@@ -6,13 +6,13 @@
 
 namespace kinemend {
 
-/// Long sequences are filtered in overlapping stretches of one length, so that memory does not grow
-/// with them. Stretches begin where windows begin; the last one may reach less than a hop beyond
-/// the end.
+/// Long sequences are filtered in overlapping stretches of one length, so that memory is
+/// independent of their length. Stretches begin where windows begin; the last one may reach less
+/// than a hop beyond the end.
 class Stretches {
  public:
-  /// Of a sequence of `frames`, at least `bases.frames`. `margin_windows`: so many windows at each
-  /// end of a stretch are the neighbour's.
+  /// Of a sequence of `frames`, at least `bases.frames`. `margin_windows`: windows at each end of a
+  /// stretch whose result is the neighbour's.
   Stretches(const WindowBases& bases, std::size_t frames, std::size_t margin_windows);
 
   std::size_t count() const noexcept { return count_; }
@@ -21,7 +21,7 @@ class Stretches {
   /// The first frame of a stretch, and the end of its frames that are in the sequence.
   std::size_t begin(std::size_t stretch) const;
   std::size_t end(std::size_t stretch) const;
-  /// What it gives of the result: [first(s), first(s + 1)).
+  /// Its frames of the result: [first(s), first(s + 1)).
   std::size_t first(std::size_t stretch) const;
 
  private:

@@ -7,7 +7,7 @@ namespace kinemend {
 
 namespace {
 
-// All that grows with the frames.
+// All arrays over frames.
 template <class Action>
 void for_each_array(Clip& clip, const Action& action) {
   action(clip.root_positions);

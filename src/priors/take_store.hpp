@@ -10,17 +10,16 @@
 
 namespace kinemend {
 
-/// Takes put aside to be taken up again: their frames in a spool, all else in memory (some
-/// kilobytes a take).
+/// Stores takes: their frames in a spool, all else in memory (some kilobytes per take).
 class TakeStore {
  public:
-  /// `most_memory`: bytes of frames that may lie in memory.
+  /// `most_memory`: most bytes of frames in memory.
   explicit TakeStore(std::size_t most_memory) : frames_(most_memory) {}
 
-  /// What is kept of the file that the take came from is dropped. Errors: as of `Spool`.
+  /// The take's source document is dropped. Errors: as of `Spool`.
   void add(std::variant<Clip, MarkerClip> take);
   std::size_t count() const noexcept { return takes_.size(); }
-  /// To the bit what was added. Errors: as of `Spool`.
+  /// Bit-identical to the take added. Errors: as of `Spool`.
   std::variant<Clip, MarkerClip> take(std::size_t index) const;
 
  private:

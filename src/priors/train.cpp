@@ -10,7 +10,7 @@ namespace kinemend {
 
 namespace {
 
-// Checked here and once, so that a typing error is known before any take is read.
+// Checked before any take is read, so that errors are reported early.
 OptionValues checked_options(const LearnedMethod& method, const OptionValues& values) {
   OptionValues checked;
   for (const auto& [name, value] : values) {

@@ -28,7 +28,7 @@ void report(const TrainSettings& settings, std::string_view stage, std::size_t d
     settings.progress(stage, static_cast<double>(done) / static_cast<double>(count));
 }
 
-// How many times the model's rate goes into the take's; 0 where it does not.
+// The take's rate over the model's where that is a whole number, else 0.
 std::size_t whole_ratio(double take_rate_hz, double rate_hz) {
   const double ratio = take_rate_hz / rate_hz;
   const double whole = std::round(ratio);
@@ -93,7 +93,7 @@ void add_sequences(const BodyChannels& channels, std::size_t phases, std::size_t
 TrainingSequences encode_takes(const TrainingTakes& takes, const TrainSettings& settings,
                                double rate_hz, double trend_s) {
   BodyLayoutBuilder builder(settings.names, trend_s);
-  // Channels need the body, and the body all takes: they are kept in between.
+  // Channels depend on the layout, and the layout on all takes, which are stored in between.
   TakeStore store(settings.most_memory / 2);
   for (std::size_t i = 0; i < takes.count; ++i) {
     report(settings, "reading takes", i, takes.count);

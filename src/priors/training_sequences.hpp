@@ -10,20 +10,20 @@
 #include "kinemend/pose_matrix.hpp"
 #include "kinemend/train.hpp"
 
-// What every fit of a model starts from: takes as stretches of channels at the model's rate, read
-// and encoded once, and walked through as often as a method likes.
+// Input of every fit of a model: takes as stretches of channels at the model's rate, read and
+// encoded once.
 namespace kinemend {
 
 /// Motion without gaps.
 struct TrainingSequence {
   PoseMatrix poses;      ///< F x D degrees, at the model's rate
   double weight = 1;     ///< of each of its frames
-  std::size_t take = 0;  ///< where it comes from
+  std::size_t take = 0;  ///< index of its take
 };
 
 /// The takes of a training in the channels of the body that they share. Of a take whose rate is a
 /// multiple of `rate_hz` every phase is a sequence, and their weights add up to 1; any other is
-/// resampled. Stretches in which a part is missing are left out.
+/// resampled. Stretches in which a track is missing are left out.
 struct TrainingSequences {
   struct Entry {
     std::size_t frames = 0;
@@ -35,7 +35,7 @@ struct TrainingSequences {
   double rate_hz = 0;
   std::size_t takes = 0;       ///< that were read
   std::vector<Entry> entries;  ///< in the order of takes
-  Spool values{0};             ///< a record an entry, F x D doubles
+  Spool values{0};             ///< one record per entry, F x D doubles
 };
 
 /// Reads each take once. Memory is bounded by `settings.most_memory` and the largest take. Errors:
@@ -54,9 +54,9 @@ double for_each_sequence(const TrainingSequences& sequences, std::size_t least_f
                          const TrainSettings& settings,
                          const std::function<void(const TrainingSequence&)>& use);
 
-/// A sequence as of one of the halves of all takes, 0 or 1, so that what is learned of one can be
-/// tried on the other: every other take; of `takes` = 1 the halves of each sequence, or 0 where
-/// these would be shorter than `least_frames`.
+/// A sequence as of one of the halves of all takes, 0 or 1, for cross-validation: every other take;
+/// of `takes` = 1 the halves of each sequence, or 0 where these would be shorter than
+/// `least_frames`.
 void for_each_half(const TrainingSequence& sequence, std::size_t takes, std::size_t least_frames,
                    const std::function<void(std::size_t half, const PoseMatrix& poses)>& use);
 

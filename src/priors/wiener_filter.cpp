@@ -21,7 +21,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Windows overlap by three quarters, and neighbours say much the same.
+// Windows overlap by three quarters, so that neighbours are dependent.
 constexpr double window_weight = 0.25;
 constexpr double adaptation_weight = 0.5;
 constexpr std::size_t chunk_windows = 16;
@@ -37,7 +37,7 @@ VectorXd taper(Index frames) {
   return weights;
 }
 
-// By rows a matrix of Eigen's is its transpose.
+// The transpose of an Eigen matrix, as a row-major view.
 nn::MatrixView transposed(const MatrixXd& matrix) {
   const auto rows = static_cast<std::size_t>(matrix.rows());
   return {matrix.data(), static_cast<std::size_t>(matrix.cols()), rows, rows};
@@ -86,7 +86,7 @@ class Filtering {
     return take_.observed.empty() || take_.observed[sample] != 0;
   }
 
-  // Of the windows from `first` to before `last`.
+  // For windows [first, last).
   template <class Work>
   static void for_each_chunk_of(std::size_t first, std::size_t last, const Work& work) {
     const std::size_t chunks = (last - first + chunk_windows - 1) / chunk_windows;
@@ -96,7 +96,7 @@ class Filtering {
     });
   }
 
-  // Of all windows, with the number of the chunk.
+  // For all windows, with the number of the chunk.
   template <class Work>
   void for_each_chunk(const Work& work) const {
     for_each_chunk_of(0, windows_.starts().size(), [&](std::size_t first, std::size_t last) {
@@ -120,12 +120,12 @@ class Filtering {
     z_.resize(prior_.rank(), count);
     MixtureMoments moments(components_.size(), prior_.rank());
     for (const WindowGroup& group : windows_.groups()) {
-      MatrixXd part(prior_.rank(), static_cast<Index>(group.windows.size()));
+      MatrixXd chosen(prior_.rank(), static_cast<Index>(group.windows.size()));
       for (std::size_t i = 0; i < group.windows.size(); ++i) {
-        part.col(static_cast<Index>(i)) = information.col(static_cast<Index>(group.windows[i]));
+        chosen.col(static_cast<Index>(i)) = information.col(static_cast<Index>(group.windows[i]));
       }
       const MixturePosterior posterior =
-          mixture_posterior(components_, windows_.precision(group), part);
+          mixture_posterior(components_, windows_.precision(group), chosen);
       const MatrixXd means = posterior.mean();
       for (std::size_t i = 0; i < group.windows.size(); ++i)
         z_.col(static_cast<Index>(group.windows[i])) = means.col(static_cast<Index>(i));
@@ -137,7 +137,7 @@ class Filtering {
     }
   }
 
-  // K x D a window: what the patterns make of these windows.
+  // K x D per window: posterior mean within the patterns.
   std::vector<MatrixXd> patterns_of(std::size_t first, std::size_t last) const {
     const MatrixXd z = z_.middleCols(static_cast<Index>(first), static_cast<Index>(last - first));
     const MatrixXd x = product(transposed(prior_.basis), z).colwise() + prior_.mean;
@@ -149,7 +149,7 @@ class Filtering {
     return patterns;
   }
 
-  // N x D: what is left of the coefficients.
+  // N x D: the coefficients less that mean.
   static MatrixXd left_of(MatrixXd coefficients, const MatrixXd& pattern) {
     coefficients.topRows(pattern.rows()) -= pattern;
     return coefficients;
@@ -158,17 +158,17 @@ class Filtering {
   void learn_rest() {
     const std::size_t chunks = (windows_.starts().size() + chunk_windows - 1) / chunk_windows;
     const RestModel empty(prior_.rest, windows_.noise(), windows_.frames(), prior_.window_s);
-    std::vector<RestModel> parts(chunks, empty);
+    std::vector<RestModel> sums(chunks, empty);
     for_each_chunk([&](std::size_t chunk, std::size_t first, std::size_t last) {
       const std::vector<MatrixXd> patterns = patterns_of(first, last);
       for (std::size_t w = first; w < last; ++w) {
         VectorXd counts = VectorXd::Ones(prior_.channels());
         for (const WindowGroup::Lost& lost : windows_.group_of(w).lost) counts(lost.channel) = 0;
-        parts[chunk].add(left_of(windows_.coefficients(guess_, w), patterns[w - first]), counts);
+        sums[chunk].add(left_of(windows_.coefficients(guess_, w), patterns[w - first]), counts);
       }
     });
     rest_ = empty;
-    for (const RestModel& part : parts) rest_.add(part);
+    for (const RestModel& sum : sums) rest_.add(sum);
     rest_.learn(window_weight);
   }
 
@@ -200,22 +200,23 @@ class Filtering {
     PoseMatrix sum(take_.poses.frames, take_.poses.channels);
     std::vector<double> weight(take_.poses.frames, 0.0);
     const std::vector<Index>& starts = windows_.starts();
-    // A batch of windows at a time, so that memory does not grow with the take.
+    // A batch of windows at a time, which bounds memory.
     const std::size_t batch = 16 * chunk_windows;
-    std::vector<MatrixXd> parts(std::min(batch, starts.size()));
+    std::vector<MatrixXd> windows(std::min(batch, starts.size()));
     for (std::size_t first = 0; first < starts.size(); first += batch) {
       const std::size_t last = std::min(first + batch, starts.size());
       for_each_chunk_of(first, last, [&](std::size_t from, std::size_t to) {
         const std::vector<MatrixXd> patterns = patterns_of(from, to);
         for (std::size_t w = from; w < to; ++w) {
-          parts[w - first] = (windows_.cosines() * window_mean(w, patterns[w - from])).transpose();
+          windows[w - first] =
+              (windows_.cosines() * window_mean(w, patterns[w - from])).transpose();
         }
       });
       for (std::size_t w = first; w < last; ++w) {
         for (Index i = 0; i < windows_.frames() && starts[w] + i < frames; ++i) {
           const auto frame = static_cast<std::size_t>(starts[w] + i);
           Eigen::Map<VectorXd>(sum.row(frame).data(), channels) +=
-              taper_(i) * parts[w - first].col(i);
+              taper_(i) * windows[w - first].col(i);
           weight[frame] += taper_(i);
         }
       }
@@ -231,8 +232,8 @@ class Filtering {
     const std::vector<std::uint8_t> before =
         std::exchange(rejected_, std::vector<std::uint8_t>(rejected_.size(), 0));
     const std::size_t channels = estimate.channels;
-    tbb::parallel_for(std::size_t{0}, (channels + 2) / 3, [&](std::size_t part) {
-      const std::size_t first = 3 * part, last = std::min(first + 3, channels);
+    tbb::parallel_for(std::size_t{0}, (channels + 2) / 3, [&](std::size_t track) {
+      const std::size_t first = 3 * track, last = std::min(first + 3, channels);
       for (std::size_t d = first; d < last; ++d) {
         const double limit = limit_of(estimate, d);
         for (std::size_t f = 0; f < estimate.frames; ++f) {
@@ -273,7 +274,7 @@ class Filtering {
   std::vector<WienerPrior::Component> components_;
   RestModel rest_;
   VectorXd taper_;
-  PoseMatrix guess_;  // what was measured, and estimates where nothing was
+  PoseMatrix guess_;  // measured samples, and estimates of missing ones
   std::vector<std::uint8_t> rejected_;
   MatrixXd z_;  // R x W
 };
@@ -283,7 +284,8 @@ class Filtering {
 WienerResult wiener_filter(const WienerPrior& prior, const WienerTake& take,
                            const WienerSettings& settings) {
   if (take.poses.frames == 0) return {take.poses, {}};
-  // At high rates no window is longer than the take: its length in frames is a matrix's side.
+  // At high rates windows are no longer than the take, as their length in frames is the side of a
+  // matrix.
   constexpr double usual_rate_hz = 240;
   const double whole_take_hz = static_cast<double>(take.poses.frames) / prior.window_s;
   const double rate_hz = std::min(take.rate_hz, std::max(usual_rate_hz, whole_take_hz));

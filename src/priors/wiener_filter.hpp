@@ -11,34 +11,34 @@
 namespace kinemend {
 
 struct WienerSettings {
-  std::size_t adaptations = 2;     ///< times that the mixture is adapted to the take
-  double covariance_windows = 60;  ///< how many windows the learned covariances are worth
-  double mean_windows = 5;         ///< and the learned means
-  /// Standard deviations beyond which a sample counts for nothing; 0: all count.
+  std::size_t adaptations = 2;     ///< adaptations of the mixture to the take
+  double covariance_windows = 60;  ///< prior weight of the learned covariances, windows
+  double mean_windows = 5;         ///< the same of the learned means
+  /// Standard deviations beyond which a sample gets no weight; 0: none do.
   double outlier_deviations = 4.5;
-  double least_outlier_deg = 1;  ///< nearer ones are never outliers
-  double return_share = 0.75;    ///< of both limits: within it an outlier counts again
+  double least_outlier_deg = 1;  ///< samples at a smaller distance are no outliers
+  double return_share = 0.75;    ///< of both limits, within which an outlier is accepted again
 };
 
 struct WienerTake {
   const PoseMatrix& poses;                 ///< F x D
   const PoseMatrix& guess;                 ///< F x D, for samples that are missing or suspect
   std::span<const std::uint8_t> observed;  ///< F x D; empty: all
-  std::span<const std::uint8_t> suspect;   ///< F x D, 1: an outlier at first sight; empty: none
+  std::span<const std::uint8_t> suspect;   ///< F x D, 1: initial outliers; empty: none
   std::span<const double> noise;           ///< D, positive: standard deviations, degrees
   double rate_hz = 120;
 };
 
 struct WienerResult {
   PoseMatrix poses;                    ///< the posterior means
-  std::vector<std::uint8_t> rejected;  ///< F x D, 1 where an observed sample counted for nothing
+  std::vector<std::uint8_t> rejected;  ///< F x D, 1 where an observed sample had no weight
 };
 
-/// The posterior mean of a take, window by window and overlap-added. The mixture chooses by the
-/// evidence of each window; its components are then adapted to the take (maximum a posteriori,
-/// `MixtureMoments::adapted`) and the windows explained anew. What the patterns leave is shrunk by
-/// its own spectrum (`RestModel`). A sample far from what its window makes of it is taken out, and
-/// comes back when it is near after all. Channels come in threes, of which outliers are shared.
+/// The posterior mean of a take, window by window and overlap-added. Components are weighted by the
+/// evidence of each window, then adapted to the take (maximum a posteriori,
+/// `MixtureMoments::adapted`), and the posterior is computed again. The residual is shrunk by its
+/// own spectrum (`RestModel`). A sample far from its window's estimate is rejected, and accepted
+/// again when it is near a later estimate. Channels come in threes, of which outliers are shared.
 WienerResult wiener_filter(const WienerPrior& prior, const WienerTake& take,
                            const WienerSettings& settings = {});
 

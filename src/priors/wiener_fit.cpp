@@ -17,7 +17,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Rotation vectors jump by a whole turn where a joint turns beyond half of one.
+// Rotation vectors jump by a full turn where a joint turns beyond half of one.
 constexpr double jump_deg = 90;
 constexpr double least_variance = 1e-6;  // square degrees
 
@@ -106,7 +106,8 @@ void WienerFit::find_basis() {
 void WienerFit::add_windows(const PoseMatrix& sequence) {
   const MatrixXd kept = low(coefficients_of(sequence));
   const MatrixXd z = prior_.basis.transpose() * (kept.colwise() - prior_.mean);
-  // Vitter's reservoir, with a generator a window so that the sample grows out of the seed alone.
+  // Reservoir sampling (Vitter), with one generator per window so that the sample depends on the
+  // seed only.
   const Random random(settings_.seed);
   for (Index w = 0; w < z.cols(); ++w, ++seen_) {
     if (sample_.size() < settings_.windows) {

@@ -19,21 +19,21 @@ struct WienerFitSettings {
   std::size_t rank = 120;         ///< R, at most K times the channels
   std::size_t components = 8;
   std::size_t rounds = 10;       ///< of expectation and maximisation
-  double pooling = 300;          ///< windows that the covariance of all is worth in each component
-  std::size_t windows = 12'000;  ///< kept to fit the mixture to, drawn at random
+  double pooling = 300;          ///< weight of the pooled covariance in each component, in windows
+  std::size_t windows = 12'000;  ///< drawn at random to fit the mixture
   std::uint64_t seed = 1;
 };
 
 /// Fits a prior in two passes over the same sequences: moments of all windows, which give mean,
-/// basis and rest; then the windows in that basis, of which a random sample is kept and the mixture
-/// fitted to. Memory does not depend on how many sequences there are.
+/// basis and rest; then the windows in that basis, of which a random sample is kept for the
+/// mixture. Memory is independent of the number of sequences.
 class WienerFit {
  public:
   /// `channels`: D, 1 or more.
   WienerFit(std::size_t channels, const WienerFitSettings& settings);
 
   std::size_t window_frames() const noexcept;
-  /// Takes come in halves, 0 and 1, so that what is learned of one is tried on the other.
+  /// Takes come in halves, 0 and 1, for cross-validation.
   void add_moments(const PoseMatrix& sequence, double weight = 1, std::size_t half = 0);
   /// Between the passes. Errors: `ErrorKind::usage` when there was no window.
   void find_basis();
@@ -41,7 +41,7 @@ class WienerFit {
   WienerPrior finish() const;
 
  private:
-  // One column a window, all N coefficients, channel-major; none of windows in which a channel
+  // One column per window, all N coefficients, channel-major; none of windows in which a channel
   // jumps by half a turn.
   Eigen::MatrixXd coefficients_of(const PoseMatrix& sequence) const;
   Eigen::MatrixXd low(const Eigen::MatrixXd& all) const;

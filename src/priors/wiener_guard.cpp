@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::array<double, 14> widths_s = {0.006, 0.008, 0.011, 0.014, 0.018, 0.024, 0.032,
                                              0.042, 0.055, 0.075, 0.1,   0.14,  0.19,  0.25};
-constexpr std::size_t part_channels = 3;
+constexpr std::size_t track_channels = 3;
 constexpr double probe_share = 0.1;     // of the noise
 constexpr double clearly = 0.95;        // of the filter's risk
 constexpr double fewest_counted = 0.8;  // share of samples
@@ -30,7 +30,7 @@ constexpr double most_of_typical = 25;   // a single difference, of the typical 
 constexpr double least_variance = 1e-6;  // square degrees
 constexpr double gap_fade_s = 0.1;
 
-// What a way of filtering makes of the take, and D: the mean of d x_t / d y_t.
+// A filtered take, and D: the mean of d x_t / d y_t.
 struct Estimate {
   PoseMatrix poses;
   std::vector<double> divergence;
@@ -64,7 +64,7 @@ class Guard {
     Estimate estimate{result.poses, divergence(result)};
     mix(estimate, smoothed());
     result.poses = std::move(estimate.poses);
-    std::vector<double> least = part_sums(risks(result.poses, estimate.divergence));
+    std::vector<double> least = track_sums(risks(result.poses, estimate.divergence));
     for (double& risk : least) risk *= clearly;
     std::vector<std::size_t> best(least.size(), widths_s.size());
     std::vector<PoseMatrix> smooth(widths_s.size());
@@ -74,17 +74,17 @@ class Guard {
       smooth[w] = samples_;
       gaussian_filter(smooth[w], sigma);
       smooth_risks[w] =
-          part_sums(risks(smooth[w], std::vector<double>(channels, centre_weight(sigma))));
+          track_sums(risks(smooth[w], std::vector<double>(channels, centre_weight(sigma))));
     });
     for (std::size_t w = 0; w < widths_s.size(); ++w) {
-      for (std::size_t part = 0; part < least.size(); ++part) {
-        if (smooth_risks[w][part] >= least[part]) continue;
-        least[part] = smooth_risks[w][part];
-        best[part] = w;
+      for (std::size_t track = 0; track < least.size(); ++track) {
+        if (smooth_risks[w][track] >= least[track]) continue;
+        least[track] = smooth_risks[w][track];
+        best[track] = w;
       }
     }
     for (std::size_t d = 0; d < channels; ++d) {
-      const std::size_t w = best[d / part_channels];
+      const std::size_t w = best[d / track_channels];
       if (w == widths_s.size() || !is_mostly_counted(d)) continue;
       for (std::size_t f = 0; f < frames; ++f) result.poses(f, d) = smooth[w](f, d);
     }
@@ -101,8 +101,8 @@ class Guard {
     return static_cast<double>(count) >= fewest_counted * static_cast<double>(take_.poses.frames);
   }
 
-  // Mean square of fourth differences of samples that count: noise may be stronger here than there,
-  // and risks add up.
+  // Mean square of fourth differences of the samples used: noise may vary over the take, and risks
+  // are sums.
   void learn_noise() {
     const PoseMatrix& y = take_.poses;
     variance_.assign(y.channels, 0);
@@ -178,37 +178,37 @@ class Guard {
     return estimate;
   }
 
-  // Of each part a x + (1 - a) other with the a of least estimated risk, which is a parabola in a.
+  // Of each track a x + (1 - a) other with the a of least estimated risk, which is a parabola in a.
   void mix(Estimate& x, const Estimate& other) const {
-    const std::size_t channels = samples_.channels, parts = (channels + 2) / part_channels;
-    std::vector<double> slope(parts, 0), curvature(parts, 0);
+    const std::size_t channels = samples_.channels, tracks = (channels + 2) / track_channels;
+    std::vector<double> slope(tracks, 0), curvature(tracks, 0);
     for (std::size_t i = 0; i < counted_.size(); ++i) {
       if (counted_[i] == 0) continue;
       const std::size_t d = i % channels;
       const double step = x.poses.values[i] - other.poses.values[i];
       const double left = take_.poses.values[i] - other.poses.values[i];
-      slope[d / part_channels] +=
+      slope[d / track_channels] +=
           left * step - (x.divergence[d] - other.divergence[d]) * variance_[d];
-      curvature[d / part_channels] += step * step;
+      curvature[d / track_channels] += step * step;
     }
     std::vector<double> share(channels, 1);
     for (std::size_t d = 0; d < channels; ++d) {
-      const std::size_t part = d / part_channels;
-      if (curvature[part] > 0 && is_mostly_counted(d))
-        share[d] = std::clamp(slope[part] / curvature[part], 0.0, 1.0);
+      const std::size_t track = d / track_channels;
+      if (curvature[track] > 0 && is_mostly_counted(d))
+        share[d] = std::clamp(slope[track] / curvature[track], 0.0, 1.0);
       x.divergence[d] = share[d] * x.divergence[d] + (1 - share[d]) * other.divergence[d];
     }
     const std::vector<std::size_t> depth = gap_depths();
     for (std::size_t i = 0; i < counted_.size(); ++i) {
       const double deep = static_cast<double>(depth[i]) / (gap_fade_s * take_.rate_hz);
       const double other_share = (1 - share[i % channels]) * std::max(0.0, 1 - deep);
-      if (other_share <= 0) continue;  // the other may have nothing to say here
+      if (other_share <= 0) continue;  // the other has no weight here
       x.poses.values[i] += other_share * (other.poses.values[i] - x.poses.values[i]);
     }
   }
 
-  // F x D: frames to the nearest sample that counts. What crosses a gap by smoothness alone is
-  // worth less the deeper it gets.
+  // F x D: frames to the nearest sample that counts. The weight of the smoother decreases with
+  // depth into a gap.
   std::vector<std::size_t> gap_depths() const {
     const std::size_t channels = samples_.channels, count = counted_.size();
     std::vector<std::size_t> depth(count, 0);
@@ -232,10 +232,10 @@ class Guard {
     return sums;
   }
 
-  static std::vector<double> part_sums(const std::vector<double>& channels) {
-    std::vector<double> parts((channels.size() + 2) / part_channels, 0);
-    for (std::size_t d = 0; d < channels.size(); ++d) parts[d / part_channels] += channels[d];
-    return parts;
+  static std::vector<double> track_sums(const std::vector<double>& channels) {
+    std::vector<double> tracks((channels.size() + 2) / track_channels, 0);
+    for (std::size_t d = 0; d < channels.size(); ++d) tracks[d / track_channels] += channels[d];
+    return tracks;
   }
 
   const WienerPrior& prior_;

@@ -20,7 +20,7 @@ bool is_observed(const WienerTake& take, std::size_t sample) {
   return take.observed.empty() || take.observed[sample] != 0;
 }
 
-// D: noise that the samples' outliers are part of.
+// D: noise, outliers included.
 std::vector<double> noise_with_outliers(const WienerTake& take) {
   const PoseMatrix& y = take.poses;
   std::vector<double> noise(take.noise.begin(), take.noise.end());
@@ -39,7 +39,7 @@ std::vector<double> noise_with_outliers(const WienerTake& take) {
   return noise;
 }
 
-// Marks what is far from the estimate, and lowers the noise to that of the other samples.
+// Marks samples far from the estimate, and sets the noise to that of the other samples.
 void judge(const WienerTake& take, const PoseMatrix& estimate, std::vector<std::uint8_t>& suspect,
            std::vector<double>& noise) {
   const std::size_t channels = estimate.channels;
@@ -70,7 +70,7 @@ void judge(const WienerTake& take, const PoseMatrix& estimate, std::vector<std::
   }
 }
 
-// What is suspect, on splines through the other samples.
+// Replaces suspects by splines through the other samples.
 void bridge(const WienerTake& take, const std::vector<std::uint8_t>& suspect, PoseMatrix& guess) {
   std::vector<std::uint8_t> missing = suspect;
   for (std::size_t i = 0; i < missing.size(); ++i) {
@@ -90,7 +90,7 @@ WienerOutliers dense_outliers(const WienerPrior& prior, const WienerTake& take) 
   result.suspect.resize(take.poses.values.size(), 0);
   WienerSettings settings;
   settings.adaptations = 1;
-  // Suspects neither return nor are joined by others.
+  // The set of suspects is fixed.
   settings.return_share = 0;
   settings.least_outlier_deg = std::numeric_limits<double>::max();
   std::vector<double> noise = noise_with_outliers(take);

@@ -14,7 +14,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Rounding to 16 bits must not make a direction impossible.
+// Keeps covariances positive definite when rounded to 16 bits.
 constexpr double least_deviation = 1e-3;  // degrees
 
 Tensor tensor_of(const Rows& matrix, TensorType type) {
@@ -66,15 +66,15 @@ WienerPrior with_coefficients(const WienerPrior& prior, Index coefficients) {
 WienerPrior with_turned_channels(const WienerPrior& prior, std::span<const Eigen::Matrix3d> turns) {
   WienerPrior result = prior;
   const Index k = prior.coefficients();
-  for (std::size_t part = 0; part < turns.size(); ++part) {
-    const Index first = 3 * static_cast<Index>(part);
-    result.rest.middleRows<3>(first) = turns[part].cwiseAbs2() * prior.rest.middleRows<3>(first);
+  for (std::size_t track = 0; track < turns.size(); ++track) {
+    const Index first = 3 * static_cast<Index>(track);
+    result.rest.middleRows<3>(first) = turns[track].cwiseAbs2() * prior.rest.middleRows<3>(first);
     for (Index row = 0; row < 3; ++row) {
       const Index to = (first + row) * k;
       result.mean.segment(to, k).setZero();
       result.basis.middleRows(to, k).setZero();
       for (Index column = 0; column < 3; ++column) {
-        const double share = turns[part](row, column);
+        const double share = turns[track](row, column);
         const Index from = (first + column) * k;
         result.mean.segment(to, k) += share * prior.mean.segment(from, k);
         result.basis.middleRows(to, k) += share * prior.basis.middleRows(from, k);

@@ -6,7 +6,7 @@
 
 #include "kinemend/model.hpp"
 
-// What the method `wiener` knows of motion: the distribution of short windows.
+// Prior of the method `wiener`: the distribution of short windows of motion.
 namespace kinemend {
 
 /// Windows of `window_s` of D channels as DCT coefficients (`window_cosines`), channel-major: entry
@@ -14,9 +14,8 @@ namespace kinemend {
 ///
 ///     x = mean + basis z + e,    z ~ sum_c weight_c N(mean_c, covariance_c)
 ///
-/// and e are independent normal numbers of variance `rest`, which also has coefficients that the
-/// basis knows nothing of (k >= K), and with them all of motion that is quick.
-/// Units: degrees, and their squares.
+/// and e are independent normal numbers of variance `rest`, which also has the coefficients beyond
+/// the basis (k >= K), those of quick motion. Units: degrees, and their squares.
 struct WienerPrior {
   struct Component {
     double weight = 1;
@@ -34,16 +33,16 @@ struct WienerPrior {
   Eigen::Index rank() const { return basis.cols(); }
 };
 
-/// The prior of windows at another rate, where a window has fewer frames than there are
+/// The prior of windows at another rate, where a window may have fewer frames than there are
 /// coefficients: the high ones are left out.
 WienerPrior with_coefficients(const WienerPrior& prior, Eigen::Index coefficients);
 
-/// The prior of channels that are turned three at a time: x' = turn x, one rotation for each three.
-/// What is not in the basis is taken for independent as before.
+/// The prior of rotated channels, x' = turn x with one rotation for each three. The rest is again
+/// taken as independent.
 WienerPrior with_turned_channels(const WienerPrior& prior, std::span<const Eigen::Matrix3d> turns);
 
-/// The model file's form, and back. Covariances are kept as their Cholesky factors, in 16 bits,
-/// like all that is large. Errors: `ErrorKind::unreadable_input` naming what does not fit.
+/// To and from tensors of the model file. Covariances are stored as Cholesky factors, large tensors
+/// in 16 bits. Errors: `ErrorKind::unreadable_input` naming the inconsistent tensor.
 void store_wiener_prior(const WienerPrior& prior, Model& model);
 WienerPrior wiener_prior_of(const Model& model);
 

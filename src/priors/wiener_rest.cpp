@@ -18,14 +18,14 @@ constexpr double octave_penalty = 0.02;  // log prior of a scale: - penalty octa
 // The noise of a window, relative to that of the take, is a power of two between these.
 constexpr int least_noise_octave = -1;
 constexpr int largest_noise_octave = 6;
-constexpr double noise_coefficients = 20;  // that the take's noise is worth in a window
-constexpr double motionless_hz = 35;       // next to no motion is quicker
+constexpr double noise_coefficients = 20;  // weight of the take's noise in a window
+constexpr double motionless_hz = 35;       // motion above it is negligible
 constexpr double prior_windows = 8;
 constexpr double least_variance = 1e-9;  // square degrees
 constexpr std::size_t scale_count = 2 * largest_octave + 1;
 constexpr std::size_t noise_count = largest_noise_octave - least_noise_octave + 1;
 
-// Coefficients about k that are taken to have one variance.
+// Coefficients about k over which variances are averaged.
 struct Band {
   Index first, last;
 };
@@ -44,7 +44,7 @@ RestModel::RestModel(const MatrixXd& prior, const VectorXd& noise, Index frames,
       motionless_(std::min(frames, static_cast<Index>(std::ceil(2 * window_s * motionless_hz)))),
       signal_(MatrixXd::Zero(frames, prior.rows())),
       counts_(VectorXd::Zero(prior.rows())) {
-  // Above the frequencies of the model, where takes have a higher rate, spectra fall on.
+  // Above the model's frequencies, at higher rates, the spectrum is extrapolated.
   for (Index k = 0; k < frames; ++k) {
     const Index known = std::min(k, prior.cols() - 1);
     const double fall = std::pow(static_cast<double>(known + 1) / static_cast<double>(k + 1), 4);
@@ -52,7 +52,7 @@ RestModel::RestModel(const MatrixXd& prior, const VectorXd& noise, Index frames,
   }
 }
 
-// Of the noise of a channel in a window, by its highest frequencies.
+// Noise of a channel in a window, from its highest frequencies.
 int RestModel::noise_octave(const MatrixXd& left, Index channel) const {
   const Index count = left.rows() - motionless_;
   if (count <= 0) return 0;

@@ -5,27 +5,27 @@
 
 namespace kinemend {
 
-/// What the learned patterns leave of a take, as independent coefficients whose variance is learned
-/// from the take itself and scaled window by window: quick moments and slow ones differ. So does
-/// the noise: a window may have more of it than the take, as where there is a spike.
+/// Model of a take's residual outside the learned patterns: independent coefficients whose variance
+/// is estimated from the take itself and scaled for each window. The noise is scaled, too: a window
+/// with a spike has more.
 class RestModel {
  public:
-  /// `prior`: D x M, what was learned; `noise`: D, of a coefficient. Channels come in threes, which
-  /// share a scale.
+  /// `prior`: D x M, learned variances; `noise`: D, of a coefficient. Channels come in threes,
+  /// which share a scale.
   RestModel(const Eigen::MatrixXd& prior, const Eigen::VectorXd& noise, Eigen::Index frames,
             double window_s);
 
-  /// Adds the coefficients (N x D) that a window leaves. `counts`: D, 1 for channels that were
+  /// Adds the residual coefficients (N x D) of a window. `counts`: D, 1 for channels that were
   /// measured.
   void add(const Eigen::MatrixXd& left, const Eigen::VectorXd& counts);
-  /// Sums of another part of the take.
+  /// Adds the sums of other windows of the take.
   void add(const RestModel& other);
   /// Sets the variances: those of the sums, less the noise and smoothed over frequency, where the
-  /// prior is worth eight windows. `window_weight`: what a window counts, less than 1 where windows
+  /// prior has the weight of eight windows. `window_weight` of a window, below 1 where windows
   /// overlap.
   void learn(double window_weight);
   /// Posterior means of the coefficients of a window (N x D), averaged over scales of the variances
-  /// by their evidence, in place. The noise of a window is told by its highest frequencies.
+  /// by their evidence, in place. The noise of a window is estimated from its highest frequencies.
   void shrink(Eigen::MatrixXd& left) const;
 
  private:

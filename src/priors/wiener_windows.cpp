@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// With more than one in so many samples missing a channel is conditioned on the others.
+// Above this share of missing samples, one in so many, a channel is conditioned on the others.
 constexpr Index guessed_share = 8;
 
 }  // namespace
@@ -46,7 +46,7 @@ WienerWindows::WienerWindows(const WienerPrior& prior, Index window_frames, Inde
   }
 }
 
-// N x D, 1 where a sample is missing of a channel that is lost; empty: none.
+// N x D, 1 where a sample of a channel that is left out is missing; empty: none.
 std::vector<bool> WienerWindows::lost_samples(Index start,
                                               std::span<const std::uint8_t> observed) const {
   const Index channels = prior_.channels();

@@ -8,12 +8,12 @@
 #include "kinemend/pose_matrix.hpp"
 #include "priors/wiener_prior.hpp"
 
-// What the windows of a take say about their coefficients, samples missing or not.
+// Likelihood of the coefficients of a take's windows, with missing samples.
 namespace kinemend {
 
-/// The windows of one take that miss the same samples.
+/// Windows of one take with the same missing samples.
 struct WindowGroup {
-  /// A channel with so many samples missing that they are left out instead of guessed.
+  /// A channel whose missing samples are left out instead of guessed, as there are many.
   struct Lost {
     Eigen::Index channel = 0;
     std::vector<Eigen::Index> seen;  ///< frames of the window that were measured
@@ -26,7 +26,7 @@ struct WindowGroup {
 
 /// Cuts a take into windows. Where a channel lacks more than an eighth of a window's samples its
 /// missing ones are left out of the window: the coefficients are then conditioned on the others.
-/// Fewer are taken from `poses`, which holds a guess there.
+/// Otherwise they are taken from `poses`, which holds a guess.
 class WienerWindows {
  public:
   /// `prior`: with no more coefficients than a window has frames. `noise`: D, positive, degrees.
@@ -40,7 +40,7 @@ class WienerWindows {
 
   /// N x D: all coefficients of a window; frames behind the end of the take repeat the last.
   Eigen::MatrixXd coefficients(const PoseMatrix& poses, std::size_t window) const;
-  /// D K: u = S^-1 (y - mean), where S is the covariance of noise and of what is not in the basis.
+  /// D K: u = S^-1 (y - mean), where S is the covariance of noise and rest.
   Eigen::VectorXd information(const PoseMatrix& poses, std::size_t window,
                               const Eigen::MatrixXd& coefficients) const;
   /// R x R: J = basis^T S^-1 basis.

@@ -14,7 +14,7 @@ namespace {
 constexpr double same_rate = 1e-9;  // relative
 
 // Second derivatives of the spline through M equally spaced values, as a matrix. The third
-// derivative is continuous next to the ends ("not a knot"), so that cubics come back as they are.
+// derivative is continuous next to the ends ("not a knot"), so that cubics are reproduced.
 Eigen::MatrixXd spline_curvatures(Eigen::Index count) {
   Eigen::MatrixXd left = Eigen::MatrixXd::Identity(count, count);
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(count, count);
@@ -81,7 +81,7 @@ WindowBases bases_at_rate(const FilterBases& bases, double model_rate_hz, double
   const double spare = static_cast<double>(whole - result.frames) / 2;
   const std::vector<double> weights =
       spline_weights(bases.window_frames, spare / ratio, 1 / ratio, result.frames);
-  // With room for whole hops, which products need.
+  // Padded to whole hops, for the products.
   result.values.reserve((result.frames + result.hop - 1) / result.hop * result.hop * patterns);
   result.values.resize(result.frames * patterns);
   nn::multiply({weights.data(), result.frames, bases.window_frames, bases.window_frames},

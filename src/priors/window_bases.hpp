@@ -20,8 +20,8 @@ struct WindowBases {
 };
 
 /// The bases at the rate of a clip of `clip_frames` frames (1 or more), by a cubic spline through
-/// their M frames. A clip that is shorter than a window gets the middle of the window. `count`: so
-/// many of the leading ones; 0: all.
+/// their M frames. A clip shorter than a window gets the middle of the window. `count`: number of
+/// leading bases; 0: all.
 WindowBases bases_at_rate(const FilterBases& bases, double model_rate_hz, double clip_rate_hz,
                           std::size_t clip_frames, std::size_t count = 0);
 

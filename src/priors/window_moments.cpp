@@ -10,7 +10,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// n: mean squares of what is outside of the directions.
+// n: mean squares outside the directions.
 VectorXd outside(const MatrixXd& moments, const MatrixXd& vectors) {
   const MatrixXd image = moments * vectors;
   const MatrixXd inner = vectors.transpose() * image;

@@ -9,7 +9,7 @@ class WindowMoments {
  public:
   explicit WindowMoments(Eigen::Index size);
 
-  /// One window a column.
+  /// One window per column.
   void add(const Eigen::MatrixXd& windows, double weight = 1);
   void add(const WindowMoments& other);
 
@@ -25,16 +25,16 @@ class WindowMoments {
   Eigen::MatrixXd squares_;  // lower half
 };
 
-/// Directions in which windows move together: orthonormal columns, variances falling.
+/// Principal directions of windows: orthonormal columns, variances descending.
 struct Directions {
   Eigen::MatrixXd vectors;    ///< n x R
   Eigen::VectorXd variances;  ///< R
 };
 Directions leading_directions(const Eigen::MatrixXd& covariance, Eigen::Index rank);
 
-/// n: mean square of what the leading directions of one half of the windows leave of the other
-/// half, about the mean of the one; the mean of both ways round. Directions leave less of the
-/// windows that they were learned from. Both halves have windows.
+/// n: cross-validated residual: mean square of one half of the windows outside the leading
+/// directions of the other half, about the other's mean; averaged over both halves, which are not
+/// empty. The residual of the training windows is biased low.
 Eigen::VectorXd cross_validated_rest(const WindowMoments& half, const WindowMoments& other_half,
                                      Eigen::Index rank);
 

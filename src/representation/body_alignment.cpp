@@ -32,10 +32,10 @@ Quat unturned_rotation(const Skeleton& skeleton, std::int32_t joint) {
   return rotation;
 }
 
-// The only child of each part; -1: it has none, -2: several.
+// The only child of each track; -1: it has none, -2: several.
 std::vector<std::int32_t> only_children(const BodyLayout& layout) {
-  std::vector<std::int32_t> children(layout.part_count(), -1);
-  for (std::size_t i = 1; i < layout.part_count(); ++i) {
+  std::vector<std::int32_t> children(layout.track_count(), -1);
+  for (std::size_t i = 1; i < layout.track_count(); ++i) {
     std::int32_t& child = children[static_cast<std::size_t>(layout.parents[i])];
     child = child == -1 ? static_cast<std::int32_t>(i) : -2;
   }
@@ -45,51 +45,51 @@ std::vector<std::int32_t> only_children(const BodyLayout& layout) {
 }  // namespace
 
 std::vector<Vec3> bone_directions(const BodyLayout& layout, const Clip& clip, const RestPose& rest,
-                                  const std::vector<std::int32_t>& parts) {
+                                  const std::vector<std::int32_t>& tracks) {
   constexpr double least_share = 1e-3;  // of all the skeleton's bones
   double all = 0;
   for (const Vec3 offset : clip.skeleton.offsets) all += norm(offset);
   const std::vector<std::int32_t> children = only_children(layout);
-  std::vector<Vec3> directions(layout.part_count());
-  for (std::size_t i = 1; i < layout.part_count(); ++i) {
-    if (parts[i] < 0 || children[i] == -2) continue;
+  std::vector<Vec3> directions(layout.track_count());
+  for (std::size_t i = 1; i < layout.track_count(); ++i) {
+    if (tracks[i] < 0 || children[i] == -2) continue;
     std::optional<Vec3> end;
     if (children[i] == -1) {
-      end = only_end(clip.skeleton, rest, parts[i]);
-    } else if (const std::int32_t child = parts[static_cast<std::size_t>(children[i])];
+      end = only_end(clip.skeleton, rest, tracks[i]);
+    } else if (const std::int32_t child = tracks[static_cast<std::size_t>(children[i])];
                child >= 0) {
       end = rest.positions[static_cast<std::size_t>(child)];
     }
     if (!end) continue;
-    const Vec3 bone = *end - rest.positions[static_cast<std::size_t>(parts[i])];
+    const Vec3 bone = *end - rest.positions[static_cast<std::size_t>(tracks[i])];
     const double length = norm(bone);
     if (length > least_share * all) directions[i] = rotate(rest.upright, (1 / length) * bone);
   }
   return directions;
 }
 
-std::int32_t matched_parent(const BodyLayout& layout, const std::vector<std::int32_t>& parts,
-                            std::size_t part) {
-  std::int32_t above = layout.parents[part];
-  while (above >= 0 && parts[static_cast<std::size_t>(above)] < 0)
+std::int32_t matched_parent(const BodyLayout& layout, const std::vector<std::int32_t>& tracks,
+                            std::size_t track) {
+  std::int32_t above = layout.parents[track];
+  while (above >= 0 && tracks[static_cast<std::size_t>(above)] < 0)
     above = layout.parents[static_cast<std::size_t>(above)];
   return above;
 }
 
 void align_joints(const BodyLayout& layout, const Clip& clip, const RestPose& rest,
                   BodyMatch& match) {
-  const std::size_t count = layout.part_count();
-  const std::vector<Vec3> bones = bone_directions(layout, clip, rest, match.parts);
+  const std::size_t count = layout.track_count();
+  const std::vector<Vec3> bones = bone_directions(layout, clip, rest, match.tracks);
   std::vector<Quat> turns(count);
   match.before.assign(count, {});
   match.after.assign(count, {});
   for (std::size_t i = 0; i < count; ++i) {
-    if (match.parts[i] < 0) continue;
-    const auto joint = static_cast<std::size_t>(match.parts[i]);
+    if (match.tracks[i] < 0) continue;
+    const auto joint = static_cast<std::size_t>(match.tracks[i]);
     const Quat frame = rest.upright * rest.rotations[joint];
-    const std::int32_t above = matched_parent(layout, match.parts, i);
+    const std::int32_t above = matched_parent(layout, match.tracks, i);
     if (above < 0) {
-      match.before[i] = match.upright * unturned_rotation(clip.skeleton, match.parts[i]);
+      match.before[i] = match.upright * unturned_rotation(clip.skeleton, match.tracks[i]);
       match.after[i] = conjugate(frame);
       continue;
     }

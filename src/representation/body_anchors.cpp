@@ -60,14 +60,14 @@ std::optional<RigidFit> least_squares(const std::vector<Anchor>& anchors) {
 }
 
 // Anchors that lie far from where the fit expects them.
-bool drop_strangers(const RigidFit& fit, double stature, std::vector<Anchor>& anchors) {
+bool drop_strangers(const RigidFit& fit, double body_height, std::vector<Anchor>& anchors) {
   constexpr double least_share = 0.05, times_median = 4;
   std::vector<double> distances;
   distances.reserve(anchors.size());
   for (const Anchor& anchor : anchors)
     distances.push_back(norm(anchor.seen - fit.seen_at(anchor.expected)));
   std::vector<double> sorted(distances);
-  const double limit = std::max(least_share * stature, times_median * median_of(sorted));
+  const double limit = std::max(least_share * body_height, times_median * median_of(sorted));
   std::vector<Anchor> kept;
   for (std::size_t i = 0; i < anchors.size(); ++i) {
     if (distances[i] <= limit) kept.push_back(anchors[i]);
@@ -81,7 +81,7 @@ bool drop_strangers(const RigidFit& fit, double stature, std::vector<Anchor>& an
 Vec3 body_centre(const BodyLayout& layout) {
   double height = 0;
   int anchors = 0;
-  for (std::size_t i = 0; i < layout.part_count(); ++i) {
+  for (std::size_t i = 0; i < layout.track_count(); ++i) {
     if (layout.anchors[i] == 0) continue;
     height += layout.shape[i].y;
     ++anchors;
@@ -93,28 +93,28 @@ Vec3 body_centre(const BodyLayout& layout) {
 
 TurnAboutY::TurnAboutY(double angle) : cosine_(std::cos(angle)), sine_(std::sin(angle)) {}
 
-std::optional<RigidFit> fit_rigidly(std::vector<Anchor> anchors, double stature) {
+std::optional<RigidFit> fit_rigidly(std::vector<Anchor> anchors, double body_height) {
   auto fit = least_squares(anchors);
-  if (fit && drop_strangers(*fit, stature, anchors)) fit = least_squares(anchors);
+  if (fit && drop_strangers(*fit, body_height, anchors)) fit = least_squares(anchors);
   return fit;
 }
 
 std::optional<RigidFit> fit_frame(const MarkerClip& clip, const BodyLayout& layout,
                                   const BodyMatch& match, std::size_t frame) {
   std::vector<Anchor> anchors;
-  for (std::size_t i = 0; i < layout.part_count(); ++i) {
-    const auto marker = static_cast<std::size_t>(match.parts[i]);
-    if (layout.anchors[i] == 0 || match.parts[i] < 0 || !clip.is_observed(frame, marker)) continue;
-    anchors.push_back(
-        {upright_position(clip, match.upright, frame, marker), match.stature * layout.shape[i]});
+  for (std::size_t i = 0; i < layout.track_count(); ++i) {
+    const auto marker = static_cast<std::size_t>(match.tracks[i]);
+    if (layout.anchors[i] == 0 || match.tracks[i] < 0 || !clip.is_observed(frame, marker)) continue;
+    anchors.push_back({upright_position(clip, match.upright, frame, marker),
+                       match.body_height * layout.shape[i]});
   }
-  return fit_rigidly(std::move(anchors), match.stature);
+  return fit_rigidly(std::move(anchors), match.body_height);
 }
 
 void follow_anchors(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match,
                     double floor, BodyChannels& channels) {
   const std::size_t frames = clip.frame_count();
-  const Vec3 centre = match.stature * body_centre(layout);
+  const Vec3 centre = match.body_height * body_centre(layout);
   std::vector<double> headings(frames), turned(frames), placed(frames);
   std::vector<Vec3> places(frames);
   for (std::size_t f = 0; f < frames; ++f) {
@@ -123,7 +123,7 @@ void follow_anchors(const MarkerClip& clip, const BodyLayout& layout, const Body
     const Heading heading = heading_of(fit->rotation);
     headings[f] = heading.angle;
     places[f] = fit->seen_at(centre);
-    placed[f] = fit->spread / (match.stature * match.stature);
+    placed[f] = fit->spread / (match.body_height * match.body_height);
     turned[f] = placed[f] * heading.weight;
   }
   follow(layout, std::move(headings), turned, std::move(places), placed, clip.frame_rate_hz, floor,
@@ -157,21 +157,21 @@ double floor_height(const MarkerClip& clip, const BodyLayout& layout, const Body
   if (!match.feet.empty()) {
     // Where the lowest of the layout's markers are missing, those that are left stand higher.
     double lowest = std::numeric_limits<double>::infinity(), known = lowest;
-    for (std::size_t i = 0; i < layout.part_count(); ++i) {
+    for (std::size_t i = 0; i < layout.track_count(); ++i) {
       lowest = std::min(lowest, layout.means[i].y);
-      if (std::find(match.feet.begin(), match.feet.end(), match.parts[i]) != match.feet.end())
+      if (std::find(match.feet.begin(), match.feet.end(), match.tracks[i]) != match.feet.end())
         known = std::min(known, layout.means[i].y);
     }
-    return low_level(clip, match.upright, match.feet) - match.stature * (known - lowest);
+    return low_level(clip, match.upright, match.feet) - match.body_height * (known - lowest);
   }
   std::vector<double> floors;
-  for (std::size_t i = 0; i < layout.part_count(); ++i) {
-    if (layout.anchors[i] == 0 || match.parts[i] < 0) continue;
-    const auto marker = static_cast<std::size_t>(match.parts[i]);
+  for (std::size_t i = 0; i < layout.track_count(); ++i) {
+    if (layout.anchors[i] == 0 || match.tracks[i] < 0) continue;
+    const auto marker = static_cast<std::size_t>(match.tracks[i]);
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
       if (!clip.is_observed(f, marker)) continue;
       floors.push_back(upright_position(clip, match.upright, f, marker).y -
-                       match.stature * layout.means[i].y);
+                       match.body_height * layout.means[i].y);
     }
   }
   return median_of(floors);

@@ -31,7 +31,7 @@ struct RigidFit {
 };
 /// Least squares (Horn 1987); anchors that lie far off where the others say are left out. None for
 /// fewer than three, or where all are at one spot.
-std::optional<RigidFit> fit_rigidly(std::vector<Anchor> anchors, double stature);
+std::optional<RigidFit> fit_rigidly(std::vector<Anchor> anchors, double body_height);
 
 /// The fit of the layout's shape to the anchors seen in a frame, file units, upright axes.
 std::optional<RigidFit> fit_frame(const MarkerClip& clip, const BodyLayout& layout,

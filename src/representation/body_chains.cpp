@@ -37,7 +37,7 @@ BodyChains chains_by_topology(const NamedTree& tree) {
   const std::int32_t chest =
       tree.common_ancestor(find(Bone::upper_arm, Side::left), find(Bone::upper_arm, Side::right));
   const std::int32_t head = find(Bone::head, Side::none);
-  // Where the legs hang on a joint above the pelvis, that one is no part of the trunk.
+  // Where the legs hang on a joint above the pelvis, it does not belong to the trunk.
   std::int32_t hips = find(Bone::pelvis, Side::none);
   const std::int32_t legs =
       tree.common_ancestor(find(Bone::thigh, Side::left), find(Bone::thigh, Side::right));

@@ -28,26 +28,26 @@ std::string_view noun(const BodyLayout& layout) {
 
 }  // namespace
 
-MappedParts mapped_parts(const BodyLayout& layout, const std::vector<std::string>& names,
-                         const NameMap& map) {
-  MappedParts mapped{std::vector<std::int32_t>(layout.part_count(), -1),
-                     std::vector<std::uint8_t>(layout.part_count()),
-                     std::vector<std::uint8_t>(names.size())};
+MappedTracks mapped_tracks(const BodyLayout& layout, const std::vector<std::string>& names,
+                           const NameMap& map) {
+  MappedTracks mapped{std::vector<std::int32_t>(layout.track_count(), -1),
+                      std::vector<std::uint8_t>(layout.track_count()),
+                      std::vector<std::uint8_t>(names.size())};
   for (const auto& [model_name, take_name] : map) {
-    const std::int32_t part = find_name(layout.names, model_name);
-    if (part < 0) {
+    const std::int32_t track = find_name(layout.names, model_name);
+    if (track < 0) {
       throw Error(ErrorKind::usage,
                   fmt::format("names: the model has no {} \"{}\" (it knows {})", noun(layout),
                               model_name, fmt::join(layout.names, ", ")));
     }
-    mapped.settled[static_cast<std::size_t>(part)] = 1;
+    mapped.settled[static_cast<std::size_t>(track)] = 1;
     if (take_name.empty()) continue;
     const std::int32_t index = find_name(names, take_name);
     if (index < 0) {
       throw Error(ErrorKind::usage, fmt::format("names: the take has no {} \"{}\" (it has {})",
                                                 noun(layout), take_name, fmt::join(names, ", ")));
     }
-    mapped.parts[static_cast<std::size_t>(part)] = index;
+    mapped.tracks[static_cast<std::size_t>(track)] = index;
     mapped.used[static_cast<std::size_t>(index)] = 1;
   }
   return mapped;
@@ -59,14 +59,14 @@ void check_kind(const BodyLayout& layout, BodyKind kind) {
                                             to_string(layout.kind), to_string(kind)));
 }
 
-std::vector<std::uint8_t> possible_parts(const Clip& clip) {
+std::vector<std::uint8_t> possible_tracks(const Clip& clip) {
   std::vector<std::uint8_t> turning(clip.joint_count());
   for (std::size_t j = 0; j < clip.joint_count(); ++j)
     turning[j] = clip.skeleton.rotation_order(j).count > 0 ? 1 : 0;
   return turning;
 }
 
-std::vector<std::uint8_t> possible_parts(const MarkerClip& clip) {
+std::vector<std::uint8_t> possible_tracks(const MarkerClip& clip) {
   std::vector<std::uint8_t> positions(clip.marker_count());
   for (std::size_t m = 0; m < clip.marker_count(); ++m)
     positions[m] = clip.holds_positions(m) ? 1 : 0;
@@ -76,22 +76,22 @@ std::vector<std::uint8_t> possible_parts(const MarkerClip& clip) {
 void list_unmatched(const BodyLayout& layout, const std::vector<std::string>& names,
                     const std::vector<std::uint8_t>& known, BodyMatch& match) {
   std::vector<std::uint8_t> matched(names.size());
-  for (std::size_t i = 0; i < layout.part_count(); ++i) {
-    if (match.parts[i] < 0)
+  for (std::size_t i = 0; i < layout.track_count(); ++i) {
+    if (match.tracks[i] < 0)
       match.missing.push_back(layout.names[i]);
     else
-      matched[static_cast<std::size_t>(match.parts[i])] = 1;
+      matched[static_cast<std::size_t>(match.tracks[i])] = 1;
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (known[i] != 0 && matched[i] == 0) match.unknown.push_back(names[i]);
   }
-  const std::size_t found = layout.part_count() - match.missing.size();
-  const bool rootless = layout.kind == BodyKind::joints && match.parts[0] < 0;
-  if (2 * found >= layout.part_count() && !rootless) return;
+  const std::size_t found = layout.track_count() - match.missing.size();
+  const bool rootless = layout.kind == BodyKind::joints && match.tracks[0] < 0;
+  if (2 * found >= layout.track_count() && !rootless) return;
   throw Error(ErrorKind::usage,
               fmt::format("the model knows {} {}s, of which the take lacks {}: {}; a file of names "
                           "can say which of the take's are the same (kinemend models --map)",
-                          layout.part_count(), noun(layout), match.missing.size(),
+                          layout.track_count(), noun(layout), match.missing.size(),
                           fmt::join(match.missing, ", ")));
 }
 

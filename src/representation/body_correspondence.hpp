@@ -9,15 +9,15 @@
 
 namespace kinemend::representation {
 
-/// Which of `names` (of a take) are the parts of a layout, as a name map says.
-struct MappedParts {
-  std::vector<std::int32_t> parts;    ///< N, -1: not mapped
-  std::vector<std::uint8_t> settled;  ///< N, 1 where the map speaks of the part
+/// Which of `names` (of a take) are the tracks of a layout, as a name map says.
+struct MappedTracks {
+  std::vector<std::int32_t> tracks;   ///< N, -1: not mapped
+  std::vector<std::uint8_t> settled;  ///< N, 1 where the map speaks of the track
   std::vector<std::uint8_t> used;     ///< one a name of the take
 };
 /// Errors: `ErrorKind::usage` for a name that is in neither.
-MappedParts mapped_parts(const BodyLayout& layout, const std::vector<std::string>& names,
-                         const NameMap& map);
+MappedTracks mapped_tracks(const BodyLayout& layout, const std::vector<std::string>& names,
+                           const NameMap& map);
 
 /// Parts of joints by name, then by topology; -1: none.
 std::vector<std::int32_t> match_joints(const BodyLayout& layout, const Clip& clip,
@@ -30,11 +30,11 @@ std::vector<std::int32_t> match_markers(const BodyLayout& layout, const MarkerCl
 void check_kind(const BodyLayout& layout, BodyKind kind);
 
 /// 1 for joints that can turn, and for markers that are positions.
-std::vector<std::uint8_t> possible_parts(const Clip& clip);
-std::vector<std::uint8_t> possible_parts(const MarkerClip& clip);
+std::vector<std::uint8_t> possible_tracks(const Clip& clip);
+std::vector<std::uint8_t> possible_tracks(const MarkerClip& clip);
 
 /// Fills `match.missing` and `match.unknown`. `known`: 1 for the names of the take that may be
-/// parts. Errors: `ErrorKind::usage` when less than half of the parts are found.
+/// tracks. Errors: `ErrorKind::usage` when less than half of the tracks are found.
 void list_unmatched(const BodyLayout& layout, const std::vector<std::string>& names,
                     const std::vector<std::uint8_t>& known, BodyMatch& match);
 

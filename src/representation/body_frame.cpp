@@ -73,13 +73,13 @@ class Chain {
   std::vector<Link> links_;
 };
 
-std::size_t root_joint(const BodyMatch& match) { return static_cast<std::size_t>(match.parts[0]); }
+std::size_t root_joint(const BodyMatch& match) { return static_cast<std::size_t>(match.tracks[0]); }
 
 }  // namespace
 
 RootMotion root_motion(const Clip& clip, const BodyMatch& match) {
   const std::size_t frames = clip.frame_count();
-  const Chain chain(clip, match.parts[0]);
+  const Chain chain(clip, match.tracks[0]);
   const std::size_t above = chain.length() - 1;
   const Quat unturned = conjugate(match.upright * chain.rotation_at_rest(above));
   RootMotion root;
@@ -113,7 +113,7 @@ void place_root(Clip& clip, const BodyMatch& match, std::size_t frame, Vec3 posi
     clip.root_positions[frame] = global;
     return;
   }
-  const Chain chain(clip, match.parts[0]);
+  const Chain chain(clip, match.tracks[0]);
   if (const auto column = translation_column(clip, joint)) {
     const Chain::Point parent = chain.at(frame, chain.length() - 1);
     clip.joint_translations[frame * clip.translated_joints.size() + *column] =
@@ -149,7 +149,7 @@ double floor_height(const Clip& clip, const BodyLayout& layout, const BodyMatch&
     // Without feet, heights are measured from the one that the body mostly keeps.
     std::vector<double> heights;
     for (const Vec3 p : root.positions) heights.push_back(p.y);
-    return median_of(heights) - layout.place.y * match.stature;
+    return median_of(heights) - layout.place.y * match.body_height;
   }
   const std::vector<double> all(frames, 1.0);
   std::vector<double> lowest;
@@ -165,7 +165,7 @@ double floor_height(const Clip& clip, const BodyLayout& layout, const BodyMatch&
     }
     for (std::size_t f = 0; f < frames; ++f) lowest[f] = std::min(lowest[f], heights[f]);
   }
-  return quantile_of(lowest, low) - ankle_share * match.stature;
+  return quantile_of(lowest, low) - ankle_share * match.body_height;
 }
 
 void follow(const BodyLayout& layout, std::vector<double> headings, std::span<const double> turned,
@@ -178,7 +178,7 @@ void follow(const BodyLayout& layout, std::vector<double> headings, std::span<co
 }
 
 double degrees_per_unit(const BodyMatch& match) {
-  return degrees_per_radian / (0.25 * match.stature);
+  return degrees_per_radian / (0.25 * match.body_height);
 }
 
 void take_frame(const BodyChannels& guide, const BodyLayout& layout, std::size_t frames,
@@ -207,10 +207,10 @@ Vec3 channels_at(const BodyChannels& channels, std::size_t frame, std::size_t ch
 void check_fit(const BodyChannels& channels, const BodyLayout& layout, const BodyMatch& match,
                std::size_t frames, std::span<const std::uint8_t> chosen) {
   const std::size_t choices =
-      layout.part_count() + (layout.kind == BodyKind::joints && layout.with_place ? 1 : 0);
+      layout.track_count() + (layout.kind == BodyKind::joints && layout.with_place ? 1 : 0);
   if (channels.poses.frames == frames && channels.headings.size() == frames &&
       channels.places.size() == frames && channels.poses.channels == layout.channel_count() &&
-      match.parts.size() == layout.part_count() && (chosen.empty() || chosen.size() == choices))
+      match.tracks.size() == layout.track_count() && (chosen.empty() || chosen.size() == choices))
     return;
   throw Error(ErrorKind::usage, "the body's channels do not fit the take they are written into");
 }

@@ -10,7 +10,7 @@
 // The frame of the body, from one frame of a take to the next.
 namespace kinemend::representation {
 
-/// The joint of the first part in the take's axes turned upright, frame by frame.
+/// The joint of the first track in the take's axes turned upright, frame by frame.
 struct RootMotion {
   std::vector<Quat> ancestors;  ///< F, turns of the joints above it from their rest; identity where
                                 ///< it is the take's first joint
@@ -19,7 +19,7 @@ struct RootMotion {
 };
 RootMotion root_motion(const Clip& clip, const BodyMatch& match);
 
-/// Writes where and how the joint of the first part stands in a frame, in upright axes. The
+/// Writes where and how the joint of the first track stands in a frame, in upright axes. The
 /// position goes into the joint's own channels where it has some, else into those of joint 0.
 void place_root(Clip& clip, const BodyMatch& match, std::size_t frame, Vec3 position);
 
@@ -48,7 +48,7 @@ void follow(const BodyLayout& layout, std::vector<double> headings, std::span<co
 double floor_height(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,
                     const RootMotion& root);
 
-/// Degrees that a length of one file unit is, on an arc of a quarter of the stature.
+/// Degrees that a length of one file unit is, on an arc of a quarter of the body height.
 double degrees_per_unit(const BodyMatch& match);
 
 /// Takes headings, places and scale over from the channels of a copy of the take. Errors:

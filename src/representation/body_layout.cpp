@@ -15,10 +15,10 @@ constexpr std::array axis_names{"x", "y", "z"};
 bool finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 bool finite(Quat q) { return std::isfinite(q.w) && finite(Vec3{q.x, q.y, q.z}); }
 
-[[noreturn]] void refuse(const BodyLayout& layout, std::size_t part, std::string_view what) {
+[[noreturn]] void refuse(const BodyLayout& layout, std::size_t track, std::string_view what) {
   throw Error(ErrorKind::usage, fmt::format("{} {} \"{}\" of the body's layout: {}",
                                             layout.kind == BodyKind::joints ? "joint" : "marker",
-                                            part, layout.names[part], what));
+                                            track, layout.names[track], what));
 }
 
 void check_length(std::string_view array, std::size_t found, std::size_t expected) {
@@ -29,7 +29,7 @@ void check_length(std::string_view array, std::size_t found, std::size_t expecte
 
 void check_joints(const BodyLayout& layout) {
   constexpr double unit = 1e-6;
-  const std::size_t count = layout.part_count();
+  const std::size_t count = layout.track_count();
   check_length("parents", layout.parents.size(), count);
   check_length("references", layout.references.size(), count);
   check_length("bones", layout.bones.size(), count);
@@ -53,7 +53,7 @@ void check_joints(const BodyLayout& layout) {
 
 void check_markers(const BodyLayout& layout) {
   constexpr std::size_t least_anchors = 3;
-  const std::size_t count = layout.part_count();
+  const std::size_t count = layout.track_count();
   check_length("parents", layout.parents.size(), 0);
   check_length("references", layout.references.size(), 0);
   check_length("bones", layout.bones.size(), 0);
@@ -80,12 +80,13 @@ std::string_view to_string(BodyKind kind) {
 }
 
 std::size_t BodyLayout::channel_count() const noexcept {
-  return 3 * (part_count() + (kind == BodyKind::joints && with_place ? 1 : 0));
+  return 3 * (track_count() + (kind == BodyKind::joints && with_place ? 1 : 0));
 }
 
 std::string BodyLayout::channel_name(std::size_t channel) const {
-  const std::size_t part = channel / 3;
-  return fmt::format("{} {}", part < part_count() ? names[part] : "place", axis_names[channel % 3]);
+  const std::size_t track = channel / 3;
+  return fmt::format("{} {}", track < track_count() ? names[track] : "place",
+                     axis_names[channel % 3]);
 }
 
 void BodyLayout::validate() const {

@@ -18,7 +18,7 @@ class JointLearning {
   BodyLayout finish() const;
 
  private:
-  struct Part {
+  struct Track {
     rotation::Matrix4 moment{};  // sum of q q^T
     Quat first;
     double largest_turn = 0;  // from the first, radians
@@ -26,12 +26,12 @@ class JointLearning {
   };
 
   void start(const Clip& clip);
-  void add_rotations(const Clip& clip, const BodyMatch& match, std::size_t part,
+  void add_rotations(const Clip& clip, const BodyMatch& match, std::size_t track,
                      const std::vector<Quat>& rotations);
 
   std::vector<std::string> patterns_;
   BodyLayout layout_;  // of all that may turn; references are identity, the place is the floor
-  std::vector<Part> parts_;
+  std::vector<Track> tracks_;
   Vec3 place_sum_, place_low_, place_high_;
   std::size_t places_ = 0, takes_ = 0;
 };
@@ -43,12 +43,12 @@ class MarkerLearning {
   BodyLayout finish() const;
 
  private:
-  struct Part {
-    Vec3 mean_sum;   // of positions in the body's frame, statures
+  struct Track {
+    Vec3 mean_sum;   // of positions in the body's frame, body heights
     Vec3 shape_sum;  // in a frame that leans with the anchors
     std::size_t samples = 0, shaped = 0, takes = 0;
   };
-  struct Distance {  // between two parts, statures
+  struct Distance {  // between two tracks, body heights
     double sum = 0, square_sum = 0;
     std::size_t samples = 0;
   };
@@ -57,14 +57,14 @@ class MarkerLearning {
   void sum_distances(const MarkerClip& clip, const BodyMatch& match);
   void sum_shape(const MarkerClip& clip, const BodyMatch& match);
   void sum_means(const MarkerClip& clip, const BodyMatch& match);
-  double unsteadiness(std::size_t part) const;
+  double unsteadiness(std::size_t track) const;
   void choose_anchors();
   void stand_upright(const MarkerClip& clip, const BodyMatch& match);
 
   std::vector<std::string> patterns_;
   BodyLayout layout_;  // as far as it is known
-  std::vector<Part> parts_;
-  std::vector<Distance> distances_;  // N x N, of a part to those behind it
+  std::vector<Track> tracks_;
+  std::vector<Distance> distances_;  // N x N, of a track to those behind it
   std::size_t takes_ = 0;
 };
 

@@ -18,7 +18,7 @@ namespace kinemend::representation {
 
 namespace {
 
-// Markers that are seen now and then only, or have no name of their own, are no parts.
+// Markers that are seen now and then only, or have no name of their own, are no tracks.
 std::vector<std::int32_t> usable_markers(const MarkerClip& clip,
                                          const std::vector<std::uint8_t>& meant) {
   std::vector<std::int32_t> usable;
@@ -121,17 +121,17 @@ MarkerLearning::MarkerLearning(std::vector<std::string> patterns, double trend_s
 
 void MarkerLearning::sum_distances(const MarkerClip& clip, const BodyMatch& match) {
   constexpr std::size_t most_frames = 256;
-  const std::size_t count = parts_.size(), frames = clip.frame_count();
+  const std::size_t count = tracks_.size(), frames = clip.frame_count();
   const std::size_t sampled = std::min(frames, most_frames);
   for (std::size_t s = 0; s < sampled; ++s) {
     const std::size_t f = s * frames / sampled;
     for (std::size_t i = 0; i < count; ++i) {
-      const auto a = static_cast<std::size_t>(match.parts[i]);
-      if (match.parts[i] < 0 || !clip.is_observed(f, a)) continue;
+      const auto a = static_cast<std::size_t>(match.tracks[i]);
+      if (match.tracks[i] < 0 || !clip.is_observed(f, a)) continue;
       for (std::size_t k = i + 1; k < count; ++k) {
-        const auto b = static_cast<std::size_t>(match.parts[k]);
-        if (match.parts[k] < 0 || !clip.is_observed(f, b)) continue;
-        const double d = norm(clip.position(f, a) - clip.position(f, b)) / match.stature;
+        const auto b = static_cast<std::size_t>(match.tracks[k]);
+        if (match.tracks[k] < 0 || !clip.is_observed(f, b)) continue;
+        const double d = norm(clip.position(f, a) - clip.position(f, b)) / match.body_height;
         Distance& distance = distances_[i * count + k];
         distance.sum += d;
         distance.square_sum += d * d;
@@ -141,17 +141,17 @@ void MarkerLearning::sum_distances(const MarkerClip& clip, const BodyMatch& matc
   }
 }
 
-// How much the distances between a part and others vary: the variance that three in ten of them
+// How much the distances between a track and others vary: the variance that three in ten of them
 // stay below. Near ones count little: the markers of a hand are steady among themselves.
-double MarkerLearning::unsteadiness(std::size_t part) const {
-  constexpr double far = 0.15;  // statures
+double MarkerLearning::unsteadiness(std::size_t track) const {
+  constexpr double far = 0.15;  // body heights
   constexpr double share_of_others = 0.3;
-  const std::size_t count = parts_.size();
+  const std::size_t count = tracks_.size();
   std::vector<std::pair<double, double>> others;  // variance, weight
   double total = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    if (k == part) continue;
-    const Distance& distance = distances_[std::min(part, k) * count + std::max(part, k)];
+    if (k == track) continue;
+    const Distance& distance = distances_[std::min(track, k) * count + std::max(track, k)];
     if (distance.samples == 0) continue;
     const double share = 1 / static_cast<double>(distance.samples);
     const double mean = share * distance.sum;
@@ -171,7 +171,7 @@ double MarkerLearning::unsteadiness(std::size_t part) const {
 // The steadiest third, at least four.
 void MarkerLearning::choose_anchors() {
   constexpr std::size_t least = 4;
-  const std::size_t count = parts_.size();
+  const std::size_t count = tracks_.size();
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < count; ++i) order.emplace_back(unsteadiness(i), i);
   std::sort(order.begin(), order.end());
@@ -184,38 +184,38 @@ void MarkerLearning::sum_shape(const MarkerClip& clip, const BodyMatch& match) {
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const auto fit = fit_frame(clip, layout_, match, f);
     if (!fit) continue;
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
-      const auto marker = static_cast<std::size_t>(match.parts[i]);
-      if (match.parts[i] < 0 || !clip.is_observed(f, marker)) continue;
-      const Vec3 p =
-          (1 / match.stature) * fit->expected_at(upright_position(clip, match.upright, f, marker));
-      parts_[i].shape_sum += p;
-      ++parts_[i].shaped;
+    for (std::size_t i = 0; i < tracks_.size(); ++i) {
+      const auto marker = static_cast<std::size_t>(match.tracks[i]);
+      if (match.tracks[i] < 0 || !clip.is_observed(f, marker)) continue;
+      const Vec3 p = (1 / match.body_height) *
+                     fit->expected_at(upright_position(clip, match.upright, f, marker));
+      tracks_[i].shape_sum += p;
+      ++tracks_[i].shaped;
     }
   }
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
-    if (parts_[i].shaped > 0)
-      layout_.shape[i] = (1 / static_cast<double>(parts_[i].shaped)) * parts_[i].shape_sum;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (tracks_[i].shaped > 0)
+      layout_.shape[i] = (1 / static_cast<double>(tracks_[i].shaped)) * tracks_[i].shape_sum;
   }
 }
 
 void MarkerLearning::sum_means(const MarkerClip& clip, const BodyMatch& match) {
   BodyChannels frame;
   follow_anchors(clip, layout_, match, floor_height(clip, layout_, match), frame);
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
-    if (match.parts[i] < 0) continue;
-    const auto marker = static_cast<std::size_t>(match.parts[i]);
-    ++parts_[i].takes;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (match.tracks[i] < 0) continue;
+    const auto marker = static_cast<std::size_t>(match.tracks[i]);
+    ++tracks_[i].takes;
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
       if (!clip.is_observed(f, marker)) continue;
-      parts_[i].mean_sum +=
-          (1 / match.stature) *
+      tracks_[i].mean_sum +=
+          (1 / match.body_height) *
           TurnAboutY(frame.headings[f])
               .back(upright_position(clip, match.upright, f, marker) - frame.places[f]);
-      ++parts_[i].samples;
+      ++tracks_[i].samples;
     }
-    if (parts_[i].samples > 0)
-      layout_.means[i] = (1 / static_cast<double>(parts_[i].samples)) * parts_[i].mean_sum;
+    if (tracks_[i].samples > 0)
+      layout_.means[i] = (1 / static_cast<double>(tracks_[i].samples)) * tracks_[i].mean_sum;
   }
 }
 
@@ -235,7 +235,7 @@ void MarkerLearning::stand_upright(const MarkerClip& clip, const BodyMatch& matc
   face_ahead(layout_);
   Vec3 centre;
   int anchors = 0;
-  for (std::size_t i = 0; i < layout_.part_count(); ++i) {
+  for (std::size_t i = 0; i < layout_.track_count(); ++i) {
     if (layout_.anchors[i] == 0) continue;
     centre += layout_.shape[i];
     ++anchors;
@@ -247,37 +247,37 @@ void MarkerLearning::stand_upright(const MarkerClip& clip, const BodyMatch& matc
 BodyMatch MarkerLearning::start(const MarkerClip& clip) {
   constexpr int rounds = 4;
   BodyMatch match;
-  match.parts = usable_markers(clip, names_meant(clip.names, patterns_, "marker"));
-  const std::size_t count = match.parts.size();
+  match.tracks = usable_markers(clip, names_meant(clip.names, patterns_, "marker"));
+  const std::size_t count = match.tracks.size();
   if (count < 3)
     throw Error(ErrorKind::usage, "fewer than three markers are seen in half of the frames");
   match.upright = upright_by_names(clip);
-  match.stature = body_height(clip);
-  match.feet = match.parts;
-  parts_.resize(count);
+  match.body_height = body_height(clip);
+  match.feet = match.tracks;
+  tracks_.resize(count);
   distances_.resize(count * count);
   layout_.means.resize(count);
-  for (const std::int32_t marker : match.parts)
+  for (const std::int32_t marker : match.tracks)
     layout_.names.emplace_back(without_subject(clip.names[static_cast<std::size_t>(marker)]));
   sum_distances(clip, match);
   choose_anchors();
-  const std::size_t best = fullest_frame(clip, layout_, match.parts);
+  const std::size_t best = fullest_frame(clip, layout_, match.tracks);
   std::vector<std::uint8_t> anchors(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const auto marker = static_cast<std::size_t>(match.parts[i]);
-    layout_.shape.push_back((1 / match.stature) *
+    const auto marker = static_cast<std::size_t>(match.tracks[i]);
+    layout_.shape.push_back((1 / match.body_height) *
                             upright_position(clip, match.upright, best, marker));
     anchors[i] = clip.is_observed(best, marker) ? layout_.anchors[i] : 0;
   }
   // Anchors that are not seen in that frame are placed by the others first.
   std::swap(anchors, layout_.anchors);
   for (int round = 0; round < rounds; ++round) {
-    parts_.assign(count, {});
+    tracks_.assign(count, {});
     sum_shape(clip, match);
     layout_.anchors = anchors;
   }
   stand_upright(clip, match);
-  parts_.assign(count, {});
+  tracks_.assign(count, {});
   return match;
 }
 
@@ -298,8 +298,8 @@ BodyLayout MarkerLearning::finish() const {
   layout.kind = BodyKind::markers;
   layout.with_place = false;
   layout.trend_s = layout_.trend_s;
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
-    if (2 * parts_[i].takes < takes_) continue;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (2 * tracks_[i].takes < takes_) continue;
     layout.names.push_back(layout_.names[i]);
     layout.means.push_back(layout_.means[i]);
     layout.anchors.push_back(layout_.anchors[i]);

@@ -26,14 +26,14 @@ BodyChannels encode(const MarkerClip& clip, const BodyLayout& layout, const Body
                                    representation::floor_height(clip, layout, match), channels);
   for (std::size_t f = 0; f < frames; ++f) {
     const TurnAboutY turn(channels.headings[f]);
-    for (std::size_t i = 0; i < layout.part_count(); ++i) {
-      const auto marker = static_cast<std::size_t>(match.parts[i]);
-      if (match.parts[i] < 0 || !clip.is_observed(f, marker)) continue;
+    for (std::size_t i = 0; i < layout.track_count(); ++i) {
+      const auto marker = static_cast<std::size_t>(match.tracks[i]);
+      if (match.tracks[i] < 0 || !clip.is_observed(f, marker)) continue;
       const Vec3 ahead = turn.back(
           representation::upright_position(clip, match.upright, f, marker) - channels.places[f]);
       representation::put_channels(
           channels, f, 3 * i,
-          channels.degrees_per_unit * (ahead - match.stature * layout.means[i]));
+          channels.degrees_per_unit * (ahead - match.body_height * layout.means[i]));
     }
   }
   representation::hold_last_seen(channels.poses, channels.observed);
@@ -56,12 +56,12 @@ void decode_body(const BodyChannels& channels, const BodyLayout& layout, const B
   representation::check_fit(channels, layout, match, clip.frame_count(), chosen);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const TurnAboutY turn(channels.headings[f]);
-    for (std::size_t i = 0; i < layout.part_count(); ++i) {
-      if (match.parts[i] < 0 || (!chosen.empty() && chosen[i] == 0)) continue;
+    for (std::size_t i = 0; i < layout.track_count(); ++i) {
+      if (match.tracks[i] < 0 || (!chosen.empty() && chosen[i] == 0)) continue;
       const Vec3 ahead =
           (1 / channels.degrees_per_unit) * representation::channels_at(channels, f, 3 * i) +
-          match.stature * layout.means[i];
-      clip.position(f, static_cast<std::size_t>(match.parts[i])) =
+          match.body_height * layout.means[i];
+      clip.position(f, static_cast<std::size_t>(match.tracks[i])) =
           rotate(conjugate(match.upright), channels.places[f] + turn(ahead));
     }
   }

@@ -18,8 +18,8 @@ class JointMatcher {
   JointMatcher(const BodyLayout& layout, const Clip& clip, const NameMap& map)
       : layout_(layout),
         skeleton_(clip.skeleton),
-        turning_(possible_parts(clip)),
-        mapped_(mapped_parts(layout, clip.skeleton.names, map)) {}
+        turning_(possible_tracks(clip)),
+        mapped_(mapped_tracks(layout, clip.skeleton.names, map)) {}
 
   std::vector<std::int32_t> match() {
     if (!match_same_names()) {
@@ -32,13 +32,13 @@ class JointMatcher {
       match_between();
     }
     drop_misplaced();
-    return std::move(mapped_.parts);
+    return std::move(mapped_.tracks);
   }
 
  private:
-  void set(std::size_t part, std::size_t joint) {
-    mapped_.parts[part] = static_cast<std::int32_t>(joint);
-    mapped_.settled[part] = 1;
+  void set(std::size_t track, std::size_t joint) {
+    mapped_.tracks[track] = static_cast<std::int32_t>(joint);
+    mapped_.settled[track] = 1;
     mapped_.used[joint] = 1;
   }
   bool is_free(std::size_t joint) const { return mapped_.used[joint] == 0 && turning_[joint] != 0; }
@@ -68,30 +68,30 @@ class JointMatcher {
 
   // Joints of the trunk and of the neck are told apart by their order: names differ too much. The
   // ends of the chain are matched first: what hangs on the upper end turns with it.
-  void match_chain(std::vector<std::size_t> parts, std::vector<std::size_t> joints,
+  void match_chain(std::vector<std::size_t> tracks, std::vector<std::size_t> joints,
                    bool last_first) {
-    std::erase_if(parts, [&](std::size_t part) { return mapped_.settled[part] != 0; });
+    std::erase_if(tracks, [&](std::size_t track) { return mapped_.settled[track] != 0; });
     std::erase_if(joints, [&](std::size_t joint) { return !is_free(joint); });
-    if (parts.empty() || joints.empty() || match_words(parts, joints)) return;
-    const std::size_t pairs = std::min(parts.size(), joints.size());
+    if (tracks.empty() || joints.empty() || match_words(tracks, joints)) return;
+    const std::size_t pairs = std::min(tracks.size(), joints.size());
     const auto place = [&](std::size_t i, std::size_t count) {
       if (pairs == 1) return last_first ? count - 1 : 0;
       return (i * (count - 1) + (pairs - 1) / 2) / (pairs - 1);
     };
     for (std::size_t i = 0; i < pairs; ++i)
-      set(parts[place(i, parts.size())], joints[place(i, joints.size())]);
+      set(tracks[place(i, tracks.size())], joints[place(i, joints.size())]);
   }
 
-  bool match_words(const std::vector<std::size_t>& parts, const std::vector<std::size_t>& joints) {
+  bool match_words(const std::vector<std::size_t>& tracks, const std::vector<std::size_t>& joints) {
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
-    for (const std::size_t part : parts) {
+    for (const std::size_t track : tracks) {
       const auto same = std::find_if(joints.begin(), joints.end(), [&](std::size_t joint) {
-        return found_[joint].word == known_[part].word;
+        return found_[joint].word == known_[track].word;
       });
       if (same == joints.end()) return false;
-      pairs.emplace_back(part, *same);
+      pairs.emplace_back(track, *same);
     }
-    for (const auto& [part, joint] : pairs) set(part, joint);
+    for (const auto& [track, joint] : pairs) set(track, joint);
     return true;
   }
 
@@ -119,7 +119,7 @@ class JointMatcher {
     if (mapped_.settled[0] != 0) return;
     const NamedTree tree{found_, skeleton_.parents};
     std::int32_t common = -1;
-    for (const std::int32_t joint : mapped_.parts) {
+    for (const std::int32_t joint : mapped_.tracks) {
       if (joint >= 0) common = common < 0 ? joint : tree.common_ancestor(common, joint);
     }
     while (common >= 0 && !is_free(static_cast<std::size_t>(common)))
@@ -127,16 +127,16 @@ class JointMatcher {
     if (common >= 0) set(0, static_cast<std::size_t>(common));
   }
 
-  // A part between matched ones is the joint between theirs, where there is one on either side.
+  // A track between matched ones is the joint between theirs, where there is one on either side.
   void match_between() {
-    for (std::size_t i = 1; i < layout_.part_count(); ++i) {
+    for (std::size_t i = 1; i < layout_.track_count(); ++i) {
       const auto parent = static_cast<std::size_t>(layout_.parents[i]);
-      if (mapped_.settled[i] != 0 || mapped_.parts[parent] < 0) continue;
+      if (mapped_.settled[i] != 0 || mapped_.tracks[parent] < 0) continue;
       std::vector<std::int32_t> between;
       bool all = true;
-      for (std::size_t child = i + 1; all && child < layout_.part_count(); ++child) {
+      for (std::size_t child = i + 1; all && child < layout_.track_count(); ++child) {
         if (layout_.parents[child] != static_cast<std::int32_t>(i)) continue;
-        const auto path = free_joints(mapped_.parts[parent], mapped_.parts[child]);
+        const auto path = free_joints(mapped_.tracks[parent], mapped_.tracks[child]);
         all = path.size() == 1 && (between.empty() || between == path);
         between = path;
       }
@@ -144,7 +144,7 @@ class JointMatcher {
     }
   }
 
-  // Joints above `bottom` and below `top` that are no parts yet.
+  // Joints above `bottom` and below `top` that are no tracks yet.
   std::vector<std::int32_t> free_joints(std::int32_t top, std::int32_t bottom) const {
     std::vector<std::int32_t> joints;
     if (bottom < 0) return joints;
@@ -155,28 +155,29 @@ class JointMatcher {
     return joints;
   }
 
-  std::int32_t part_of(std::int32_t joint) const {
-    const auto found = std::find(mapped_.parts.begin(), mapped_.parts.end(), joint);
-    return found == mapped_.parts.end() ? -1
-                                        : static_cast<std::int32_t>(found - mapped_.parts.begin());
+  std::int32_t track_of(std::int32_t joint) const {
+    const auto found = std::find(mapped_.tracks.begin(), mapped_.tracks.end(), joint);
+    return found == mapped_.tracks.end()
+               ? -1
+               : static_cast<std::int32_t>(found - mapped_.tracks.begin());
   }
 
-  // The part that a part's joint hangs on in the take.
-  std::int32_t part_above(std::size_t part) const {
-    std::int32_t joint = mapped_.parts[part];
+  // The track that a track's joint hangs on in the take.
+  std::int32_t track_above(std::size_t track) const {
+    std::int32_t joint = mapped_.tracks[track];
     do {
       joint = skeleton_.parents[static_cast<std::size_t>(joint)];
-    } while (joint >= 0 && part_of(joint) < 0);
-    return joint < 0 ? -1 : part_of(joint);
+    } while (joint >= 0 && track_of(joint) < 0);
+    return joint < 0 ? -1 : track_of(joint);
   }
 
-  // Lets go of joints that do not hang on the same part as in the layout, from the root outward.
+  // Lets go of joints that do not hang on the same track as in the layout, from the root outward.
   void drop_misplaced() {
-    for (std::size_t i = 0; i < layout_.part_count(); ++i) {
-      if (mapped_.parts[i] < 0 || part_above(i) == matched_parent(layout_, mapped_.parts, i))
+    for (std::size_t i = 0; i < layout_.track_count(); ++i) {
+      if (mapped_.tracks[i] < 0 || track_above(i) == matched_parent(layout_, mapped_.tracks, i))
         continue;
-      mapped_.used[static_cast<std::size_t>(mapped_.parts[i])] = 0;
-      mapped_.parts[i] = -1;
+      mapped_.used[static_cast<std::size_t>(mapped_.tracks[i])] = 0;
+      mapped_.tracks[i] = -1;
       i = 0;
     }
   }
@@ -184,21 +185,21 @@ class JointMatcher {
   const BodyLayout& layout_;
   const Skeleton& skeleton_;
   std::vector<std::uint8_t> turning_;
-  MappedParts mapped_;
+  MappedTracks mapped_;
   std::vector<BoneName> known_, found_;
 };
 
-// A matched joint is the bone that its part is, whatever its name.
+// A matched joint is the bone that its track is, whatever its name.
 std::vector<BoneName> bones_of(const BodyLayout& layout, const Clip& clip,
-                               const std::vector<std::int32_t>& parts) {
+                               const std::vector<std::int32_t>& tracks) {
   std::vector<BoneName> bones = bone_names(clip.skeleton.names);
   const std::vector<BoneName> known = bone_names(layout.names);
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (parts[i] < 0 || known[i].bone == Bone::other) continue;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    if (tracks[i] < 0 || known[i].bone == Bone::other) continue;
     for (BoneName& bone : bones) {
       if (bone.bone == known[i].bone && bone.side == known[i].side) bone.bone = Bone::other;
     }
-    bones[static_cast<std::size_t>(parts[i])] = known[i];
+    bones[static_cast<std::size_t>(tracks[i])] = known[i];
   }
   return bones;
 }
@@ -225,12 +226,12 @@ BodyMatch match_body(const BodyLayout& layout, const Clip& clip, const NameMap& 
   using namespace representation;
   check_kind(layout, BodyKind::joints);
   BodyMatch match;
-  match.parts = match_joints(layout, clip, names);
-  list_unmatched(layout, clip.skeleton.names, possible_parts(clip), match);
-  const std::vector<BoneName> bones = bones_of(layout, clip, match.parts);
+  match.tracks = match_joints(layout, clip, names);
+  list_unmatched(layout, clip.skeleton.names, possible_tracks(clip), match);
+  const std::vector<BoneName> bones = bones_of(layout, clip, match.tracks);
   const RestPose rest = rest_pose(clip, bones);
   match.upright = upright_world(clip, bones, rest);
-  match.stature = stature_of(clip.skeleton, bones);
+  match.body_height = body_height_from_legs(clip.skeleton, bones);
   match.feet = feet_of(bones);
   align_joints(layout, clip, rest, match);
   return match;

@@ -40,10 +40,10 @@ std::vector<std::size_t> seen_often(const MarkerClip& clip) {
 
 std::vector<std::pair<std::size_t, std::size_t>> anchors_of(const BodyLayout& layout,
                                                             const BodyMatch& match) {
-  std::vector<std::pair<std::size_t, std::size_t>> anchors;  // part, marker
-  for (std::size_t i = 0; i < layout.part_count(); ++i) {
-    if (layout.anchors[i] != 0 && match.parts[i] >= 0)
-      anchors.emplace_back(i, static_cast<std::size_t>(match.parts[i]));
+  std::vector<std::pair<std::size_t, std::size_t>> anchors;  // track, marker
+  for (std::size_t i = 0; i < layout.track_count(); ++i) {
+    if (layout.anchors[i] != 0 && match.tracks[i] >= 0)
+      anchors.emplace_back(i, static_cast<std::size_t>(match.tracks[i]));
   }
   return anchors;
 }
@@ -60,9 +60,9 @@ Quat upright_by_anchors(const MarkerClip& clip, const BodyLayout& layout, const 
 }
 
 // The median of how much longer distances between anchors are than in the layout.
-double stature_by_anchors(const MarkerClip& clip, const BodyLayout& layout,
-                          const BodyMatch& match) {
-  constexpr double least_distance = 0.03;  // statures
+double body_height_by_anchors(const MarkerClip& clip, const BodyLayout& layout,
+                              const BodyMatch& match) {
+  constexpr double least_distance = 0.03;  // body heights
   const auto anchors = anchors_of(layout, match);
   const std::size_t frames = clip.frame_count(), sampled = std::min(frames, most_frames);
   std::vector<double> ratios;
@@ -86,14 +86,14 @@ double stature_by_anchors(const MarkerClip& clip, const BodyLayout& layout,
 }
 
 std::vector<std::int32_t> feet_of(const BodyLayout& layout, const MarkerClip& clip,
-                                  const std::vector<std::int32_t>& parts) {
-  constexpr double foot_height = 0.1;  // statures
+                                  const std::vector<std::int32_t>& tracks) {
+  constexpr double foot_height = 0.1;  // body heights
   const std::vector<std::size_t> seen = seen_often(clip);
   std::vector<std::int32_t> feet;
-  for (std::size_t i = 0; i < layout.part_count(); ++i) {
-    if (parts[i] >= 0 && layout.means[i].y < foot_height &&
-        2 * seen[static_cast<std::size_t>(parts[i])] > clip.frame_count())
-      feet.push_back(parts[i]);
+  for (std::size_t i = 0; i < layout.track_count(); ++i) {
+    if (tracks[i] >= 0 && layout.means[i].y < foot_height &&
+        2 * seen[static_cast<std::size_t>(tracks[i])] > clip.frame_count())
+      feet.push_back(tracks[i]);
   }
   return feet;
 }
@@ -101,7 +101,7 @@ std::vector<std::int32_t> feet_of(const BodyLayout& layout, const MarkerClip& cl
 class MarkerMatcher {
  public:
   MarkerMatcher(const BodyLayout& layout, const MarkerClip& clip, const NameMap& map)
-      : clip_(clip), mapped_(mapped_parts(layout, clip.names, map)), seen_(seen_often(clip)) {
+      : clip_(clip), mapped_(mapped_tracks(layout, clip.names, map)), seen_(seen_often(clip)) {
     for (const std::string& name : layout.names) {
       known_.push_back(plain_name(name));
       known_tails_.push_back(after_underscore(name));
@@ -117,7 +117,7 @@ class MarkerMatcher {
     match_by(known_, found_);
     match_by(known_, found_tails_);
     match_by(known_tails_, found_);
-    return std::move(mapped_.parts);
+    return std::move(mapped_.tracks);
   }
 
  private:
@@ -157,14 +157,14 @@ class MarkerMatcher {
         if (best == found.size() || seen_[m] > seen_[best]) best = m;
       }
       if (best == found.size()) continue;
-      mapped_.parts[i] = static_cast<std::int32_t>(best);
+      mapped_.tracks[i] = static_cast<std::int32_t>(best);
       mapped_.settled[i] = 1;
       mapped_.used[best] = 1;
     }
   }
 
   const MarkerClip& clip_;
-  MappedParts mapped_;
+  MappedTracks mapped_;
   std::vector<std::size_t> seen_;
   std::vector<std::string> known_, known_tails_, found_, found_tails_;
   std::string_view subject_;
@@ -183,17 +183,17 @@ BodyMatch match_body(const BodyLayout& layout, const MarkerClip& clip, const Nam
   using namespace representation;
   check_kind(layout, BodyKind::markers);
   BodyMatch match;
-  match.parts = match_markers(layout, clip, names);
-  list_unmatched(layout, clip.names, possible_parts(clip), match);
+  match.tracks = match_markers(layout, clip, names);
+  list_unmatched(layout, clip.names, possible_tracks(clip), match);
   if (anchors_of(layout, match).size() < 3) {
     throw Error(ErrorKind::usage,
                 fmt::format("fewer than three of the markers that tell where the body stands are "
                             "in the take; it lacks {}",
                             fmt::join(match.missing, ", ")));
   }
-  match.stature = stature_by_anchors(clip, layout, match);
+  match.body_height = body_height_by_anchors(clip, layout, match);
   match.upright = upright_by_anchors(clip, layout, match);
-  match.feet = feet_of(layout, clip, match.parts);
+  match.feet = feet_of(layout, clip, match.tracks);
   return match;
 }
 

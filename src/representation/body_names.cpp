@@ -175,10 +175,11 @@ bool starts_with_any(std::string_view word, std::string_view a, std::string_view
 }
 
 bool is_known_word(std::string_view word) {
-  static constexpr std::array<std::string_view, 8> parts{"thumb", "index",  "middle", "ring",
-                                                         "pinky", "finger", "mid",    "eye"};
-  return spelling_of(word) != nullptr || std::any_of(parts.begin(), parts.end(), [&](auto part) {
-           return starts_with_any(word, part, std::string("hand").append(part));
+  static constexpr std::array<std::string_view, 8> prefixes{"thumb", "index",  "middle", "ring",
+                                                            "pinky", "finger", "mid",    "eye"};
+  return spelling_of(word) != nullptr ||
+         std::any_of(prefixes.begin(), prefixes.end(), [&](auto prefix) {
+           return starts_with_any(word, prefix, std::string("hand").append(prefix));
          });
 }
 

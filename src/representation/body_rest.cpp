@@ -235,8 +235,8 @@ Quat upright_world(const Clip& clip, const std::vector<BoneName>& bones, const R
   return shortest_rotation(nearest_axis(up), {0, 1, 0});
 }
 
-double stature_of(const Skeleton& skeleton, const std::vector<BoneName>& bones) {
-  // Thigh and shank are 0.245 and 0.246 of the stature (Drillis and Contini 1966).
+double body_height_from_legs(const Skeleton& skeleton, const std::vector<BoneName>& bones) {
+  // Thigh and shank are 0.245 and 0.246 of the body height (Drillis and Contini 1966).
   constexpr double leg_share = 0.491;
   // From a hand along the arm and the trunk to a toe.
   constexpr double way_share = 1.45;
@@ -254,9 +254,9 @@ double stature_of(const Skeleton& skeleton, const std::vector<BoneName>& bones) 
     length += leg;
     ++legs;
   }
-  const double stature =
+  const double body_height =
       length > 0 ? length / (legs * leg_share) : longest_way(skeleton) / way_share;
-  return stature > 0 ? stature : 1.0;
+  return body_height > 0 ? body_height : 1.0;
 }
 
 }  // namespace kinemend::representation

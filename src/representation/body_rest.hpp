@@ -22,9 +22,9 @@ RestPose rest_pose(const Clip& clip, const std::vector<BoneName>& bones);
 /// most of the time, or where that is head down, the world is taken to be that of the rest pose.
 Quat upright_world(const Clip& clip, const std::vector<BoneName>& bones, const RestPose& rest);
 
-/// Stature by the lengths of the legs, whatever the rest pose, else by the longest way along bones
-/// from one end to another; 1 for a skeleton without any length.
-double stature_of(const Skeleton& skeleton, const std::vector<BoneName>& bones);
+/// Body height by the lengths of the legs, whatever the rest pose, else by the longest way along
+/// bones from one end to another; 1 for a skeleton without any length.
+double body_height_from_legs(const Skeleton& skeleton, const std::vector<BoneName>& bones);
 
 /// The shortest rotation that brings a direction to another; exactly identity where they are the
 /// same but for rounding.

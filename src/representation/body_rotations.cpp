@@ -35,14 +35,14 @@ class VectorContinuation {
 
 }  // namespace
 
-std::vector<Quat> part_rotations(const Clip& clip, const BodyMatch& match, const RootMotion& root,
-                                 const BodyChannels& channels, std::size_t part) {
-  const auto joint = static_cast<std::size_t>(match.parts[part]);
+std::vector<Quat> track_rotations(const Clip& clip, const BodyMatch& match, const RootMotion& root,
+                                  const BodyChannels& channels, std::size_t track) {
+  const auto joint = static_cast<std::size_t>(match.tracks[track]);
   const std::size_t frames = clip.frame_count();
   std::vector<Quat> rotations(frames);
   for (std::size_t f = 0; f < frames; ++f) {
-    rotations[f] = part == 0 ? exp({0, -channels.headings[f], 0}) * root.rotations[f]
-                             : match.before[part] * clip.rotation(f, joint) * match.after[part];
+    rotations[f] = track == 0 ? exp({0, -channels.headings[f], 0}) * root.rotations[f]
+                              : match.before[track] * clip.rotation(f, joint) * match.after[track];
   }
   return rotations;
 }

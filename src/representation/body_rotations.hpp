@@ -9,10 +9,10 @@
 
 namespace kinemend::representation {
 
-/// The rotations q of a part that the take has, as the layout's are (F): of the first part in the
+/// The rotations q of a track that the take has, as the layout's are (F): of the first track in the
 /// body's frame.
-std::vector<Quat> part_rotations(const Clip& clip, const BodyMatch& match, const RootMotion& root,
-                                 const BodyChannels& channels, std::size_t part);
+std::vector<Quat> track_rotations(const Clip& clip, const BodyMatch& match, const RootMotion& root,
+                                  const BodyChannels& channels, std::size_t track);
 
 /// Continues rotation vectors of length up to pi from sample to sample, past half a turn. A few
 /// samples that are thrown far off (more than 60 degrees) do not turn the motion that goes on after

@@ -41,13 +41,14 @@ void read_line(std::string_view line, std::size_t number, std::string_view name,
 }
 
 std::string mapping_text(const BodyLayout& layout, const std::vector<std::string>& names,
-                         const std::vector<std::int32_t>& parts, std::vector<std::uint8_t> others) {
+                         const std::vector<std::int32_t>& tracks,
+                         std::vector<std::uint8_t> others) {
   std::string text = "# name in the model,name in the take\n";
-  for (std::size_t i = 0; i < layout.part_count(); ++i) {
-    const bool found = parts[i] >= 0;
+  for (std::size_t i = 0; i < layout.track_count(); ++i) {
+    const bool found = tracks[i] >= 0;
     text += fmt::format("{},{}\n", layout.names[i],
-                        found ? names[static_cast<std::size_t>(parts[i])] : "");
-    if (found) others[static_cast<std::size_t>(parts[i])] = 0;
+                        found ? names[static_cast<std::size_t>(tracks[i])] : "");
+    if (found) others[static_cast<std::size_t>(tracks[i])] = 0;
   }
   text += "# in the take, and not in the model:\n";
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -75,13 +76,13 @@ std::string name_map_text(const BodyLayout& layout, const Clip& clip, const Name
   representation::check_kind(layout, BodyKind::joints);
   return mapping_text(layout, clip.skeleton.names,
                       representation::match_joints(layout, clip, names),
-                      representation::possible_parts(clip));
+                      representation::possible_tracks(clip));
 }
 
 std::string name_map_text(const BodyLayout& layout, const MarkerClip& clip, const NameMap& names) {
   representation::check_kind(layout, BodyKind::markers);
   return mapping_text(layout, clip.names, representation::match_markers(layout, clip, names),
-                      representation::possible_parts(clip));
+                      representation::possible_tracks(clip));
 }
 
 }  // namespace kinemend

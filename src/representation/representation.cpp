@@ -6,48 +6,43 @@
 #include <utility>
 
 #include "kinemend/error.hpp"
+#include "representation/rotation_channels.hpp"
 
 namespace kinemend {
 
 namespace {
 
-std::vector<Quat> observed_track(const Clip& clip, std::size_t joint) {
-  std::vector<Quat> track;
-  track.reserve(clip.frame_count());
-  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-    if (clip.is_observed(f, joint)) track.push_back(clip.rotation(f, joint));
-  }
+std::vector<Quat> rotations_of(const Clip& clip, std::size_t joint) {
+  std::vector<Quat> track(clip.frame_count());
+  for (std::size_t f = 0; f < track.size(); ++f) track[f] = clip.rotation(f, joint);
   return track;
 }
 
-void encode_tangent(const Clip& clip, EncodedClip& encoded) {
-  for (std::size_t i = 0; i < encoded.joints.size(); ++i) {
-    const std::size_t joint = encoded.joints[i];
-    const Quat reference = mean_rotation(clip, joint);
-    encoded.references.push_back(reference);
-    Vec3 previous;
-    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-      const Vec3 v = log(conjugate(reference) * clip.rotation(f, joint));
-      previous = f == 0 ? v : continue_rotation_vector(v, previous);
-      encoded.poses(f, 3 * i) = previous.x;
-      encoded.poses(f, 3 * i + 1) = previous.y;
-      encoded.poses(f, 3 * i + 2) = previous.z;
-    }
+std::vector<std::uint8_t> observed_of(const Clip& clip, std::size_t joint) {
+  std::vector<std::uint8_t> observed;
+  if (clip.observed.empty()) return observed;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f)
+    observed.push_back(clip.is_observed(f, joint) ? 1 : 0);
+  return observed;
+}
+
+void encode_tangent(std::span<const Quat> track, Quat reference, PoseMatrix& channels,
+                    std::size_t first) {
+  Vec3 previous;
+  for (std::size_t f = 0; f < track.size(); ++f) {
+    const Vec3 v = log(conjugate(reference) * track[f]);
+    previous = f == 0 ? v : continue_rotation_vector(v, previous);
+    double* row = channels.row(f).data() + first;
+    row[0] = previous.x, row[1] = previous.y, row[2] = previous.z;
   }
 }
 
-void encode_quaternion(const Clip& clip, EncodedClip& encoded) {
-  const std::size_t count = encoded.joints.size();
-  std::vector<SignContinuation> signs(count);
-  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-    double* row = encoded.poses.row(f).data();
-    for (std::size_t i = 0; i < count; ++i) {
-      const Quat q = signs[i].next(clip.rotation(f, encoded.joints[i]));
-      row[4 * i] = q.w;
-      row[4 * i + 1] = q.x;
-      row[4 * i + 2] = q.y;
-      row[4 * i + 3] = q.z;
-    }
+void encode_quaternion(std::span<const Quat> track, PoseMatrix& channels, std::size_t first) {
+  SignContinuation sign;
+  for (std::size_t f = 0; f < track.size(); ++f) {
+    const Quat q = sign.next(track[f]);
+    double* row = channels.row(f).data() + first;
+    row[0] = q.w, row[1] = q.x, row[2] = q.y, row[3] = q.z;
   }
 }
 
@@ -76,15 +71,6 @@ void encode_positions(const Clip& clip, EncodedClip& encoded) {
   }
 }
 
-Quat decode_rotation(const EncodedClip& encoded, std::size_t frame, std::size_t column) {
-  if (encoded.encoding == Encoding::tangent) {
-    const double* v = &encoded.poses.values[frame * encoded.poses.channels + 3 * column];
-    return normalized(encoded.references[column] * exp({v[0], v[1], v[2]}));
-  }
-  const double* q = &encoded.poses.values[frame * encoded.poses.channels + 4 * column];
-  return normalized({q[0], q[1], q[2], q[3]});
-}
-
 void check_decodable(const EncodedClip& encoded, const Clip& clip) {
   const std::size_t rotations = encoded.joints.size() * encoded.channels_per_joint();
   const std::size_t positions =
@@ -105,9 +91,17 @@ void check_decodable(const EncodedClip& encoded, const Clip& clip) {
 
 }  // namespace
 
+Quat mean_rotation(std::span<const Quat> track, std::span<const std::uint8_t> observed) {
+  if (observed.empty()) return chordal_mean(track);
+  std::vector<Quat> seen;
+  for (std::size_t f = 0; f < track.size(); ++f) {
+    if (observed[f] != 0) seen.push_back(track[f]);
+  }
+  return seen.empty() && !track.empty() ? track[0] : chordal_mean(seen);
+}
+
 Quat mean_rotation(const Clip& clip, std::size_t joint) {
-  const std::vector<Quat> track = observed_track(clip, joint);
-  return track.empty() && clip.frame_count() > 0 ? clip.rotation(0, joint) : chordal_mean(track);
+  return mean_rotation(rotations_of(clip, joint), observed_of(clip, joint));
 }
 
 Vec3 continue_rotation_vector(Vec3 v, Vec3 previous) {
@@ -140,19 +134,48 @@ Quat SignContinuation::next(Quat q) {
   return previous_;
 }
 
-double largest_angle_from_mean(const Clip& clip, std::size_t joint) {
-  const Quat mean = mean_rotation(clip, joint);
+namespace {
+
+double largest_angle_from_mean(std::span<const Quat> track,
+                               std::span<const std::uint8_t> observed) {
+  const Quat mean = mean_rotation(track, observed);
   double least = 1;
-  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-    if (clip.is_observed(f, joint))
-      least = std::min(least, std::fabs(dot(mean, clip.rotation(f, joint))));
+  for (std::size_t f = 0; f < track.size(); ++f) {
+    if (observed.empty() || observed[f] != 0)
+      least = std::min(least, std::fabs(dot(mean, track[f])));
   }
   return 2 * std::acos(least);
 }
 
+}  // namespace
+
+double largest_angle_from_mean(const Clip& clip, std::size_t joint) {
+  return largest_angle_from_mean(rotations_of(clip, joint), observed_of(clip, joint));
+}
+
+Encoding suitable_encoding(std::span<const Quat> track, std::span<const std::uint8_t> observed) {
+  return largest_angle_from_mean(track, observed) < tangent_limit_rad ? Encoding::tangent
+                                                                      : Encoding::quaternion;
+}
+
 Encoding suitable_encoding(const Clip& clip, std::size_t joint) {
-  return largest_angle_from_mean(clip, joint) < tangent_limit_rad ? Encoding::tangent
-                                                                  : Encoding::quaternion;
+  return suitable_encoding(rotations_of(clip, joint), observed_of(clip, joint));
+}
+
+void encode_rotations(std::span<const Quat> track, Encoding encoding, Quat reference,
+                      PoseMatrix& channels, std::size_t first) {
+  if (encoding == Encoding::tangent) {
+    encode_tangent(track, reference, channels, first);
+  } else {
+    encode_quaternion(track, channels, first);
+  }
+}
+
+Quat decode_rotation(const PoseMatrix& channels, Encoding encoding, Quat reference,
+                     std::size_t frame, std::size_t first) {
+  const double* v = channels.row(frame).data() + first;
+  if (encoding == Encoding::tangent) return normalized(reference * exp({v[0], v[1], v[2]}));
+  return normalized({v[0], v[1], v[2], v[3]});
 }
 
 EncodedClip encode(const Clip& clip, Encoding encoding, std::vector<std::size_t> joints,
@@ -173,10 +196,13 @@ EncodedClip encode(const Clip& clip, Encoding encoding, std::vector<std::size_t>
   encoded.poses =
       PoseMatrix(clip.frame_count(),
                  encoded.joints.size() * encoded.channels_per_joint() + 3 * position_columns);
-  if (encoding == Encoding::tangent) {
-    encode_tangent(clip, encoded);
-  } else {
-    encode_quaternion(clip, encoded);
+  for (std::size_t i = 0; i < encoded.joints.size(); ++i) {
+    const std::vector<Quat> track = rotations_of(clip, encoded.joints[i]);
+    if (encoding == Encoding::tangent)
+      encoded.references.push_back(mean_rotation(track, observed_of(clip, encoded.joints[i])));
+    encode_rotations(track, encoding,
+                     encoding == Encoding::tangent ? encoded.references[i] : Quat{}, encoded.poses,
+                     encoded.channels_per_joint() * i);
   }
   if (with_positions) encode_positions(clip, encoded);
   return encoded;
@@ -186,7 +212,9 @@ void decode(const EncodedClip& encoded, Clip& clip) {
   check_decodable(encoded, clip);
   for (std::size_t f = 0; f < encoded.poses.frames; ++f) {
     for (std::size_t i = 0; i < encoded.joints.size(); ++i) {
-      clip.rotation(f, encoded.joints[i]) = decode_rotation(encoded, f, i);
+      const Quat reference = encoded.encoding == Encoding::tangent ? encoded.references[i] : Quat{};
+      clip.rotation(f, encoded.joints[i]) = decode_rotation(
+          encoded.poses, encoded.encoding, reference, f, encoded.channels_per_joint() * i);
     }
   }
   if (!encoded.with_positions) return;

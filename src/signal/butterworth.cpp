@@ -20,7 +20,7 @@ std::vector<Biquad> butterworth_lowpass(int order, double cutoff_hz, double rate
                       rate_hz));
 
   // The analog poles lie on a half circle of radius w; z = (2 + s) / (2 - s) takes them into the
-  // unit circle, w being warped so that the cutoff lands where it was asked for.
+  // unit circle, w being prewarped for the bilinear transform.
   const double w = 2 * std::tan(std::numbers::pi * cutoff_hz / rate_hz);
   std::vector<Biquad> sections;
   if (order % 2 == 1) {

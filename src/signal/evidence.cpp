@@ -14,15 +14,12 @@ namespace kinemend::signal {
 
 namespace {
 
-constexpr double lowest_cutoff_hz = 0.003;
-constexpr double highest_cutoff_hz = 50;
-constexpr std::size_t cutoffs = 30;
 constexpr double largest_cutoff_share = 0.45;  // of the frame rate
-constexpr double largest_strength = 1e10;      // beyond it the factor loses its digits
+constexpr double largest_strength = 1e10;      // beyond it the factor loses precision
 
 using Channels = std::vector<std::size_t>;
 
-// Splits channels into blocks of eight at most, none of which parts channels of one group.
+// Splits channels into blocks of eight at most, without splitting groups of channels.
 std::vector<Channels> in_blocks(const Channels& channels, std::size_t group = 1) {
   std::vector<Channels> blocks;
   const std::size_t width = block_channels - block_channels % group;
@@ -38,7 +35,7 @@ void for_each_block(const std::vector<Channels>& blocks, const auto& work) {
   tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) { work(blocks[b]); });
 }
 
-// -2 log p(y), but for what is the same for all models: y^T (I - A^-1) y / s + log |A| - (F - d)
+// -2 log p(y), less terms that all models share: y^T (I - A^-1) y / s + log |A| - (F - d)
 // log strength - d log s.
 double misfit(const SmoothingModel& model, const SharedFactor& factor, std::size_t frames,
               double residual, double variance) {
@@ -48,7 +45,7 @@ double misfit(const SmoothingModel& model, const SharedFactor& factor, std::size
          order * std::log(variance);
 }
 
-// Mean over `half` rows on either side, the first and last rows continued.
+// Mean over `half` rows on either side, the first and last rows repeated.
 void box_average(ChannelBlock& block, std::size_t half) {
   if (block.frames == 0 || half == 0) return;
   const std::size_t last = block.frames - 1;
@@ -59,7 +56,7 @@ void box_average(ChannelBlock& block, std::size_t half) {
     return row;
   };
   const BlockRow first = row_at(0);
-  // What the rows that are written already held, as far back as it is needed.
+  // The former values of rows that have been overwritten and are still needed.
   std::vector<BlockRow> before(half + 1, first);
   const double scale = 1.0 / static_cast<double>(2 * half + 1);
   BlockRow sum{};
@@ -106,18 +103,26 @@ void scatter(const ChannelBlock& block, std::span<const std::size_t> channels, P
   }
 }
 
-ModelGrid::ModelGrid(std::size_t frames, double frame_rate_hz)
-    : frames_(frames), frame_rate_hz_(frame_rate_hz) {
-  for (std::size_t order = 1; order <= largest_order && order + 3 <= frames; ++order) {
-    for (std::size_t i = 0; i < cutoffs; ++i) {
-      const double ratio = static_cast<double>(i) / static_cast<double>(cutoffs - 1);
-      const double cutoff =
-          lowest_cutoff_hz * std::pow(highest_cutoff_hz / lowest_cutoff_hz, ratio) / frame_rate_hz;
+std::vector<SmoothingModel> models_of_orders(std::span<const std::size_t> orders,
+                                             const CutoffGrid& cutoffs, std::size_t frames,
+                                             double frame_rate_hz) {
+  std::vector<SmoothingModel> models;
+  for (const std::size_t order : orders) {
+    if (order + 3 > frames) continue;
+    for (std::size_t i = 0; i < cutoffs.count; ++i) {
+      const double cutoff = cutoffs.hz(i) / frame_rate_hz;
       if (cutoff > largest_cutoff_share) continue;
       const double strength = strength_of_cutoff(cutoff, order);
-      if (strength <= largest_strength) models_.push_back({order, strength});
+      if (strength <= largest_strength) models.push_back({order, strength});
     }
   }
+  return models;
+}
+
+ModelGrid::ModelGrid(std::size_t frames, double frame_rate_hz, const CutoffGrid& cutoffs)
+    : frames_(frames), frame_rate_hz_(frame_rate_hz) {
+  constexpr std::size_t orders[] = {1, 2, 3};
+  models_ = models_of_orders(orders, cutoffs, frames, frame_rate_hz);
   factors_.resize(models_.size());
   tbb::parallel_for(std::size_t{0}, models_.size(), [&](std::size_t m) {
     factors_[m] = factor_shared(frames_, models_[m].order, models_[m].strength);
@@ -208,23 +213,23 @@ std::vector<std::size_t> smooth_by_evidence(PoseMatrix& matrix,
 ChannelBlock smooth_adaptively(const ChannelBlock& y, const ChannelBlock& weight,
                                std::span<const double> noise_variance,
                                std::span<const SmoothingModel> models, double frame_rate_hz,
-                               const AdaptiveSettings& settings) {
+                               const AdaptiveSettings& settings, const ChannelBlock* coupling) {
   const std::size_t order = models[0].order, differences = y.frames - order;
-  // One squared difference says next to nothing of their variance: three at least.
+  // The variance of one squared difference is too large: three at least.
   const auto half_window = static_cast<std::size_t>(
       std::max(1.0, std::round((settings.window_s * frame_rate_hz - 1) / 2)));
-  BlockRow constant;  // variance of the differences, were it the same throughout
+  BlockRow constant;  // constant variance of the differences, by the model
   constant.fill(1);
   for (std::size_t i = 0; i < models.size(); ++i) {
     assert(models[i].order == order);
     constant[i] = noise_variance[i] / models[i].strength;
   }
-  // The penalty, which is one over the variances: these are made in its place.
+  // The penalty is the inverse of the variances, which are computed in the same memory.
   ChannelBlock x = y, penalty(differences), scratch(y.frames);
   for (std::size_t t = 0; t < differences; ++t) {
     for (std::size_t i = 0; i < block_channels; ++i) penalty(t, i) = 1 / constant[i];
   }
-  WeightedSystem system(y.frames, order);
+  WeightedSystem system(y.frames, order, coupling);
   for (int iteration = 0;; ++iteration) {
     system.factor(weight, penalty);
     system.refine(weight, penalty, y, x, scratch);

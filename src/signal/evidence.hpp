@@ -10,22 +10,27 @@
 #include "kinemend/pose_matrix.hpp"
 #include "signal/whittaker.hpp"
 
-/// Whittaker smoothing whose order and strength each channel chooses by its own evidence, then
-/// strength that follows the motion in time.
+/// Whittaker smoothing with order and strength of largest marginal likelihood for each channel,
+/// then with strength that follows the motion in time.
 namespace kinemend::signal {
 
-/// What a channel is taken to be: differences of this order are white, `strength` times smaller in
-/// variance than the noise.
+/// Model of a channel: differences of this order are white, their variance `strength` times smaller
+/// than that of the noise.
 struct SmoothingModel {
   std::size_t order = 0;  ///< 0: the take is too short for any
   double strength = 0;    ///< noise variance over the variance of the differences
 };
 
-/// The models compared: orders 1 to 3, with cutoffs from 0.003 to 50 Hz (and below 0.45 of the
-/// rate) in equal ratios.
+/// Models of each of these orders with these cutoffs, where they are below 0.45 of the rate. Those
+/// of one order stand together.
+std::vector<SmoothingModel> models_of_orders(std::span<const std::size_t> orders,
+                                             const CutoffGrid& cutoffs, std::size_t frames,
+                                             double frame_rate_hz);
+
+/// The models compared: orders 1 to 3, with all cutoffs below 0.45 of the frame rate.
 class ModelGrid {
  public:
-  ModelGrid(std::size_t frames, double frame_rate_hz);
+  ModelGrid(std::size_t frames, double frame_rate_hz, const CutoffGrid& cutoffs = {0.003, 50, 30});
 
   std::size_t frames() const noexcept { return frames_; }
   double frame_rate_hz() const noexcept { return frame_rate_hz_; }
@@ -40,11 +45,11 @@ class ModelGrid {
   std::vector<SharedFactor> factors_;
 };
 
-/// The most likely model of each of the first channels of `y`, one a variance: the one with the
-/// largest marginal likelihood of the channel under white noise of variance `noise_variance[c]`
-/// (> 0). With `group` above 1 that many neighbouring channels (a divisor of their number, at most
-/// 8) share the model that is most likely for all of them. Returns the index of each channel's
-/// model in the grid's list, which must not be empty.
+/// The most likely model of each of the first channels of `y`, one per variance: the one with the
+/// largest marginal likelihood of the channel under white noise of variance `noise_variance[c]` (>
+/// 0). With `group` above 1 that many neighbouring channels (a divisor of their number, at most 8)
+/// share the model that is most likely for all of them. Returns the index of each channel's model
+/// in the grid's list, which must not be empty.
 std::vector<std::size_t> most_likely_models(const ChannelBlock& y,
                                             std::span<const double> noise_variance,
                                             const ModelGrid& grid, std::size_t group = 1);
@@ -62,28 +67,30 @@ std::vector<std::size_t> smooth_by_evidence(PoseMatrix& matrix,
                                             const ModelGrid& grid, std::size_t group = 1);
 
 struct AdaptiveSettings {
-  /// Over which the size of the differences is averaged, twice; three frames at least.
+  /// Of the moving average of squared differences, applied twice; three frames at least.
   double window_s = 0.05;
   double share_of_constant =
-      0.2;  ///< of the constant strength that stays, so that quiet spans are not frozen
+      0.2;  ///< of the constant strength that stays, so that quiet spans keep some variance
   int iterations = 4;
 };
 
 /// Smooths the channels of `matrix` in place with strengths that follow the motion: starting from
 /// each channel's `model`, the variance of the differences is estimated about each frame
 /// (expectation-maximisation: squared differences of the fit plus their posterior variances) and
-/// the fit is made again. `missing` is F x D, not 0 where a sample has no weight; empty: none.
+/// the fit is repeated. `missing` is F x D, not 0 where a sample has no weight; empty: none.
 void smooth_adaptively(PoseMatrix& matrix, std::span<const std::uint8_t> missing,
                        std::span<const double> noise_variance,
                        std::span<const SmoothingModel> models, double frame_rate_hz,
                        const AdaptiveSettings& settings = {});
 
-/// The same of a block whose channels have models of one order, one each; the channels behind them
+/// The same of a block whose channels have models of one order, one per channel; further channels
 /// are not used. `weight`: 1 / noise variance, 0 where a sample is missing; 1 of unused channels.
+/// `coupling`: that of `WeightedSystem`, of noise that is not white; nullptr: none.
 ChannelBlock smooth_adaptively(const ChannelBlock& y, const ChannelBlock& weight,
                                std::span<const double> noise_variance,
                                std::span<const SmoothingModel> models, double frame_rate_hz,
-                               const AdaptiveSettings& settings = {});
+                               const AdaptiveSettings& settings = {},
+                               const ChannelBlock* coupling = nullptr);
 /// Calls work(channels), in parallel, for blocks of up to eight channels of one order: all of them,
 /// those of order 0 left out.
 void for_each_of_one_order(std::span<const SmoothingModel> models,

@@ -8,14 +8,13 @@
 
 namespace kinemend::signal {
 
-/// Writes the row at `frame` of the endless signal that reflects the matrix's rows in its end
-/// points, over and over: x[-k] = 2 x[0] - x[k], x[n+k] = 2 x[n] - x[n-k] with n = F - 1. `frame`
-/// is any; F >= 1.
+/// Writes the row at `frame` of the matrix extended by repeated point reflection at its ends: x[-k]
+/// = 2 x[0] - x[k], x[n+k] = 2 x[n] - x[n-k] with n = F - 1. `frame` is any; F >= 1.
 void point_reflected_row(const PoseMatrix& matrix, std::ptrdiff_t frame, double* out);
 
-/// Hands out windows of a matrix that is being overwritten: calls work(centre, first, count), where
-/// `centre` is row `first` in a copy of the input with `radius` point-reflected or original rows
-/// before and behind the `count` rows. `work` may write rows first to first + count - 1 of the
+/// Visits windows of a matrix that is overwritten meanwhile: calls work(centre, first, count),
+/// where `centre` is row `first` in a copy of the input with `radius` point-reflected or original
+/// rows before and behind the `count` rows. `work` may write rows first to first + count - 1 of the
 /// matrix.
 template <class Work>
 void for_each_chunk(PoseMatrix& matrix, std::size_t radius, const Work& work) {
@@ -35,8 +34,7 @@ void for_each_chunk(PoseMatrix& matrix, std::size_t radius, const Work& work) {
                         static_cast<std::ptrdiff_t>(k) - static_cast<std::ptrdiff_t>(radius),
                         &window[k * channels]);
   }
-  std::size_t loaded =
-      0;  // rows of the input, reflected tail included, that have been in the window
+  std::size_t loaded = 0;  // rows of the input, reflected tail included, read so far
   std::size_t held = radius;
   for (std::size_t first = 0; first < frames; first += chunk) {
     const std::size_t count = first + chunk < frames ? chunk : frames - first;

@@ -10,10 +10,10 @@ HWY_BEFORE_NAMESPACE();
 namespace kinemend::signal::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// `vectors` neighbouring vectors at once, so that their sums do not wait for each other.
+// `vectors` neighbouring vectors at once, so that their sums are independent.
 template <std::size_t vectors, class D>
-HWY_INLINE std::size_t fir_part(D d, const double* centre, std::size_t begin, std::size_t end,
-                                std::size_t channels, std::span<const double> w, double* out) {
+HWY_INLINE std::size_t fir_columns(D d, const double* centre, std::size_t begin, std::size_t end,
+                                   std::size_t channels, std::span<const double> w, double* out) {
   const std::size_t lanes = hn::Lanes(d);
   std::size_t c = begin;
   for (; c + vectors * lanes <= end; c += vectors * lanes) {
@@ -43,9 +43,9 @@ void symmetric_fir_rows(const double* centre, std::size_t frames, std::size_t ch
   const hn::ScalableTag<double> wide;
   const hn::CappedTag<double, 1> narrow;
   for (std::size_t t = 0; t < frames; ++t, centre += channels, out += channels) {
-    std::size_t c = fir_part<4>(wide, centre, 0, channels, channels, half_weights, out);
-    c = fir_part<1>(wide, centre, c, channels, channels, half_weights, out);
-    fir_part<1>(narrow, centre, c, channels, channels, half_weights, out);
+    std::size_t c = fir_columns<4>(wide, centre, 0, channels, channels, half_weights, out);
+    c = fir_columns<1>(wide, centre, c, channels, channels, half_weights, out);
+    fir_columns<1>(narrow, centre, c, channels, channels, half_weights, out);
   }
 }
 

@@ -9,7 +9,7 @@ namespace kinemend {
 
 namespace {
 
-// The memory of a filter that has seen `row` for ever.
+// The steady state of a filter for the constant input `row`.
 void start_at_rest(std::span<const Biquad> sections, const double* row, std::size_t channels,
                    std::vector<double>& memory) {
   memory.resize(2 * sections.size() * channels);

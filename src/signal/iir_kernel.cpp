@@ -13,8 +13,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 // Transposed direct form II over channels `begin` to `end` of one row, `sections` of them one after
 // the other while the sample is in a register. Memory: two rows a section.
 template <std::size_t sections, class D>
-HWY_INLINE void filter_row_part(D d, double* row, std::size_t begin, std::size_t end,
-                                std::size_t channels, const Biquad* biquads, double* memory) {
+HWY_INLINE void filter_columns(D d, double* row, std::size_t begin, std::size_t end,
+                               std::size_t channels, const Biquad* biquads, double* memory) {
   for (std::size_t c = begin; c < end; c += hn::Lanes(d)) {
     auto x = hn::LoadU(d, row + c);
     for (std::size_t s = 0; s < sections; ++s) {
@@ -38,8 +38,8 @@ HWY_INLINE void filter_row(double* row, std::size_t channels, const Biquad* biqu
   const hn::ScalableTag<double> wide;
   const hn::CappedTag<double, 1> narrow;
   const std::size_t whole = channels - channels % hn::Lanes(wide);
-  filter_row_part<sections>(wide, row, 0, whole, channels, biquads, memory);
-  filter_row_part<sections>(narrow, row, whole, channels, channels, biquads, memory);
+  filter_columns<sections>(wide, row, 0, whole, channels, biquads, memory);
+  filter_columns<sections>(narrow, row, whole, channels, channels, biquads, memory);
 }
 
 void filter_rows(const Rows& rows, std::span<const Biquad> sections, double* memory) {

@@ -10,7 +10,7 @@
 
 /// The hot loops, compiled for each instruction set and chosen at run time. They run along the rows
 /// of a frame-major matrix: one vector holds neighbouring channels of a frame. Products and sums
-/// stay apart (no fused multiply-add), so that each instruction set gives the same bits.
+/// are not fused, so that each instruction set gives the same bits.
 namespace kinemend::signal {
 
 /// Rows of `channels` doubles, the next row `stride` doubles on (negative: backward in time).
@@ -21,7 +21,7 @@ struct Rows {
   std::size_t channels;
 };
 
-/// Runs all sections over the rows in place. `memory`: 2 x channels doubles a section, carried on.
+/// Runs all sections over the rows in place. `memory`: 2 x channels doubles per section, updated.
 void filter_rows(const Rows& rows, std::span<const Biquad> sections, double* memory);
 
 /// out[t] = w[0] x[t] + sum_k w[k] (x[t-k] + x[t+k]); rows are contiguous, `centre` is x[0].
@@ -40,8 +40,8 @@ void wavelet_synthesis_rows(const double* low, const double* high, std::size_t f
 /// Compare-and-exchange pairs that sort `width` values ascending.
 using SortingNetwork = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// out[t] = median of x[t - half_window .. t + half_window]; the network need only bring the median
-/// into place.
+/// out[t] = median of x[t - half_window .. t + half_window]; the network needs to sort no more than
+/// the median.
 void median_rows(const double* centre, std::size_t frames, std::size_t channels,
                  std::size_t half_window, const SortingNetwork& network, double* out);
 

@@ -12,13 +12,13 @@ namespace kinemend::signal {
 namespace {
 
 constexpr std::size_t order = 2;
-// Of the fit: rows that stay in a processor's own cache while they are gone over.
+// Rows of the fit that are computed at a time, which fit the L2 cache.
 constexpr std::size_t tile_frames = 2048;
-// What is left of a row's say when it no longer counts: nothing of a double.
-constexpr double forgotten = 1e-18;
+// Relative influence below which a difference is neglected: below the precision of a double.
+constexpr double negligible = 1e-18;
 
-// How many differences it takes until one has no say any more in those before it: the rows of a
-// factor that has settled are one recursion, whose roots say how fast it forgets.
+// Number of differences after which the influence of one is negligible: the rows of a factor that
+// has converged are a recursion with constant coefficients, which decays by its largest root.
 std::size_t memory_of(const SharedFactor& factor) {
   const std::size_t differences = factor.frames - order;
   const std::size_t rows = factor.inverse_diagonal.size();
@@ -27,21 +27,19 @@ std::size_t memory_of(const SharedFactor& factor) {
   const double discriminant = b * b / 4 - c;
   const double root = discriminant < 0 ? std::sqrt(c) : std::fabs(b) / 2 + std::sqrt(discriminant);
   if (!(root < 1)) return differences;
-  const double frames = std::ceil(std::log(forgotten) / std::log(std::max(root, 1e-9)));
+  const double frames = std::ceil(std::log(negligible) / std::log(std::max(root, 1e-9)));
   return frames < static_cast<double>(differences) ? static_cast<std::size_t>(frames) + order
                                                    : differences;
 }
 
 }  // namespace
 
-LeaveOneOut::LeaveOneOut(std::size_t frames, double frame_rate_hz) {
-  constexpr std::size_t cutoffs = 10;
-  constexpr double lowest_hz = 0.3, highest_hz = 30, largest_strength = 1e10, least_weight = 1e-3;
+LeaveOneOut::LeaveOneOut(std::size_t frames, double frame_rate_hz, const CutoffGrid& cutoffs) {
+  constexpr double largest_strength = 1e10, least_weight = 1e-3;
   if (frames <= order + 1) return;
-  for (std::size_t i = 0; i < cutoffs; ++i) {
-    const double cutoff =
-        lowest_hz * std::pow(highest_hz / lowest_hz, static_cast<double>(i) / (cutoffs - 1));
-    const double strength = strength_of_cutoff(std::min(cutoff / frame_rate_hz, 0.49), order);
+  for (std::size_t i = 0; i < cutoffs.count; ++i) {
+    const double strength =
+        strength_of_cutoff(std::min(cutoffs.hz(i) / frame_rate_hz, 0.49), order);
     if (strength > largest_strength) continue;
     factors_.push_back(factor_shared(frames, order, strength));
     memories_.push_back(memory_of(factors_.back()));
@@ -50,8 +48,8 @@ LeaveOneOut::LeaveOneOut(std::size_t frames, double frame_rate_hz) {
   }
 }
 
-// The recursion back over the differences begins behind a tile where nothing that lies farther has
-// a say any more, so that what is gone over stays in the cache.
+// The backward recursion of a tile starts as many differences behind it as influence it, so that
+// the tile stays in the cache.
 void LeaveOneOut::fit(std::size_t smoother, const LaneBlock& y, const FitVisitor& visit) const {
   const SharedRows factor = rows_of(factors_[smoother]);
   const std::size_t frames = y.frames, differences = frames - order;

@@ -7,7 +7,7 @@
 
 #include "signal/whittaker.hpp"
 
-/// Predictions of each sample of a track from all others of its track, by second-order Whittaker
+/// Leave-one-out predictions of the samples of a track, by second-order Whittaker
 /// smoothers over a coarse grid of cutoffs.
 namespace kinemend::signal {
 
@@ -15,7 +15,7 @@ inline constexpr std::size_t lane_tracks = block_channels;
 inline constexpr std::size_t lane_row = 3 * lane_tracks;
 
 /// F frames of eight tracks of vectors: in each row the first axis of all eight, then the second,
-/// then the third. Tracks that are not used are zero.
+/// then the third. Unused tracks are zero.
 struct LaneBlock {
   std::size_t frames = 0;
   std::vector<double> values;
@@ -29,7 +29,7 @@ struct LaneBlock {
 class LeaveOneOut {
  public:
   /// No smoothers for takes of up to three frames.
-  LeaveOneOut(std::size_t frames, double frame_rate_hz);
+  LeaveOneOut(std::size_t frames, double frame_rate_hz, const CutoffGrid& cutoffs = {0.3, 30, 10});
 
   std::size_t smoothers() const noexcept { return factors_.size(); }
   /// The weight of all other samples in the fit of each, F; at least a thousandth. A sample less
@@ -38,19 +38,19 @@ class LeaveOneOut {
     return weights_[smoother];
   }
 
-  /// Of each track the smoother that predicts best: the least sum of squared errors, each of which
-  /// counts for no more than the track's `caps`.
+  /// Of each track the smoother that predicts best: the least sum of squared errors, each limited
+  /// to the track's `caps`.
   std::array<std::size_t, lane_tracks> best_smoothers(const LaneBlock& y,
                                                       const BlockRow& caps) const;
 
   /// Rows of the fit x, in the layout of `LaneBlock`: `count` frames from `first` on.
   using FitVisitor = std::function<void(std::size_t first, std::size_t count, const double* x)>;
-  /// Hands out the fit of one smoother, from the first frame to the last, a tile at a time.
+  /// Visits the fit of one smoother, from the first frame to the last, a tile at a time.
   void fit(std::size_t smoother, const LaneBlock& y, const FitVisitor& visit) const;
 
  private:
   std::vector<SharedFactor> factors_;
-  std::vector<std::size_t> memories_;         ///< frames after which a sample has no say any more
+  std::vector<std::size_t> memories_;  ///< frames after which a sample's influence is negligible
   std::vector<std::vector<double>> weights_;  ///< of the others, F each
 };
 

@@ -10,7 +10,7 @@ namespace kinemend {
 
 namespace {
 
-// The frames whose window sticks out of the take: all of them in a short one.
+// The frames whose window exceeds the take: all of a short one.
 template <class Work>
 void for_each_end_frame(std::size_t frames, std::size_t half_window, const Work& work) {
   const std::size_t first_end = std::min(half_window, frames);
@@ -45,7 +45,7 @@ PoseMatrix shrinking_medians(const PoseMatrix& matrix, std::size_t half_window) 
   return medians;
 }
 
-// Both ends at once, each from what stood there before.
+// Both ends at once, from the original values.
 void end_point_rule(PoseMatrix& matrix) {
   const std::size_t last = matrix.frames - 1;
   for (std::size_t c = 0; c < matrix.channels; ++c) {
@@ -57,7 +57,7 @@ void end_point_rule(PoseMatrix& matrix) {
   }
 }
 
-// Frames with a whole window: `work(centre, first, count)` for each run of them inside a chunk.
+// Frames with a complete window: `work(centre, first, count)` for each run of them inside a chunk.
 template <class Work>
 void for_each_inner_chunk(PoseMatrix& matrix, std::size_t half_window, const Work& work) {
   if (matrix.frames <= 2 * half_window) return;

@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace kinemend::signal::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Loads one vector of each row of the window and lets the network work on them, lane by lane.
+// Applies the network to one vector of each row of the window, lane by lane.
 template <class D>
 HWY_INLINE void sort_window(D d, const double* newest_minus_window, std::size_t width,
                             std::size_t channels, const SortingNetwork& network, double* sorted) {
@@ -31,9 +31,9 @@ HWY_INLINE void sort_window(D d, const double* newest_minus_window, std::size_t 
 }
 
 template <class D>
-HWY_INLINE std::size_t median_part(D d, const double* centre, std::size_t begin,
-                                   std::size_t channels, std::size_t half_window,
-                                   const SortingNetwork& network, double* sorted, double* out) {
+HWY_INLINE std::size_t median_columns(D d, const double* centre, std::size_t begin,
+                                      std::size_t channels, std::size_t half_window,
+                                      const SortingNetwork& network, double* sorted, double* out) {
   const std::size_t lanes = hn::Lanes(d);
   std::size_t c = begin;
   for (; c + lanes <= channels; c += lanes) {
@@ -51,8 +51,8 @@ void median_rows(const double* centre, std::size_t frames, std::size_t channels,
   const auto sorted = hwy::AllocateAligned<double>((2 * half_window + 1) * hn::Lanes(wide));
   for (std::size_t t = 0; t < frames; ++t, centre += channels, out += channels) {
     const std::size_t c =
-        median_part(wide, centre, 0, channels, half_window, network, sorted.get(), out);
-    median_part(narrow, centre, c, channels, half_window, network, sorted.get(), out);
+        median_columns(wide, centre, 0, channels, half_window, network, sorted.get(), out);
+    median_columns(narrow, centre, c, channels, half_window, network, sorted.get(), out);
   }
 }
 

@@ -40,7 +40,7 @@ HWY_INLINE Split split_at(double* values, std::size_t count, double pivot, doubl
   return split;
 }
 
-// A value whose rank is likely near `rank`: of 15 spread over the values, the one that far up.
+// A pivot whose rank is likely near `rank`: the corresponding order statistic of 15 samples.
 HWY_INLINE double pivot_near(const double* values, std::size_t count, std::size_t rank) {
   std::array<double, 15> sample;
   for (std::size_t i = 0; i < sample.size(); ++i)

@@ -14,7 +14,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<double, block_channels>;
 using Vector = hn::Vec<Tag>;
 
-// Models side by side: each waits for its own last row, and so they fill each other's pauses.
+// Models processed together, to hide the latency of each one's recursion.
 constexpr std::size_t models_at_once = 4;
 
 template <std::size_t order>
@@ -28,7 +28,7 @@ HWY_INLINE Vector difference_at(const double* y, std::size_t t) {
 }
 
 // Differences [first, last) of one vector of columns. `sums` and `before` (order rows) are those of
-// the first model, and go on from model to model and from call to call.
+// the first model; both continue over models and calls.
 template <std::size_t order, std::size_t models>
 HWY_INLINE void add_residuals(const SharedRows* factors, std::size_t first, std::size_t last,
                               const double* y, double* sums, double* before) {

@@ -6,7 +6,7 @@ namespace kinemend::signal {
 
 /// Batcher's odd-even merge sort for any width.
 SortingNetwork sorting_network(std::size_t width);
-/// The part of it on which the middle value depends.
+/// Those of its exchanges on which the middle value depends.
 SortingNetwork median_network(std::size_t width);
 
 }  // namespace kinemend::signal

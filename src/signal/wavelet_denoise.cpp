@@ -32,8 +32,8 @@ double universal_threshold(std::size_t count) {
 
 // SureShrink's threshold for coefficients in units of the noise (Donoho & Johnstone 1995, eq. 11
 // and section 2.4). Stein's estimate of the risk at the k-th smallest square s_k is n - 2 (k + 1) +
-// sum_{i<=k} s_i + (n - 1 - k) s_k. Where the mean square hardly exceeds the noise the estimate is
-// too rough to be minimised, and the universal threshold stands in.
+// sum_{i<=k} s_i + (n - 1 - k) s_k. Where the mean square barely exceeds that of the noise, the
+// variance of the estimate is too large, and the universal threshold is used.
 double sure_threshold(std::span<double> coefficients) {
   const std::size_t count = coefficients.size();
   const auto n = static_cast<double>(count);
@@ -131,7 +131,7 @@ void wavelet_denoise(PoseMatrix& matrix, const WaveletOptions& options) {
 
   const int levels =
       options.levels > 0 ? options.levels : automatic_levels(matrix.frames, h.size());
-  // A few channels at a time, so that all levels of a take of some minutes stay in the cache.
+  // A few channels at a time, so that all levels of a take of some minutes fit the cache.
   constexpr std::size_t group_width = 16;
   PoseMatrix group;
   for (std::size_t first = 0; first < matrix.channels; first += group_width) {

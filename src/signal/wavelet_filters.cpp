@@ -47,8 +47,8 @@ std::vector<Complex> roots_of(const std::vector<Real>& coefficients) {
 }
 
 // The roots in z of y = (2 - z - 1/z) / 4 inside the unit circle, grouped: a real root alone, a
-// complex one standing for its conjugate too. Taking 1/z instead of z for a group leaves |H| as it
-// is.
+// complex one together with its conjugate. Taking 1/z instead of z for a group does not change
+// |H|.
 std::vector<Complex> root_groups(int moments) {
   std::vector<Complex> groups;
   for (const Complex& y : roots_of(daubechies_polynomial(moments))) {
@@ -86,7 +86,7 @@ std::vector<Real> filter_from_roots(int moments, const std::vector<Complex>& gro
   return h;
 }
 
-// How far the phase is from a straight line between 0 and pi, the (1 + 1/z)^N factor, whose phase
+// Deviation of the phase from a straight line between 0 and pi, the (1 + 1/z)^N factor, whose phase
 // is linear, left out.
 Real phase_nonlinearity(const std::vector<Complex>& groups) {
   constexpr int steps = 256;

@@ -11,9 +11,9 @@ namespace kinemend::signal::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <std::size_t vectors, class D>
-HWY_INLINE std::size_t analysis_part(D d, const double* x, std::size_t begin, std::size_t channels,
-                                     std::span<const double> h, std::span<const double> g,
-                                     double* low, double* high) {
+HWY_INLINE std::size_t analysis_columns(D d, const double* x, std::size_t begin,
+                                        std::size_t channels, std::span<const double> h,
+                                        std::span<const double> g, double* low, double* high) {
   const std::size_t lanes = hn::Lanes(d);
   std::size_t c = begin;
   for (; c + vectors * lanes <= channels; c += vectors * lanes) {
@@ -42,19 +42,19 @@ void wavelet_analysis_rows(const double* x, std::size_t count, std::size_t chann
   const hn::ScalableTag<double> wide;
   const hn::CappedTag<double, 1> narrow;
   for (std::size_t k = 0; k < count; ++k) {
-    std::size_t c = analysis_part<4>(wide, x, 0, channels, h, g, low, high);
-    c = analysis_part<1>(wide, x, c, channels, h, g, low, high);
-    analysis_part<1>(narrow, x, c, channels, h, g, low, high);
+    std::size_t c = analysis_columns<4>(wide, x, 0, channels, h, g, low, high);
+    c = analysis_columns<1>(wide, x, c, channels, h, g, low, high);
+    analysis_columns<1>(narrow, x, c, channels, h, g, low, high);
     x += 2 * channels, low += channels, high += channels;
   }
 }
 
 // Every second tap, from `tap` down, on neighbouring rows of both bands.
 template <std::size_t vectors, class D>
-HWY_INLINE std::size_t synthesis_part(D d, const double* low, const double* high, std::size_t tap,
-                                      std::size_t begin, std::size_t channels,
-                                      std::span<const double> h, std::span<const double> g,
-                                      double* out) {
+HWY_INLINE std::size_t synthesis_columns(D d, const double* low, const double* high,
+                                         std::size_t tap, std::size_t begin, std::size_t channels,
+                                         std::span<const double> h, std::span<const double> g,
+                                         double* out) {
   const std::size_t lanes = hn::Lanes(d);
   const std::size_t taps = h.size() / 2;
   std::size_t c = begin;
@@ -88,9 +88,9 @@ void wavelet_synthesis_rows(const double* low, const double* high, std::size_t f
     const std::size_t tap = h.size() - 2 + t % 2;
     const std::size_t offset = t / 2 * channels;
     std::size_t c =
-        synthesis_part<4>(wide, low + offset, high + offset, tap, 0, channels, h, g, out);
-    c = synthesis_part<1>(wide, low + offset, high + offset, tap, c, channels, h, g, out);
-    synthesis_part<1>(narrow, low + offset, high + offset, tap, c, channels, h, g, out);
+        synthesis_columns<4>(wide, low + offset, high + offset, tap, 0, channels, h, g, out);
+    c = synthesis_columns<1>(wide, low + offset, high + offset, tap, c, channels, h, g, out);
+    synthesis_columns<1>(narrow, low + offset, high + offset, tap, c, channels, h, g, out);
   }
 }
 

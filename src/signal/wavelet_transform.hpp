@@ -19,12 +19,12 @@ struct WaveletTransform {
 
 WaveletTransform forward_transform(const PoseMatrix& matrix, std::span<const double> scaling_filter,
                                    int levels);
-/// Into `matrix`, which has the size it had.
+/// Writes the inverse into `matrix`, which has the original size.
 void inverse_transform(WaveletTransform transform, std::span<const double> scaling_filter,
                        PoseMatrix& matrix);
 
-/// The coefficients of one level whose filters lie wholly inside the n rows that went in; all of
-/// them if none does.
+/// The coefficients of one level whose filters lie inside the n input rows; all of them if none
+/// does.
 struct CoefficientRange {
   std::size_t first;
   std::size_t count;

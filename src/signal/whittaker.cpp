@@ -20,8 +20,7 @@ double product_entry(const std::array<double, largest_order + 1>& c, std::size_t
   return sum;
 }
 
-// Whether the last row of a factor is the one before it, but for rounding, which goes by the
-// matrix's entries.
+// Whether the last two rows of a factor are equal, to rounding relative to the matrix's entries.
 bool has_settled(const SharedFactor& factor, double largest_entry, double pivot,
                  double pivot_before) {
   const double rounding = 1e-14 * largest_entry;
@@ -34,8 +33,8 @@ bool has_settled(const SharedFactor& factor, double largest_entry, double pivot,
 }
 
 WeightedRows rows_of(std::size_t frames, std::vector<double>& diagonal,
-                     std::vector<std::vector<double>>& lower) {
-  WeightedRows rows{frames, lower.size(), diagonal.data(), {}};
+                     std::vector<std::vector<double>>& lower, const double* coupling) {
+  WeightedRows rows{frames, lower.size(), diagonal.data(), {}, coupling};
   for (std::size_t k = 0; k < lower.size(); ++k) rows.lower[k] = lower[k].data();
   return rows;
 }
@@ -93,7 +92,7 @@ BlockRow solve_shared(const SharedFactor& factor, const ChannelBlock& y, Channel
 
 std::vector<BlockRow> shared_residuals(std::span<const SharedFactor> factors,
                                        const ChannelBlock& y) {
-  constexpr std::size_t tile = 512;  // rows that stay in the cache while all models go over them
+  constexpr std::size_t tile = 512;  // rows that fit the cache, processed for all models
   std::vector<BlockRow> residuals(factors.size(), BlockRow{});
   for (std::size_t begin = 0; begin < factors.size();) {
     const std::size_t order = factors[begin].order, differences = y.frames - order;
@@ -148,28 +147,45 @@ std::vector<double> weights_of_others(const SharedFactor& factor) {
   return weights;
 }
 
-WeightedSystem::WeightedSystem(std::size_t frames, std::size_t order)
+WeightedSystem::WeightedSystem(std::size_t frames, std::size_t order, const ChannelBlock* coupling)
     : frames_(frames),
+      coupling_(coupling ? coupling->values.data() : nullptr),
       diagonal_(frames * block_channels),
       lower_(order, std::vector<double>(frames * block_channels)) {
   assert(order >= 1 && order <= largest_order && order < frames);
+  assert(!coupling || coupling->frames == frames);
 }
 
 void WeightedSystem::factor(const ChannelBlock& weight, const ChannelBlock& penalty) {
-  factor_weighted_rows(rows_of(frames_, diagonal_, lower_), weight.values.data(),
+  factor_weighted_rows(rows_of(frames_, diagonal_, lower_, coupling_), weight.values.data(),
                        penalty.values.data());
 }
 
 void WeightedSystem::refine(const ChannelBlock& weight, const ChannelBlock& penalty,
                             const ChannelBlock& y, ChannelBlock& x, ChannelBlock& scratch) {
   assert(scratch.frames == frames_);
-  refine_weighted_rows(rows_of(frames_, diagonal_, lower_), weight.values.data(),
+  refine_weighted_rows(rows_of(frames_, diagonal_, lower_, coupling_), weight.values.data(),
                        penalty.values.data(), y.values.data(), x.values.data(),
                        scratch.values.data());
 }
 
 void WeightedSystem::difference_variances(ChannelBlock& variances) {
-  difference_variance_rows(rows_of(frames_, diagonal_, lower_), variances.values.data());
+  difference_variance_rows(rows_of(frames_, diagonal_, lower_, coupling_), variances.values.data());
+}
+
+BlockRow WeightedSystem::log_determinants() const {
+  constexpr std::size_t together = 16;  // pivots whose product is far from what a number can hold
+  BlockRow result{};
+  for (std::size_t first = 0; first < frames_; first += together) {
+    BlockRow product;
+    product.fill(1);
+    for (std::size_t t = first; t < std::min(first + together, frames_); ++t) {
+      for (std::size_t c = 0; c < block_channels; ++c)
+        product[c] *= diagonal_[t * block_channels + c];
+    }
+    for (std::size_t c = 0; c < block_channels; ++c) result[c] += std::log(product[c]);
+  }
+  return result;
 }
 
 }  // namespace kinemend::signal

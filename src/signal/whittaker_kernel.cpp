@@ -60,7 +60,7 @@ HWY_INLINE void solve_shared_column(const SharedRows& factor, const double* y, d
     }
     hn::StoreU(value, d, at(x, t));
   }
-  // From the solution for the differences to y less what they weigh, from the last frame down.
+  // y less the weighted differences, from the last frame to the first.
   const auto strength = hn::Set(d, factor.strength);
   for (std::size_t t = factor.frames; t-- > 0;) {
     auto sum = hn::Zero(d);
@@ -109,6 +109,7 @@ HWY_INLINE void factor_column(const WeightedRows& rows, const double* weight, co
     for (std::size_t k = order; k >= 1; --k) {
       if (k > t) continue;
       auto entry = penalty_entry<order>(penalty + column, c.data(), rows.frames, t, k);
+      if (k == 1 && rows.coupling) entry = hn::Add(entry, at(rows.coupling, t - 1));
       for (std::size_t m = k + 1; m <= order && m <= t; ++m) {
         entry = hn::Sub(entry, hn::Mul(hn::Mul(at(rows.lower[m - 1], t), at(rows.diagonal, t - m)),
                                        at(rows.lower[m - k - 1], t - k)));
@@ -147,6 +148,11 @@ HWY_INLINE void refine_column(const WeightedRows& rows, const double* weight, co
     recent[0] = t < differences ? hn::Mul(at(penalty, t), difference_at<order>(x + column, t))
                                 : hn::Zero(d);
     auto value = hn::Mul(at(weight, t), hn::Sub(at(y, t), at(x, t)));
+    if (rows.coupling && t > 0)
+      value =
+          hn::Add(value, hn::Mul(at(rows.coupling, t - 1), hn::Sub(at(y, t - 1), at(x, t - 1))));
+    if (rows.coupling && t + 1 < rows.frames)
+      value = hn::Add(value, hn::Mul(at(rows.coupling, t), hn::Sub(at(y, t + 1), at(x, t + 1))));
     for (std::size_t k = 0; k <= order; ++k)
       value = hn::Sub(value, hn::Mul(hn::Set(d, c[k]), recent[k]));
     for (std::size_t k = order; k >= 1; --k) {

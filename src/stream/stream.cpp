@@ -2,140 +2,216 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
+#include "clean/pieces.hpp"
 #include "kinemend/error.hpp"
-#include "stream/refusal.hpp"
 
 namespace kinemend {
 
 namespace {
 
-void check_frame(const LiveFrame& frame, std::size_t joints, std::size_t translations) {
-  const bool observed = frame.observed.empty() || frame.observed.size() == joints;
-  if (frame.rotations.size() == joints && frame.joint_translations.size() == translations &&
-      observed) {
-    return;
-  }
-  throw Error(ErrorKind::usage, "a live frame does not have the joints of its stream");
+Clip without_frames(const Clip& like) {
+  Clip clip;
+  clip.skeleton = like.skeleton;
+  clip.frame_rate_hz = like.frame_rate_hz;
+  clip.translated_joints = like.translated_joints;
+  return clip;
 }
 
+MarkerClip without_frames(const MarkerClip& like) {
+  MarkerClip clip = make_marker_clip(like.names, 0, like.frame_rate_hz);
+  if (!like.is_position.empty()) clip.is_position = like.is_position;
+  clip.unit = like.unit;
+  return clip;
+}
+
+// The shape of frames.
+struct FrameShape {
+  bool of_joints = true;
+  std::size_t rotations = 0, positions = 0;
+
+  explicit FrameShape(const TakeView& like)
+      : of_joints(like.joints != nullptr),
+        rotations(of_joints ? like.owners : 0),
+        positions(like.tracks.size() - rotations) {}
+
+  void check(const Frame& frame) const {
+    const std::size_t owners = of_joints ? rotations : positions;
+    const bool observed = frame.observed.empty() || frame.observed.size() == owners;
+    if (frame.rotations.size() == rotations && frame.positions.size() == positions && observed)
+      return;
+    throw Error(ErrorKind::usage, of_joints
+                                      ? "a live frame does not have the joints of its stream"
+                                      : "a live frame does not have the markers of its stream");
+  }
+};
+
+template <class T>
+void append_all(std::vector<T>& values, std::span<const T> more) {
+  values.insert(values.end(), more.begin(), more.end());
+}
+
+void append(Clip& window, const Frame& frame) {
+  if (!frame.observed.empty() && window.observed.empty())
+    window.observed.assign(window.local_rotations.size(), 1);
+  if (!window.observed.empty() || !frame.observed.empty()) {
+    const std::vector<std::uint8_t> all(window.joint_count(), 1);
+    append_all<std::uint8_t>(window.observed, frame.observed.empty() ? all : frame.observed);
+  }
+  append_all<Quat>(window.local_rotations, frame.rotations);
+  window.root_positions.push_back(frame.positions.front());
+  append_all<Vec3>(window.joint_translations, std::span(frame.positions).subspan(1));
+}
+
+void append(MarkerClip& window, const Frame& frame) {
+  append_all<Vec3>(window.positions, frame.positions);
+  const std::vector<std::uint8_t> all(window.marker_count(), 1);
+  append_all<std::uint8_t>(window.observed, frame.observed.empty() ? all : frame.observed);
+}
+
+template <class T>
+void drop_rows(std::vector<T>& values, std::size_t rows, std::size_t width) {
+  const std::size_t count = std::min(values.size(), rows * width);
+  values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
+// Forgets the oldest frames.
+void drop(Clip& window, std::size_t frames) {
+  drop_rows(window.root_positions, frames, 1);
+  drop_rows(window.local_rotations, frames, window.joint_count());
+  drop_rows(window.joint_translations, frames, window.translated_joints.size());
+  drop_rows(window.observed, frames, window.joint_count());
+}
+
+void drop(MarkerClip& window, std::size_t frames) {
+  drop_rows(window.positions, frames, window.marker_count());
+  drop_rows(window.observed, frames, window.marker_count());
+}
+
+template <class AnyClip>
 class CausalStream final : public Stream {
  public:
-  CausalStream(const Cleaner& cleaner, const Clip& like)
+  CausalStream(const Cleaner& cleaner, const AnyClip& like, const Selection& selection)
       : cleaner_(cleaner),
-        skeleton_(like.skeleton),
-        frame_rate_hz_(like.frame_rate_hz),
-        translations_(like.translated_joints.size()) {
+        like_(without_frames(like)),
+        view_(view_of(like_, selection)),
+        shape_(view_) {
     reset();
   }
 
   std::size_t latency_frames() const override { return 0; }
-  bool push(const LiveFrame& in, LiveFrame& out) override {
-    check_frame(in, skeleton_.joint_count(), translations_);
+  bool push(const Frame& in, Frame& out) override {
+    shape_.check(in);
     out = in;
     filter_->filter(out);
     return true;
   }
-  bool flush(LiveFrame&) override { return false; }
-  void reset() override { filter_ = cleaner_.make_frame_filter(skeleton_, frame_rate_hz_); }
+  bool flush(Frame&) override { return false; }
+  void reset() override { filter_ = cleaner_.make_frame_filter(view_); }
 
  private:
   const Cleaner& cleaner_;
-  Skeleton skeleton_;
-  double frame_rate_hz_;
-  std::size_t translations_;
+  AnyClip like_;
+  TakeView view_;
+  FrameShape shape_;
   std::unique_ptr<FrameFilter> filter_;
 };
 
 // Keeps the frames that the next result depends on: at most half a window behind it and half a
 // window ahead. At the ends of the stream the window is cut, as it is at the ends of a take.
+template <class AnyClip>
 class WindowedStream final : public Stream {
  public:
-  WindowedStream(const Cleaner& cleaner, const Clip& like, std::size_t half)
-      : cleaner_(cleaner), half_(half) {
-    window_.skeleton = like.skeleton;
-    window_.frame_rate_hz = like.frame_rate_hz;
-    window_.translated_joints = like.translated_joints;
-  }
+  WindowedStream(const Cleaner& cleaner, const AnyClip& like, Selection selection, std::size_t half)
+      : cleaner_(cleaner),
+        half_(half),
+        window_(without_frames(like)),
+        selection_(std::move(selection)),
+        shape_(view_of(window_, selection_)) {}
 
   std::size_t latency_frames() const override { return half_; }
 
-  bool push(const LiveFrame& in, LiveFrame& out) override {
-    check_frame(in, window_.joint_count(), window_.translated_joints.size());
-    append(in);
-    if (next_ + half_ >= window_.frame_count()) return false;
+  bool push(const Frame& in, Frame& out) override {
+    shape_.check(in);
+    append(window_, in);
+    ++frames_;
+    if (next_ + half_ >= frames_) return false;
     give(out);
     return true;
   }
 
-  bool flush(LiveFrame& out) override {
-    if (next_ >= window_.frame_count()) return false;
+  bool flush(Frame& out) override {
+    if (next_ >= frames_) return false;
     give(out);
     return true;
   }
 
   void reset() override {
-    drop(window_.frame_count());
+    forget(frames_);
     next_ = 0;
   }
 
  private:
-  void append(const LiveFrame& in) {
-    if (!in.observed.empty() && window_.observed.empty()) {
-      window_.observed.assign(window_.local_rotations.size(), 1);
-    }
-    if (!window_.observed.empty() || !in.observed.empty()) {
-      const std::vector<std::uint8_t> all(window_.joint_count(), 1);
-      const auto& marks = in.observed.empty() ? all : in.observed;
-      window_.observed.insert(window_.observed.end(), marks.begin(), marks.end());
-    }
-    window_.root_positions.push_back(in.root_position);
-    window_.local_rotations.insert(window_.local_rotations.end(), in.rotations.begin(),
-                                   in.rotations.end());
-    window_.joint_translations.insert(window_.joint_translations.end(),
-                                      in.joint_translations.begin(), in.joint_translations.end());
-  }
-
-  void give(LiveFrame& out) {
-    out = cleaner_.clean_frame(window_, next_);
+  void give(Frame& out) {
+    out = cleaner_.clean_frame(view_of(window_, selection_), next_);
     ++next_;
     if (next_ > half_) {
-      drop(next_ - half_);
+      forget(next_ - half_);
       next_ = half_;
     }
   }
 
-  // Forgets the oldest frames.
-  void drop(std::size_t frames) {
-    const auto cut = [frames](auto& values, std::size_t width) {
-      const std::size_t count = std::min(values.size(), frames * width);
-      values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
-    };
-    cut(window_.root_positions, 1);
-    cut(window_.local_rotations, window_.joint_count());
-    cut(window_.joint_translations, window_.translated_joints.size());
-    cut(window_.observed, window_.joint_count());
+  void forget(std::size_t frames) {
+    drop(window_, frames);
+    frames_ -= frames;
   }
 
   const Cleaner& cleaner_;
   std::size_t half_;
-  Clip window_;
-  std::size_t next_ = 0;  // the frame of the window that comes out next
+  AnyClip window_;
+  Selection selection_;
+  FrameShape shape_;
+  std::size_t frames_ = 0;  // in the window
+  std::size_t next_ = 0;    // the frame of the window that comes out next
 };
+
+template <class AnyClip>
+std::unique_ptr<Stream> stream_of(const Cleaner& cleaner, const AnyClip& like,
+                                  const Selection& selection) {
+  const TakeView view = view_of(like, selection);
+  const double rate_hz = like.frame_rate_hz;
+  const LiveSupport support = cleaner.live_support(rate_hz);
+  switch (support.kind) {
+    case LiveSupport::Kind::causal:
+      if (!cleaner.make_frame_filter(view))
+        throw Error(ErrorKind::usage, "this method runs live on joints, not on markers");
+      return std::make_unique<CausalStream<AnyClip>>(cleaner, like, selection);
+    case LiveSupport::Kind::windowed: {
+      const bool cuts = view.gaps == GapTreatment::cut;
+      const std::size_t bridge = cuts ? longest_bridge(rate_hz) + bridge_support(rate_hz) + 1 : 0;
+      return std::make_unique<WindowedStream<AnyClip>>(cleaner, like, selection,
+                                                       support.half_window_frames + bridge);
+    }
+    case LiveSupport::Kind::none:
+      break;
+  }
+  throw Error(ErrorKind::usage,
+              "this method needs the whole take; for live use choose one with a window, or its "
+              "causal form");
+}
 
 }  // namespace
 
 std::unique_ptr<Stream> make_stream(const Cleaner& cleaner, const Clip& like) {
-  const LiveSupport support = cleaner.live_support(like.frame_rate_hz);
-  switch (support.kind) {
-    case LiveSupport::Kind::causal:
-      return std::make_unique<CausalStream>(cleaner, like);
-    case LiveSupport::Kind::windowed:
-      return std::make_unique<WindowedStream>(cleaner, like, support.half_window_frames);
-    case LiveSupport::Kind::none:
-      break;
-  }
-  refuse_whole_take_method();
+  return stream_of(cleaner, like, {});
+}
+
+std::unique_ptr<Stream> make_stream(const Cleaner& cleaner, const MarkerClip& like,
+                                    double body_height) {
+  Selection selection;
+  selection.body_height = body_height;
+  return stream_of(cleaner, like, selection);
 }
 
 }  // namespace kinemend

@@ -12,8 +12,8 @@ constexpr std::size_t leg_joints = 4, arm_joints = 8;
 
 Quat mirrored(Quat q) { return {q.w, q.x, -q.y, -q.z}; }
 Vec3 mirrored(Vec3 v) { return {-v.x, v.y, v.z}; }
-// A share of stature in whole tenths of a millimetre.
-double share(double part, double stature) { return std::round(100 * part * stature) / 100; }
+// A share of body height in whole tenths of a millimetre.
+double share(double part, double height) { return std::round(100 * part * height) / 100; }
 
 Vec3 direction(Vec3 v) { return (1 / norm(v)) * v; }
 
@@ -63,7 +63,7 @@ TwoBones reach(Vec3 target, double first_length, double second_length, Vec3 pole
 }
 
 void add_side(Skeleton& s, const Body& b, bool left, const std::vector<Channel>& turn) {
-  const double h = b.stature;
+  const double h = b.height;
   const double m = left ? 1 : -1;
   const std::string side = left ? "Left" : "Right";
   const auto chest = s.find("Spine2");
@@ -92,7 +92,7 @@ void add_leg(Skeleton& s, const Body& b, bool left, const std::vector<Channel>& 
   const auto foot = s.add_joint(side + "Foot", leg, {0, -b.shank, 0}, turn);
   const auto toe = s.add_joint(side + "ToeBase", foot,
                                {0, b.ball_height - b.ankle_height, b.ball_ahead_of_ankle}, turn);
-  s.end_sites.push_back({toe, {0, -share(0.008, b.stature), share(0.037, b.stature)}, ""});
+  s.end_sites.push_back({toe, {0, -share(0.008, b.height), share(0.037, b.height)}, ""});
 }
 
 Quat arm_rotation(const ArmAngles& a) {
@@ -146,26 +146,26 @@ Quat bend(double flexion, double lateral, double twist, double share) {
 
 }  // namespace
 
-// Segment lengths as shares of stature: Drillis and Contini (1966), as given by Winter,
+// Segment lengths as shares of body height: Drillis and Contini (1966), as given by Winter,
 // Biomechanics and Motor Control of Human Movement, figure 4.1; the split of trunk and hand into
 // joints follows common BVH skeletons.
-Body::Body(double stature_cm)
-    : stature(stature_cm),
-      thigh(share(0.245, stature_cm)),
-      shank(share(0.246, stature_cm)),
-      ankle_height(share(0.039, stature_cm)),
-      ball_height(share(0.012, stature_cm)),
-      heel_behind_ankle(share(0.035, stature_cm)),
-      ball_ahead_of_ankle(share(0.080, stature_cm)),
-      hip_half_width(share(0.050, stature_cm)),
-      hip_below_root(share(0.020, stature_cm)),
-      upper_arm(share(0.186, stature_cm)),
-      fore_arm(share(0.146, stature_cm)),
-      palm_length(share(0.056, stature_cm)),
-      palm_thickness(share(0.010, stature_cm)),
-      shoulder_offset{share(0.015, stature_cm), share(0.083, stature_cm), share(0.004, stature_cm)},
-      arm_offset{share(0.090, stature_cm), 0, 0} {
-  const double h = stature_cm;
+Body::Body(double height_cm)
+    : height(height_cm),
+      thigh(share(0.245, height_cm)),
+      shank(share(0.246, height_cm)),
+      ankle_height(share(0.039, height_cm)),
+      ball_height(share(0.012, height_cm)),
+      heel_behind_ankle(share(0.035, height_cm)),
+      ball_ahead_of_ankle(share(0.080, height_cm)),
+      hip_half_width(share(0.050, height_cm)),
+      hip_below_root(share(0.020, height_cm)),
+      upper_arm(share(0.186, height_cm)),
+      fore_arm(share(0.146, height_cm)),
+      palm_length(share(0.056, height_cm)),
+      palm_thickness(share(0.010, height_cm)),
+      shoulder_offset{share(0.015, height_cm), share(0.083, height_cm), share(0.004, height_cm)},
+      arm_offset{share(0.090, height_cm), 0, 0} {
+  const double h = height_cm;
   const RotationOrder order = parse_rotation_order("ZXY");
   const std::vector<Channel> turn = make_channels(false, order);
   skeleton.add_joint("Hips", -1, {}, make_channels(true, order));

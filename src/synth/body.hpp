@@ -36,7 +36,7 @@ enum JointId : std::size_t {
 /// A performer: x to the left, y up, z forward, centimetres. The rest pose is a T-pose with palms
 /// down.
 struct Body {
-  double stature;
+  double height;
   double thigh, shank;               ///< hip to knee, knee to ankle
   double ankle_height, ball_height;  ///< above the floor, foot flat
   double heel_behind_ankle, ball_ahead_of_ankle;
@@ -46,7 +46,7 @@ struct Body {
   Vec3 arm_offset;       ///< of the left shoulder joint from there
   Skeleton skeleton;
 
-  explicit Body(double stature_cm);
+  explicit Body(double height_cm);
   double leg() const { return thigh + shank; }
   /// Height of the root above the floor when the legs are straight and the feet flat.
   double straight_height() const { return ankle_height + leg() + hip_below_root; }

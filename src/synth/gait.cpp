@@ -33,7 +33,7 @@ Gait::Gait(const Body& body, const GaitData& data, std::function<double(double)>
       hip_(data.hip),
       knee_(data.knee),
       ankle_(data.ankle),
-      stride_s_(data.stride_s * std::sqrt(body.stature / 172) * random.uniform(0.97, 1.03)),
+      stride_s_(data.stride_s * std::sqrt(body.height / 172) * random.uniform(0.97, 1.03)),
       first_strides_(random.uniform()),
       tempo_(random, 0.006, 0.05, 0.3),
       knee_wander_(random, 0.02, 0.05, 0.4),

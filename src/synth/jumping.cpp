@@ -33,9 +33,9 @@ class Jump {
     const double y = height_(t);
     const double travelled = ramp(t, lift - 0.05, touch_ + 0.01);
     const double floor = t < lift + 0.5 * flight_ ? drop_ : 0;
-    const double squat = smooth_hinge(rest + floor - y, 3) / body_.stature * grounded(t);
+    const double squat = smooth_hinge(rest + floor - y, 3) / body_.height * grounded(t);
     p.root.y = y + (p.root.y - rest);
-    p.root.z += forward_ * ramp(t, lift - 0.12, touch_ + 0.12) - 0.25 * squat * body_.stature;
+    p.root.z += forward_ * ramp(t, lift - 0.12, touch_ + 0.12) - 0.25 * squat * body_.height;
     p.spine_flexion += 95 * squat;
     p.tilt_deg += 130 * squat;
     p.neck_flexion -= 90 * squat;
@@ -89,8 +89,8 @@ class Jump {
     const double rest = body_.straight_height() - 0.6;
     const double up = std::sqrt(2 * gravity_cm_s2 * rise_cm);
     const double down = gravity_cm_s2 * flight_ - up;
-    const double depth = 0.16 * body_.stature;
-    const double give = 0.14 * body_.stature + 0.10 * drop_;
+    const double depth = 0.16 * body_.height;
+    const double give = 0.14 * body_.height + 0.10 * drop_;
     // Even braking would take twice the distance over the speed.
     const double braking = 2.1 * (reach_at_touch_ - rest + give) / down;
     return KeyCurve({{0, drop_ + rest, 0, 0},

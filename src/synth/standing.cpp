@@ -34,7 +34,7 @@ class Standing {
 
   Posture at(double t) const {
     Posture p;
-    p.root = {sway_x_(t), height_, -0.01 * body_.stature + sway_z_(t)};
+    p.root = {sway_x_(t), height_, -0.01 * body_.height + sway_z_(t)};
     p.obliquity_deg = 0.5 * sway_x_(t);
     p.tilt_deg = 6 + 0.4 * trunk_(0.8 * t);
     p.spine_flexion = -4 + breath_(t) + trunk_(t);
@@ -91,12 +91,12 @@ ArmAngles waving_arm(const ArmAngles& hanging, double time_s, double weight) {
 }
 
 Motion still(const Body& body, Random random) {
-  const Standing standing(body, random, 0.115 * body.stature, 0, 0.6);
+  const Standing standing(body, random, 0.115 * body.height, 0, 0.6);
   return [standing](double t) { return standing.at(t); };
 }
 
 Motion wave(const Body& body, Random random) {
-  const Standing standing(body, random, 0.115 * body.stature, 0, 0.6);
+  const Standing standing(body, random, 0.115 * body.height, 0, 0.6);
   return [standing](double t) {
     Posture p = standing.at(t);
     const Beat beat = beat_at(t, 0.3, 5);
@@ -109,7 +109,7 @@ Motion wave(const Body& body, Random random) {
 
 // The palms meet: they close at speed, stop within a few milliseconds, rest on one another, part.
 Motion clap(const Body& body, Random random) {
-  const Standing standing(body, random, 0.115 * body.stature, 0, 0.6);
+  const Standing standing(body, random, 0.115 * body.height, 0, 0.6);
   const double open = random.uniform(34, 40), speed = random.uniform(360, 430), cushion = 1.6;
   const double period = random.uniform(0.82, 0.95);
   const double closed = 0.17 + 2 * cushion / speed;
@@ -124,7 +124,7 @@ Motion clap(const Body& body, Random random) {
     const double half = 0.5 * (beat.number < 0 ? gap(0) : gap(beat.time));
     const Quat hand = clapping_hand();
     const Vec3 palm{0.6 * body.palm_length, -body.palm_thickness, 0};
-    const Vec3 meeting{half, 0.02 * body.stature, 0.21 * body.stature};
+    const Vec3 meeting{half, 0.02 * body.height, 0.21 * body.height};
     for (std::size_t side = 0; side < 2; ++side) {
       p.arms[side].curl = 4;
       p.reaches[side] = ArmReach{meeting - rotate(hand, palm), {0.6, -1, -0.4}, hand};
@@ -136,8 +136,7 @@ Motion clap(const Body& body, Random random) {
 // Straight punches, left and right in turn, from a guard: the fist is fastest just before the arm
 // is straight.
 Motion punch(const Body& body, Random random) {
-  const Standing standing(body, random, 0.17 * body.stature, 0.16 * body.stature,
-                          0.04 * body.stature);
+  const Standing standing(body, random, 0.17 * body.height, 0.16 * body.height, 0.04 * body.height);
   const double speed = random.uniform(16, 18), period = random.uniform(0.95, 1.1);
   const double stop = 0.13 + 0.24 / speed;
   const KeyCurve stroke({{0, 0, 0, 0},
@@ -151,7 +150,7 @@ Motion punch(const Body& body, Random random) {
     const Beat beat = beat_at(t, 0.45, period);
     // The turn of the hips starts a little before its beat.
     const Beat early = beat_at(t + 0.1, 0.45, period);
-    const double h = body.stature;
+    const double h = body.height;
     for (std::size_t side = 0; side < 2; ++side) {
       const auto mine = [side](const Beat& b) {
         return b.number >= 0 && static_cast<std::size_t>(b.number % 2) != side;

@@ -33,8 +33,8 @@ HWY_INLINE Lanes squared_distance(const LaneVec& a, const LaneVec& b) {
   return add(mul(d.x, d.x), add(mul(d.y, d.y), mul(d.z, d.z)));
 }
 
-// The band of W(i, i + r), r = 1 .. k, for a block of frames: the matrix is symmetric, so that the
-// frames before i find theirs in the rows of the frames behind.
+// The band of W(i, i + r), r = 1 .. k, for a block of frames: the matrix is symmetric, so that only
+// the frames behind are stored.
 struct Band {
   std::span<double> values;
   std::size_t stride = 0;  // between rows of r
@@ -78,7 +78,7 @@ HWY_INLINE LaneVec weigh(const VectorTrack& steps, const double* sample_weights,
 template <class Track>
 void bilateral_moves(const Track& track, const VectorTrack& steps, const double* sample_weights,
                      const BilateralKernel& kernel, VectorTrack& moves) {
-  constexpr std::size_t block = 256;  // the band of a block stays in the first cache
+  constexpr std::size_t block = 256;  // the band of a block fits the L1 cache
   const std::size_t k = kernel.half_width();
   std::vector<double> storage(k * (block + k + lane_room));
   for (std::size_t first = 0; first < moves.frames; first += block) {
@@ -135,7 +135,7 @@ Vec3 difference(Vec3 from, Vec3 to) { return to - from; }
 Quat moved(Quat from, Vec3 by) { return from * exp(by); }
 Vec3 moved(Vec3 from, Vec3 by) { return from + by; }
 
-// Index of the sample that a mirrored signal shows at i, for any i.
+// Index of the sample at i of the mirrored signal, for any i.
 std::size_t mirrored_index(std::ptrdiff_t i, std::size_t frames) {
   if (frames == 1) return 0;
   const auto period = static_cast<std::ptrdiff_t>(2 * (frames - 1));
@@ -143,8 +143,8 @@ std::size_t mirrored_index(std::ptrdiff_t i, std::size_t frames) {
   return static_cast<std::size_t>(std::min(phase, period - phase));
 }
 
-// What the straight line of least squares through the samples first, first + direction, ..., with
-// the kernel's weights, shows at `first`: an end with less noise than its own sample.
+// Value at `first` of the least-squares line through the samples first, first + direction, ...,
+// with the kernel's weights: an end value with less noise than its own sample.
 template <class Track>
 auto end_estimate(const Track& padded, const double* sample_weights, std::size_t first,
                   int direction, std::size_t frames, const BilateralKernel& kernel) {
@@ -162,12 +162,12 @@ auto end_estimate(const Track& padded, const double* sample_weights, std::size_t
     m0 += weight * d, m1 += weight * t * d;
   }
   const double determinant = s0 * s2 - s1 * s1;
-  // Too little weight anywhere else, or only in one place: no line.
+  // The line is not determined.
   if (!(s2 > 1e-12 && determinant > 1e-9 * s0 * s2)) return end;
   return moved(end, (1 / determinant) * (s2 * m0 - s1 * m1));
 }
 
-// Fills `pad` samples on either side of the `frames` that stand in the middle.
+// Fills `pad` samples on either side of the `frames` in the middle.
 template <class Track>
 void continue_ends(Track& padded, const double* sample_weights, std::size_t frames,
                    const BilateralKernel& kernel, BilateralEnds ends) {
@@ -183,7 +183,7 @@ void continue_ends(Track& padded, const double* sample_weights, std::size_t fram
           last + i,
           padded[pad + mirrored_index(offset + static_cast<std::ptrdiff_t>(frames) - 1, frames)]);
     } else {
-      // Of a short signal the far side has been filled already by smaller i.
+      // In a short signal, smaller i have filled the samples read here.
       padded.set(pad - i, reflected(front, padded[pad + i]));
       padded.set(last + i, reflected(back, padded[last - i]));
     }

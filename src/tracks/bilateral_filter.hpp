@@ -7,7 +7,7 @@
 
 namespace kinemend {
 
-/// What one pass of the bilateral filter needs beside the signal (Courty 2008, section 4).
+/// The weights of one pass of the bilateral filter (Courty 2008, section 4).
 struct BilateralKernel {
   /// W_t: exp(-r^2 / (2 sigma_t^2)) for r = 0 .. k.
   std::vector<double> temporal_weights;
@@ -20,14 +20,14 @@ struct BilateralKernel {
 /// Weights cut where they fall to 1 percent: k = 3 sigma_t, rounded, at least 1.
 BilateralKernel bilateral_kernel(double sigma_t_frames, double sigma_g);
 
-/// How a signal goes on beyond its first and last sample.
+/// Extension of a signal beyond its first and last sample.
 enum class BilateralEnds {
   mirror,  ///< x_-i = x_i
-  reflect  ///< x_-i = x_0 - (x_i - x_0), on rotations q_0 q_i^-1 q_0: a steady turn goes on
+  reflect  ///< x_-i = x_0 - (x_i - x_0), on rotations q_0 q_i^-1 q_0: a steady turn continues
 };
 
-/// Filters in place, `passes` times, the signal continued anew at its ends each time. Samples of
-/// weight 0 count for nothing in the windows of others; no weights: all are 1.
+/// Filters in place, `passes` times, the signal extended at its ends in each pass. Samples of
+/// weight 0 have no weight in the windows of others; no weights: all are 1.
 void bilateral_filter(RotationTrack& track, const std::vector<double>& sample_weights,
                       const BilateralKernel& kernel, std::size_t passes, BilateralEnds ends);
 void bilateral_filter(VectorTrack& track, const std::vector<double>& sample_weights,

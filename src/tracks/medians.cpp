@@ -7,11 +7,11 @@ namespace kinemend {
 
 namespace {
 
-// What pulls at a point: the sums over the samples it has not met.
+// Gradient and curvature of the sum of distances at a point y, without the samples at y.
 struct Pull {
   double distances = 0;  // sum of |p - y|
   double weights = 0;    // sum of 1 / |p - y|
-  double met = 0;        // samples at the point itself
+  double met = 0;        // samples at y
   Vec3 direction;        // sum of (p - y) / |p - y|
   // Sum of (I - u u^T) / |p - y|, the curvature of the sum of distances.
   double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
@@ -65,13 +65,13 @@ Vec3 spatial_median(std::span<const Vec3> points, std::size_t start) {
   Pull pull = pull_at(best, points, tiny);
   const double strength = norm(pull.direction);
   if (strength <= pull.met) return best;
-  // Vardi & Zhang: leave the sample, by Weiszfeld's step made shorter.
+  // Vardi & Zhang: the first step away from a sample is Weiszfeld's, shortened.
   Vec3 next = best + ((1 - pull.met / strength) / pull.weights) * pull.direction;
   for (int step = 0; step < most_steps; ++step) {
     const Pull there = pull_at(next, points, tiny);
     if (there.met > 0) return next;
     if (step > 0 && there.distances > pull.distances) {
-      // Newton's step went too far; Weiszfeld's never does.
+      // Newton's step has increased the sum; Weiszfeld's never does.
       next = best + (1 / pull.weights) * pull.direction;
       pull = pull_at(next, points, tiny);
       if (pull.met > 0) return next;
@@ -146,7 +146,8 @@ template <class Sample>
 std::size_t MovingMedoid<Sample>::find(std::size_t first, std::size_t last) {
   first_ = first;
   for (next_ = std::max(next_, first); next_ <= last; ++next_) take_in(next_);
-  // Summed in the order of frames, so that a window gives the same wherever it lies in the track.
+  // Summed in the order of frames, so that the sum of a window does not depend on its place in the
+  // track.
   std::fill(sums_.begin(), sums_.end(), 0.0);
   for (std::size_t s = first; s <= last; ++s) {
     const double* row = distances_.data() + (s % longest_) * longest_;

@@ -8,7 +8,7 @@
 
 // Medians of rotations and of points. Rotations are measured by the chord of their quaternions,
 // 2 |a - b| = 4 sin(angle / 4): within 0.3 % of the angle up to 30 degrees, the same in every
-// coordinate frame, and indifferent to signs.
+// coordinate frame, and independent of signs.
 namespace kinemend {
 
 /// Chordal distance of two rotations, radians (for small ones): 4 sin(angle / 4).
@@ -20,9 +20,9 @@ std::size_t medoid(std::span<const Quat> samples);
 std::size_t medoid(std::span<const Vec3> samples);
 
 /// The point with the least sum of distances to the samples, from sample `start` (their medoid): it
-/// stays there if that is the median, and else goes on by Newton's steps, or Weiszfeld's where
-/// those do worse (Vardi & Zhang 2000), to 1e-6 of the mean distance. Rotations are taken as the
-/// vectors 2 sin(angle / 2) about the medoid. `scratch` saves allocations.
+/// is `start` itself if that is the median, and else found by Newton's steps, or Weiszfeld's where
+/// those increase the sum (Vardi & Zhang 2000), to 1e-6 of the mean distance. Rotations are taken
+/// as the vectors 2 sin(angle / 2) about the medoid. `scratch` is reused between calls.
 Quat l1_median(std::span<const Quat> samples, std::size_t start, std::vector<Vec3>& scratch);
 Vec3 l1_median(std::span<const Vec3> samples, std::size_t start, std::vector<Vec3>& scratch);
 
@@ -34,7 +34,7 @@ class MovingMedoid {
   /// No window is longer than `longest`.
   MovingMedoid(std::span<const Sample> track, std::size_t longest);
 
-  /// Frame of the medoid of the window [first, last]; neither ever goes back.
+  /// Frame of the medoid of the window [first, last]; neither decreases between calls.
   std::size_t find(std::size_t first, std::size_t last);
   /// Distance of two frames of the window found last.
   double distance(std::size_t a, std::size_t b) const {
@@ -46,7 +46,7 @@ class MovingMedoid {
 
   std::span<const Sample> track_;
   std::size_t longest_;
-  std::size_t next_ = 0;           // the first frame that was not taken in yet
+  std::size_t next_ = 0;           // the first frame without distances
   std::size_t first_ = 0;          // of the window
   std::vector<double> distances_;  // longest x longest, frames modulo longest
   std::vector<double> sums_;

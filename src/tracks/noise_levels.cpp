@@ -17,8 +17,8 @@ double squared(double x) { return x * x; }
 constexpr double third_difference[] = {-1, 3, -3, 1};
 constexpr double fifth_difference[] = {-1, 5, -10, 10, -5, 1};
 
-// The difference of some order at each frame where no sample of it is marked, divided by what white
-// noise of deviation 1 would give.
+// The differences without marked samples, divided by their deviation for white noise of deviation
+// 1.
 template <std::size_t count>
 std::vector<Vec3> differences(std::span<const Vec3> track, std::span<const std::uint8_t> marked,
                               const double (&coefficients)[count]) {
@@ -30,12 +30,12 @@ std::vector<Vec3> differences(std::span<const Vec3> track, std::span<const std::
   result.reserve(track.size());
   for (std::size_t t = 0; t + order < track.size(); ++t) {
     Vec3 difference;
-    bool whole = true;
+    bool complete = true;
     for (std::size_t k = 0; k <= order; ++k) {
       difference += coefficients[k] * track[t + k];
-      whole = whole && marked[t + k] == 0;
+      complete = complete && marked[t + k] == 0;
     }
-    if (whole) result.push_back(scale * difference);
+    if (complete) result.push_back(scale * difference);
   }
   return result;
 }
@@ -48,11 +48,9 @@ std::vector<double> mean_squares(const std::vector<Vec3>& vectors) {
   return squares;
 }
 
-constexpr double chance_excess = 1.01;  // the least of several estimates is a little low
-
-// Averages over ten differences in a row; their lower quartile is 0.853^2 of the mean for white
-// noise.
-double quiet_quarter(const std::vector<double>& squares) {
+// From the lower quartile of moving averages over ten squared differences, which is 0.853^2 of
+// their mean for white noise.
+double lower_quartile_level(const std::vector<double>& squares) {
   constexpr std::size_t window = 10;
   constexpr double quartile_bias = 0.853 / 1.05;
   std::vector<double> averages;
@@ -65,11 +63,12 @@ double quiet_quarter(const std::vector<double>& squares) {
   return std::sqrt(quantile_of(averages, 0.25)) / quartile_bias;
 }
 
-double round_level(std::span<const Vec3> track, std::span<const std::uint8_t> marked) {
+double isotropic_level(std::span<const Vec3> track, std::span<const std::uint8_t> marked,
+                       const NoiseTuning& tuning) {
   double least = std::numeric_limits<double>::infinity();
   std::vector<double> squares = mean_squares(differences(track, marked, third_difference));
   if (squares.size() >= 3) {
-    if (squares.size() >= 30) least = quiet_quarter(squares);
+    if (squares.size() >= 30) least = lower_quartile_level(squares);
     least = std::min(least, std::sqrt(3 * median_of(squares)) / median_of_chi3);
   }
   if (track.size() >= 20) {
@@ -77,12 +76,11 @@ double round_level(std::span<const Vec3> track, std::span<const std::uint8_t> ma
     if (squares.size() >= 3)
       least = std::min(least, std::sqrt(3 * median_of(squares)) / median_of_chi3);
   }
-  return std::isfinite(least) ? chance_excess * least : 0;
+  return std::isfinite(least) ? tuning.minimum_bias * least : 0;
 }
 
-// Deviation of numbers of which some may lie far off: Huber's, whose squares are cut at 2.5
-// deviations.
-double robust_deviation(std::vector<double> numbers) {
+// Huber's standard deviation of numbers with outliers: squares are limited to (2.5 deviations)^2.
+double huber_deviation(std::vector<double> numbers) {
   constexpr double cut = 2.5, share_within_cut = 0.9775, median_size = 0.6745;
   constexpr int rounds = 10;
   if (numbers.empty()) return 0;
@@ -97,14 +95,15 @@ double robust_deviation(std::vector<double> numbers) {
   return deviation;
 }
 
-// Mean over the axes that have the track's noise.
-double loud_level(std::span<const Vec3> track, std::span<const std::uint8_t> marked) {
+// Root mean square over the axes that have noise.
+double whitened_level(std::span<const Vec3> track, std::span<const std::uint8_t> marked,
+                      const NoiseTuning& tuning) {
   const Vec3 levels =
       noise_along(fifth_differences(track, marked), {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}});
-  const double loudest = std::max({levels.x, levels.y, levels.z});
+  const double largest = std::max({levels.x, levels.y, levels.z});
   double sum = 0, count = 0;
   for (const double level : {levels.x, levels.y, levels.z}) {
-    if (level < 0.5 * loudest) continue;
+    if (level < tuning.least_axis_share * largest) continue;
     sum += squared(level);
     count += 1;
   }
@@ -123,7 +122,7 @@ Vec3 noise_along(std::span<const Vec3> differences, const std::array<Vec3, 3>& d
     std::vector<double> numbers(differences.size());
     std::transform(differences.begin(), differences.end(), numbers.begin(),
                    [&](Vec3 v) { return dot(v, direction); });
-    return robust_deviation(std::move(numbers));
+    return huber_deviation(std::move(numbers));
   };
   return {along(directions[0]), along(directions[1]), along(directions[2])};
 }
@@ -159,33 +158,37 @@ void fill_marked(std::span<Vec3> track, std::span<const std::uint8_t> marked) {
 }
 
 double noise_level(std::span<const Vec3> track, std::span<const std::uint8_t> marked,
-                   bool has_quiet_axes) {
+                   bool is_whitened, const NoiseTuning& tuning) {
   if (track.size() < 6) return 0;
-  return has_quiet_axes ? loud_level(track, marked) : round_level(track, marked);
+  return is_whitened ? whitened_level(track, marked, tuning)
+                     : isotropic_level(track, marked, tuning);
 }
 
-std::vector<double> noise_levels(const VectorTracks& tracks, const SampleMarks& marked) {
+std::vector<double> noise_levels(const VectorTracks& tracks, const SampleMarks& marked,
+                                 const NoiseTuning& tuning) {
   std::vector<double> levels(tracks.tracks(), 0);
   for_each_parallel(tracks.tracks(), tracks.values.size(), [&](std::size_t n) {
-    levels[n] = noise_level(tracks.track(n), marked.track(n), tracks.has_quiet_axes[n] != 0);
+    levels[n] = noise_level(tracks.track(n), marked.track(n), tracks.is_whitened[n] != 0, tuning);
   });
   return levels;
 }
 
-std::vector<double> cleaning_shares(const std::vector<double>& noise, double frame_rate_hz) {
+double rate_factor_of(double frame_rate_hz, const DeadZoneTuning& tuning) {
+  return std::max(1.0, std::pow(120 / frame_rate_hz, tuning.rate_exponent));
+}
+
+std::vector<double> smoothing_shares(const std::vector<double>& noise, double frame_rate_hz,
+                                     const DeadZoneTuning& tuning) {
   if (noise.empty()) return {};
-  // Degrees of noise where smoothing starts and where it is whole, in a noisy take and in a clean
-  // one.
-  constexpr double start_noisy = 0.15, whole_noisy = 0.35, start_clean = 0.35, whole_clean = 0.7;
-  const double folding = std::max(1.0, std::pow(120 / frame_rate_hz, 0.75));
+  const double rate_factor = rate_factor_of(frame_rate_hz, tuning);
   std::vector<double> sorted = noise;
-  const double median = median_of(sorted) / folding;
-  const double noisy = std::clamp((median - 0.15) / 0.15, 0.0, 1.0);
-  const double start = start_clean + (start_noisy - start_clean) * noisy;
-  const double whole = whole_clean + (whole_noisy - whole_clean) * noisy;
+  const double median = median_of(sorted) / rate_factor;
+  const double noisy = std::clamp((median - tuning.noisy_from) / tuning.noisy_over, 0.0, 1.0);
+  const double start = tuning.start_quiet + (tuning.start_noisy - tuning.start_quiet) * noisy;
+  const double full = tuning.full_quiet + (tuning.full_noisy - tuning.full_quiet) * noisy;
   std::vector<double> shares(noise.size());
   for (std::size_t n = 0; n < noise.size(); ++n) {
-    const double r = std::clamp((noise[n] / folding - start) / (whole - start), 0.0, 1.0);
+    const double r = std::clamp((noise[n] / rate_factor - start) / (full - start), 0.0, 1.0);
     shares[n] = squared(r) * (3 - 2 * r);
   }
   return shares;

@@ -6,10 +6,10 @@
 
 #include "tracks/nonlocal_filter.hpp"
 
-// How tracks go on beyond their ends for the non-local means.
+// Extension of tracks beyond their ends for the non-local means.
 namespace kinemend {
 
-/// Index of the sample that stands at i, which may lie beyond the ends.
+/// Index of the sample at i, which may be beyond the ends.
 inline std::size_t source_index(std::ptrdiff_t i, std::size_t frames, NonlocalBoundary boundary) {
   const auto last = static_cast<std::ptrdiff_t>(frames) - 1;
   if (boundary != NonlocalBoundary::mirror || last == 0) {
@@ -24,7 +24,7 @@ inline Vec3 difference(Vec3 from, Vec3 to) { return to - from; }
 inline Quat moved(Quat from, Vec3 by) { return from * exp(by); }
 inline Vec3 moved(Vec3 from, Vec3 by) { return from + by; }
 
-/// The straight line of least squares through `count` samples from an end inwards, about the end.
+/// The least-squares line through the `count` samples at an end, relative to the end sample.
 struct EndLine {
   Vec3 value, slope;
 };

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// A take with its ends continued, and the filter's work on one block of frames.
+// A take with its ends extended, and the filter on one block of frames.
 class Averager {
  public:
   Averager(const NonlocalTake& take, const NonlocalSettings& settings)
@@ -41,14 +41,14 @@ class Averager {
   }
 
   std::size_t frames() const { return frames_; }
-  // Frames of a block: so few that the distances to all neighbours stay in the cache.
+  // Frames of a block, whose distances to all neighbours fit the cache.
   std::size_t block_frames() const {
     if (!settings_.whole_take) return 256;
     return std::clamp<std::size_t>((std::size_t{1} << 20) / frames_, 16, 256);
   }
 
   struct Moves {
-    std::vector<VectorTrack> turns;  ///< one a rotation track; empty where it is not wanted
+    std::vector<VectorTrack> turns;  ///< one per rotation track; empty where it is not wanted
     std::vector<VectorTrack> shifts;
     std::vector<VectorTrack> point_moves;
   };
@@ -90,7 +90,7 @@ class Averager {
     }
   }
 
-  // What frames first .. first + count - 1 are turned and moved by.
+  // The turns and moves of frames first .. first + count - 1.
   Moves run(std::size_t first, std::size_t count, const std::vector<std::uint8_t>& wanted,
             const std::vector<std::uint8_t>& travels) const {
     Weights weights = find_distances(first, count);
@@ -127,7 +127,7 @@ class Averager {
 
     Weights() = default;
     Weights(Weights&&) = default;
-    // The neighbours' weights are those of the copy.
+    // The neighbours point to the weights of the copy.
     Weights(const Weights& other) : values(other.values), neighbours(other.neighbours) {
       for (Neighbour& n : neighbours)
         n.weights = &values[static_cast<std::size_t>(n.weights - other.values.data())];
@@ -137,8 +137,8 @@ class Averager {
     ~Weights() = default;
   };
 
-  // Where the body itself travels, to the weighted straight line through its moves: poses before
-  // and behind a frame hardly ever weigh the same, and their mean would lag or lead.
+  // Where the body travels, the value of the weighted line through its moves: poses before and
+  // behind a frame have different total weights, and their mean would lag or lead.
   class LineOfMoves {
    public:
     void add(double weight, std::ptrdiff_t offset, Vec3 move) {
@@ -158,7 +158,7 @@ class Averager {
     }
 
    private:
-    static constexpr double least_spread = 0.5;  // square frames: less tells no speed
+    static constexpr double least_spread = 0.5;  // square frames, below which no speed is estimated
     double weights_ = 1, offsets_ = 0, squares_ = 0;
     Vec3 moves_, products_;
   };
@@ -197,14 +197,14 @@ class Averager {
     return sums;
   }
 
-  // How the centre of the points that both frames have moved on from each frame to each neighbour.
+  // The move of the centre of the points seen in both frames, from each frame to each neighbour.
   std::vector<VectorTrack> body_travels(std::size_t first, std::size_t count,
                                         const std::vector<Neighbour>& neighbours) const {
     std::vector<VectorTrack> travels;
     if (points_.empty()) return travels;
     for (const Neighbour& n : neighbours) {
       VectorTrack travel(count);
-      // A neighbour beyond the take weighs nothing.
+      // A neighbour beyond the take has no weight.
       const auto there = static_cast<std::ptrdiff_t>(first + pad_) + n.offset;
       const auto all = static_cast<std::ptrdiff_t>(frames_ + 2 * pad_);
       const std::size_t begin = there < 0 ? static_cast<std::size_t>(-there) : 0;
@@ -283,7 +283,7 @@ class Averager {
     }
   }
 
-  // What is left of the points' moves without that of their centre.
+  // The points' moves less that of their centre.
   void add_centred_distances(std::size_t a, std::size_t b, std::size_t count,
                              std::vector<double>& sums, std::vector<double>& pairs) const {
     const Moved moved = point_sums(a, b, count);
@@ -295,7 +295,7 @@ class Averager {
     }
   }
 
-  // Distances of the block's frames to each neighbour; infinite where it does not count.
+  // Distances of the block's frames to each neighbour; infinite where it has no weight.
   Weights find_distances(std::size_t first, std::size_t count) const {
     Weights result =
         settings_.whole_take ? whole_take_distances(first, count) : window_distances(first, count);
@@ -321,7 +321,7 @@ class Averager {
     }
   }
 
-  // Each pair is measured once: what is ahead of one frame is behind the other.
+  // Each pair is measured once and used in both directions.
   Weights window_distances(std::size_t first, std::size_t count) const {
     const std::size_t stride = count + lane_room;
     std::vector<std::ptrdiff_t> offsets;
@@ -365,7 +365,7 @@ class Averager {
     return result;
   }
 
-  // Neighbours beyond the nearest few, ties kept, are moved infinitely far away.
+  // Neighbours beyond the nearest few, ties kept, get an infinite distance.
   void keep_nearest(std::size_t count, Weights& weights) const {
     if (settings_.neighbours >= weights.neighbours.size()) return;
     const std::size_t stride = count + lane_room;

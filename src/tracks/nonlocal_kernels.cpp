@@ -98,8 +98,8 @@ HWY_INLINE Lanes logarithm_scale(const LaneQuat& a, const LaneQuat& b) {
 }
 
 // One row of scales serves the neighbours at +n and at -n where they follow each other in the list:
-// the scale of a pair is the same seen from either side. Returns where frame i of the neighbour
-// finds its own.
+// the scale of a pair does not depend on its direction. Returns the index of the neighbour's own
+// scale at frame i.
 const double* fill_scales(const RotationTrack& track, std::size_t first, std::size_t count,
                           const Neighbour& neighbour, const Neighbour* opposite, double* row) {
   const std::size_t step = opposite ? static_cast<std::size_t>(neighbour.offset) : 0;
@@ -121,7 +121,7 @@ HWY_INLINE LaneVec vector_part(const LaneQuat& a, const LaneQuat& b) {
 }
 
 // The vector part of q_i^-1 q_n is linear in q_n: the scaled quaternions are summed up, as
-// differences from q_i, which leave nothing where nothing moves, and multiplied once.
+// differences from q_i, which are zero where nothing moves, and multiplied once.
 void mean_turn_lanes(const RotationTrack& track, const double* observed, std::size_t first,
                      std::size_t count, std::span<const Neighbour> neighbours,
                      std::span<const double* const> scales, VectorTrack& out) {

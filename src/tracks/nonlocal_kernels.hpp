@@ -6,7 +6,7 @@
 #include "tracks/rotation_track.hpp"
 
 // The vectorised loops of the non-local means. All of them work on whole vectors: arrays and tracks
-// have `lane_room` behind their last element, and what is written there means nothing.
+// have `lane_room` behind their last element, and what is written there is not used.
 namespace kinemend {
 
 /// sums[i] += |Log(q_{a+i}^-1 q_{b+i})|^2 for i < count.
@@ -31,7 +31,7 @@ void add_point_moves(const VectorTrack& track, const double* observed, std::size
 /// values[i] = exp(-scale * max(0, values[i] - floors[i])) for i < count.
 void decay(double scale, const double* floors, std::size_t count, double* values);
 
-/// One neighbour of each of some successive frames: how far off it is, and its weights.
+/// One neighbour of each of some successive frames: its offset, and its weights.
 struct Neighbour {
   std::ptrdiff_t offset;
   const double* weights;
@@ -39,7 +39,7 @@ struct Neighbour {
 
 /// out_i = sum_n w_n Log(x_i^-1 x_{i+n}) / (1 + sum_n w_n) for the `count` frames from `first` on.
 /// `observed` multiplies the weights, the frame's own (1) included; nullptr: all are 1. The track
-/// has `lane_room` frames on either side of those that weigh anything. Neighbours at +n and -n that
+/// has `lane_room` frames on either side of those with weight. Neighbours at +n and -n that
 /// follow each other in the list cost little more than one.
 void mean_turn(const RotationTrack& track, const double* observed, std::size_t first,
                std::size_t count, std::span<const Neighbour> neighbours, VectorTrack& out);

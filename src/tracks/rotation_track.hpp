@@ -7,10 +7,10 @@
 
 namespace kinemend {
 
-/// Room behind the last frame of a track, so that the last vector may be loaded and stored whole.
+/// Padding behind the last frame of a track, so that full vectors can be loaded and stored there.
 inline constexpr std::size_t lane_room = 8;
 
-/// Vectors over time, one array a component. The arrays are `lane_room` longer than `frames`.
+/// Vectors over time, one array per component. The arrays are `lane_room` longer than `frames`.
 struct VectorTrack {
   std::size_t frames = 0;
   std::vector<double> x, y, z;
@@ -20,8 +20,8 @@ struct VectorTrack {
   void set(std::size_t i, Vec3 v) { x[i] = v.x, y[i] = v.y, z[i] = v.z; }
 };
 
-/// Rotations of one joint over time, one array a component, identity at first. The arrays are
-/// `lane_room` longer than `frames`.
+/// Rotations of one joint over time, one array per component, initially the identity. The arrays
+/// are `lane_room` longer than `frames`.
 struct RotationTrack {
   std::size_t frames = 0;
   std::vector<double> w, x, y, z;

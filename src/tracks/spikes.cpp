@@ -9,39 +9,36 @@
 #include "base/quantiles.hpp"
 #include "kinemend/frame_rate.hpp"
 #include "signal/leave_one_out.hpp"
-#include "tracks/spike_trial.hpp"
+#include "tracks/spike_classification.hpp"
 
 namespace kinemend {
 
 namespace {
 
-constexpr double accused_ratio = 6.5;  // prediction error over its standard deviation
-constexpr double robust_cap = 6;  // errors count for no more than this many standard deviations
-constexpr int rounds = 5;
-
-// What is known of the samples while rounds of accusation go on, each track for itself.
-struct Inquest {
+// State of the iteration; the candidates of a track depend on that track alone.
+struct Detection {
   const VectorTracks& measured;
   double frame_rate_hz;
   const SampleMarks* missing;
-  const signal::LeaveOneOut& others;
-  SampleMarks accused;
-  std::vector<double> noise;  // without the accused
+  const signal::LeaveOneOut& smoothers;
+  const TrackTuning& tuning;
+  SampleMarks candidates;
+  std::vector<double> noise;  // without the candidates
   Predictions predictions;
 
   std::vector<std::uint8_t> left_out(std::size_t track) const {
-    const auto marks = accused.track(track);
+    const auto marks = candidates.track(track);
     std::vector<std::uint8_t> result(marks.begin(), marks.end());
     for (std::size_t t = 0; missing && t < result.size(); ++t) result[t] |= (*missing)(t, track);
     return result;
   }
 };
 
-// The accused, and the gaps whose bridges rest on one of them.
-std::vector<std::uint8_t> with_bridges_beside(std::span<const std::uint8_t> accused,
+// The candidates, and the bridged gaps that start or end at one.
+std::vector<std::uint8_t> with_bridges_beside(std::span<const std::uint8_t> candidates,
                                               std::span<const std::uint8_t> missing) {
-  std::vector<std::uint8_t> result(accused.begin(), accused.end());
-  const std::size_t frames = accused.size();
+  std::vector<std::uint8_t> result(candidates.begin(), candidates.end());
+  const std::size_t frames = candidates.size();
   for (std::size_t t = 0; t < frames;) {
     if (missing[t] == 0) {
       ++t;
@@ -49,40 +46,41 @@ std::vector<std::uint8_t> with_bridges_beside(std::span<const std::uint8_t> accu
     }
     const std::size_t first = t;
     while (t < frames && missing[t] != 0) ++t;
-    const bool rests_on_accused =
-        (first > 0 && accused[first - 1] != 0) || (t < frames && accused[t] != 0);
-    for (std::size_t f = first; rests_on_accused && f < t; ++f) result[f] = 1;
+    const bool touches_candidate =
+        (first > 0 && candidates[first - 1] != 0) || (t < frames && candidates[t] != 0);
+    for (std::size_t f = first; touches_candidate && f < t; ++f) result[f] = 1;
   }
   return result;
 }
 
-// Puts lines through the accused of a track, and through bridges that rest on one.
-void refill(const Inquest& inquest, std::size_t track, std::span<Vec3> filled) {
-  const auto accused = inquest.accused.track(track);
-  if (inquest.missing) {
-    fill_marked(filled, with_bridges_beside(accused, inquest.missing->track(track)));
+// Interpolates the candidates of a track, and the bridges that touch one, linearly.
+void interpolate_candidates(const Detection& detection, std::size_t track, std::span<Vec3> filled) {
+  const auto candidates = detection.candidates.track(track);
+  if (detection.missing) {
+    fill_marked(filled, with_bridges_beside(candidates, detection.missing->track(track)));
   } else {
-    fill_marked(filled, accused);
+    fill_marked(filled, candidates);
   }
 }
 
-void measure_noise(Inquest& inquest, std::size_t track) {
-  inquest.noise[track] = noise_level(inquest.measured.track(track), inquest.left_out(track),
-                                     inquest.measured.has_quiet_axes[track] != 0);
+void measure_noise(Detection& detection, std::size_t track) {
+  detection.noise[track] =
+      noise_level(detection.measured.track(track), detection.left_out(track),
+                  detection.measured.is_whitened[track] != 0, detection.tuning.noise);
 }
 
-double error_scale(const Inquest& inquest, std::size_t track) {
-  return std::max(inquest.noise[track], least_noise);
+double error_scale(const Detection& detection, std::size_t track) {
+  return std::max(detection.noise[track], detection.tuning.spikes.noise_floor);
 }
 
-// The tracks, the accused interpolated.
-signal::LaneBlock gather_tracks(const Inquest& inquest, std::span<const std::size_t> tracks) {
-  signal::LaneBlock block(inquest.measured.frames());
+// The tracks, their candidates interpolated.
+signal::LaneBlock gather_tracks(const Detection& detection, std::span<const std::size_t> tracks) {
+  signal::LaneBlock block(detection.measured.frames());
   std::vector<Vec3> filled;
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    const auto measured = inquest.measured.track(tracks[i]);
+    const auto measured = detection.measured.track(tracks[i]);
     filled.assign(measured.begin(), measured.end());
-    refill(inquest, tracks[i], filled);
+    interpolate_candidates(detection, tracks[i], filled);
     for (std::size_t t = 0; t < filled.size(); ++t) {
       double* row = block.row(t) + i;
       row[0] = filled[t].x;
@@ -97,36 +95,37 @@ Vec3 lane_vector(const double* row, std::size_t lane) {
   return {row[lane], row[signal::lane_tracks + lane], row[2 * signal::lane_tracks + lane]};
 }
 
-// Predicts up to eight tracks by the smoother that suits each. A marked sample's fit is its
-// prediction.
-void predict(Inquest& inquest, std::span<const std::size_t> tracks) {
-  const signal::LaneBlock y = gather_tracks(inquest, tracks);
+// Predicts up to eight tracks, each by the smoother of least robust leave-one-out error. A
+// candidate has no weight, so that its fit is its prediction.
+void predict(Detection& detection, std::span<const std::size_t> tracks) {
+  const signal::LaneBlock y = gather_tracks(detection, tracks);
   signal::BlockRow caps{};
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    const double cap = robust_cap * error_scale(inquest, tracks[i]);
+    const double cap = detection.tuning.spikes.robust_cap * error_scale(detection, tracks[i]);
     caps[i] = cap * cap;
   }
-  const auto best = inquest.others.best_smoothers(y, caps);
+  const auto best = detection.smoothers.best_smoothers(y, caps);
   for (std::size_t i = 0; i < tracks.size(); ++i)
-    inquest.predictions.smoothers[tracks[i]] = best[i];
-  for (std::size_t smoother = 0; smoother < inquest.others.smoothers(); ++smoother) {
+    detection.predictions.smoothers[tracks[i]] = best[i];
+  for (std::size_t smoother = 0; smoother < detection.smoothers.smoothers(); ++smoother) {
     const auto last = best.begin() + static_cast<std::ptrdiff_t>(tracks.size());
     if (std::find(best.begin(), last, smoother) == last) continue;
-    const std::vector<double>& weight = inquest.others.weights_of_others(smoother);
-    inquest.others.fit(smoother, y, [&](std::size_t first, std::size_t count, const double* x) {
-      for (std::size_t i = 0; i < tracks.size(); ++i) {
-        if (best[i] != smoother) continue;
-        const std::size_t n = tracks[i];
-        for (std::size_t k = 0; k < count; ++k) {
-          const std::size_t t = first + k;
-          const Vec3 fit = lane_vector(x + k * signal::lane_row, i);
-          const Vec3 given = lane_vector(y.row(t), i);
-          const Vec3 predicted =
-              inquest.accused(t, n) != 0 ? fit : given - (1 / weight[t]) * (given - fit);
-          inquest.predictions.errors(t, n) = norm(inquest.measured.at(t, n) - predicted);
-        }
-      }
-    });
+    const std::vector<double>& weight = detection.smoothers.weights_of_others(smoother);
+    detection.smoothers.fit(
+        smoother, y, [&](std::size_t first, std::size_t count, const double* x) {
+          for (std::size_t i = 0; i < tracks.size(); ++i) {
+            if (best[i] != smoother) continue;
+            const std::size_t n = tracks[i];
+            for (std::size_t k = 0; k < count; ++k) {
+              const std::size_t t = first + k;
+              const Vec3 fit = lane_vector(x + k * signal::lane_row, i);
+              const Vec3 given = lane_vector(y.row(t), i);
+              const Vec3 predicted =
+                  detection.candidates(t, n) != 0 ? fit : given - (1 / weight[t]) * (given - fit);
+              detection.predictions.errors(t, n) = norm(detection.measured.at(t, n) - predicted);
+            }
+          }
+        });
   }
 }
 
@@ -145,73 +144,77 @@ double median_about(const std::vector<double>& values, std::size_t t, std::size_
   return median_of(window);
 }
 
-// A track's next suspects: of those accused before, whoever still does not fit; of the others, the
-// worst within two frames. Whether they are others than before.
-bool accuse(Inquest& inquest, std::size_t n) {
-  const std::size_t frames = inquest.accused.frames;
-  const std::span<std::uint8_t> accused = inquest.accused.track(n);
-  if (inquest.others.smoothers() == 0) {
-    const bool any = std::find(accused.begin(), accused.end(), 1) != accused.end();
-    std::fill(accused.begin(), accused.end(), std::uint8_t{0});
+// The next candidates of track n: earlier ones whose error still exceeds the threshold, and among
+// the other samples the largest errors within two frames. Returns whether the set has changed.
+bool update_candidates(Detection& detection, std::size_t n) {
+  const SpikeTuning& tuning = detection.tuning.spikes;
+  const std::size_t frames = detection.candidates.frames;
+  const std::span<std::uint8_t> candidates = detection.candidates.track(n);
+  if (detection.smoothers.smoothers() == 0) {
+    const bool any = std::find(candidates.begin(), candidates.end(), 1) != candidates.end();
+    std::fill(candidates.begin(), candidates.end(), std::uint8_t{0});
     return any;
   }
-  const auto half =
-      static_cast<std::size_t>(std::lround(0.08 * window_rate_hz(inquest.frame_rate_hz)));
-  const double scale = error_scale(inquest, n);
+  const auto half = static_cast<std::size_t>(
+      std::lround(tuning.median_half_s * window_rate_hz(detection.frame_rate_hz)));
+  const double scale = error_scale(detection, n);
   const std::vector<double>& weight =
-      inquest.others.weights_of_others(inquest.predictions.smoothers[n]);
-  std::vector<double> ratio(frames), unaccused(frames), window;
+      detection.smoothers.weights_of_others(detection.predictions.smoothers[n]);
+  std::vector<double> ratio(frames), others(frames), window;
   for (std::size_t t = 0; t < frames; ++t) {
-    ratio[t] = inquest.predictions.errors(t, n) * std::sqrt(weight[t]) / scale;
-    unaccused[t] = accused[t] != 0 ? 0 : ratio[t];
+    ratio[t] = detection.predictions.errors(t, n) * std::sqrt(weight[t]) / scale;
+    others[t] = candidates[t] != 0 ? 0 : ratio[t];
   }
   std::vector<std::uint8_t> next(frames);
   for (std::size_t t = 0; t < frames; ++t) {
-    if (ratio[t] <= accused_ratio || inquest.predictions.errors(t, n) <= least_deviation) continue;
-    if (inquest.missing && (*inquest.missing)(t, n) != 0) continue;
-    const double usual = median_about(unaccused, t, half, window);
-    if (ratio[t] <= accused_ratio * std::max(1.0, usual / median_of_chi3)) continue;
+    if (ratio[t] <= tuning.candidate_ratio ||
+        detection.predictions.errors(t, n) <= tuning.least_error)
+      continue;
+    if (detection.missing && (*detection.missing)(t, n) != 0) continue;
+    const double usual = median_about(others, t, half, window);
+    if (ratio[t] <= tuning.candidate_ratio * std::max(1.0, usual / median_of_chi3)) continue;
     const std::size_t first = t < 2 ? 0 : t - 2, last = std::min(t + 3, frames);
-    const auto from = unaccused.begin();
+    const auto from = others.begin();
     const double worst = *std::max_element(from + static_cast<std::ptrdiff_t>(first),
                                            from + static_cast<std::ptrdiff_t>(last));
-    next[t] = accused[t] != 0 || unaccused[t] >= worst;
+    next[t] = candidates[t] != 0 || others[t] >= worst;
   }
-  if (std::equal(next.begin(), next.end(), accused.begin())) return false;
-  std::copy(next.begin(), next.end(), accused.begin());
+  if (std::equal(next.begin(), next.end(), candidates.begin())) return false;
+  std::copy(next.begin(), next.end(), candidates.begin());
   return true;
 }
 
-// Measures and predicts these tracks, eight at a time.
-void examine(Inquest& inquest, std::span<const std::size_t> tracks,
-             ShareProgress* progress = nullptr) {
+// Estimates the noise of these tracks and predicts their samples, eight tracks at a time.
+void predict_tracks(Detection& detection, std::span<const std::size_t> tracks,
+                    ShareProgress* progress = nullptr) {
   const std::size_t blocks = (tracks.size() + signal::lane_tracks - 1) / signal::lane_tracks;
   if (progress) progress->begin_part(0.4, blocks);
-  for_each_parallel(blocks, tracks.size() * inquest.measured.frames(), [&](std::size_t b) {
+  for_each_parallel(blocks, tracks.size() * detection.measured.frames(), [&](std::size_t b) {
     const std::size_t first = b * signal::lane_tracks;
     const auto some = tracks.subspan(first, std::min(signal::lane_tracks, tracks.size() - first));
-    for (const std::size_t track : some) measure_noise(inquest, track);
-    if (inquest.others.smoothers() > 0) predict(inquest, some);
+    for (const std::size_t track : some) measure_noise(detection, track);
+    if (detection.smoothers.smoothers() > 0) predict(detection, some);
     if (progress) progress->step();
   });
 }
 
-// Accuses until nothing changes. What a track's verdicts are depends on it alone, so only those
-// whose accused have changed are looked at again.
-void run_rounds(Inquest& inquest, ShareProgress* progress) {
-  std::vector<std::size_t> open(inquest.measured.tracks());
+// Updates the candidates until none changes. Only tracks whose candidates have changed are
+// predicted again.
+void iterate_candidates(Detection& detection, ShareProgress* progress) {
+  std::vector<std::size_t> open(detection.measured.tracks());
   std::iota(open.begin(), open.end(), std::size_t{0});
-  examine(inquest, open, progress);
-  for (int round = 0; round < rounds && !open.empty(); ++round) {
+  predict_tracks(detection, open, progress);
+  for (int round = 0; round < detection.tuning.spikes.rounds && !open.empty(); ++round) {
     std::vector<std::uint8_t> changed(open.size());
-    for_each_parallel(open.size(), open.size() * inquest.measured.frames(),
-                      [&](std::size_t i) { changed[i] = accuse(inquest, open[i]) ? 1 : 0; });
+    for_each_parallel(open.size(), open.size() * detection.measured.frames(), [&](std::size_t i) {
+      changed[i] = update_candidates(detection, open[i]) ? 1 : 0;
+    });
     std::vector<std::size_t> still_open;
     for (std::size_t i = 0; i < open.size(); ++i) {
       if (changed[i] != 0) still_open.push_back(open[i]);
     }
     open = std::move(still_open);
-    examine(inquest, open);
+    predict_tracks(detection, open);
   }
 }
 
@@ -244,33 +247,38 @@ std::vector<std::vector<std::size_t>> joints_nearby(std::span<const std::int32_t
   return nearby;
 }
 
-SpikeVerdicts find_spikes(VectorTracks& tracks, const SampleMarks& suspects,
-                          const std::vector<std::vector<std::size_t>>& nearby, double frame_rate_hz,
-                          const SampleMarks* missing, ShareProgress* progress) {
+DetectedSpikes find_spikes(VectorTracks& tracks, const SampleMarks& initial_candidates,
+                           const std::vector<std::vector<std::size_t>>& nearby,
+                           double frame_rate_hz, const SampleMarks* missing,
+                           ShareProgress* progress, const TrackTuning& tuning) {
   const std::size_t frames = tracks.frames(), count = tracks.tracks();
   if (frames < 6) {
     return {SampleMarks(frames, count), std::vector<double>(count)};
   }
-  const signal::LeaveOneOut others(frames, frame_rate_hz);
-  Inquest inquest{tracks,
-                  frame_rate_hz,
-                  missing,
-                  others,
-                  suspects,
-                  std::vector<double>(count),
-                  Predictions(frames, count)};
-  run_rounds(inquest, progress);
-  const std::vector<double> shares = cleaning_shares(inquest.noise, frame_rate_hz);
-  const SampleMarks accused = std::exchange(
-      inquest.accused, judge_spikes({tracks, inquest.predictions, inquest.accused, inquest.noise,
-                                     shares, nearby, frame_rate_hz, missing}));
-  inquest.predictions = Predictions(0, 0);
+  const signal::LeaveOneOut smoothers(frames, frame_rate_hz, tuning.spikes.predictors);
+  Detection detection{tracks,
+                      frame_rate_hz,
+                      missing,
+                      smoothers,
+                      tuning,
+                      initial_candidates,
+                      std::vector<double>(count),
+                      Predictions(frames, count)};
+  iterate_candidates(detection, progress);
+  const std::vector<double> shares =
+      smoothing_shares(detection.noise, frame_rate_hz, tuning.dead_zone);
+  const SampleMarks candidates = std::exchange(
+      detection.candidates,
+      classify_spikes({tracks, detection.predictions, detection.candidates, detection.noise, shares,
+                       nearby, frame_rate_hz, tuning.spikes, missing}));
+  detection.predictions = Predictions(0, 0);
   for_each_parallel(count, frames * count, [&](std::size_t n) {
-    const std::span<const std::uint8_t> before = accused.track(n), now = inquest.accused.track(n);
-    if (!std::equal(now.begin(), now.end(), before.begin())) measure_noise(inquest, n);
-    refill(inquest, n, tracks.track(n));
+    const std::span<const std::uint8_t> before = candidates.track(n),
+                                        now = detection.candidates.track(n);
+    if (!std::equal(now.begin(), now.end(), before.begin())) measure_noise(detection, n);
+    interpolate_candidates(detection, n, tracks.track(n));
   });
-  return {std::move(inquest.accused), std::move(inquest.noise)};
+  return {std::move(detection.candidates), std::move(detection.noise)};
 }
 
 }  // namespace kinemend

@@ -4,22 +4,22 @@
 #include <utility>
 
 #include "base/parallel.hpp"
-#include "tracks/noise_shape.hpp"
+#include "base/quantiles.hpp"
+#include "tracks/coloured_smoothing.hpp"
+#include "tracks/held_samples.hpp"
 #include "tracks/spikes.hpp"
 #include "tracks/track_smoother.hpp"
+#include "tracks/whitening.hpp"
 
 namespace kinemend {
 
 namespace {
 
-constexpr double least_travel = 3;  // over the deviation about the line
-
-// The straight line of least squares through a track: travel and steady turning are no part of what
-// is smoothed, or a take that turns would be smoothed otherwise than one that does not. A track
-// that gets no farther than three deviations about its line goes to and fro: its line is chance,
-// and taking it off costs up to some percent.
-struct Travel {
-  Vec3 middle, velocity;  // of the middle frame, and per frame
+// The least-squares line of a track. Travel and steady turning are removed before smoothing, which
+// then treats turning takes like others. The slope of a track that stays close to its line is
+// chance: removing it raises the error by a few percent.
+struct LinearTrend {
+  Vec3 middle, velocity;  // at the middle frame, and per frame
   double middle_frame = 0;
 
   Vec3 at(std::size_t frame) const {
@@ -27,79 +27,127 @@ struct Travel {
   }
 };
 
-Travel travel_of(const VectorTracks& tracks, std::size_t track) {
+LinearTrend trend_of(const VectorTracks& tracks, std::size_t track, double least_travel) {
   const auto count = static_cast<double>(tracks.frames());
   const Vec3 origin = tracks.at(0, track);
-  Travel travel{{}, {}, (count - 1) / 2};
+  LinearTrend trend{{}, {}, (count - 1) / 2};
   double squares = 0;
   for (std::size_t f = 0; f < tracks.frames(); ++f) {
-    const double t = static_cast<double>(f) - travel.middle_frame;
-    const Vec3 way = tracks.at(f, track) - origin;
-    travel.middle += (1 / count) * way;
-    travel.velocity += t * way;
+    const double t = static_cast<double>(f) - trend.middle_frame;
+    const Vec3 offset = tracks.at(f, track) - origin;
+    trend.middle += (1 / count) * offset;
+    trend.velocity += t * offset;
     squares += t * t;
   }
-  travel.middle += origin;
-  travel.velocity = (1 / squares) * travel.velocity;
+  trend.middle += origin;
+  trend.velocity = (1 / squares) * trend.velocity;
   double rest = 0;
   for (std::size_t f = 0; f < tracks.frames(); ++f) {
-    const Vec3 off_line = tracks.at(f, track) - travel.at(f);
+    const Vec3 off_line = tracks.at(f, track) - trend.at(f);
     rest += dot(off_line, off_line);
   }
-  if (norm(travel.velocity) * count < least_travel * std::sqrt(rest / count)) travel.velocity = {};
-  return travel;
+  if (norm(trend.velocity) * count < least_travel * std::sqrt(rest / count)) trend.velocity = {};
+  return trend;
 }
 
-std::vector<Travel> take_travel(VectorTracks& tracks) {
-  std::vector<Travel> travels(tracks.tracks());
+std::vector<LinearTrend> remove_trends(VectorTracks& tracks, double least_travel) {
+  std::vector<LinearTrend> trends(tracks.tracks());
   for_each_parallel(tracks.tracks(), tracks.values.size(), [&](std::size_t n) {
-    travels[n] = travel_of(tracks, n);
+    trends[n] = trend_of(tracks, n, least_travel);
     for (std::size_t t = 0; t < tracks.frames(); ++t)
-      tracks.set(t, n, tracks.at(t, n) - travels[n].at(t));
+      tracks.set(t, n, tracks.at(t, n) - trends[n].at(t));
   });
-  return travels;
+  return trends;
 }
 
-void give_travel_back(VectorTracks& tracks, const std::vector<Travel>& travels) {
+void restore_trends(VectorTracks& tracks, const std::vector<LinearTrend>& trends) {
   for_each_parallel(tracks.tracks(), tracks.values.size(), [&](std::size_t n) {
     for (std::size_t t = 0; t < tracks.frames(); ++t)
-      tracks.set(t, n, tracks.at(t, n) + travels[n].at(t));
+      tracks.set(t, n, tracks.at(t, n) + trends[n].at(t));
   });
+}
+
+// Whether a take has enough noise, as white noise, to estimate its colour.
+bool may_be_coloured(std::vector<double> levels, double frame_rate_hz) {
+  constexpr double least = 0.05;  // degrees at 120 Hz
+  return !levels.empty() && median_of(levels) > least * rate_factor_of(frame_rate_hz);
+}
+
+// A track with few observed samples keeps its bridges unsmoothed.
+void leave_hardly_observed(const SampleMarks& missing, std::vector<double>& shares) {
+  for (std::size_t n = 0; n < shares.size(); ++n) {
+    std::size_t seen = 0;
+    for (std::size_t t = 0; t < missing.frames; ++t) seen += missing(t, n) == 0;
+    if (seen < 2 * fewest_clean_frames) shares[n] = 0;
+  }
+}
+
+// Every frame is a measurement.
+CleanedTracks clean_measurements(VectorTracks& tracks, const SampleMarks& spike_candidates,
+                                 const SampleMarks& always_missing,
+                                 const std::vector<std::vector<std::size_t>>& nearby,
+                                 double frame_rate_hz, const TrackCleaningSettings& settings,
+                                 ShareProgress* progress) {
+  const TrackTuning& tuning = settings.tuning;
+  const std::vector<LinearTrend> trends = remove_trends(tracks, tuning.smoothing.least_travel);
+  const std::vector<Whitening> whitenings =
+      estimate_whitening(tracks, always_missing, frame_rate_hz, tuning.noise);
+  whiten(tracks, whitenings);
+  CleanedTracks cleaned{SampleMarks(tracks.frames(), tracks.tracks()), {}, {}, {}, {}};
+  if (settings.despike) {
+    DetectedSpikes found = find_spikes(tracks, spike_candidates, nearby, frame_rate_hz,
+                                       &always_missing, progress, tuning);
+    cleaned.marked = std::move(found.marked);
+    cleaned.noise = std::move(found.noise);
+  } else {
+    cleaned.noise = noise_levels(tracks, always_missing, tuning.noise);
+  }
+  const SampleMarks missing = either(cleaned.marked, always_missing);
+  if (may_be_coloured(cleaned.noise, frame_rate_hz)) {
+    VectorTracks plain = tracks;
+    undo_whitening(plain, whitenings);
+    cleaned.spectrum = noise_spectrum_of(plain, missing, frame_rate_hz, settings.kind);
+    if (cleaned.spectrum.is_clear) tracks = std::move(plain);
+  }
+  if (cleaned.spectrum.is_clear) {
+    cleaned.noise = cleaned.spectrum.strengths();
+    cleaned.shares = coloured_shares(cleaned.spectrum, settings.sensitivity, frame_rate_hz);
+    leave_hardly_observed(missing, cleaned.shares);
+    smooth_coloured(tracks, missing, cleaned.spectrum, settings.sensitivity, cleaned.shares,
+                    frame_rate_hz, progress);
+  } else {
+    std::vector<double> assumed = cleaned.noise;
+    for (double& level : assumed) level *= settings.sensitivity;
+    cleaned.shares = smoothing_shares(assumed, frame_rate_hz, tuning.dead_zone);
+    leave_hardly_observed(missing, cleaned.shares);
+    smooth_tracks(tracks, missing, assumed, cleaned.shares, frame_rate_hz, progress,
+                  tuning.smoothing);
+    undo_whitening(tracks, whitenings);
+  }
+  restore_trends(tracks, trends);
+  return cleaned;
 }
 
 }  // namespace
 
-CleanedTracks clean_tracks(VectorTracks& tracks, const SampleMarks& suspects,
+CleanedTracks clean_tracks(VectorTracks& tracks, const SampleMarks& spike_candidates,
                            const SampleMarks& always_missing,
                            const std::vector<std::vector<std::size_t>>& nearby,
                            double frame_rate_hz, const TrackCleaningSettings& settings,
                            ShareProgress* progress) {
-  const std::vector<Travel> travels = take_travel(tracks);
-  const std::vector<NoiseShape> shapes = noise_shapes(tracks, always_missing, frame_rate_hz);
-  make_round(tracks, shapes);
-  CleanedTracks verdicts{SampleMarks(tracks.frames(), tracks.tracks()), {}, {}};
-  if (settings.despike) {
-    SpikeVerdicts found =
-        find_spikes(tracks, suspects, nearby, frame_rate_hz, &always_missing, progress);
-    verdicts.marked = std::move(found.marked);
-    verdicts.noise = std::move(found.noise);
-  } else {
-    verdicts.noise = noise_levels(tracks, always_missing);
+  const SamplePattern pattern = find_sample_pattern(tracks, always_missing);
+  if (pattern.join == SampleJoin::none) {
+    return clean_measurements(tracks, spike_candidates, always_missing, nearby, frame_rate_hz,
+                              settings, progress);
   }
-  std::vector<double> assumed = verdicts.noise;
-  for (double& level : assumed) level *= settings.sensitivity;
-  verdicts.shares = cleaning_shares(assumed, frame_rate_hz);
-  const SampleMarks missing = either(verdicts.marked, always_missing);
-  // A track that was hardly seen keeps its bridges.
-  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
-    std::size_t seen = 0;
-    for (std::size_t t = 0; t < tracks.frames(); ++t) seen += missing(t, n) == 0;
-    if (seen < 2 * fewest_clean_frames) verdicts.shares[n] = 0;
-  }
-  smooth_tracks(tracks, missing, assumed, verdicts.shares, frame_rate_hz, progress);
-  undo_round(tracks, shapes);
-  give_travel_back(tracks, travels);
-  return verdicts;
+  VectorTracks samples = measured_samples(tracks, pattern);
+  CleanedTracks cleaned =
+      clean_measurements(samples, marks_of_samples(spike_candidates, pattern),
+                         marks_of_samples(always_missing, pattern), nearby,
+                         frame_rate_hz / static_cast<double>(pattern.step), settings, progress);
+  cleaned.marked = spread_samples(samples, cleaned.marked, cleaned.shares, pattern, tracks);
+  cleaned.pattern = pattern;
+  return cleaned;
 }
 
 }  // namespace kinemend

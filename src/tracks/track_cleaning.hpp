@@ -4,29 +4,35 @@
 #include <vector>
 
 #include "base/progress.hpp"
+#include "tracks/held_samples.hpp"
+#include "tracks/noise_spectrum.hpp"
 #include "tracks/vector_tracks.hpp"
 
-// What the method `auto` does with tracks of any kind, once they are vectors in degrees.
+// The core of the method `auto`, on tracks of vectors in degrees.
 namespace kinemend {
 
-/// Takes of fewer frames are left alone.
+/// Takes of fewer frames are not changed.
 inline constexpr std::size_t fewest_clean_frames = 4;
 
 struct TrackCleaningSettings {
-  double sensitivity = 1;  ///< scales the noise that is assumed
+  double sensitivity = 1;  ///< scales the estimated noise
   bool despike = true;
+  TrackKind kind = TrackKind::rotations;
+  TrackTuning tuning = {};
 };
 
 struct CleanedTracks {
   SampleMarks marked;          ///< spikes
   std::vector<double> noise;   ///< of each track, degrees, as measured
-  std::vector<double> shares;  ///< how far each track was smoothed
+  std::vector<double> shares;  ///< of smoothing, per track, 0 to 1
+  SamplePattern pattern;       ///< which frames are measurements; noise is that of these
+  NoiseSpectrum spectrum;      ///< the noise where it is not white
 };
 
-/// Finds spikes and smooths noise. `suspects` are the first accused of being spikes;
-/// `always_missing` samples are gaps already bridged; `nearby[n]` are the tracks that move with
-/// track n. `progress`, where there is one, goes on to three quarters.
-CleanedTracks clean_tracks(VectorTracks& tracks, const SampleMarks& suspects,
+/// Interpolates spikes and smooths noise, in place. `spike_candidates` start the detection
+/// (`find_spikes`); `always_missing` samples are bridged gaps; `nearby[n]` are the tracks that move
+/// with track n. `progress`, if any, advances to 0.75.
+CleanedTracks clean_tracks(VectorTracks& tracks, const SampleMarks& spike_candidates,
                            const SampleMarks& always_missing,
                            const std::vector<std::vector<std::size_t>>& nearby,
                            double frame_rate_hz, const TrackCleaningSettings& settings,

@@ -13,10 +13,8 @@ namespace kinemend {
 
 namespace {
 
-constexpr double least_noise = 1e-4;  // degrees
-
-// Three moving averages of +-0.1 s after each other pass what is slower than about 2 Hz.
-std::vector<Vec3> slow_part(std::vector<Vec3> values, std::size_t half) {
+// Three moving averages of `half` frames on either side: a low-pass filter of about 2 Hz.
+std::vector<Vec3> slow_motion(std::vector<Vec3> values, std::size_t half) {
   const auto last = static_cast<std::ptrdiff_t>(values.size()) - 1;
   const auto reach = static_cast<std::ptrdiff_t>(half);
   for (int pass = 0; pass < 3; ++pass) {
@@ -34,12 +32,12 @@ std::vector<Vec3> slow_part(std::vector<Vec3> values, std::size_t half) {
   return values;
 }
 
-// Columns are the principal axes of the fast part of a track's motion: along each of them the
-// signal, and so the right strength, is a different one.
-Eigen::Matrix3d principal_axes(const std::vector<Vec3>& values, double frame_rate_hz) {
+// Columns are the principal axes of a track's fast motion: the signal along each, and so the
+// likeliest strength, differs.
+Eigen::Matrix3d principal_axes(const std::vector<Vec3>& values, double half_frames) {
   if (values.size() < 8) return Eigen::Matrix3d::Identity();
-  const auto half = static_cast<std::size_t>(std::max(1L, std::lround(0.1 * frame_rate_hz)));
-  const std::vector<Vec3> slow = slow_part(values, half);
+  const auto half = static_cast<std::size_t>(std::max(1L, std::lround(half_frames)));
+  const std::vector<Vec3> slow = slow_motion(values, half);
   Eigen::Matrix3d moment = 1e-9 * Eigen::Matrix3d::Identity();
   for (std::size_t t = 0; t < values.size(); ++t) {
     const Vec3 fast = values[t] - slow[t];
@@ -64,16 +62,17 @@ double& component(Vec3& v, std::size_t axis) { return axis == 0 ? v.x : axis == 
 class Smoothing {
  public:
   Smoothing(VectorTracks& tracks, const SampleMarks& missing, std::span<const double> noise,
-            std::vector<std::size_t> chosen, double frame_rate_hz)
+            std::vector<std::size_t> chosen, double frame_rate_hz, const SmoothingTuning& tuning)
       : tracks_(tracks),
         missing_(missing),
         chosen_(std::move(chosen)),
         frame_rate_hz_(frame_rate_hz),
-        grid_(tracks.frames(), frame_rate_hz),
+        tuning_(tuning),
+        grid_(tracks.frames(), frame_rate_hz, tuning.models),
         axes_(chosen_.size()),
         models_(3 * chosen_.size()) {
     for (const std::size_t track : chosen_) {
-      const double deviation = std::max(noise[track], least_noise);
+      const double deviation = std::max(noise[track], tuning.noise_floor);
       variance_.insert(variance_.end(), 3, deviation * deviation);
     }
   }
@@ -113,7 +112,7 @@ class Smoothing {
     return block;
   }
 
-  // Turns tracks to their principal axes, and finds the models of these.
+  // Rotates tracks to their principal axes and chooses the models of these.
   void turn_to_axes(std::size_t first, std::size_t count) {
     const auto variance = std::span(variance_).subspan(3 * first, 3 * count);
     {
@@ -122,7 +121,7 @@ class Smoothing {
       std::vector<Vec3> values(tracks_.frames());
       for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t t = 0; t < values.size(); ++t) values[t] = lane_vector(pilot, t, i);
-        axes_[first + i] = principal_axes(values, frame_rate_hz_);
+        axes_[first + i] = principal_axes(values, tuning_.axes_window_s * frame_rate_hz_);
       }
     }
     for (std::size_t i = 0; i < count; ++i) {
@@ -151,7 +150,7 @@ class Smoothing {
       }
     }
     const signal::ChannelBlock x =
-        signal::smooth_adaptively(y, weight, variance, models, frame_rate_hz_);
+        signal::smooth_adaptively(y, weight, variance, models, frame_rate_hz_, tuning_.adaptive);
     for (std::size_t k = 0; k < channels.size(); ++k) {
       const std::size_t c = channels[k];
       const double share = shares[chosen_[c / 3]];
@@ -169,6 +168,7 @@ class Smoothing {
   const SampleMarks& missing_;
   std::vector<std::size_t> chosen_;
   double frame_rate_hz_;
+  const SmoothingTuning& tuning_;
   signal::ModelGrid grid_;
   std::vector<double> variance_;  // of each channel: three a chosen track
   std::vector<Eigen::Matrix3d> axes_;
@@ -178,13 +178,14 @@ class Smoothing {
 }  // namespace
 
 void smooth_tracks(VectorTracks& tracks, const SampleMarks& missing, std::span<const double> noise,
-                   std::span<const double> shares, double frame_rate_hz, ShareProgress* progress) {
+                   std::span<const double> shares, double frame_rate_hz, ShareProgress* progress,
+                   const SmoothingTuning& tuning) {
   std::vector<std::size_t> chosen;
   for (std::size_t n = 0; n < tracks.tracks(); ++n) {
     if (shares[n] > 0) chosen.push_back(n);
   }
   if (chosen.empty() || tracks.frames() < 4) return;
-  Smoothing(tracks, missing, noise, std::move(chosen), frame_rate_hz).run(shares, progress);
+  Smoothing(tracks, missing, noise, std::move(chosen), frame_rate_hz, tuning).run(shares, progress);
 }
 
 }  // namespace kinemend

@@ -7,13 +7,13 @@
 
 namespace kinemend {
 
-/// Smooths tracks in place as much as their noise asks. Each track is turned to the principal axes
-/// of its own motion; each axis takes the order and strength of the Whittaker smoother that are
-/// most likely under `noise` (degrees), then strengths that follow the motion in time; the result
-/// is blended in by `shares` (0: the track stays as it is). `missing` samples have no weight. Takes
-/// under 4 frames stay as they are. `progress`, where there is one, goes on to three quarters.
+/// Smooths tracks in place. Each track is rotated to the principal axes of its fast motion; each
+/// axis gets the order and strength of the Whittaker smoother of largest marginal likelihood under
+/// `noise` (degrees), then strengths that follow the motion in time; the result is blended with the
+/// input by `shares` (0: the track is not changed). `missing` samples have no weight. Takes under 4
+/// frames are not changed. `progress`, if any, advances to 0.75.
 void smooth_tracks(VectorTracks& tracks, const SampleMarks& missing, std::span<const double> noise,
                    std::span<const double> shares, double frame_rate_hz,
-                   ShareProgress* progress = nullptr);
+                   ShareProgress* progress = nullptr, const SmoothingTuning& tuning = {});
 
 }  // namespace kinemend

@@ -7,21 +7,22 @@
 #include <vector>
 
 #include "kinemend/rotation.hpp"
+#include "tracks/tuning.hpp"
 
 namespace kinemend {
 
 /// F frames of N tracks of vectors, one track behind the other, in degrees: rotations in their
-/// moving charts, or positions brought to the same scale. Noise on a track is alike in all
-/// directions.
+/// charts, or positions on the same scale. Noise is taken to have the same variance along each
+/// axis.
 struct VectorTracks {
   std::vector<Vec3> values;  ///< N x F
-  /// N: 1 where the noise is alike only along those axes that have any (`make_round`).
-  std::vector<std::uint8_t> has_quiet_axes;
+  /// N: 1 for a track that `whiten` has mapped; axes without noise remain without.
+  std::vector<std::uint8_t> is_whitened;
 
   VectorTracks(std::size_t frames, std::size_t tracks)
-      : values(frames * tracks), has_quiet_axes(tracks), frames_(frames) {}
+      : values(frames * tracks), is_whitened(tracks), frames_(frames) {}
   std::size_t frames() const noexcept { return frames_; }
-  std::size_t tracks() const noexcept { return has_quiet_axes.size(); }
+  std::size_t tracks() const noexcept { return is_whitened.size(); }
   Vec3 at(std::size_t frame, std::size_t track) const { return values[track * frames_ + frame]; }
   void set(std::size_t frame, std::size_t track, Vec3 vector) {
     values[track * frames_ + frame] = vector;
@@ -37,7 +38,7 @@ struct VectorTracks {
   std::size_t frames_;
 };
 
-/// One mark a sample of some tracks.
+/// One mark per sample of N tracks.
 struct SampleMarks {
   std::size_t frames = 0;
   std::size_t tracks = 0;
@@ -60,34 +61,39 @@ struct SampleMarks {
   friend bool operator==(const SampleMarks&, const SampleMarks&) = default;
 };
 
-/// Marked in one or the other.
+/// The union of both.
 SampleMarks either(const SampleMarks& a, const SampleMarks& b);
 
-/// Puts the straight line between its unmarked neighbours (the nearest one at the ends) into each
-/// marked sample of a track; one without any unmarked sample stays.
+/// Interpolates the marked samples of a track linearly, and holds the nearest unmarked one at the
+/// ends; a track without unmarked samples is not changed.
 void fill_marked(std::span<Vec3> track, std::span<const std::uint8_t> marked);
 
 /// Standard deviation per axis of the white noise on each track, degrees; 0 for takes under 6
-/// frames. Differences of order 3 and 5 hardly see the motion; the smaller of their medians counts,
-/// or that of the quietest quarter of the take, each made unbiased for white noise. Differences
-/// that touch a marked sample are left out. Of a track with quiet axes it is the noise on the
-/// others.
-std::vector<double> noise_levels(const VectorTracks& tracks, const SampleMarks& marked);
-/// That of one track, with its own marks.
+/// frames: the smallest of three estimates, each unbiased for white noise, namely the medians of
+/// the differences of order 3 and 5 and the lower quartile of moving averages of the former, all of
+/// which respond little to motion. Differences that touch a marked sample are left out. Of a
+/// whitened track it is the noise along the axes that have some.
+std::vector<double> noise_levels(const VectorTracks& tracks, const SampleMarks& marked,
+                                 const NoiseTuning& tuning = {});
+/// The same of one track, with its own marks.
 double noise_level(std::span<const Vec3> track, std::span<const std::uint8_t> marked,
-                   bool has_quiet_axes);
+                   bool is_whitened, const NoiseTuning& tuning = {});
 
 /// Fifth differences of a track that touch no marked sample, scaled so that white noise keeps its
 /// deviation.
 std::vector<Vec3> fifth_differences(std::span<const Vec3> track,
                                     std::span<const std::uint8_t> marked);
-/// Standard deviation of such differences in three directions (unit vectors), those that lie far
-/// off cut short. 0 for none.
+/// Huber's estimate of the standard deviation of such differences along three unit vectors. 0 for
+/// no differences.
 Vec3 noise_along(std::span<const Vec3> differences, const std::array<Vec3, 3>& directions);
 
-/// How far each track is to be smoothed, 0 (left alone) to 1: a ramp over its noise, so that a take
-/// as clean as a good capture is not touched. Where the median track is quiet the ramp starts
-/// later; below 120 Hz too, where motion looks like noise.
-std::vector<double> cleaning_shares(const std::vector<double>& noise, double frame_rate_hz);
+/// How much more of motion looks like noise than at 120 Hz: 1 from there up.
+double rate_factor_of(double frame_rate_hz, const DeadZoneTuning& tuning = {});
+
+/// Share of smoothing of each track, 0 (not changed) to 1: a ramp over its noise, so that a take as
+/// clean as a good capture is not changed. The ramp starts later where the median track is quiet,
+/// and below 120 Hz, where differences respond to motion.
+std::vector<double> smoothing_shares(const std::vector<double>& noise, double frame_rate_hz,
+                                     const DeadZoneTuning& tuning = {});
 
 }  // namespace kinemend

@@ -109,7 +109,7 @@ TEST(Bilateral, IsCourtysAlgorithmWithItsSlipsMended) {
 TEST(Bilateral, FiltersPositionsOnTheScaleOfTheBody) {
   const Clip input = noisy_take(80);
   const Clip output = cleaned(input, *make_bilateral(options_with(5, 1, "mirror")));
-  const double sigma = 5 * radians_per_degree * skeleton_height(input.skeleton);
+  const double sigma = 5 * radians_per_degree * body_height(input.skeleton);
   const std::vector<Vec3> expected = bilateral_pass(input.root_positions, 5, 1.5, sigma);
   for (std::size_t f = 0; f < 80; ++f) {
     EXPECT_LT(norm(output.root_positions[f] - expected[f]), 1e-11);

@@ -26,7 +26,10 @@ using testing::HasSubstr;
 /// Changes nothing itself.
 class Idle final : public Cleaner {
  public:
-  CleanTrace clean(Clip&, const Selection&) const override { return {}; }
+  CleanTrace clean(const TakeView&, const TrackSink&,
+                   const std::function<void(double)>&) const override {
+    return {};
+  }
 };
 
 Clip sliding_walk(bool t_pose_first = false) {
@@ -193,10 +196,10 @@ TEST(FeetStep, LeavesTheReportOfTheLegsTrue) {
                     held = clean_clip(clip, *strong, with_feet());
   for (const char* name : {"LeftUpLeg", "LeftLeg", "LeftFoot", "RightUpLeg", "RightLeg"}) {
     const auto j = static_cast<std::size_t>(clip.skeleton.find(name));
-    const JointSummary &without = plain.report.joints[j], &with = held.report.joints[j];
+    const TrackSummary &without = plain.report.tracks[j], &with = held.report.tracks[j];
     EXPECT_EQ(with.frames_repaired, 0u) << name;
-    EXPECT_EQ(with.peak_speed_before_deg_s, without.peak_speed_before_deg_s) << name;
-    EXPECT_GT(with.peak_speed_after_deg_s, 0.3 * without.peak_speed_after_deg_s) << name;
+    EXPECT_EQ(with.peak_speed_before, without.peak_speed_before) << name;
+    EXPECT_GT(with.peak_speed_after, 0.3 * without.peak_speed_after) << name;
     const auto warned = [&](const CleanReport& report) {
       return std::any_of(report.warnings.begin(), report.warnings.end(),
                          [&](const std::string& warning) {
@@ -204,12 +207,12 @@ TEST(FeetStep, LeavesTheReportOfTheLegsTrue) {
                          });
     };
     EXPECT_TRUE(warned(plain.report)) << name;
-    const bool lost = with.peak_speed_after_deg_s < 0.9 * with.peak_speed_before_deg_s;
+    const bool lost = with.peak_speed_after < 0.9 * with.peak_speed_before;
     EXPECT_EQ(warned(held.report), lost) << name;
   }
   const auto foot = static_cast<std::size_t>(clip.skeleton.find("LeftFoot"));
-  EXPECT_LT(held.report.joints[foot].peak_speed_after_deg_s,
-            0.9 * held.report.joints[foot].peak_speed_before_deg_s);
+  EXPECT_LT(held.report.tracks[foot].peak_speed_after,
+            0.9 * held.report.tracks[foot].peak_speed_before);
 }
 
 TEST(FeetStep, CountsContactsByTheTakesFrames) {

@@ -43,7 +43,7 @@ inline double largest_difference(const Clip& a, const Clip& b) {
 }
 
 inline Clip cleaned(Clip clip, const Cleaner& cleaner) {
-  cleaner.clean(clip, Selection::all(clip));
+  clean_in_place(cleaner, clip);
   return clip;
 }
 

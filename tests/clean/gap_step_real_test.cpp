@@ -34,7 +34,7 @@ TEST(GapStepOfRealTakes, LeavesWhatWasMeasuredAsCleaningAloneMakesIt) {
       ASSERT_EQ(with.clip.positions[i], alone.clip.positions[i]) << path << ", sample " << i;
     }
     for (std::size_t m = 0; m < clip.marker_count(); ++m)
-      EXPECT_EQ(with.report.markers[m].noise, alone.report.markers[m].noise) << path;
+      EXPECT_EQ(with.report.tracks[m].noise, alone.report.tracks[m].noise) << path;
   }
 }
 

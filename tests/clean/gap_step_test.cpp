@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clean/clip_tracks.hpp"
 #include "clean/marker_takes.hpp"
 #include "clean/takes.hpp"
 #include "kinemend/clean.hpp"
@@ -79,7 +78,7 @@ TEST_P(EveryWithFill, FillingGapsOfMarkersLeavesWhatWasMeasuredAsCleaningAloneMa
     ASSERT_EQ(filled.clip.positions[i], alone.clip.positions[i]) << i;
   }
   for (std::size_t m = 0; m < clip.marker_count(); ++m)
-    EXPECT_EQ(filled.report.markers[m].noise, alone.report.markers[m].noise);
+    EXPECT_EQ(filled.report.tracks[m].noise, alone.report.tracks[m].noise);
 }
 
 TEST_P(EveryWithFill, FillingGapsOfJointsLeavesWhatWasMeasuredAsCleaningAloneMakesIt) {
@@ -94,7 +93,7 @@ TEST_P(EveryWithFill, FillingGapsOfJointsLeavesWhatWasMeasuredAsCleaningAloneMak
     ASSERT_EQ(filled.clip.root_positions[f], alone.clip.root_positions[f]) << f;
   }
   for (std::size_t j = 0; j < clip.joint_count(); ++j)
-    EXPECT_EQ(filled.report.joints[j].noise_deg, alone.report.joints[j].noise_deg);
+    EXPECT_EQ(filled.report.tracks[j].noise, alone.report.tracks[j].noise);
 }
 
 TEST_P(EveryWithFill, AFillingOfMarkersRestsOnNoSpikeBesideIt) {
@@ -154,7 +153,7 @@ TEST(GapStep, MeasuresTheNoiseOnWhatWasMeasured) {
   MarkerClip clip = damaged(truth, 4, 0.002, 150, 9);
   for (std::size_t f = 20; f + 60 < clip.frame_count(); f += 60) lose(clip, 4, f, f + 44);
   const MarkerResult result = clean_markers(clip, *make_cleaner("auto"), with_fill());
-  EXPECT_NEAR(result.report.markers[4].noise, 4, 1);
+  EXPECT_NEAR(result.report.tracks[4].noise, 4, 1);
 }
 
 TEST(GapStep, MeasuresTheNoiseOfTheRootsPositionOnWhatWasMeasured) {
@@ -163,9 +162,8 @@ TEST(GapStep, MeasuresTheNoiseOfTheRootsPositionOnWhatWasMeasured) {
   std::vector<NamedGap> gaps;
   for (std::size_t f = 20; f + 60 < 480; f += 60) gaps.push_back({"Hips", f, f + 44});
   mark_gaps(clip, gaps);
-  bridge_positions(clip);
-  const CleanTrace trace = make_cleaner("auto")->clean(clip, Selection::all(clip));
-  EXPECT_NEAR(trace.root_noise.value(), 1, 0.3);
+  const InPlaceTrace trace = clean_in_place(*make_cleaner("auto"), clip);
+  EXPECT_NEAR(trace.noise[clip.joint_count()], 1, 0.3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, EveryWithFill, testing::ValuesIn(method_names()),

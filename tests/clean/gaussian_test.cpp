@@ -218,12 +218,12 @@ TEST(Gaussian, InterpolatesGapsBetweenWhatItCleaned) {
   input.observed.assign(input.local_rotations.size(), 1);
   for (std::size_t f = 20; f < 24; ++f) input.observed[f * input.joint_count() + 2] = 0;
   Clip output = input;
-  const CleanTrace trace = make_gaussian({0.03})->clean(output, Selection::all(output));
+  const InPlaceTrace trace = clean_in_place(*make_gaussian({0.03}), output);
   const Quat before = output.rotation(19, 2), behind = output.rotation(24, 2);
   for (std::size_t f = 20; f < 24; ++f) {
     const double t = (static_cast<double>(f) - 19) / 5;
     EXPECT_LT(difference(output.rotation(f, 2), slerp(before, behind, t)), 1e-12);
-    EXPECT_EQ(trace.actions[f * input.joint_count() + 2], Action::filled);
+    EXPECT_EQ(trace.actions[2][f], Action::filled);
   }
   // Far from the gap it is as if there were none, and near it the gap weighs nothing.
   Clip whole = input;

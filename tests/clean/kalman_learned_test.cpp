@@ -35,7 +35,7 @@ Clip noisy(Clip clip, double std_deg) {
 }
 
 Clip cleaned(const Cleaner& cleaner, Clip clip) {
-  cleaner.clean(clip, Selection::all(clip));
+  clean_in_place(cleaner, clip);
   return clip;
 }
 

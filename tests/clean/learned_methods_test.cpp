@@ -135,7 +135,7 @@ TEST_P(Learned, FillsBothArmsThatAreMissingThroughout) {
   const std::vector<double> of_stillness = geodesic_rms_deg_per_joint(truth, still);
   for (const std::size_t joint : arms) {
     EXPECT_LT(errors[joint], 3) << truth.skeleton.names[joint];
-    EXPECT_EQ(result.report.joints[joint].frames_repaired, truth.frame_count());
+    EXPECT_EQ(result.report.tracks[joint].frames_repaired, truth.frame_count());
   }
   EXPECT_LT(errors[arms[0]] + errors[arms[2]], of_stillness[arms[0]] + of_stillness[arms[2]]);
 }
@@ -232,7 +232,7 @@ TEST(Example, StopsWhereLimbsThatAreMissingHaveSettled) {
   }
   const auto arms = [&](const ExampleOptions& options) {
     Clip filled = input;
-    make_example(options, walking("example"))->clean(filled, Selection::all(filled));
+    clean_in_place(*make_example(options, walking("example")), filled);
     double sum = 0;
     for (std::size_t i = 0; i < input.observed.size(); ++i) {
       const double angle = angle_between(filled.local_rotations[i], truth.local_rotations[i]);
@@ -254,7 +254,7 @@ TEST(Example, FindsWithThePapersAlternationWhatTheQuickSolverFinds) {
     options.solver = solver, options.tolerance = tolerance;
     options.welsch_deg = 3, options.lambda = 0.1, options.iterations = 10000;
     Clip clip = input;
-    make_example(options, walking("example"))->clean(clip, Selection::all(clip));
+    clean_in_place(*make_example(options, walking("example")), clip);
     return clip;
   };
   const Clip quick = result("quick", 1e-10), paper = result("paper", ExampleOptions().tolerance);
@@ -263,7 +263,7 @@ TEST(Example, FindsWithThePapersAlternationWhatTheQuickSolverFinds) {
   ExampleOptions by_default;
   by_default.solver = "paper";
   Clip clip = input;
-  make_example(by_default, walking("example"))->clean(clip, Selection::all(clip));
+  clean_in_place(*make_example(by_default, walking("example")), clip);
   EXPECT_LT(rms_deg(quick, clip), 0.02) << "p = 3 and lambda = 0.1";
   by_default.solver = "papers";
   EXPECT_THROW(make_example(by_default), Error);

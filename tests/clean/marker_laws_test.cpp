@@ -18,7 +18,7 @@ class EveryOnMarkers : public testing::TestWithParam<std::string> {
   std::unique_ptr<Cleaner> cleaner_ = make_cleaner(GetParam());
 
   MarkerClip cleaned(MarkerClip clip) const {
-    cleaner_->clean_markers(clip, MarkerSelection::all(clip));
+    clean_in_place(*cleaner_, clip);
     return clip;
   }
   bool is_causal() const { return cleaner_->live_support(120).kind == LiveSupport::Kind::causal; }
@@ -131,10 +131,11 @@ TEST_P(EveryOnMarkers, DoesNotMindTheOrderOfMarkers) {
 TEST_P(EveryOnMarkers, LeavesMarkersThatWereNotAskedForByteForByte) {
   MarkerClip clip = gappy_take();
   clip.is_position[7] = 0;  // an angle among the points
-  MarkerSelection selection = MarkerSelection::all(clip);
-  for (std::size_t m = 0; m < clip.marker_count(); m += 2) selection.markers[m] = 0;
+  Selection selection;
+  selection.owners.assign(clip.marker_count(), 1);
+  for (std::size_t m = 0; m < clip.marker_count(); m += 2) selection.owners[m] = 0;
   MarkerClip result = clip;
-  cleaner_->clean_markers(result, selection);
+  clean_in_place(*cleaner_, result, selection);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     for (std::size_t m = 0; m < clip.marker_count(); ++m) {
       const bool may_change = m % 2 != 0 && m != 7;
@@ -177,10 +178,11 @@ TEST_P(EveryOnMarkers, IsNotMovedByWhatLiesBeyondALongGap) {
   const MarkerClip clip = gappy_take();
   MarkerClip other = clip;  // marker 2 comes back elsewhere
   for (std::size_t f = 161; f < clip.frame_count(); ++f) other.position(f, 2) += {400, 0, 0};
-  const MarkerSelection selection = MarkerSelection::all(clip);
+  Selection selection;
+  selection.body_height = body_height(clip);
   MarkerClip a = clip, b = other;
-  cleaner_->clean_markers(a, selection);
-  cleaner_->clean_markers(b, selection);
+  clean_in_place(*cleaner_, a, selection);
+  clean_in_place(*cleaner_, b, selection);
   // `auto` and `nonlocal` share strengths and distances in the whole take, but nothing rings over.
   const double bound = GetParam() == "auto" || GetParam() == "nonlocal" ? 2.5 : 1e-9;
   for (std::size_t f = 0; f < 100; ++f)

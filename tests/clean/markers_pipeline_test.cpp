@@ -17,13 +17,16 @@ using testing::SizeIs;
 class Mover final : public Cleaner {
  public:
   explicit Mover(Vec3 shift, Action stated = Action::denoised) : shift_(shift), stated_(stated) {}
-  CleanTrace clean(Clip&, const Selection&) const override { return {}; }
-  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
-    MarkerTrace trace;
-    trace.actions.assign(clip.positions.size(), stated_);
-    trace.noise.assign(clip.marker_count(), 0.25);
-    for (std::size_t i = 0; i < clip.positions.size(); ++i) {
-      if (selection.markers[i % clip.marker_count()]) clip.positions[i] += shift_;
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>&) const override {
+    CleanTrace trace;
+    trace.noise.assign(take.tracks.size(), 0.25);
+    for (std::size_t n = 0; n < take.tracks.size(); ++n) {
+      if (!take.tracks[n].selected) continue;
+      CleanedTrack cleaned{{}, positions_of(take.tracks[n]), {}};
+      cleaned.actions.assign(take.frames, stated_);
+      for (Vec3& position : cleaned.positions) position += shift_;
+      sink(n, std::move(cleaned));
     }
     return trace;
   }
@@ -35,7 +38,11 @@ class Mover final : public Cleaner {
 
 class OnlyJoints final : public Cleaner {
  public:
-  CleanTrace clean(Clip&, const Selection&) const override { return {}; }
+  CleanTrace clean(const TakeView& take, const TrackSink&,
+                   const std::function<void(double)>&) const override {
+    if (take.markers) throw Error(ErrorKind::usage, "this method works on joints, not on markers");
+    return {};
+  }
 };
 
 MarkerClip small_take() {
@@ -110,26 +117,26 @@ TEST(MarkerPipeline, LeavesMissingSamplesAndResidualsAsTheyAre) {
   const MarkerResult result = clean_markers(clip, Mover({8, 0, 0}));
   EXPECT_EQ(result.clip.observed, clip.observed);
   EXPECT_EQ(result.clip.residuals, clip.residuals);
-  EXPECT_EQ(result.report.markers[0].gaps_left, 1U);
-  EXPECT_EQ(result.report.markers[0].frames_missing, 5U);
-  EXPECT_EQ(result.report.markers[1].gaps_left, 0U);
+  EXPECT_EQ(result.report.tracks[0].gaps_left, 1U);
+  EXPECT_EQ(result.report.tracks[0].frames_missing, 5U);
+  EXPECT_EQ(result.report.tracks[1].gaps_left, 0U);
 }
 
 TEST(MarkerPipeline, ReportsInFileUnits) {
   const MarkerResult result =
       clean_markers(small_take(), Mover({3, 4, 0}, Action::despiked), {}, "mover");
-  const MarkerReport& report = result.report;
+  const CleanReport& report = result.report;
   EXPECT_EQ(report.method, "mover");
   EXPECT_EQ(report.unit, "mm");
   EXPECT_EQ(report.frames, 50U);
-  ASSERT_THAT(report.markers, SizeIs(3));
-  EXPECT_EQ(report.markers[0].name, "Ann:LASI");
-  EXPECT_DOUBLE_EQ(report.markers[0].rms_change, 5);
-  EXPECT_DOUBLE_EQ(report.markers[0].max_change, 5);
-  EXPECT_EQ(report.markers[0].frames_changed, 50U);
-  EXPECT_EQ(report.markers[0].frames_repaired, 50U);
-  EXPECT_EQ(report.markers[2].frames_changed, 0U);
-  EXPECT_EQ(report.markers[0].noise, 0.25);
+  ASSERT_THAT(report.tracks, SizeIs(3));
+  EXPECT_EQ(report.tracks[0].name, "Ann:LASI");
+  EXPECT_DOUBLE_EQ(report.tracks[0].rms_change, 5);
+  EXPECT_DOUBLE_EQ(report.tracks[0].max_change, 5);
+  EXPECT_EQ(report.tracks[0].frames_changed, 50U);
+  EXPECT_EQ(report.tracks[0].frames_repaired, 50U);
+  EXPECT_EQ(report.tracks[2].frames_changed, 0U);
+  EXPECT_EQ(report.tracks[0].noise, 0.25);
   ASSERT_THAT(report.spans, SizeIs(2));
   EXPECT_EQ(report.spans[1].joint, 1);
   EXPECT_EQ(report.spans[1].action, Action::despiked);
@@ -174,7 +181,7 @@ TEST(MarkerPipeline, FillsFromWhatIsDenoised) {
   EXPECT_EQ(span->joint, 4);
   EXPECT_EQ(span->first_frame, 100U);
   EXPECT_EQ(span->last_frame, 111U);
-  EXPECT_EQ(result.report.markers[4].gaps_left, 0U);
+  EXPECT_EQ(result.report.tracks[4].gaps_left, 0U);
 }
 
 TEST(MarkerPipeline, FillsOnlyWhatIsSelectedAndInTheRange) {

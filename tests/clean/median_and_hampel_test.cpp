@@ -21,7 +21,7 @@ TEST(Median, RemovesASpikeAndKeepsAStep) {
     clip.rotation(f, 1) = clip.rotation(f, 1) * exp({0, 0, 1});
     clip.root_positions[f] += {0, 9, 0};
   }
-  make_median({.window_s = 0.05})->clean(clip, Selection::all(clip));
+  clean_in_place(*make_median({.window_s = 0.05}), clip);
   EXPECT_LT(max_angle_deg(clip, truth), 1e-9);
   for (std::size_t f = 0; f < 60; ++f)
     EXPECT_LT(norm(clip.root_positions[f] - truth.root_positions[f]), 1e-9);
@@ -46,7 +46,7 @@ TEST(Hampel, ReplacesTheSpikesAndLeavesEveryOtherSampleByteForByte) {
   EXPECT_EQ(changed, spikes);
   EXPECT_EQ(moved, spikes);
   EXPECT_LT(max_angle_deg(result.clip, truth), 4);
-  EXPECT_EQ(result.report.joints[1].frames_repaired, spikes.size());
+  EXPECT_EQ(result.report.tracks[1].frames_repaired, spikes.size());
 }
 
 TEST(Hampel, DoesNotTakeAFastMotionForASpike) {

@@ -224,11 +224,11 @@ TEST(Nonlocal, ComparesWholePosesWhateverIsSelected) {
   const auto cleaner = make_nonlocal(small_options());
   const Clip all = cleaned(input, *cleaner);
   Clip one = input;
-  Selection selection = Selection::all(one);
-  selection.joints.assign(one.joint_count(), 0);
-  selection.joints[2] = 1;
+  Selection selection;
+  selection.owners.assign(one.joint_count(), 0);
+  selection.owners[2] = 1;
   selection.root_position = false;
-  cleaner->clean(one, selection);
+  clean_in_place(*cleaner, one, selection);
   for (std::size_t f = 0; f < 50; ++f) {
     EXPECT_EQ(one.rotation(f, 2), all.rotation(f, 2));
     EXPECT_EQ(one.rotation(f, 1), input.rotation(f, 1));
@@ -335,7 +335,7 @@ TEST(Nonlocal, NeedsTheTakeWhereItMeasuresTheNoise) {
   NonlocalOptions options = small_options();
   options.window_s = 0;
   EXPECT_EQ(make_nonlocal(options)->live_support(100).kind, LiveSupport::Kind::none);
-  EXPECT_EQ(make_nonlocal(options)->make_frame_filter({}, 100), nullptr);
+  EXPECT_EQ(make_nonlocal(options)->make_frame_filter(view_of(noisy_take(2))), nullptr);
 }
 
 NonlocalOptions causal_options(double bandwidth_deg) {

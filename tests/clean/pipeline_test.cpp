@@ -21,19 +21,21 @@ using testing::SizeIs;
 class Turner final : public Cleaner {
  public:
   explicit Turner(Vec3 turn, Vec3 shift = {}) : turn_(turn), shift_(shift) {}
-  CleanTrace clean(Clip& clip, const Selection& selection) const override {
-    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-      for (std::size_t j = 0; j < clip.joint_count(); ++j) {
-        if (selection.joints[j]) clip.rotation(f, j) = clip.rotation(f, j) * exp(turn_);
-      }
-      clip.root_positions[f] += shift_;
-      for (std::size_t i = 0; i < clip.translated_joints.size(); ++i) {
-        clip.joint_translations[f * clip.translated_joints.size() + i] += shift_;
-      }
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>&) const override {
+    for (std::size_t n = 0; n < take.tracks.size(); ++n) {
+      const Track& track = take.tracks[n];
+      if (n < take.owners && !track.selected) continue;
+      CleanedTrack cleaned{rotations_of(track), positions_of(track), {}};
+      for (Quat& q : cleaned.rotations) q = q * exp(turn_);
+      for (Vec3& p : cleaned.positions) p += shift_;
+      if (n < actions.size()) cleaned.actions = actions[n];
+      sink(n, std::move(cleaned));
     }
     return trace;
   }
   CleanTrace trace;
+  std::vector<std::vector<Action>> actions;
 
  private:
   Vec3 turn_, shift_;
@@ -102,7 +104,7 @@ TEST(Pipeline, SamplesThatHardlyChangeKeepTheirExactValue) {
   EXPECT_THAT(kept.report.spans, IsEmpty());
   const CleanResult changed = clean_clip(input, Turner({20 * tiny, 0, 0}));
   EXPECT_NE(changed.clip.rotation(4, 1), input.rotation(4, 1));
-  EXPECT_EQ(changed.report.joints[1].frames_changed, 10U);
+  EXPECT_EQ(changed.report.tracks[1].frames_changed, 10U);
 }
 
 TEST(Pipeline, PatternsChooseJointsAndTheRest) {
@@ -195,11 +197,10 @@ TEST(Pipeline, RefusesSettingsOutOfRange) {
 TEST(Report, SaysWhatWasDoneWhereAndByHowMuch) {
   const Clip input = moving_take(30, 120);
   Turner cleaner({0, 0.1, 0}, {0, 0, 2});
-  cleaner.trace.actions.assign(input.local_rotations.size(), Action::kept);
-  for (const std::size_t f : {10, 11, 20}) {
-    cleaner.trace.actions[f * input.joint_count() + 1] = Action::despiked;
-  }
-  cleaner.trace.noise_deg.assign(input.joint_count(), 0.5);
+  cleaner.actions.resize(input.joint_count());
+  cleaner.actions[1].assign(30, Action::kept);
+  for (const std::size_t f : {10, 11, 20}) cleaner.actions[1][f] = Action::despiked;
+  cleaner.trace.noise.assign(2 + input.joint_count(), 0.5);
   cleaner.trace.warnings = {"a warning"};
   CleanSettings settings;
   settings.joints = {"Spine", "Hips"};
@@ -208,15 +209,15 @@ TEST(Report, SaysWhatWasDoneWhereAndByHowMuch) {
   EXPECT_EQ(report.frames, 30U);
   EXPECT_EQ(report.calibration_frames, 0U);
   EXPECT_EQ(report.frame_rate_hz, 120);
-  ASSERT_THAT(report.joints, SizeIs(7));
-  const JointSummary& spine = report.joints[1];
+  ASSERT_THAT(report.tracks, SizeIs(7));
+  const TrackSummary& spine = report.tracks[1];
   EXPECT_EQ(spine.name, "Spine");
-  EXPECT_EQ(spine.noise_deg, 0.5);
-  EXPECT_NEAR(spine.rms_change_deg, 0.1 * degrees_per_radian, 1e-9);
-  EXPECT_NEAR(spine.max_change_deg, 0.1 * degrees_per_radian, 1e-9);
+  EXPECT_EQ(spine.noise, 0.5);
+  EXPECT_NEAR(spine.rms_change, 0.1 * degrees_per_radian, 1e-9);
+  EXPECT_NEAR(spine.max_change, 0.1 * degrees_per_radian, 1e-9);
   EXPECT_EQ(spine.frames_changed, 30U);
   EXPECT_EQ(spine.frames_repaired, 3U);
-  EXPECT_EQ(report.joints[2].frames_changed, 0U);
+  EXPECT_EQ(report.tracks[2].frames_changed, 0U);
   EXPECT_NEAR(report.root_rms_change, 2, 1e-12);
   EXPECT_NEAR(report.root_max_change, 2, 1e-12);
   EXPECT_THAT(report.warnings, ElementsAre("a warning"));
@@ -273,11 +274,11 @@ double fastest_step_deg_s(const Clip& clip, std::size_t joint) {
 TEST(Report, GivesThePeakSpeedsOfACleanTakeFrameByFrame) {
   const Clip input = punch();
   const CleanResult result = clean_clip(input, *make_butterworth({.cutoff_hz = 3}));
-  const JointSummary& arm = result.report.joints[2];
+  const TrackSummary& arm = result.report.tracks[2];
   EXPECT_EQ(arm.peak_frames, 1U);
-  EXPECT_NEAR(arm.peak_speed_before_deg_s, fastest_step_deg_s(input, 2), 1e-6);
-  EXPECT_NEAR(arm.peak_speed_after_deg_s, fastest_step_deg_s(result.clip, 2), 1e-6);
-  EXPECT_LT(arm.peak_speed_after_deg_s, 0.7 * arm.peak_speed_before_deg_s);
+  EXPECT_NEAR(arm.peak_speed_before, fastest_step_deg_s(input, 2), 1e-6);
+  EXPECT_NEAR(arm.peak_speed_after, fastest_step_deg_s(result.clip, 2), 1e-6);
+  EXPECT_LT(arm.peak_speed_after, 0.7 * arm.peak_speed_before);
 }
 
 TEST(Report, WarnsOfALostPeakAndOfNothingElse) {
@@ -300,9 +301,9 @@ TEST(Report, DoesNotTakeNoiseOrSpikesForPeaks) {
   const CleanResult fine = clean_clip(input, *make_butterworth({.cutoff_hz = 12}));
   // A spike that a filter smears is no peak that it loses.
   EXPECT_THAT(fine.report.warnings, ElementsAre(HasSubstr("LeftArm: smoothing changes it by ")));
-  const JointSummary& arm = fine.report.joints[2];
+  const TrackSummary& arm = fine.report.tracks[2];
   EXPECT_GT(arm.peak_frames, 1U);
-  EXPECT_NEAR(arm.peak_speed_before_deg_s, fastest_step_deg_s(punch(), 2), 200);
+  EXPECT_NEAR(arm.peak_speed_before, fastest_step_deg_s(punch(), 2), 200);
   EXPECT_THAT(clean_clip(input, *make_butterworth({.cutoff_hz = 3})).report.warnings,
               Contains(HasSubstr("LeftArm: peak speed falls from")));
 }

@@ -52,20 +52,29 @@ std::size_t part_called(const BodyLayout& layout, const std::string& name) {
   return static_cast<std::size_t>(found - layout.names.begin());
 }
 
+std::ptrdiff_t count_of(const InPlaceTrace& trace, Action action) {
+  std::ptrdiff_t count = 0;
+  for (const auto& actions : trace.actions)
+    count += std::count(actions.begin(), actions.end(), action);
+  return count;
+}
+
 // Does to the takes of the pipeline what the filter does.
 class Filtering final : public Cleaner {
  public:
-  Filtering(BodyLayout layout, bool fill, PriorFilter filter)
-      : layout_(std::move(layout)), fill_(fill), filter_(std::move(filter)) {}
-  CleanTrace clean(Clip& clip, const Selection& selection) const override {
-    return clean_with_prior(clip, selection, layout_, {}, fill_, filter_);
-  }
-  MarkerTrace clean_markers(MarkerClip& clip, const MarkerSelection& selection) const override {
-    return clean_with_prior(clip, selection, layout_, {}, fill_, filter_);
+  Filtering(BodyLayout layout, bool fill, PriorFilter filter, NameMap names = {})
+      : layout_(std::move(layout)),
+        names_(std::move(names)),
+        fill_(fill),
+        filter_(std::move(filter)) {}
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>&) const override {
+    return clean_with_prior(take, sink, layout_, names_, fill_, filter_);
   }
 
  private:
   BodyLayout layout_;
+  NameMap names_;
   bool fill_;
   PriorFilter filter_;
 };
@@ -73,20 +82,18 @@ class Filtering final : public Cleaner {
 TEST(PriorCleaning, BringsATakeBackThatTheFilterLeftAlone) {
   const Clip before = walk(1.5);
   Clip after = before;
-  const CleanTrace trace =
-      clean_with_prior(after, Selection::all(before), layout_of(before), {}, true, keep);
+  const InPlaceTrace trace = clean_in_place(Filtering(layout_of(before), true, keep), after);
   EXPECT_LT(max_angle_deg(before, after), 1e-6);
   for (std::size_t f = 0; f < before.frame_count(); ++f)
     EXPECT_LT(norm(before.root_positions[f] - after.root_positions[f]), 1e-9);
-  EXPECT_EQ(std::count(trace.actions.begin(), trace.actions.end(), Action::kept),
-            static_cast<std::ptrdiff_t>(trace.actions.size()));
+  EXPECT_EQ(count_of(trace, Action::despiked) + count_of(trace, Action::filled), 0);
 }
 
 TEST(PriorCleaning, PutsTheMeanPoseWhereTheFilterAnswersZero) {
   const Clip before = walk(2);
   Clip after = before;
   const BodyLayout layout = layout_of(before);
-  clean_with_prior(after, Selection::all(before), layout, {}, true, flatten);
+  clean_in_place(Filtering(layout, true, flatten), after);
   const auto arm = static_cast<std::size_t>(before.skeleton.find("LeftArm"));
   for (std::size_t f = 1; f < after.frame_count(); ++f)
     EXPECT_LT(angle_between(after.rotation(f, arm), after.rotation(0, arm)), 1e-9);
@@ -96,16 +103,14 @@ TEST(PriorCleaning, PutsTheMeanPoseWhereTheFilterAnswersZero) {
 TEST(PriorCleaning, KeepsItsHandsOffACleanTakeToTheLastDigit) {
   const Clip before = walk();
   Clip after = before;
-  const CleanTrace trace =
-      clean_with_prior(after, Selection::all(before), layout_of(before), {}, true, flatten);
+  const InPlaceTrace trace = clean_in_place(Filtering(layout_of(before), true, flatten), after);
   EXPECT_EQ(after.local_rotations, before.local_rotations);
   EXPECT_EQ(after.root_positions, before.root_positions);
-  EXPECT_EQ(std::count(trace.actions.begin(), trace.actions.end(), Action::kept),
-            static_cast<std::ptrdiff_t>(trace.actions.size()));
+  EXPECT_EQ(count_of(trace, Action::despiked) + count_of(trace, Action::filled), 0);
 
   const MarkerClip markers = marker_take("walk", 2, 60);
   MarkerClip kept = markers;
-  clean_with_prior(kept, MarkerSelection::all(kept), layout_of(markers), {}, true, flatten);
+  clean_in_place(Filtering(layout_of(markers), true, flatten), kept);
   EXPECT_EQ(kept.positions, markers.positions);
 }
 
@@ -116,7 +121,7 @@ TEST(PriorCleaning, GoesAsFarAsTheNoiseAsksFor) {
   for (const double noise_deg : {0.3, 0.5, 0.6, 0.7, 0.9}) {
     const Clip noisy = walk(noise_deg);
     Clip after = noisy;
-    clean_with_prior(after, Selection::all(noisy), layout_of(truth), {}, true, flatten);
+    clean_in_place(Filtering(layout_of(truth), true, flatten), after);
     const double change = geodesic_rms_deg_per_joint(noisy, after)[arm];
     EXPECT_GE(change, before - 0.1) << noise_deg;
     before = change;
@@ -132,7 +137,7 @@ TEST(PriorCleaning, WhatIsFilledInACleanTakeMeetsTheSamplesBesideIt) {
   clip.observed.assign(clip.local_rotations.size(), 1);
   for (std::size_t f = 40; f < 60; ++f) clip.observed[f * clip.joint_count() + arm] = 0;
   Clip after = clip;
-  clean_with_prior(after, Selection::all(clip), layout_of(truth), {}, true, flatten);
+  clean_in_place(Filtering(layout_of(truth), true, flatten), after);
   double usual = 0;
   for (std::size_t f = 1; f < truth.frame_count(); ++f)
     usual = std::max(usual, angle_between(truth.rotation(f, arm), truth.rotation(f - 1, arm)));
@@ -161,8 +166,8 @@ TEST(PriorCleaning, LeavesJointsThatTheModelDoesNotKnowToAuto) {
   const Clip before = walk(1.5);
   const BodyLayout layout = layout_of(before, {"Hips", "*Leg", "*UpLeg"});
   Clip after = before, by_auto = before;
-  clean_with_prior(after, Selection::all(before), layout, {}, true, keep);
-  make_auto()->clean(by_auto, Selection::all(before));
+  clean_in_place(Filtering(layout, true, keep), after);
+  clean_in_place(*make_auto(), by_auto);
   const auto arm = static_cast<std::size_t>(before.skeleton.find("LeftArm"));
   const auto leg = static_cast<std::size_t>(before.skeleton.find("LeftLeg"));
   for (std::size_t f = 0; f < before.frame_count(); ++f) {
@@ -179,7 +184,7 @@ TEST(PriorCleaning, TellsTheFilterWhatIsMissingWhatIsSuspectAndHowLoudTheNoiseIs
   clip.rotation(60, arm) = clip.rotation(60, arm) * exp({0, 0.9, 0});
   const BodyLayout layout = layout_of(walk());
   const std::size_t part = part_called(layout, "LeftArm");
-  clean_with_prior(clip, Selection::all(clip), layout, {}, true, [&](PriorWork& work) {
+  const PriorFilter filter = [&](PriorWork& work) {
     const std::size_t channels = work.channels.poses.channels;
     ASSERT_EQ(channels, layout.channel_count());
     for (std::size_t f = 0; f < work.channels.poses.frames; ++f)
@@ -187,7 +192,8 @@ TEST(PriorCleaning, TellsTheFilterWhatIsMissingWhatIsSuspectAndHowLoudTheNoiseIs
     EXPECT_EQ(work.suspect[60 * channels + 3 * part], 1);
     EXPECT_NEAR(work.noise[3 * part], 2, 0.4);
     EXPECT_EQ(work.fallback.frames, work.channels.poses.frames);
-  });
+  };
+  clean_in_place(Filtering(layout, true, filter), clip);
 }
 
 TEST(PriorCleaning, FillsGapsOfJointsOrBridgesThem) {
@@ -206,10 +212,10 @@ TEST(PriorCleaning, FillsGapsOfJointsOrBridgesThem) {
         encode_body(truth, layout, match_body(layout, truth), work.channels).poses;
   };
   Clip filled = clip, bridged = clip;
-  const CleanTrace trace = clean_with_prior(filled, Selection::all(clip), layout, {}, true, oracle);
+  const InPlaceTrace trace = clean_in_place(Filtering(layout, true, oracle), filled);
   EXPECT_LT(max_angle_deg(filled, truth), 1e-6);
-  EXPECT_EQ(trace.actions[25 * clip.joint_count() + arm], Action::filled);
-  clean_with_prior(bridged, Selection::all(clip), layout, {}, false, oracle);
+  EXPECT_EQ(trace.actions[arm][25], Action::filled);
+  clean_in_place(Filtering(layout, false, oracle), bridged);
   EXPECT_GT(angle_between(bridged.rotation(30, arm), truth.rotation(30, arm)), 0.001);
   EXPECT_LT(angle_between(bridged.rotation(30, arm), truth.rotation(30, arm)), 0.3);
 }
@@ -228,8 +234,8 @@ TEST(PriorCleaning, LeavesJointsThatFlipToAutoButNotThoseThatAreMissing) {
     clip.rotation(f, right) = exp({3, 0, 0});
   }
   Clip after = clip, by_auto = clip;
-  make_auto()->clean(by_auto, Selection::all(clip));
-  clean_with_prior(after, Selection::all(clip), layout, {}, true, flatten);
+  clean_in_place(*make_auto(), by_auto);
+  clean_in_place(Filtering(layout, true, flatten), after);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     EXPECT_EQ(after.rotation(f, left), by_auto.rotation(f, left));
     EXPECT_LT(angle_between(after.rotation(f, right), after.rotation(0, right)), 1e-9);
@@ -242,14 +248,14 @@ TEST(PriorCleaning, ReportsRejectedMeasurementsAsSpikes) {
   const BodyLayout layout = layout_of(clip);
   const std::size_t part = part_called(layout, "RightArm");
   const auto joint = static_cast<std::size_t>(clip.skeleton.find("RightArm"));
-  const CleanTrace trace =
-      clean_with_prior(clip, Selection::all(clip), layout, {}, true, [&](PriorWork& work) {
-        work.rejected.assign(work.channels.poses.values.size(), 0);
-        work.rejected[7 * work.channels.poses.channels + 3 * part + 1] = 1;
-        work.warnings.push_back("a word of the filter");
-      });
-  EXPECT_EQ(trace.actions[7 * clip.joint_count() + joint], Action::despiked);
-  EXPECT_EQ(std::count(trace.actions.begin(), trace.actions.end(), Action::despiked), 1);
+  const PriorFilter rejecting = [&](PriorWork& work) {
+    work.rejected.assign(work.channels.poses.values.size(), 0);
+    work.rejected[7 * work.channels.poses.channels + 3 * part + 1] = 1;
+    work.warnings.push_back("a word of the filter");
+  };
+  const InPlaceTrace trace = clean_in_place(Filtering(layout, true, rejecting), clip);
+  EXPECT_EQ(trace.actions[joint][7], Action::despiked);
+  EXPECT_EQ(count_of(trace, Action::despiked), 1);
   EXPECT_THAT(trace.warnings, testing::Contains("a word of the filter"));
 }
 
@@ -258,14 +264,14 @@ TEST(PriorCleaning, NamesWhatTheTakeLacks) {
   const BodyLayout layout = layout_of(clip);
   const auto hand = static_cast<std::size_t>(clip.skeleton.find("LeftHand"));
   clip.skeleton.names[hand] = "Gripper";
-  const CleanTrace trace =
-      clean_with_prior(clip, Selection::all(clip), layout, {{"LeftHand", ""}}, true, keep);
+  const InPlaceTrace trace =
+      clean_in_place(Filtering(layout, true, keep, {{"LeftHand", ""}}), clip);
   ASSERT_FALSE(trace.warnings.empty());
   EXPECT_THAT(trace.warnings[0], HasSubstr("LeftHand"));
 
   Clip other = moving_take(30, 60);
   try {
-    clean_with_prior(other, Selection::all(other), layout, {}, true, keep);
+    clean_in_place(Filtering(layout, true, keep), other);
     FAIL() << "a body that the model does not know";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
@@ -277,7 +283,7 @@ TEST(PriorCleaning, TakesAnyNumberOfFrames) {
   const BodyLayout layout = layout_of(walk());
   for (const std::size_t frames : {0, 1, 2, 3, 5}) {
     Clip clip = slice(walk(1), 0, frames);
-    clean_with_prior(clip, Selection::all(clip), layout, {}, true, keep);
+    clean_in_place(Filtering(layout, true, keep), clip);
     EXPECT_EQ(clip.frame_count(), frames);
   }
 }
@@ -301,7 +307,7 @@ TEST(PriorCleaning, FillsMarkersThatAreNeverSeen) {
     ASSERT_TRUE(filled.clip.is_observed(f, marker));
     EXPECT_LT(norm(filled.clip.position(f, marker) - truth.position(f, marker)), 1e-6);
   }
-  EXPECT_EQ(filled.report.markers[marker].frames_missing, 0u);
+  EXPECT_EQ(filled.report.tracks[marker].frames_missing, 0u);
   EXPECT_FALSE(clean_markers(clip, leaving, {}, "oracle").clip.is_observed(5, marker));
 }
 

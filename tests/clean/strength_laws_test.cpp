@@ -186,22 +186,26 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryAtStrength, testing::ValuesIn(method_name
 class RepairingMover final : public Cleaner {
  public:
   explicit RepairingMover(const Clip& truth) : truth_(truth) {}
-  CleanTrace clean(Clip& clip, const Selection&) const override {
-    CleanTrace trace;
-    trace.actions.assign(clip.local_rotations.size(), Action::kept);
-    trace.root_actions.assign(clip.frame_count(), Action::kept);
-    trace.translation_actions.assign(clip.frame_count(), Action::kept);
-    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-      for (std::size_t j = 0; j < clip.joint_count(); ++j)
-        clip.rotation(f, j) = truth_.rotation(f, j) * exp(turn(f));
-      clip.root_positions[f] = truth_.root_positions[f] + turn(f);
-      clip.joint_translations[f] = truth_.joint_translations[f] + turn(f);
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>&) const override {
+    const TakeView truth = view_of(truth_);
+    for (std::size_t n = 0; n < take.tracks.size(); ++n) {
+      CleanedTrack cleaned;
+      const Track& track = truth.tracks[n];
+      for (std::size_t f = 0; f < take.frames; ++f) {
+        if (track.space == Space::rotation) {
+          cleaned.rotations.push_back(track.rotation(f) * exp(turn(f)));
+        } else {
+          cleaned.positions.push_back(track.position(f) + turn(f));
+        }
+      }
+      if (n == 1 || n >= take.owners) {
+        cleaned.actions.assign(take.frames, Action::kept);
+        for (std::size_t f = 30; f < 33; ++f) cleaned.actions[f] = Action::despiked;
+      }
+      sink(n, std::move(cleaned));
     }
-    for (std::size_t f = 30; f < 33; ++f) {
-      trace.actions[f * clip.joint_count() + 1] = Action::despiked;
-      trace.root_actions[f] = trace.translation_actions[f] = Action::despiked;
-    }
-    return trace;
+    return {};
   }
   // Grows steadily.
   static Vec3 turn(std::size_t frame) { return 0.004 * static_cast<double>(frame) * Vec3{1, 2, 0}; }

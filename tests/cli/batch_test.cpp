@@ -72,9 +72,9 @@ TEST_F(Batch, WritesARowForEachTakeAndTheSums) {
   for (const Json& row : table) {
     EXPECT_EQ(row.at("status"), "cleaned");
     EXPECT_EQ(row.at("frames"), 24);
-    EXPECT_FALSE(row.contains("joints"));
+    EXPECT_FALSE(row.contains("tracks"));
   }
-  const Json summary = Json::parse(contents(folder / "clean/summary.json"));
+  const Json summary = Json::parse(contents(folder / "clean/summary.json")).at("figures");
   EXPECT_EQ(summary.at("takes"), 3);
   EXPECT_EQ(summary.at("cleaned"), 3);
   EXPECT_EQ(summary.at("frames"), 72);
@@ -139,7 +139,7 @@ TEST_F(Batch, OneBadTakeStopsNoOther) {
   EXPECT_EQ(takes("clean").size(), 2u);
   EXPECT_THAT(ran.out, HasSubstr("2 cleaned, 0 done already, 1 failed"));
   const Json summary = Json::parse(contents(folder / "clean/summary.json"));
-  EXPECT_EQ(summary.at("failed"), 1);
+  EXPECT_EQ(summary.at("figures").at("failed"), 1);
   EXPECT_EQ(summary.at("failures").at(0).at("name"), "broken.bvh");
   EXPECT_EQ(run({"batch", "raw", "-o", "clean"}).code, 3) << "it has not become better";
 }
@@ -157,7 +157,7 @@ TEST_F(Batch, ShardsDoEachTakeOnceAndSumUpTogether) {
   EXPECT_EQ(done.size(), 8u);
   EXPECT_EQ(std::set<std::string>(done.begin(), done.end()).size(), 8u);
   EXPECT_EQ(takes("clean"), takes("whole"));
-  EXPECT_EQ(Json::parse(contents(folder / "clean/summary.json")).at("cleaned"), 8);
+  EXPECT_EQ(Json::parse(contents(folder / "clean/summary.json")).at("figures").at("cleaned"), 8);
   EXPECT_THAT(run({"batch", "raw", "-o", "clean"}).out, HasSubstr("0 cleaned, 8 done already"));
 }
 
@@ -233,7 +233,7 @@ TEST_F(Batch, SeveralAtOnceDoNotDisturbEachOther) {
   const Ran again = run({"batch", "raw", "-o", "clean"});
   EXPECT_THAT(again.out, HasSubstr("0 cleaned, 6 done already, 0 failed"));
   EXPECT_EQ(lines_of(contents(folder / "clean/rows.jsonl")).size(), 6u);
-  EXPECT_EQ(Json::parse(contents(folder / "clean/summary.json")).at("cleaned"), 6);
+  EXPECT_EQ(Json::parse(contents(folder / "clean/summary.json")).at("figures").at("cleaned"), 6);
 }
 
 TEST_F(Batch, TakesAListFromStandardInput) {

@@ -54,9 +54,9 @@ TEST_F(CleanMarkers, ReportsInFileUnitsAsJson) {
   const Ran ran = run({"clean", "plate.trc", "--report", "report.json", "--fill", "auto"});
   ASSERT_EQ(ran.code, 0) << ran.err;
   const std::string report = contents(folder / "report.json");
-  for (const char* key : {"\"markers_changed\": 4", "\"unit\": \"mm\"", "\"marker\": \"C\"",
-                          "\"action\": \"despiked\"", "\"action\": \"filled\"", "\"gaps_left\": 0",
-                          "\"rms_change\": ", "\"fill\": {"}) {
+  for (const char* key : {"\"tracks_changed\": 4", "\"unit\": \"mm\"", "\"track\": \"C\"",
+                          "\"verdict\": \"despiked\"", "\"verdict\": \"filled\"",
+                          "\"gaps_left\": 0", "\"rms_change\": ", "\"gaps_refused\": 0"}) {
     EXPECT_THAT(report, HasSubstr(key));
   }
   EXPECT_THAT(report, Not(HasSubstr("_deg\":")));

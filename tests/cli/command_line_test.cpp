@@ -153,10 +153,10 @@ TEST_F(CommandLine, ADryRunWritesItsReportAndNothingElse) {
   EXPECT_THAT(files(), ElementsAre("a.bvh", "clean.json", "fill.json", "gaps.csv", "truth.bvh"));
   const Json clean = Json::parse(contents(folder / "clean.json"))["takes"][0];
   EXPECT_TRUE(clean["output"].is_null());
-  EXPECT_FALSE(clean["spans"].empty());
-  const Json fill = Json::parse(contents(folder / "fill.json"));
+  EXPECT_FALSE(clean["findings"].empty());
+  const Json fill = Json::parse(contents(folder / "fill.json"))["takes"][0];
   EXPECT_TRUE(fill["output"].is_null());
-  EXPECT_EQ(fill["gaps"].size(), 1u);
+  EXPECT_EQ(fill["findings"].size(), 1u);
   EXPECT_EQ(run({"clean", "a.bvh", "--dry-run", "--report", "clean.json"}).code, 4) << "exists";
   EXPECT_EQ(run({"clean", "a.bvh", "--dry-run", "--report", "a.bvh", "--force"}).code, 2);
 }

@@ -42,7 +42,7 @@ TEST_F(Commands, CompareFindsATakeEqualToItself) {
   synth("a.bvh");
   const Ran ran = run({"compare", "a.bvh", "a.bvh", "--json"});
   EXPECT_EQ(ran.code, 0);
-  const Json json = Json::parse(ran.out);
+  const Json json = Json::parse(ran.out)["takes"][0]["figures"];
   for (const char* name : {"rms_deg", "geodesic_rms_deg", "mpjpe", "accel_error", "mse_rad2"})
     EXPECT_EQ(json[name], 0) << name;
   EXPECT_TRUE(json["psnr_db"].is_null());
@@ -53,7 +53,8 @@ TEST_F(Commands, CompareMeasuresAKnownDifference) {
   put(folder / "a.bvh", hand_take());
   // All joints turned by 30 degrees about their own axis in every frame: the angle is known.
   ASSERT_EQ(run({"corrupt", "a.bvh", "-o", "b.bvh", "--damage", "bias:bias_deg=30,root"}).code, 0);
-  const Json json = Json::parse(run({"compare", "a.bvh", "b.bvh", "--json"}).out);
+  const Json json =
+      Json::parse(run({"compare", "a.bvh", "b.bvh", "--json"}).out)["takes"][0]["figures"];
   EXPECT_NEAR(json["geodesic_rms_deg"], 30, 1e-3);
   EXPECT_NEAR(json["geodesic_max_deg"], 30, 1e-3);
 }
@@ -101,7 +102,8 @@ TEST_F(Commands, CorruptTellsHowMuchItDid) {
                        "gaussian:std_deg=2,joints=Left*,Right*"});
   ASSERT_EQ(ran.code, 0) << ran.err;
   const Json done = Json::parse(ran.out)["damages"][0];
-  const Json compared = Json::parse(run({"compare", "a.bvh", "b.bvh", "--json"}).out);
+  const Json compared =
+      Json::parse(run({"compare", "a.bvh", "b.bvh", "--json"}).out)["takes"][0]["figures"];
   EXPECT_NEAR(done["rms_deg"], compared["geodesic_rms_deg"].get<double>(), 1e-3);
   EXPECT_LT(done["samples_damaged"], done["samples"]);
   EXPECT_GT(done["samples_damaged"], 0);
@@ -181,6 +183,28 @@ TEST_F(Commands, CorruptDamagesMarkersAsWell) {
   EXPECT_EQ(refused.code, 2);
   EXPECT_THAT(refused.err, testing::HasSubstr("turns the joints of a skeleton"));
   EXPECT_FALSE(fs::exists(folder / "x.trc"));
+}
+
+TEST_F(Commands, CorruptMakesTheNoiseOfSystemsAndLeavesEveryByteAtNoStrength) {
+  synth("walk.bvh");
+  ASSERT_EQ(run({"convert", "walk.bvh", "walk.trc"}).code, 0);
+  for (const std::string format : {"bvh", "trc"}) {
+    const std::string input = "walk." + format, output = "noisy." + format;
+    const auto damage = [&](const std::string& what) {
+      const Ran ran = run({"corrupt", input, "-o", output, "--force", "--damage", what});
+      EXPECT_EQ(ran.code, 0) << ran.err;
+      return contents(folder / output);
+    };
+    const std::string clean = contents(folder / input);
+    for (const char* kind : {"video", "triangulated", "depth", "inertial", "optical"}) {
+      const std::string system = std::string("system:kind=") + kind;
+      EXPECT_NE(damage(system + ",slope=2.5"), clean) << kind;
+      EXPECT_EQ(damage(system + ",strength=0"), clean) << kind;
+    }
+    EXPECT_NE(damage("held:rate_hz=10"), clean);
+    EXPECT_NE(damage("upsampled:rate-hz=10"), clean);
+    EXPECT_EQ(damage("held:rate_hz=1000"), clean);
+  }
 }
 
 TEST_F(Commands, CorruptWritesTheFormatOfItsOutputAndNamesWhatThatLoses) {

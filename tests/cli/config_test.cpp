@@ -99,7 +99,7 @@ TEST_F(Config, ListsComeFromTheFileToo) {
       "method = \"weighted-mean\"\njoints = [\"Left*\"]\nexclude = [\"*1\"]\n");
   const Ran ran = run({"clean", "hand.bvh", "--json", "--config", "lab.toml"});
   ASSERT_EQ(ran.code, 0) << ran.err;
-  const Json joints = Json::parse(ran.out)["takes"][0]["joints"];
+  const Json joints = Json::parse(ran.out)["takes"][0]["tracks"];
   EXPECT_EQ(joints[0]["frames_changed"], 0);
   EXPECT_GT(joints[1]["frames_changed"], 0);
   EXPECT_EQ(joints[2]["frames_changed"], 0);

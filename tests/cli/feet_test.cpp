@@ -33,13 +33,13 @@ TEST_F(Feet, AreToldToPrograms) {
   const Json feet = take["feet"];
   EXPECT_GT(feet["held"], 4);
   EXPECT_GT(feet["frames_adjusted"], 100);
-  EXPECT_EQ(take["frames_repaired"], 0);
+  EXPECT_EQ(take["figures"]["frames_repaired"], 0);
   EXPECT_LT(feet["after"]["most_slide"], 0.1);
   EXPECT_EQ(feet["contacts"][0]["side"], "left");
   EXPECT_EQ(feet["contacts"][0]["held"], true);
-  const Json spans = Json::parse(contents(folder / "report.json"))["takes"][0]["spans"];
+  const Json spans = Json::parse(contents(folder / "report.json"))["takes"][0]["findings"];
   bool adjusted = false;
-  for (const Json& span : spans) adjusted = adjusted || span["action"] == "foot_adjusted";
+  for (const Json& span : spans) adjusted = adjusted || span["verdict"] == "foot_adjusted";
   EXPECT_TRUE(adjusted);
 }
 

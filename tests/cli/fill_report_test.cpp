@@ -71,10 +71,10 @@ TEST_F(FillReport, OnlyGapsWithinTheRangeAreFilled) {
   put(folder / "gaps.csv", "LeftArm,20,24\nRightArm,58,63\nLeftArm,100,104\nLeftHand,150,154\n");
   const Ran ran = run({"fill", "walk.bvh", "--gaps", "gaps.csv", "--range", "60:120", "--json"});
   ASSERT_EQ(ran.code, 0) << ran.err;
-  const Json report = Json::parse(ran.out);
-  ASSERT_EQ(report["gaps"].size(), 1u);
-  EXPECT_EQ(report["gaps"][0]["first_frame"], 100);
-  EXPECT_EQ(report["not_within_range"], 3);
+  const Json report = Json::parse(ran.out)["takes"][0];
+  ASSERT_EQ(report["findings"].size(), 1u);
+  EXPECT_EQ(report["findings"][0]["first_frame"], 100);
+  EXPECT_EQ(report["figures"]["not_within_range"], 3);
   const auto before = lines_of(contents(folder / "walk.bvh"));
   const auto after = lines_of(contents(folder / "walk.filled.bvh"));
   ASSERT_EQ(before.size(), after.size());

@@ -62,23 +62,22 @@ TEST_F(Fill, TellsProgramsWhatWasDone) {
   put(folder / "gaps.csv", "LeftArm,20,90\nHips,30,33\n");
   const Ran ran = run({"fill", "walk.bvh", "--gaps", "gaps.csv", "--method", "spline", "-o",
                        "filled.bvh", "--json", "--report", "report.json"});
-  const Json report = Json::parse(ran.out);
-  EXPECT_EQ(report, Json::parse(contents(folder / "report.json")));
-  EXPECT_EQ(report["filled"], 2);
-  EXPECT_EQ(report["refused"], 1);
+  EXPECT_EQ(ran.out, contents(folder / "report.json"));
+  const Json report = Json::parse(ran.out)["takes"][0];
+  EXPECT_EQ(report["figures"]["filled"], 2);
+  EXPECT_EQ(report["figures"]["refused"], 1);
   EXPECT_EQ(report["output"], "filled.bvh");
-  ASSERT_EQ(report["gaps"].size(), 3u);
-  for (const Json& gap : report["gaps"]) {
-    if (gap["name"] == "LeftArm") {
-      EXPECT_FALSE(gap["filled"]);
+  ASSERT_EQ(report["findings"].size(), 3u);
+  for (const Json& gap : report["findings"]) {
+    if (gap["track"] == "LeftArm") {
+      EXPECT_EQ(gap["verdict"], "refused");
       EXPECT_EQ(gap["first_frame"], 20);
       EXPECT_EQ(gap["last_frame"], 90);
-      EXPECT_EQ(gap["frames"], 71);
-      EXPECT_EQ(gap["kind"], "rotation");
+      EXPECT_EQ(gap["quantity"], "rotation");
       EXPECT_EQ(gap["unit"], "deg");
       EXPECT_THAT(gap["reason"], HasSubstr("is longer than"));
     } else {
-      EXPECT_TRUE(gap["filled"]);
+      EXPECT_EQ(gap["verdict"], "filled");
       EXPECT_TRUE(gap["reason"].is_null());
     }
   }

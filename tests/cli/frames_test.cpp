@@ -54,18 +54,18 @@ TEST_P(FrameNumbers, AreTheFilesInFindingsAndReports) {
 
   const Ran fill = run({"fill", take, "--dry-run"});
   EXPECT_THAT(fill.out, HasSubstr(fmt::format(" {}-{} ", gap_first, gap_last)));
-  const Json filled = Json::parse(run({"fill", take, "--dry-run", "--json"}).out);
-  EXPECT_EQ(filled["gaps"][0]["first_frame"], gap_first);
-  EXPECT_EQ(filled["gaps"][0]["last_frame"], gap_last);
+  const Json filled =
+      Json::parse(run({"fill", take, "--dry-run", "--json"}).out)["takes"][0]["findings"];
+  EXPECT_EQ(filled[0]["first_frame"], gap_first);
+  EXPECT_EQ(filled[0]["last_frame"], gap_last);
 
   ASSERT_EQ(run({"clean", take, "--fill", "auto", "--dry-run", "--report", "r.json"}).code, 0);
   const Json clean = Json::parse(contents(folder / "r.json"))["takes"][0];
-  EXPECT_EQ(clean["fill"]["gaps"][0]["first_frame"], gap_first);
   bool has_filled = false, has_despiked = false;
-  for (const Json& span : clean["spans"]) {
-    has_filled = has_filled || (span["action"] == "filled" && span["first_frame"] == gap_first &&
+  for (const Json& span : clean["findings"]) {
+    has_filled = has_filled || (span["verdict"] == "filled" && span["first_frame"] == gap_first &&
                                 span["last_frame"] == gap_last);
-    has_despiked = has_despiked || (span["action"] == "despiked" && span["first_frame"] == spike);
+    has_despiked = has_despiked || (span["verdict"] == "despiked" && span["first_frame"] == spike);
   }
   EXPECT_TRUE(has_filled && has_despiked);
 }
@@ -73,7 +73,7 @@ TEST_P(FrameNumbers, AreTheFilesInFindingsAndReports) {
 TEST_P(FrameNumbers, AreTheFilesWhereTheyAreTyped) {
   const std::string range = fmt::format("--range={}:{}", first + 30, first + 60);
   ASSERT_EQ(run({"clean", take, range, "--dry-run", "--report", "r.json"}).code, 0);
-  const Json spans = Json::parse(contents(folder / "r.json"))["takes"][0]["spans"];
+  const Json spans = Json::parse(contents(folder / "r.json"))["takes"][0]["findings"];
   ASSERT_FALSE(spans.empty());
   for (const Json& span : spans) {
     EXPECT_GE(span["first_frame"], first + 30);
@@ -91,14 +91,14 @@ TEST_P(FrameNumbers, AreTheFilesWhereTheyAreTyped) {
 
 TEST_P(FrameNumbers, AreTheFilesInSideFilesOfGaps) {
   put(folder / "gaps.csv", fmt::format("D,{},{}\n", first, first + 5));
-  const Json filled =
-      Json::parse(run({"fill", take, "--gaps", "gaps.csv", "--dry-run", "--json"}).out);
-  ASSERT_EQ(filled["gaps"].size(), 2u);
-  EXPECT_EQ(filled["gaps"][1]["name"], "D");
-  EXPECT_EQ(filled["gaps"][1]["first_frame"], first);
-  EXPECT_EQ(filled["gaps"][1]["last_frame"], first + 5);
+  const Json filled = Json::parse(
+      run({"fill", take, "--gaps", "gaps.csv", "--dry-run", "--json"}).out)["takes"][0]["findings"];
+  ASSERT_EQ(filled.size(), 2u);
+  EXPECT_EQ(filled[1]["track"], "D");
+  EXPECT_EQ(filled[1]["first_frame"], first);
+  EXPECT_EQ(filled[1]["last_frame"], first + 5);
   const Ran clean = run({"clean", take, "--gaps", "gaps.csv", "--dry-run", "--json"});
-  EXPECT_EQ(Json::parse(clean.out)["takes"][0]["gaps_left"], 2) << clean.err;
+  EXPECT_EQ(Json::parse(clean.out)["takes"][0]["figures"]["gaps_left"], 2) << clean.err;
   put(folder / "gaps.csv", fmt::format("D,{},{}\n", first - 1, first + 5));
   for (const std::string command : {"clean", "fill"}) {
     const Ran wrong = run({command, take, "--gaps", "gaps.csv", "--dry-run"});

@@ -42,8 +42,8 @@ TEST_F(Names, AnExactMatchIsTheOnlyOne) {
                 .code,
             0);
   const Json report = Json::parse(contents(folder / "r.json"));
-  for (const Json& span : report["takes"][0]["spans"]) {
-    EXPECT_TRUE(span["joint"].is_null() || span["joint"] == "LeftFinger1") << span;
+  for (const Json& span : report["takes"][0]["findings"]) {
+    EXPECT_TRUE(span["quantity"] == "position" || span["track"] == "LeftFinger1") << span;
   }
 }
 

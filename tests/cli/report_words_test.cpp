@@ -148,7 +148,7 @@ TEST_F(ReportWords, GapsAreCountedInOneWay) {
   const auto count = [&](const std::vector<std::string>& words, const char* key) {
     const Ran ran = run(words);
     EXPECT_EQ(ran.code, 0) << ran.err;
-    const Json all = Json::parse(ran.out), take = all.contains("takes") ? all["takes"][0] : all;
+    const Json take = Json::parse(ran.out)["takes"][0];
     const Json& value = take.contains("figures") ? take["figures"][key] : take[key];
     return value.is_array() ? value.size() : value.get<std::size_t>();
   };

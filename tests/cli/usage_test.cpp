@@ -92,6 +92,13 @@ INSTANTIATE_TEST_SUITE_P(
              "--damage: std_deg needs a value"},
         Case{{"corrupt", "a.bvh", "-o", "c.bvh", "--damage", "gaussian:sigma=1"},
              "--damage: gaussian has no option sigma; it has std_deg, joints, root"},
+        Case{{"corrupt", "a.bvh", "-o", "c.bvh", "--damage", "system:kind=radar"},
+             "--damage system: kind: \"radar\" is not one of video, triangulated, depth, inertial, "
+             "optical"},
+        Case{{"corrupt", "a.bvh", "-o", "c.bvh", "--damage", "system:slope=0.5"},
+             "slope: 0.5 is not above 1"},
+        Case{{"corrupt", "a.bvh", "-o", "c.bvh", "--damage", "held:rate_hz=0"},
+             "--damage held: rate_hz: 0 is outside 0.1 to 100000 Hz"},
         Case{{"convert", "a.bvh", "-o", "c.xyz"},
              "convert: c.xyz has the extension of no format; name one with --to"},
         Case{{"synth", "walk", "-o", "c.bvh", "--duration-s", "0"},

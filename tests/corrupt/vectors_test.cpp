@@ -95,6 +95,7 @@ TEST_P(DamageOfVectors, GivesMarkersTheSameForTheSameSeedAndOthersForAnother) {
   EXPECT_EQ(first.positions, again.positions);
   EXPECT_EQ(first.observed, again.observed);
   EXPECT_NE(first.positions, clean.positions);
+  if (GetParam() == "held" || GetParam() == "upsampled") return;  // nothing in them is random
   EXPECT_NE(first.positions, damaged(clean, GetParam(), {}, 8).clip.positions);
 }
 

@@ -33,7 +33,7 @@ std::vector<Vec3> true_heels(const Clip& clip, std::size_t leg) {
   std::vector<Vec3> heels;
   for (const Pose& pose : poses) {
     const std::size_t foot = joint_of(clip, side + "Foot");
-    const Vec3 offset{0, -ankle_height, -0.035 * skeleton_height(clip.skeleton)};
+    const Vec3 offset{0, -ankle_height, -0.035 * body_height(clip.skeleton)};
     heels.push_back(pose.positions[foot] + rotate(pose.rotations[foot], offset));
   }
   return heels;

@@ -38,38 +38,42 @@ constexpr CurveSettings settings{.frame_rate_hz = 120};
 constexpr std::array curves = {Curve::linear, Curve::cubic, Curve::quintic, Curve::shape_preserving,
                                Curve::hermite};
 
-// A track that owns its samples.
-struct Samples {
-  std::vector<double> values;
-  std::size_t channels = 1;
-  std::vector<std::uint8_t> observed;
-
-  Track track() { return {values, channels, observed}; }
-};
-
-Samples reference_samples() {
-  Samples samples{reference("input"), 1, {}};
-  for (const double missing : reference("missing")) samples.observed.push_back(missing == 0);
-  for (std::size_t f = 0; f < samples.values.size(); ++f) {
-    if (!samples.observed[f]) samples.values[f] = 1e6;  // what stands in a gap is no evidence
-  }
-  return samples;
+// Along x.
+Track track_along_x(const std::vector<double>& x, std::vector<std::uint8_t> observed) {
+  Track track{{}, std::move(observed)};
+  for (const double value : x) track.values.push_back({value, 0, 0});
+  return track;
 }
 
-std::vector<double> filled(Samples samples, FrameSpan span, Curve curve) {
-  EXPECT_TRUE(fill_with_curve(samples.track(), span, curve, settings));
-  return {samples.values.begin() + static_cast<std::ptrdiff_t>(span.first * samples.channels),
-          samples.values.begin() + static_cast<std::ptrdiff_t>((span.last + 1) * samples.channels)};
+Track reference_samples() {
+  std::vector<double> values = reference("input");
+  std::vector<std::uint8_t> observed;
+  for (std::size_t f = 0; f < values.size(); ++f) {
+    observed.push_back(reference("missing")[f] == 0);
+    if (!observed[f]) values[f] = 1e6;  // what stands in a gap is no evidence
+  }
+  return track_along_x(values, observed);
+}
+
+std::vector<double> x_in(const Track& track, FrameSpan span) {
+  std::vector<double> x;
+  for (const Vec3 v : values_in(track, span)) x.push_back(v.x);
+  return x;
+}
+
+std::vector<double> filled(Track track, FrameSpan span, Curve curve) {
+  EXPECT_TRUE(fill_with_curve(track, span, curve, settings));
+  return x_in(track, span);
 }
 
 template <class Function>
-Samples sampled(std::size_t frames, FrameSpan span, Function function) {
-  Samples samples;
+Track sampled(std::size_t frames, FrameSpan span, Function function) {
+  Track track;
   for (std::size_t f = 0; f < frames; ++f) {
-    samples.values.push_back(function(static_cast<double>(f)));
-    samples.observed.push_back(f < span.first || f > span.last);
+    track.values.push_back({function(static_cast<double>(f)), 0, 0});
+    track.observed.push_back(f < span.first || f > span.last);
   }
-  return samples;
+  return track;
 }
 
 TEST(Curves, CubicIsSciPysNaturalSpline) {
@@ -90,25 +94,27 @@ TEST(Curves, ShapePreservingIsSciPysPchip) {
 }
 
 TEST(Curves, ShapePreservingHasSciPysSlopesAtTheOutermostSamples) {
-  Samples samples{{1, 0, 0, 0, 0, 0, 0, 0, 0, 4, 4.5}, 1, {1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1}};
+  Track samples =
+      track_along_x({1, 0, 0, 0, 0, 0, 0, 0, 0, 4, 4.5}, {1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1});
   EXPECT_THAT(filled(samples, {1, 8}, Curve::shape_preserving),
               Pointwise(NearTo(1e-12), reference("pchip_ends")));
-  Samples mirrored{{4.5, 4, 0, 0, 0, 0, 0, 0, 0, 0, 1}, 1, {1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1}};
+  const Track mirrored =
+      track_along_x({4.5, 4, 0, 0, 0, 0, 0, 0, 0, 0, 1}, {1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1});
   auto values = filled(mirrored, {2, 9}, Curve::shape_preserving);
   std::reverse(values.begin(), values.end());
   EXPECT_THAT(values, Pointwise(NearTo(1e-12), reference("pchip_ends")));
-  samples.values.back() = 1;
+  samples.values.back().x = 1;
   EXPECT_THAT(filled(samples, {1, 8}, Curve::shape_preserving),
               Pointwise(NearTo(1e-12), reference("pchip_ends_turning")));
 }
 
 NaturalSpline reference_spline(int half_order) {
-  Samples samples = reference_samples();
+  Track samples = reference_samples();
   std::vector<double> knots, values;
   for (std::size_t f = 0; f < samples.observed.size(); ++f) {
     if (!samples.observed[f]) continue;
     knots.push_back(static_cast<double>(f));
-    values.push_back(samples.values[f]);
+    values.push_back(samples.values[f].x);
   }
   return {half_order, knots, values, 1};
 }
@@ -183,10 +189,10 @@ TEST(Curves, MeetTheirEndsInValueAndVelocity) {
   const FrameSpan span{100, 139};
   const auto motion = [](double f) { return 40 * std::sin(0.05 * f) + 0.3 * f; };
   for (const Curve curve : {Curve::cubic, Curve::quintic, Curve::hermite}) {
-    Samples samples = sampled(240, span, motion);
-    ASSERT_TRUE(fill_with_curve(samples.track(), span, curve, settings));
+    Track samples = sampled(240, span, motion);
+    ASSERT_TRUE(fill_with_curve(samples, span, curve, settings));
     const auto second = [&](std::size_t f) {
-      return samples.values[f - 1] - 2 * samples.values[f] + samples.values[f + 1];
+      return samples.values[f - 1].x - 2 * samples.values[f].x + samples.values[f + 1].x;
     };
     // The motion's own second differences are below 0.1; a jump or a kink would show as more.
     for (const std::size_t f : {99u, 100u, 139u, 140u}) {
@@ -209,8 +215,8 @@ TEST(Curves, FillAStraightLineWithItself) {
 TEST(Curves, ShapePreservingNeverOvershoots) {
   Random random(3);
   for (int round = 0; round < 50; ++round) {
-    Samples samples = sampled(60, {20, 39}, [&](double) { return random.normal(); });
-    const double a = samples.values[19], b = samples.values[40];
+    Track samples = sampled(60, {20, 39}, [&](double) { return random.normal(); });
+    const double a = samples.values[19].x, b = samples.values[40].x;
     for (const double value : filled(samples, {20, 39}, Curve::shape_preserving)) {
       EXPECT_GE(value, std::min(a, b) - 1e-12);
       EXPECT_LE(value, std::max(a, b) + 1e-12);
@@ -225,7 +231,7 @@ TEST(Curves, QuinticIsNotThrownByNoiseAtTheEnds) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Random random(seed);
     const auto noisy = [&](double f) { return motion(f) + 0.5 * random.normal(); };
-    const Samples samples = sampled(330, span, noisy);
+    const Track samples = sampled(330, span, noisy);
     const auto smooth = filled(samples, span, Curve::quintic);
     const auto through = filled(samples, span, Curve::cubic);
     for (std::size_t i = 0; i < smooth.size(); ++i) {
@@ -241,12 +247,12 @@ TEST(Curves, QuinticIsNotThrownByNoiseAtTheEnds) {
 
 TEST(Curves, EndVelocitiesAreNotThrownByASpike) {
   const FrameSpan span{60, 79};
-  Samples samples = sampled(150, span, [](double f) { return 2 * f; });
-  samples.values[56] += 50;
-  const EndState state = state_before(samples.track(), span, settings);
+  Track samples = sampled(150, span, [](double f) { return 2 * f; });
+  samples.values[56].x += 50;
+  const EndState state = state_before(samples, span, settings);
   EXPECT_TRUE(state.known);
-  EXPECT_DOUBLE_EQ(state.value[0], 118);
-  EXPECT_NEAR(state.velocity[0], 2, 0.05);
+  EXPECT_DOUBLE_EQ(state.value.x, 118);
+  EXPECT_NEAR(state.velocity.x, 2, 0.05);
 }
 
 TEST(Curves, CoastAtTheEndsOfATakeWithAVelocityThatDecays) {
@@ -262,40 +268,35 @@ TEST(Curves, CoastAtTheEndsOfATakeWithAVelocityThatDecays) {
 
 TEST(Curves, RefuseATrackWithoutSamples) {
   for (const Curve curve : curves) {
-    Samples samples = sampled(10, {0, 9}, [](double) { return 7; });
-    EXPECT_FALSE(fill_with_curve(samples.track(), {0, 9}, curve, settings));
-    EXPECT_THAT(samples.values, Each(7));
+    Track samples = sampled(10, {0, 9}, [](double) { return 7.0; });
+    EXPECT_FALSE(fill_with_curve(samples, {0, 9}, curve, settings));
+    EXPECT_THAT(samples.values, Each(Vec3{7, 0, 0}));
   }
 }
 
 TEST(Curves, FillBetweenSingleSamples) {
   for (const Curve curve : curves) {
-    Samples samples{{0, 9, 9, 3}, 1, {1, 0, 0, 1}};
-    ASSERT_TRUE(fill_with_curve(samples.track(), {1, 2}, curve, settings));
-    EXPECT_NEAR(samples.values[1], 0.777777, 0.3) << static_cast<int>(curve);
-    EXPECT_NEAR(samples.values[2], 2.222222, 0.3) << static_cast<int>(curve);
+    Track samples = track_along_x({0, 9, 9, 3}, {1, 0, 0, 1});
+    ASSERT_TRUE(fill_with_curve(samples, {1, 2}, curve, settings));
+    EXPECT_NEAR(samples.values[1].x, 0.777777, 0.3) << static_cast<int>(curve);
+    EXPECT_NEAR(samples.values[2].x, 2.222222, 0.3) << static_cast<int>(curve);
   }
 }
 
-TEST(Curves, FillEveryChannelByItself) {
+TEST(Curves, FillEveryComponentByItself) {
   const FrameSpan span{30, 49};
   for (const Curve curve : curves) {
-    Samples both;
-    both.channels = 2;
-    Samples one = sampled(100, span, [](double f) { return std::sin(0.1 * f); });
-    Samples other = sampled(100, span, [](double f) { return std::cos(0.07 * f); });
-    both.observed = one.observed;
-    for (std::size_t f = 0; f < 100; ++f) {
-      both.values.push_back(one.values[f]);
-      both.values.push_back(other.values[f]);
-    }
-    const auto values = filled(both, span, curve);
-    // Quintic chooses one smoothing for all channels.
+    const Track one = sampled(100, span, [](double f) { return std::sin(0.1 * f); });
+    const Track other = sampled(100, span, [](double f) { return std::cos(0.07 * f); });
+    Track both = one;
+    for (std::size_t f = 0; f < 100; ++f) both.values[f].y = other.values[f].x;
+    ASSERT_TRUE(fill_with_curve(both, span, curve, settings));
+    // Quintic chooses one smoothing for all components.
     const double tolerance = curve == Curve::quintic ? 1e-3 : 1e-12;
     const auto first = filled(one, span, curve), second = filled(other, span, curve);
     for (std::size_t i = 0; i < first.size(); ++i) {
-      EXPECT_NEAR(values[2 * i], first[i], tolerance);
-      EXPECT_NEAR(values[2 * i + 1], second[i], tolerance);
+      EXPECT_NEAR(both.values[span.first + i].x, first[i], tolerance);
+      EXPECT_NEAR(both.values[span.first + i].y, second[i], tolerance);
     }
   }
 }
@@ -303,33 +304,34 @@ TEST(Curves, FillEveryChannelByItself) {
 TEST(PlaceGuess, MovesAGuessToItsEnds) {
   const FrameSpan span{100, 159};
   const auto motion = [](double f) { return 10 * std::sin(0.06 * f); };
-  Samples samples = sampled(260, span, motion);
+  Track samples = sampled(260, span, motion);
   Guess guess{80, {}};
   for (std::size_t f = 80; f < 180; ++f) {
-    guess.values.push_back(motion(static_cast<double>(f)) + 3 + 0.05 * static_cast<double>(f));
+    guess.values.push_back(
+        {motion(static_cast<double>(f)) + 3 + 0.05 * static_cast<double>(f), 0, 0});
   }
-  place_guess(samples.track(), span, guess, settings);
+  place_guess(samples, span, guess, settings);
   // An offset and a drift are seen at the ends and taken off.
   for (std::size_t f = span.first; f <= span.last; ++f) {
-    EXPECT_NEAR(samples.values[f], motion(static_cast<double>(f)), 1e-9) << f;
+    EXPECT_NEAR(samples.values[f].x, motion(static_cast<double>(f)), 1e-9) << f;
   }
 }
 
 TEST(PlaceGuess, MeetsValueAndVelocityOfAnyGuess) {
   const FrameSpan span{100, 159};
-  Samples samples = sampled(260, span, [](double f) { return f < 130 ? f : 200 - f; });
-  const Guess guess{80, std::vector<double>(100, 4.0)};
-  place_guess(samples.track(), span, guess, settings);
+  Track samples = sampled(260, span, [](double f) { return f < 130 ? f : 200 - f; });
+  const Guess guess{80, std::vector<Vec3>(100, {4, 0, 0})};
+  place_guess(samples, span, guess, settings);
   // The steps over the ends are those of the samples beside them, up to the fading.
-  EXPECT_NEAR(samples.values[100] - samples.values[99], 1, 0.35);
-  EXPECT_NEAR(samples.values[160] - samples.values[159], -1, 0.35);
+  EXPECT_NEAR(samples.values[100].x - samples.values[99].x, 1, 0.35);
+  EXPECT_NEAR(samples.values[160].x - samples.values[159].x, -1, 0.35);
 }
 
 TEST(PlaceGuess, MeetsOnlyTheSideThatThereIs) {
   const FrameSpan span{50, 79};
-  Samples samples = sampled(80, span, [](double) { return 12.0; });
-  place_guess(samples.track(), span, {30, std::vector<double>(50, 4.0)}, settings);
-  for (std::size_t f = span.first; f <= span.last; ++f) EXPECT_NEAR(samples.values[f], 12, 1e-9);
+  Track samples = sampled(80, span, [](double) { return 12.0; });
+  place_guess(samples, span, {30, std::vector<Vec3>(50, {4, 0, 0})}, settings);
+  for (std::size_t f = span.first; f <= span.last; ++f) EXPECT_NEAR(samples.values[f].x, 12, 1e-9);
 }
 
 }  // namespace

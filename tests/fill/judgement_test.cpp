@@ -8,15 +8,14 @@
 #include <limits>
 #include <numeric>
 
-#include "fill/joint_trials.hpp"
-#include "fill/trial_places.hpp"
+#include "fill/methods.hpp"
+#include "fill/trials.hpp"
 #include "kinemend/gaps.hpp"
 #include "kinemend/synth.hpp"
 
 namespace kinemend::fill {
 namespace {
 
-using Proposals = std::vector<std::vector<Vec3>>;
 constexpr auto model = CandidateKind::model;
 constexpr auto spline = CandidateKind::spline;
 constexpr auto line = CandidateKind::line;
@@ -25,12 +24,11 @@ constexpr auto line = CandidateKind::line;
 Eigen::MatrixXd errors(const std::vector<double>& along_x) {
   Proposals proposals;
   for (const double x : along_x) proposals.push_back({{x, 0, 0}, {x, 0, 0}, {x, 0, 0}});
-  return products_of(proposals, std::vector<Vec3>(3));
+  return products_of(proposals);
 }
 
 TEST(Judgement, ProductsAreMeansOverTheFrames) {
-  const Proposals proposals{{{1, 2, 2}, {0, 0, 0}}, {{3, 0, 0}, {0, 4, 0}}};
-  const Eigen::MatrixXd products = products_of(proposals, std::vector<Vec3>{{0, 0, 0}, {0, 1, 0}});
+  const Eigen::MatrixXd products = products_of({{{1, 2, 2}, {0, -1, 0}}, {{3, 0, 0}, {0, 3, 0}}});
   EXPECT_NEAR(products(0, 0), (9 + 1) / 2.0, 1e-12);
   EXPECT_NEAR(products(1, 1), (9 + 9) / 2.0, 1e-12);
   EXPECT_NEAR(products(0, 1), (3 - 3) / 2.0, 1e-12);
@@ -38,7 +36,7 @@ TEST(Judgement, ProductsAreMeansOverTheFrames) {
 
 TEST(Judgement, WeighsByTheInverseFourthPowerOfErrorsAndNeverTheLine) {
   const auto trial = errors({1, -2, 5});
-  const Judgement judgement({model, model, line}, trial, {{trial, trial}, 1}, 0);
+  const Judgement judgement({model, model, line}, trial, {{trial, trial}}, 0);
   const std::vector<double> weights = judgement.weights(clearly_better);
   EXPECT_NEAR(weights[0] / weights[1], 16, 1e-9);
   EXPECT_EQ(weights[2], 0);
@@ -126,7 +124,7 @@ TEST(TrialPlaces, AreShorterWhereThereIsNoRoomAndNoneWhereThereIsNone) {
 TEST(HiddenSpan, IsAsAGapOfTheTake) {
   const Clip clip = synthesize({.motion = "stroll", .duration_s = 4});
   const std::size_t joint = 5;
-  const JointTrack whole = rotation_track(clip, joint);
+  const Track whole = rotation_track(clip, joint);
   const PoseRegression poses(clip);
   const JointContext context{clip.frame_rate_hz, poses, 1};
   for (const std::size_t first : {60U, 200U, 333U}) {
@@ -134,13 +132,13 @@ TEST(HiddenSpan, IsAsAGapOfTheTake) {
     Clip gapped = clip;
     const NamedGap gap{clip.skeleton.names[joint], span.first, span.last};
     mark_gaps(gapped, {&gap, 1});
-    JointTrack missing = rotation_track(gapped, joint);
-    JointTrack hidden = hide_span(whole, span, {}, 100, clip.frame_rate_hz);
+    Track missing = rotation_track(gapped, joint);
+    Track hidden = hide_span(whole, span, {}, 100, clip.frame_rate_hz);
     const std::size_t shift = hidden.first_frame;
     for (const char* name : {"slerp", "spline", "pchip", "squad"}) {
-      const JointMethod* method = find_joint_method(name);
-      ASSERT_TRUE(method->fill(missing, span, context));
-      ASSERT_TRUE(method->fill(hidden, {span.first - shift, span.last - shift}, context));
+      const Method& method = find_method(name, true);
+      ASSERT_TRUE(fill_joint(method, missing, span, context));
+      ASSERT_TRUE(fill_joint(method, hidden, within(hidden, span), context));
       for (std::size_t f = span.first; f <= span.last; ++f) {
         EXPECT_LT(angle_between(missing.rotation(f), hidden.rotation(f - shift)), 1e-9)
             << name << ", frame " << f;

@@ -60,11 +60,13 @@ inline double distance(const Clip& a, const Clip& b, std::size_t frame, std::siz
   return angle_between(a.rotation(frame, joint), b.rotation(frame, joint)) * degrees_per_radian;
 }
 
-inline double step(const MarkerClip& clip, std::size_t frame, std::size_t marker) {
-  return norm(clip.position(frame + 1, marker) - clip.position(frame, marker));
+/// From one frame to the next: file units, or degrees.
+inline Vec3 step_vector(const MarkerClip& clip, std::size_t frame, std::size_t marker) {
+  return clip.position(frame + 1, marker) - clip.position(frame, marker);
 }
-inline double step(const Clip& clip, std::size_t frame, std::size_t joint) {
-  return angle_between(clip.rotation(frame, joint), clip.rotation(frame + 1, joint));
+inline Vec3 step_vector(const Clip& clip, std::size_t frame, std::size_t joint) {
+  return degrees_per_radian *
+         log(conjugate(clip.rotation(frame, joint)) * clip.rotation(frame + 1, joint));
 }
 
 inline const std::string& name_of(const MarkerClip& clip, std::size_t marker) {
@@ -72,6 +74,41 @@ inline const std::string& name_of(const MarkerClip& clip, std::size_t marker) {
 }
 inline const std::string& name_of(const Clip& clip, std::size_t joint) {
   return clip.skeleton.names[joint];
+}
+
+inline std::size_t track_of(const MarkerClip& clip, const std::string& name) {
+  return static_cast<std::size_t>(clip.find(name));
+}
+inline std::size_t track_of(const Clip& clip, const std::string& name) {
+  return static_cast<std::size_t>(clip.skeleton.find(name));
+}
+
+/// Frames `first` to `last`, inclusive, of a joint or marker as missing.
+template <class AnyClip>
+void hide(AnyClip& clip, const std::string& name, std::size_t first, std::size_t last) {
+  const NamedGap gap{name, first, last};
+  mark_gaps(clip, {&gap, 1});
+}
+
+/// With what is no evidence in the gaps of joints; markers have nothing there.
+inline MarkerClip spoilt(MarkerClip clip) { return clip; }
+inline Clip spoilt(Clip clip) {
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    for (std::size_t j = 0; j < clip.joint_count(); ++j) {
+      if (!clip.is_observed(f, j))
+        clip.rotation(f, j) = exp({0, 0, 1 + 0.1 * static_cast<double>(f)});
+    }
+    if (!clip.is_position_observed(f, 0)) clip.root_positions[f] = {1e6, -1e6, 0};
+  }
+  return clip;
+}
+
+template <class AnyClip>
+FillReport fill_with(AnyClip& clip, const std::string& method, bool fill_all = false) {
+  FillSettings settings;
+  settings.method = method;
+  settings.fill_all = fill_all;
+  return fill_gaps(clip, settings);
 }
 
 template <class AnyClip>
@@ -100,7 +137,8 @@ std::vector<Kept> make_and_fill(const AnyClip& truth, std::vector<std::size_t> t
     for (int t = 0; t < tries; ++t) {
       const std::size_t start = 5 + random.below(truth.frame_count() - length - 10);
       double way = 0;
-      for (std::size_t f = start; f < start + length; ++f) way += step(truth, f, tracks[i]);
+      for (std::size_t f = start; f < start + length; ++f)
+        way += norm(step_vector(truth, f, tracks[i]));
       if (way > fastest) fastest = way, first = start;
     }
     gaps.push_back({name_of(truth, tracks[i]), first, first + length - 1});
@@ -108,10 +146,7 @@ std::vector<Kept> make_and_fill(const AnyClip& truth, std::vector<std::size_t> t
   mark_gaps(clip, gaps);
   AnyClip splined = clip;
   const FillReport report = fill_gaps(clip);
-  FillSettings settings;
-  settings.method = "spline";
-  settings.fill_all = true;
-  fill_gaps(splined, settings);
+  fill_with(splined, "spline", true);
   std::vector<Kept> all;
   for (const GapOutcome& outcome : report.gaps) {
     const bool made = std::any_of(gaps.begin(), gaps.end(), [&](const NamedGap& gap) {

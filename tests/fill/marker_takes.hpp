@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "fill/made_gaps.hpp"
 #include "kinemend/clip.hpp"
-#include "kinemend/fill.hpp"
-#include "kinemend/gaps.hpp"
 #include "kinemend/kinematics.hpp"
 #include "kinemend/marker_clip.hpp"
 #include "kinemend/synth.hpp"
@@ -49,12 +48,6 @@ inline MarkerClip marker_take(const std::string& motion = "walk", double duratio
     }
   }
   return take;
-}
-
-/// Frames `first` to `last`, inclusive, of a marker as missing.
-inline void hide(MarkerClip& clip, const std::string& name, std::size_t first, std::size_t last) {
-  const NamedGap gap{name, first, last};
-  mark_gaps(clip, {&gap, 1});
 }
 
 inline double mean_error(const MarkerClip& truth, const MarkerClip& filled, const Gap& gap) {

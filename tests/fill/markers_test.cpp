@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "fill/marker_takes.hpp"
-#include "kinemend/error.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/random.hpp"
 
@@ -12,13 +11,6 @@ namespace kinemend::fill {
 namespace {
 
 using ::testing::HasSubstr;
-
-FillReport fill_with(MarkerClip& clip, const std::string& method, bool fill_all = false) {
-  FillSettings settings;
-  settings.method = method;
-  settings.fill_all = fill_all;
-  return fill_gaps(clip, settings);
-}
 
 double largest_error(const MarkerClip& truth, const MarkerClip& filled) {
   double largest = 0;
@@ -202,14 +194,6 @@ TEST(MarkerFill, RefusesGapsLongerThanAsked) {
   EXPECT_EQ(fill_gaps(clip, settings).gaps[0].reason, "the gap of 0.60 s is longer than 0.50 s");
 }
 
-TEST(MarkerFill, RefusesAMarkerThatIsNeverSeenHoweverMuchIsAskedFor) {
-  MarkerClip clip = marker_take("walk", 1);
-  hide(clip, "Head_a", 0, clip.frame_count() - 1);
-  const FillReport report = fill_with(clip, "auto", true);
-  ASSERT_EQ(report.refused(), 1U);
-  EXPECT_EQ(report.gaps[0].reason, "the marker is never seen");
-}
-
 TEST(MarkerFill, TakesTheBestGuessWhereAllIsAskedForAndTheMethodHasNone) {
   MarkerClip clip = marker_take("punch", 3);
   hide(clip, "Head_a", 100, 180);
@@ -217,17 +201,6 @@ TEST(MarkerFill, TakesTheBestGuessWhereAllIsAskedForAndTheMethodHasNone) {
   EXPECT_EQ(fill_with(clip, "cyclic").refused(), 1U);
   const FillReport report = fill_with(other, "cyclic", true);
   ASSERT_EQ(report.filled(), 1U);
-}
-
-TEST(MarkerFill, FillsOnlyTheMarkersThatAreNamed) {
-  MarkerClip clip = marker_take();
-  hide(clip, "Head_a", 100, 110);
-  hide(clip, "LeftLeg_a", 100, 110);
-  FillSettings settings;
-  settings.names = {"Left*"};
-  const FillReport report = fill_gaps(clip, settings);
-  ASSERT_EQ(report.gaps.size(), 1U);
-  EXPECT_FALSE(clip.is_observed(105, static_cast<std::size_t>(clip.find("Head_a"))));
 }
 
 TEST(MarkerFill, LeavesWhatIsNoPositionAlone) {
@@ -239,31 +212,6 @@ TEST(MarkerFill, LeavesWhatIsNoPositionAlone) {
   const FillReport report = fill_with(clip, "auto");
   ASSERT_EQ(report.gaps.size(), 1U);
   EXPECT_FALSE(clip.is_observed(105, angle));
-}
-
-TEST(MarkerFill, SaysWhichMethodMarkerOrDonorThereIsNot) {
-  MarkerClip clip = marker_take("walk", 0.5);
-  const auto message = [&](const FillSettings& settings) -> std::string {
-    try {
-      fill_gaps(clip, settings);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::usage);
-      return error.what();
-    }
-    return "no error";
-  };
-  FillSettings settings;
-  settings.method = "magic";
-  EXPECT_THAT(message(settings), HasSubstr("expected a method for markers (auto, spline"));
-  settings.method = "slerp";
-  EXPECT_THAT(message(settings), HasSubstr("found \"slerp\""));
-  settings.method = "pattern";
-  EXPECT_THAT(message(settings), HasSubstr("needs a donor"));
-  settings.donor = "Tail";
-  EXPECT_THAT(message(settings), HasSubstr("no donor \"Tail\""));
-  settings = {};
-  settings.names = {"Tail*"};
-  EXPECT_THAT(message(settings), HasSubstr("no marker matches \"Tail*\""));
 }
 
 // Takes that give little to go by.

@@ -57,53 +57,5 @@ TEST(Promise, HoldsForJoints) {
   expect_kept(figures_of(all, 0.1));
 }
 
-// The sample next to a gap has no neighbour on its other side that would show it for a spike.
-TEST(SpikeBesideAGap, DoesNotBendTheFillingOfAMarker) {
-  const MarkerClip truth = marker_take("walk", 4, 0.5);
-  for (const char* method : {"auto", "spline", "local-regression", "pca"}) {
-    for (const std::size_t length : {3U, 8U, 12U, 40U}) {
-      for (const bool before : {true, false}) {
-        MarkerClip clip = truth;
-        hide(clip, "LeftLeg_b", 200, 199 + length);
-        MarkerClip spiked = clip;
-        const auto marker = static_cast<std::size_t>(clip.find("LeftLeg_b"));
-        spiked.position(before ? 199 : 200 + length, marker) += Vec3{15, 5, 0};
-        FillSettings settings;
-        settings.method = method;
-        settings.fill_all = true;
-        fill_gaps(clip, settings);
-        const GapOutcome outcome = fill_gaps(spiked, settings).gaps[0];
-        const double error = rms_error(truth, spiked, outcome.gap);
-        EXPECT_LT(error, 3 * rms_error(truth, clip, outcome.gap) + 1)
-            << method << ", " << length << " frames, " << (before ? "before" : "behind");
-      }
-    }
-  }
-}
-
-TEST(SpikeBesideAGap, DoesNotBendTheFillingOfAJoint) {
-  const Clip truth = synthesize({.motion = "walk", .duration_s = 4});
-  for (const char* method : {"auto", "spline", "pchip", "pca"}) {
-    for (const std::size_t length : {3U, 8U, 12U, 25U}) {
-      for (const bool before : {true, false}) {
-        Clip clip = truth;
-        const NamedGap gap{truth.skeleton.names[3], 200, 199 + length};
-        mark_gaps(clip, {&gap, 1});
-        Clip spiked = clip;
-        Quat& spike = spiked.rotation(before ? 199 : 200 + length, 3);
-        spike = spike * exp(Vec3{0.8, 0.3, 0});
-        FillSettings settings;
-        settings.method = method;
-        settings.fill_all = true;
-        fill_gaps(clip, settings);
-        const GapOutcome outcome = fill_gaps(spiked, settings).gaps[0];
-        const double error = rms_error(truth, spiked, outcome.gap);
-        EXPECT_LT(error, 3 * rms_error(truth, clip, outcome.gap) + 2)
-            << method << ", " << length << " frames, " << (before ? "before" : "behind");
-      }
-    }
-  }
-}
-
 }  // namespace
 }  // namespace kinemend::fill

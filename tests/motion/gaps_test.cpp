@@ -51,7 +51,7 @@ TEST(MarkGaps, OfATranslatedJointMarksItsTranslation) {
   clip.validate();
 }
 
-TEST(MarkGaps, KnowsPartsAsEveryOptionDoesButTheVeryNameFirst) {
+TEST(MarkGaps, KnowsNamesAsEveryOptionDoesButTheExactNameFirst) {
   Clip clip = testing::chain_clip(4, 10);
   clip.skeleton.names = {"Ann:Hips", "Ann:LArm", "*1", "11"};
   mark_gaps(clip, std::vector<NamedGap>{{"hips", 1, 1}, {"L*", 2, 3}, {"*1", 5, 5}});

@@ -123,7 +123,7 @@ TEST(LengthUnit, IsGuessedFromTheHeight) {
   skeleton.add_joint("hips", -1, {3, 85, 0}, {});
   skeleton.add_joint("toe", 0, {0, -85, 0}, {});
   skeleton.end_sites.push_back({0, {0, 85, 0}, "top"});
-  EXPECT_NEAR(skeleton_height(skeleton), 170, 1e-12);
+  EXPECT_NEAR(body_height(skeleton), 170, 1e-12);
   const auto guess_at = [&](double scale) {
     Skeleton scaled = skeleton;
     for (Vec3& offset : scaled.offsets) offset = scale * offset;

@@ -38,7 +38,7 @@ TEST(SequenceDamage, TurnsJointsAndMovesThePlaceByWhatIsAskedFor) {
   const DamageReport report = damage_sequence(sequences.layout, 60, noisy, observed, "gaussian",
                                               {{"std_deg", 2.0}}, random);
   double turns = 0, moves = 0;
-  const std::size_t joints = sequences.layout.part_count();
+  const std::size_t joints = sequences.layout.track_count();
   for (std::size_t f = 0; f < clean.frames; ++f) {
     for (std::size_t n = 0; n < joints; ++n) {
       const double angle =

@@ -63,7 +63,7 @@ TEST(AutoOnMarkers, FindsTheSpikesAndReportsThem) {
   const double damaged = 0.005 * static_cast<double>(truth.positions.size());
   EXPECT_GT(static_cast<double>(spikes), 0.75 * damaged);
   EXPECT_LT(static_cast<double>(spikes), 1.15 * damaged);
-  for (const MarkerSummary& marker : result.report.markers) EXPECT_NEAR(marker.noise, 2, 0.5);
+  for (const TrackSummary& marker : result.report.tracks) EXPECT_NEAR(marker.noise, 2, 0.5);
 }
 
 }  // namespace

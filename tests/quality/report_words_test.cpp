@@ -36,8 +36,8 @@ TEST(ReportWords, NoiseIsTheMeasuredOneAtAnySensitivity) {
   for (const double sensitivity : {0.0, 0.5, 3.0}) {
     const CleanReport other =
         clean_clip(noisy, *make_cleaner("auto", {{"sensitivity", sensitivity}})).report;
-    for (std::size_t j = 0; j < usual.joints.size(); ++j)
-      EXPECT_EQ(other.joints[j].noise_deg, usual.joints[j].noise_deg) << sensitivity;
+    for (std::size_t j = 0; j < usual.tracks.size(); ++j)
+      EXPECT_EQ(other.tracks[j].noise, usual.tracks[j].noise) << sensitivity;
   }
 }
 
@@ -53,7 +53,7 @@ TEST(ReportWords, SmoothingThatIsFarMoreThanNoiseIsSaid) {
   for (const char* method : {"auto", "hampel"}) {
     const CleanReport report = clean_clip(clip, *make_cleaner(method)).report;
     EXPECT_THAT(report.warnings, Each(Not(HasSubstr("smoothing changes")))) << method;
-    EXPECT_GE(report.joints[elbow].frames_repaired, 1u) << method;
+    EXPECT_GE(report.tracks[elbow].frames_repaired, 1u) << method;
   }
 }
 
@@ -80,12 +80,12 @@ TEST_P(FallBacks, AreNamedAndReportedAsWhatTheyAre) {
       for (std::size_t f = 0; f < noisy.frame_count(); ++f)
         equal += angle_between(result.clip.rotation(f, j), other.clip.rotation(f, j)) < 1e-6;
       const double share = shares[static_cast<std::int32_t>(j)];
-      const bool is_changed = other.report.joints[j].frames_changed > 0;
+      const bool is_changed = other.report.tracks[j].frames_changed > 0;
       EXPECT_LE(share, 1 + 1e-9);
       if (share > 1 - 1e-9) {
         ++fallen_back;
         EXPECT_EQ(equal, noisy.frame_count()) << noisy.skeleton.names[j];
-        EXPECT_EQ(result.report.joints[j].frames_repaired, other.report.joints[j].frames_repaired);
+        EXPECT_EQ(result.report.tracks[j].frames_repaired, other.report.tracks[j].frames_repaired);
       } else if (is_changed && share < 0.9) {
         EXPECT_LT(equal, noisy.frame_count()) << noisy.skeleton.names[j];
       }

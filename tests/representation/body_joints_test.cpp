@@ -18,7 +18,7 @@ Clip decoded(const Clip& clip, const BodyLayout& layout) {
   const BodyChannels channels = encode_body(clip, layout, match);
   Clip copy = clip;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-    for (const std::int32_t joint : match.parts) {
+    for (const std::int32_t joint : match.tracks) {
       if (joint >= 0) copy.rotation(f, static_cast<std::size_t>(joint)) = exp({0.3, -1.2, 0.7});
     }
     copy.root_positions[f] = {17, -3, 40};
@@ -163,7 +163,7 @@ TEST(BodyOfJoints, MeasuresFromAStandingFrameWhereTheRestPoseStandsNoPerson) {
   // What a standing person does with elbows and wrists is not that of a T-pose; legs and trunk are
   // told well.
   for (const char* name : {"Hips", "LeftUpLeg", "LeftLeg", "RightUpLeg", "RightLeg", "Spine"})
-    EXPECT_LT(rms_difference(expected.poses, found.poses, part_named(layout, name)), 16) << name;
+    EXPECT_LT(rms_difference(expected.poses, found.poses, track_named(layout, name)), 16) << name;
   EXPECT_LT(largest_turn(odd, decoded(odd, layout)), 1e-9);
 }
 
@@ -255,8 +255,8 @@ TEST(BodyOfJoints, MarksWhatWasNotMeasuredAndHoldsTheLastSeen) {
   clip.observed_positions.assign(clip.frame_count(), 1);
   for (std::size_t f = 0; f < 5; ++f) clip.observed_positions[f] = 0;
   const BodyChannels channels = channels_of(layout, clip);
-  const std::size_t channel = 3 * part_named(layout, "LeftArm");
-  const std::size_t place = 3 * layout.part_count(), width = layout.channel_count();
+  const std::size_t channel = 3 * track_named(layout, "LeftArm");
+  const std::size_t place = 3 * layout.track_count(), width = layout.channel_count();
   EXPECT_EQ(channels.observed[29 * width + channel], 1);
   EXPECT_EQ(channels.observed[30 * width + channel + 2], 0);
   EXPECT_EQ(channels.observed[59 * width + channel], 0);
@@ -268,14 +268,14 @@ TEST(BodyOfJoints, MarksWhatWasNotMeasuredAndHoldsTheLastSeen) {
   EXPECT_EQ(channels.poses(0, place + 1), channels.poses(5, place + 1));
 }
 
-TEST(BodyOfJoints, WritesTheChosenPartsOnly) {
+TEST(BodyOfJoints, WritesTheChosenTracksOnly) {
   const Clip clip = walk();
   const BodyLayout layout = layout_of(clip);
   const BodyMatch match = match_body(layout, clip);
   BodyChannels channels = encode_body(clip, layout, match);
   for (double& v : channels.poses.values) v += 5;
-  std::vector<std::uint8_t> chosen(layout.part_count() + 1);
-  chosen[part_named(layout, "LeftLeg")] = 1;
+  std::vector<std::uint8_t> chosen(layout.track_count() + 1);
+  chosen[track_named(layout, "LeftLeg")] = 1;
   Clip changed = clip;
   decode_body(channels, layout, match, changed, chosen);
   const auto leg = static_cast<std::size_t>(clip.skeleton.find("LeftLeg"));
@@ -304,7 +304,7 @@ TEST(BodyOfJoints, EncodesInTheFrameOfAGuide) {
   EXPECT_EQ(found.places, guide.places);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     for (std::size_t c = 0; c < layout.channel_count(); ++c) {
-      const bool spike = (f == 100 && c < 3) || (f == 50 && c >= 3 * layout.part_count());
+      const bool spike = (f == 100 && c < 3) || (f == 50 && c >= 3 * layout.track_count());
       if (spike) continue;
       EXPECT_NEAR(found.poses(f, c), guide.poses(f, c), 1e-9);
     }
@@ -322,16 +322,16 @@ TEST(BodyOfJoints, ContinuesRotationVectorsPastHalfATurn) {
   for (std::size_t f = 0; f < clip.frame_count(); ++f)
     clip.rotation(f, arm) = exp({2.8 + 0.8 * std::sin(0.0125 * static_cast<double>(f)), 0, 0});
   BodyLayout layout = layout_of(clip);
-  const std::size_t part = part_named(layout, "LeftArm");
-  layout.references[part] = {};
+  const std::size_t track = track_named(layout, "LeftArm");
+  layout.references[track] = {};
   const auto spike = clip.frame_count() / 2;
   clip.rotation(spike, arm) = exp({0, -1.5, 0});
   const BodyChannels channels = channels_of(layout, clip);
   double most = 0;
   for (std::size_t f = 1; f < clip.frame_count(); ++f) {
-    most = std::max(most, channels.poses(f, 3 * part));
+    most = std::max(most, channels.poses(f, 3 * track));
     if (f == spike || f == spike + 1) continue;
-    EXPECT_LT(std::fabs(channels.poses(f, 3 * part) - channels.poses(f - 1, 3 * part)), 0.7) << f;
+    EXPECT_LT(std::fabs(channels.poses(f, 3 * track) - channels.poses(f - 1, 3 * track)), 0.7) << f;
   }
   EXPECT_NEAR(most, 3.6 * degrees_per_radian, 0.1);
 }
@@ -346,14 +346,16 @@ TEST(BodyOfJoints, ForgetsWholeTurns) {
   for (std::size_t f = 0; f < clip.frame_count(); ++f)
     clip.rotation(f, hand) = exp({0, angle(f), 0});
   BodyLayout layout = layout_of(clip);
-  const std::size_t part = part_named(layout, "LeftHand");
-  layout.references[part] = {};
+  const std::size_t track = track_named(layout, "LeftHand");
+  layout.references[track] = {};
   const BodyChannels channels = channels_of(layout, clip);
   int jumps = 0;
   for (std::size_t f = 1; f < clip.frame_count(); ++f)
-    jumps += std::fabs(channels.poses(f, 3 * part + 1) - channels.poses(f - 1, 3 * part + 1)) > 300;
+    jumps +=
+        std::fabs(channels.poses(f, 3 * track + 1) - channels.poses(f - 1, 3 * track + 1)) > 300;
   EXPECT_EQ(jumps, 1);
-  EXPECT_NEAR(channels.poses(clip.frame_count() - 1, 3 * part + 1), 0.3 * degrees_per_radian, 1e-6);
+  EXPECT_NEAR(channels.poses(clip.frame_count() - 1, 3 * track + 1), 0.3 * degrees_per_radian,
+              1e-6);
 }
 
 TEST(BodyOfJoints, LeavesAloneWhatHoldsUpTheHips) {

@@ -28,17 +28,17 @@ std::string message_of(Work work) {
 
 TEST(BodyLayout, NamesItsChannels) {
   const BodyLayout layout = layout_of(walk());
-  EXPECT_EQ(layout.channel_count(), 3 * (layout.part_count() + 1));
+  EXPECT_EQ(layout.channel_count(), 3 * (layout.track_count() + 1));
   EXPECT_EQ(layout.channel_name(0), "Hips x");
   EXPECT_EQ(layout.channel_name(5), layout.names[1] + " z");
-  EXPECT_EQ(layout.channel_name(3 * layout.part_count() + 1), "place y");
+  EXPECT_EQ(layout.channel_name(3 * layout.track_count() + 1), "place y");
   const BodyLayout markers = layout_of(joint_markers(walk()));
-  EXPECT_EQ(markers.channel_count(), 3 * markers.part_count());
+  EXPECT_EQ(markers.channel_count(), 3 * markers.track_count());
   EXPECT_EQ(to_string(layout.kind), "joints");
   EXPECT_EQ(to_string(markers.kind), "markers");
 }
 
-TEST(BodyLayout, SaysWhichPartBreaksARule) {
+TEST(BodyLayout, SaysWhichTrackBreaksARule) {
   const BodyLayout good = layout_of(walk());
   EXPECT_NO_THROW(good.validate());
   const auto broken = [&](auto change) {
@@ -78,8 +78,8 @@ TEST(BodyLayoutBuilder, LearnsWhatMovesWithTheRootForemost) {
   EXPECT_EQ(layout.names.front(), "Hips");
   EXPECT_THAT(layout.names, Not(Contains("LeftLeg")));
   // What hung on the knee hangs on the hip.
-  const auto foot = part_named(layout, "LeftFoot");
-  ASSERT_LT(foot, layout.part_count());
+  const auto foot = track_named(layout, "LeftFoot");
+  ASSERT_LT(foot, layout.track_count());
   EXPECT_EQ(layout.names[static_cast<std::size_t>(layout.parents[foot])], "LeftUpLeg");
 }
 
@@ -95,7 +95,7 @@ TEST(BodyLayoutBuilder, ReferencesAreMeansOverAllTakes) {
     for (std::size_t f = 0; f < clip->frame_count(); ++f)
       rotations.push_back(clip->rotation(f, arm));
   }
-  const Quat reference = layout.references[part_named(layout, "RightArm")];
+  const Quat reference = layout.references[track_named(layout, "RightArm")];
   EXPECT_LT(angle_between(reference, chordal_mean(rotations)), 1e-6);
 }
 
@@ -115,9 +115,9 @@ TEST(BodyLayoutBuilder, DropsWhatMostTakesLack) {
   builder.add(clip);
   builder.add(other);
   builder.add(other);
-  const std::size_t parts = builder.finish().part_count();
+  const std::size_t tracks = builder.finish().track_count();
   EXPECT_THAT(builder.finish().names, Not(Contains("LeftHandThumb1")));
-  EXPECT_EQ(parts, layout_of(clip).part_count() - (layout_of(clip).part_count() - parts));
+  EXPECT_EQ(tracks, layout_of(clip).track_count() - (layout_of(clip).track_count() - tracks));
 }
 
 TEST(BodyLayoutBuilder, RefusesTakesThatItCannotLearnFrom) {
@@ -136,15 +136,15 @@ TEST(BodyLayoutBuilder, RefusesTakesThatItCannotLearnFrom) {
 TEST(BodyLayoutBuilder, LearnsChainsThatAreNoBody) {
   const Clip chain = synthesize({"spin", 4, 60, 1, false});
   const BodyLayout layout = layout_of(chain);
-  EXPECT_GE(layout.part_count(), 3U);
+  EXPECT_GE(layout.track_count(), 3U);
   const BodyMatch match = match_body(layout, chain);
   const BodyChannels channels = encode_body(chain, layout, match);
   Clip back = chain;
   for (Quat& q : back.local_rotations) q = normalized(q * exp({0.1, 0.2, 0.3}));
   const std::vector<Quat> shaken = back.local_rotations;
   decode_body(channels, layout, match, back);
-  for (std::size_t i = 0; i < layout.part_count(); ++i) {
-    const auto joint = static_cast<std::size_t>(match.parts[i]);
+  for (std::size_t i = 0; i < layout.track_count(); ++i) {
+    const auto joint = static_cast<std::size_t>(match.tracks[i]);
     EXPECT_LT(angle_between(chain.rotation(50, joint), back.rotation(50, joint)), 1e-9);
   }
 }
@@ -157,7 +157,7 @@ TEST(BodyLayoutBuilder, MarkersOfOneTakeAreThoseOfManyCopies) {
   const BodyLayout one = layout_of(clip), two = builder.finish();
   ASSERT_EQ(one.names, two.names);
   EXPECT_EQ(one.anchors, two.anchors);
-  for (std::size_t i = 0; i < one.part_count(); ++i)
+  for (std::size_t i = 0; i < one.track_count(); ++i)
     EXPECT_LT(norm(one.means[i] - two.means[i]), 0.01) << one.names[i];
 }
 

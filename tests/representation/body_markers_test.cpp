@@ -43,14 +43,14 @@ TEST(BodyOfMarkers, DecodesWhatItEncodes) {
 
 TEST(BodyOfMarkers, StandsUprightAndFacesAhead) {
   const BodyLayout layout = layout_of(turn_axes(marker_walk("stroll"), Axis::y, Axis::z));
-  const auto mean = [&](const char* name) { return layout.means[part_named(layout, name)]; };
+  const auto mean = [&](const char* name) { return layout.means[track_named(layout, name)]; };
   EXPECT_GT(mean("LeftUpLeg").x, 0.04);
   EXPECT_LT(mean("RightUpLeg").x, -0.04);
   EXPECT_GT(mean("Head").y, 0.85);
   EXPECT_GT(mean("LeftToeBase").z, mean("LeftFoot").z + 0.02);
   EXPECT_NEAR(mean("LeftToeBase").y, 0.03, 0.03);
-  EXPECT_NE(layout.anchors[part_named(layout, "Spine1")], 0);
-  EXPECT_EQ(layout.anchors[part_named(layout, "LeftHand")], 0);
+  EXPECT_NE(layout.anchors[track_named(layout, "Spine1")], 0);
+  EXPECT_EQ(layout.anchors[track_named(layout, "LeftHand")], 0);
 }
 
 TEST(BodyOfMarkers, DoesNotSeePlaceHeadingAxesAndUnits) {
@@ -107,7 +107,7 @@ TEST(BodyOfMarkers, HeedsNoAnchorThatLiesFarOff) {
   const BodyChannels clean = channels_of(layout, clip);
   MarkerClip odd = clip;
   const auto shoulder = static_cast<std::size_t>(clip.find("LeftArm"));
-  ASSERT_NE(layout.anchors[part_named(layout, "LeftArm")], 0);
+  ASSERT_NE(layout.anchors[track_named(layout, "LeftArm")], 0);
   for (std::size_t f = 40; f < 120; ++f) odd.position(f, shoulder) += Vec3{60, 0, 40};
   const BodyChannels found = channels_of(layout, odd);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -131,7 +131,7 @@ TEST(BodyOfMarkers, HardlyMissesBothArms) {
   const BodyMatch match = match_body(layout, armless);
   EXPECT_TRUE(match.missing.empty());
   const BodyChannels channels = encode_body(armless, layout, match);
-  for (std::size_t i = 0; i < layout.part_count(); ++i) {
+  for (std::size_t i = 0; i < layout.track_count(); ++i) {
     const bool arm = is_of_an_arm(layout.names[i]);
     EXPECT_EQ(channels.observed[3 * i], arm ? 0 : 1);
     if (arm)
@@ -153,7 +153,7 @@ TEST(BodyOfMarkers, HardlyMissesBothArms) {
   const BodyMatch other = match_body(layout, without);
   EXPECT_FALSE(other.missing.empty());
   const BodyChannels found = encode_body(without, layout, other);
-  EXPECT_LT(rms_difference(whole.poses, found.poses, part_named(layout, "LeftFoot")), 1.5);
+  EXPECT_LT(rms_difference(whole.poses, found.poses, track_named(layout, "LeftFoot")), 1.5);
 }
 
 TEST(BodyOfMarkers, BridgesFramesWithoutAnchors) {
@@ -182,16 +182,16 @@ MarkerClip of_subject(MarkerClip clip, const std::string& prefix) {
 TEST(BodyOfMarkers, FindsNamesInAnyCaseAndOfAnySubject) {
   const MarkerClip clip = joint_markers(walk());
   const BodyLayout layout = layout_of(clip);
-  const auto parts = match_body(layout, clip).parts;
+  const auto tracks = match_body(layout, clip).tracks;
   for (const char* prefix : {"Ann:", "Subject36_"}) {
     const MarkerClip ann = of_subject(clip, prefix);
-    EXPECT_EQ(match_body(layout, ann).parts, parts) << prefix;
-    EXPECT_EQ(match_body(layout_of(ann), clip).parts, parts) << prefix;
+    EXPECT_EQ(match_body(layout, ann).tracks, tracks) << prefix;
+    EXPECT_EQ(match_body(layout_of(ann), clip).tracks, tracks) << prefix;
   }
   MarkerClip upper = clip;
   for (std::string& name : upper.names)
     std::transform(name.begin(), name.end(), name.begin(), ::toupper);
-  EXPECT_EQ(match_body(layout, upper).parts, parts);
+  EXPECT_EQ(match_body(layout, upper).tracks, tracks);
 }
 
 TEST(BodyOfMarkers, DoesNotMixTwoPeople) {
@@ -213,7 +213,7 @@ TEST(BodyOfMarkers, DoesNotMixTwoPeople) {
   for (std::size_t i = 0; i < two.observed.size(); i += 3) {
     if (i % (2 * count) >= count) two.observed[i] = 0;
   }
-  for (const std::int32_t marker : match_body(layout, two).parts)
+  for (const std::int32_t marker : match_body(layout, two).tracks)
     EXPECT_GE(marker, static_cast<std::int32_t>(count));
 }
 
@@ -227,14 +227,14 @@ TEST(BodyOfMarkers, RefusesWhatItDoesNotKnow) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
-    EXPECT_THAT(error.what(), HasSubstr("the model knows " + std::to_string(layout.part_count()) +
+    EXPECT_THAT(error.what(), HasSubstr("the model knows " + std::to_string(layout.track_count()) +
                                         " markers, of which the take lacks " +
-                                        std::to_string(layout.part_count() - 3)));
+                                        std::to_string(layout.track_count() - 3)));
     EXPECT_THAT(error.what(), HasSubstr(layout.names.back()));
   }
   NameMap map;
   for (std::size_t m = 3; m < clip.marker_count(); ++m) map[clip.names[m]] = other.names[m];
-  EXPECT_EQ(match_body(layout, other, map).parts, match_body(layout, clip).parts);
+  EXPECT_EQ(match_body(layout, other, map).tracks, match_body(layout, clip).tracks);
   EXPECT_THROW(match_body(layout, walk()), Error);
   EXPECT_THROW(match_body(layout_of(walk()), clip), Error);
 }

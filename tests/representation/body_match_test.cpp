@@ -15,10 +15,10 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-// The take's name for a part of the layout; "-": none.
-std::string matched(const BodyLayout& layout, const Clip& clip, std::string_view part,
+// The take's name for a track of the layout; "-": none.
+std::string matched(const BodyLayout& layout, const Clip& clip, std::string_view track,
                     const NameMap& names = {}) {
-  const std::int32_t joint = match_body(layout, clip, names).parts[part_named(layout, part)];
+  const std::int32_t joint = match_body(layout, clip, names).tracks[track_named(layout, track)];
   return joint < 0 ? "-" : clip.skeleton.names[static_cast<std::size_t>(joint)];
 }
 
@@ -63,7 +63,7 @@ TEST(MatchBody, FindsTheUsualSpellings) {
   const auto expect_same = [&](const std::map<std::string, std::string>& names) {
     const Clip other = renamed(clip, names);
     for (const auto& [from, to] : names) {
-      if (part_named(layout, from) == layout.part_count()) continue;
+      if (track_named(layout, from) == layout.track_count()) continue;
       EXPECT_EQ(matched(layout, other, from), to);
     }
     EXPECT_LT(largest_difference(channels_of(layout, clip).poses, channels_of(layout, other).poses),
@@ -188,7 +188,7 @@ TEST(MatchBody, ListsWhatIsMissingAndUnknown) {
       match_body(layout, without_joint(renamed(clip, {{"Head", "Lamp"}}), "LeftToeBase"));
   EXPECT_THAT(match.missing, ElementsAre("LeftToeBase", "Head"));
   EXPECT_THAT(match.unknown, Contains("Lamp"));
-  EXPECT_EQ(match.parts[part_named(layout, "Head")], -1);
+  EXPECT_EQ(match.tracks[track_named(layout, "Head")], -1);
 }
 
 TEST(MatchBody, RefusesAStrangerWithTheJointsNamed) {
@@ -197,7 +197,7 @@ TEST(MatchBody, RefusesAStrangerWithTheJointsNamed) {
     match_body(layout, synthesize({"spin", 1, 60, 1, false}));
     FAIL();
   } catch (const Error& error) {
-    const std::string count = std::to_string(layout.part_count());
+    const std::string count = std::to_string(layout.track_count());
     EXPECT_EQ(error.kind(), ErrorKind::usage);
     EXPECT_THAT(error.what(),
                 HasSubstr("the model knows " + count + " joints, of which the take lacks "));
@@ -213,12 +213,12 @@ TEST(MatchBody, TakesTheWordOfANameMap) {
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
     const std::string& name = clip.skeleton.names[j];
     numbers[name] = "bone-" + std::to_string(j) + "x";
-    if (part_named(layout, name) < layout.part_count()) map[name] = numbers[name];
+    if (track_named(layout, name) < layout.track_count()) map[name] = numbers[name];
   }
   const Clip other = renamed(clip, numbers);
   EXPECT_THROW(match_body(layout, other), Error);
   EXPECT_THAT(match_body(layout, other, map).missing, IsEmpty());
-  // Stature, floor and axes are told as well as by usual names.
+  // Body height, floor and axes are told as well as by usual names.
   EXPECT_LT(largest_difference(channels_of(layout, clip).poses,
                                channels_of(layout, turn_axes(other, Axis::y, Axis::z), map).poses),
             1e-8);
@@ -242,19 +242,19 @@ TEST(MatchBody, RefusesNamesOfAMapThatThereAreNot) {
   EXPECT_THAT(message({{"Hips", "Tail"}}), HasSubstr("the take has no joint \"Tail\""));
 }
 
-TEST(MatchBody, MeasuresStatureWhateverTheRestPose) {
+TEST(MatchBody, MeasuresBodyHeightWhateverTheRestPose) {
   const Clip clip = walk();
   const BodyLayout layout = layout_of(clip);
-  const double stature = match_body(layout, clip).stature;
-  EXPECT_NEAR(stature, 172, 10);
-  EXPECT_NEAR(match_body(layout, scale_lengths(clip, 0.01)).stature, 0.01 * stature, 1e-9);
+  const double body_height = match_body(layout, clip).body_height;
+  EXPECT_NEAR(body_height, 172, 10);
+  EXPECT_NEAR(match_body(layout, scale_lengths(clip, 0.01)).body_height, 0.01 * body_height, 1e-9);
 }
 
 TEST(MatchBody, IsExactForTheSameSkeleton) {
   const Clip clip = walk();
   const BodyMatch match = match_body(layout_of(clip), clip);
   EXPECT_EQ(match.upright, Quat{});
-  for (std::size_t i = 0; i < match.parts.size(); ++i) {
+  for (std::size_t i = 0; i < match.tracks.size(); ++i) {
     EXPECT_EQ(match.before[i], Quat{});
     EXPECT_EQ(match.after[i], Quat{});
   }
@@ -289,7 +289,7 @@ TEST(MatchBody, StaysTheSameUnderNoise) {
   EXPECT_EQ(found.upright, expected.upright);
   EXPECT_EQ(found.before, expected.before);
   EXPECT_EQ(found.after, expected.after);
-  EXPECT_EQ(found.stature, expected.stature);
+  EXPECT_EQ(found.body_height, expected.body_height);
 }
 
 }  // namespace

@@ -25,9 +25,10 @@ MarkerClip markers(std::string_view path) {
   return std::get<MarkerClip>(read_take(data(path)).take);
 }
 
-std::string_view take_name(const Clip& clip, const BodyMatch& match, std::size_t part) {
-  return match.parts[part] < 0 ? std::string_view("-")
-                               : clip.skeleton.names[static_cast<std::size_t>(match.parts[part])];
+std::string_view take_name(const Clip& clip, const BodyMatch& match, std::size_t track) {
+  return match.tracks[track] < 0
+             ? std::string_view("-")
+             : clip.skeleton.names[static_cast<std::size_t>(match.tracks[track])];
 }
 
 TEST(RealBodies, DecodeWhatTheyEncode) {
@@ -39,7 +40,7 @@ TEST(RealBodies, DecodeWhatTheyEncode) {
     const Clip clip = motion(path);
     const BodyMatch match = match_body(layout, clip);
     Clip back = clip;
-    for (const std::int32_t joint : match.parts) {
+    for (const std::int32_t joint : match.tracks) {
       for (std::size_t f = 0; joint >= 0 && f < clip.frame_count(); ++f)
         back.rotation(f, static_cast<std::size_t>(joint)) = exp({0.3, 0.2, 1});
     }
@@ -48,7 +49,7 @@ TEST(RealBodies, DecodeWhatTheyEncode) {
     for (std::size_t i = 0; i < clip.local_rotations.size(); ++i)
       ASSERT_LT(angle_between(clip.local_rotations[i], back.local_rotations[i]), 1e-9) << path;
     for (std::size_t f = 0; f < clip.frame_count(); ++f)
-      ASSERT_LT(norm(clip.root_positions[f] - back.root_positions[f]), 1e-9 * match.stature);
+      ASSERT_LT(norm(clip.root_positions[f] - back.root_positions[f]), 1e-9 * match.body_height);
   }
 }
 
@@ -65,11 +66,11 @@ TEST(RealBodies, SeeOneTakeInTwoFormatsAlike) {
     EXPECT_THAT(match.missing, IsEmpty()) << amc;
     const BodyChannels expected = channels_of(layout, a), found = encode_body(b, layout, match);
     ASSERT_EQ(expected.poses.frames, found.poses.frames) << amc;
-    for (std::size_t i = 0; i <= layout.part_count(); ++i) {
+    for (std::size_t i = 0; i <= layout.track_count(); ++i) {
       EXPECT_LT(rms_difference(expected.poses, found.poses, i), 0.3)
           << amc << " "
-          << (i < layout.part_count() ? layout.names[i] + " " + std::string(take_name(b, match, i))
-                                      : "place");
+          << (i < layout.track_count() ? layout.names[i] + " " + std::string(take_name(b, match, i))
+                                       : "place");
     }
   }
 }
@@ -79,8 +80,8 @@ TEST(RealBodies, FindTheJointsOfOtherSkeletons) {
   const auto expect = [&](const char* path, const std::map<std::string, std::string>& names) {
     const Clip clip = motion(path);
     const BodyMatch match = match_body(layout, clip);
-    for (const auto& [part, name] : names)
-      EXPECT_EQ(take_name(clip, match, part_named(layout, part)), name) << path << " " << part;
+    for (const auto& [track, name] : names)
+      EXPECT_EQ(take_name(clip, match, track_named(layout, track)), name) << path << " " << track;
   };
   expect("paired/S02-Trial-Walk-1-xsens.bvh", {{"LeftUpLeg", "LeftHip"},
                                                {"LeftFoot", "LeftAnkle"},
@@ -117,9 +118,9 @@ TEST(RealBodies, SeeWalksOfOtherSkeletonsMuchAlike) {
     const BodyChannels channels = encode_body(clip, layout, match);
     for (const char* name : {"Hips", "LeftUpLeg", "LeftLeg", "RightUpLeg", "RightLeg", "LowerBack",
                              "Spine1", "LeftArm", "RightArm"}) {
-      const std::size_t part = part_named(layout, name);
-      ASSERT_GE(match.parts[part], 0) << path << " " << name;
-      for (std::size_t c = 3 * part; c < 3 * part + 3; ++c) {
+      const std::size_t track = track_named(layout, name);
+      ASSERT_GE(match.tracks[track], 0) << path << " " << name;
+      for (std::size_t c = 3 * track; c < 3 * track + 3; ++c) {
         double sum = 0;
         for (std::size_t f = 0; f < channels.poses.frames; ++f) sum += channels.poses(f, c);
         EXPECT_LT(std::fabs(sum / static_cast<double>(channels.poses.frames)), 35)
@@ -133,22 +134,22 @@ TEST(RealBodies, OfMarkersDecodeAndStand) {
   const MarkerClip clip = markers("cmu/c3d/85_12.c3d");
   const BodyLayout layout = layout_of(clip);
   const auto is_anchor = [&](const char* name) {
-    return layout.anchors[part_named(layout, name)] != 0;
+    return layout.anchors[track_named(layout, name)] != 0;
   };
   for (const char* name : {"LFWT", "RBWT", "CLAV", "STRN", "C7", "T10"})
     EXPECT_TRUE(is_anchor(name)) << name;
   for (const char* name : {"LFIN", "RELB", "LTOE", "RKNE"}) EXPECT_FALSE(is_anchor(name)) << name;
-  EXPECT_GT(layout.means[part_named(layout, "LSHO")].x, 0.05);
-  EXPECT_LT(layout.means[part_named(layout, "RSHO")].x, -0.05);
+  EXPECT_GT(layout.means[track_named(layout, "LSHO")].x, 0.05);
+  EXPECT_LT(layout.means[track_named(layout, "RSHO")].x, -0.05);
   const MarkerClip other = markers("cmu/c3d/85_02.c3d");
   const BodyMatch match = match_body(layout, other);
   EXPECT_THAT(match.missing, IsEmpty());
-  EXPECT_NEAR(match.stature, 1700, 60);
+  EXPECT_NEAR(match.body_height, 1700, 60);
   MarkerClip back = other;
   for (Vec3& p : back.positions) p = {};
   decode_body(encode_body(other, layout, match), layout, match, back);
   for (std::size_t f = 0; f < other.frame_count(); ++f) {
-    for (const std::int32_t marker : match.parts) {
+    for (const std::int32_t marker : match.tracks) {
       const auto m = static_cast<std::size_t>(marker);
       if (!other.is_observed(f, m)) continue;
       ASSERT_LT(norm(other.position(f, m) - back.position(f, m)), 1e-9);
@@ -171,7 +172,7 @@ TEST(RealBodies, HardlyMissTheMarkersOfBothArms) {
     if (is_of_an_arm(clip.names[i % clip.marker_count()])) armless.observed[i] = 0;
   }
   const BodyChannels channels = channels_of(layout, armless);
-  for (std::size_t i = 0; i < layout.part_count(); ++i) {
+  for (std::size_t i = 0; i < layout.track_count(); ++i) {
     if (is_of_an_arm(layout.names[i])) continue;
     EXPECT_LT(rms_difference(whole.poses, channels.poses, i), 0.1) << layout.names[i];
   }

@@ -36,17 +36,17 @@ inline double largest_difference(const PoseMatrix& a, const PoseMatrix& b) {
   return largest;
 }
 
-// Root mean square of the difference in the channels of part `part`.
-inline double rms_difference(const PoseMatrix& a, const PoseMatrix& b, std::size_t part) {
+// Root mean square of the difference in the channels of track `track`.
+inline double rms_difference(const PoseMatrix& a, const PoseMatrix& b, std::size_t track) {
   double sum = 0;
   for (std::size_t f = 0; f < a.frames; ++f) {
-    for (std::size_t c = 3 * part; c < 3 * part + 3; ++c)
+    for (std::size_t c = 3 * track; c < 3 * track + 3; ++c)
       sum += (a(f, c) - b(f, c)) * (a(f, c) - b(f, c));
   }
   return std::sqrt(sum / static_cast<double>(a.frames));
 }
 
-inline std::size_t part_named(const BodyLayout& layout, std::string_view name) {
+inline std::size_t track_named(const BodyLayout& layout, std::string_view name) {
   return static_cast<std::size_t>(std::find(layout.names.begin(), layout.names.end(), name) -
                                   layout.names.begin());
 }

@@ -54,8 +54,8 @@ TEST(NameMap, IsWrittenForAPersonToComplete) {
   EXPECT_THAT(text, HasSubstr("\nHead,\n"));
   EXPECT_THAT(text, HasSubstr("\n# Lamp\n"));
   const NameMap map = parse_name_map(text, "m.csv");
-  EXPECT_EQ(map.size(), layout.part_count());
-  EXPECT_EQ(match_body(layout, other, map).parts, match_body(layout, other).parts);
+  EXPECT_EQ(map.size(), layout.track_count());
+  EXPECT_EQ(match_body(layout, other, map).tracks, match_body(layout, other).tracks);
   // Also of a take that is refused.
   const std::string stranger = name_map_text(layout, synthesize({"spin", 1, 60, 1, false}));
   EXPECT_THAT(stranger, HasSubstr("\nHips,\n"));

@@ -21,11 +21,11 @@ MarkerClip live_take() {
 }
 
 // All frames pushed and flushed; checks that every frame comes out at its time.
-MarkerClip run(MarkerStream& stream, const MarkerClip& clip) {
+MarkerClip run(Stream& stream, const MarkerClip& clip) {
   MarkerClip result = clip;
   const std::size_t markers = clip.marker_count();
   std::size_t next = 0;
-  MarkerFrame in, out;
+  Frame in, out;
   const auto take = [&] {
     for (std::size_t m = 0; m < markers; ++m) {
       result.position(next, m) = out.positions[m];
@@ -62,9 +62,8 @@ class LiveOnMarkers : public testing::TestWithParam<std::string> {
 TEST_P(LiveOnMarkers, GivesWhatItGivesForTheWholeTake) {
   const MarkerClip clip = live_take();
   MarkerClip offline = clip;
-  const MarkerSelection all = MarkerSelection::all(clip);
-  cleaner_->clean_markers(offline, all);
-  const auto stream = make_marker_stream(*cleaner_, clip, all.body_height);
+  clean_in_place(*cleaner_, offline);
+  const auto stream = make_stream(*cleaner_, clip, body_height(clip));
   const MarkerClip first = run(*stream, clip);
   EXPECT_LT(max_distance(first, offline), 1e-8);
   stream->reset();
@@ -78,12 +77,11 @@ INSTANTIATE_TEST_SUITE_P(Methods, LiveOnMarkers,
 
 TEST(MarkerStream, RefusesWhatItCannotDo) {
   const MarkerClip clip = marker_take("walk", 0.5);
-  EXPECT_THROW(make_marker_stream(*make_cleaner("auto"), clip, 1750), Error);
-  EXPECT_THROW(make_marker_stream(*make_cleaner("nonlocal", {{"causal", true}}), clip, 1750),
-               Error);
-  MarkerFrame frame, out;
+  EXPECT_THROW(make_stream(*make_cleaner("auto"), clip, 1750), Error);
+  EXPECT_THROW(make_stream(*make_cleaner("nonlocal", {{"causal", true}}), clip, 1750), Error);
+  Frame frame, out;
   frame.positions.resize(3);
-  EXPECT_THROW(make_marker_stream(*make_cleaner("one-euro"), clip, 1750)->push(frame, out), Error);
+  EXPECT_THROW(make_stream(*make_cleaner("one-euro"), clip, 1750)->push(frame, out), Error);
 }
 
 }  // namespace

@@ -13,26 +13,12 @@
 namespace kinemend::test {
 namespace {
 
-LiveFrame frame_at(const Clip& clip, std::size_t f) {
-  LiveFrame frame;
-  frame.root_position = clip.root_positions[f];
-  for (std::size_t j = 0; j < clip.joint_count(); ++j)
-    frame.rotations.push_back(clip.rotation(f, j));
-  const std::size_t width = clip.translated_joints.size();
-  for (std::size_t i = 0; i < width; ++i) {
-    frame.joint_translations.push_back(clip.joint_translations[f * width + i]);
-  }
-  if (!clip.observed.empty()) {
-    for (std::size_t j = 0; j < clip.joint_count(); ++j)
-      frame.observed.push_back(clip.is_observed(f, j));
-  }
-  return frame;
-}
+Frame frame_at(const Clip& clip, std::size_t f) { return frame_of(view_of(clip), f); }
 
 // All frames pushed and flushed; checks that every frame comes out at its time.
-std::vector<LiveFrame> run(Stream& stream, const Clip& clip) {
-  std::vector<LiveFrame> result;
-  LiveFrame out;
+std::vector<Frame> run(Stream& stream, const Clip& clip) {
+  std::vector<Frame> result;
+  Frame out;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const bool came = stream.push(frame_at(clip, f), out);
     EXPECT_EQ(came, f >= stream.latency_frames()) << f;
@@ -44,18 +30,18 @@ std::vector<LiveFrame> run(Stream& stream, const Clip& clip) {
   return result;
 }
 
-void expect_equal(const std::vector<LiveFrame>& live, const Clip& offline, std::size_t first = 0) {
+void expect_equal(const std::vector<Frame>& live, const Clip& offline, std::size_t first = 0) {
   ASSERT_EQ(live.size(), offline.frame_count());
   double turn = 0, shift = 0;
   for (std::size_t f = first; f < live.size(); ++f) {
     for (std::size_t j = 0; j < offline.joint_count(); ++j) {
       turn = std::max(turn, angle_between(live[f].rotations[j], offline.rotation(f, j)));
     }
-    shift = std::max(shift, norm(live[f].root_position - offline.root_positions[f]));
-    for (std::size_t i = 0; i < live[f].joint_translations.size(); ++i) {
+    shift = std::max(shift, norm(live[f].positions[0] - offline.root_positions[f]));
+    const std::size_t width = live[f].positions.size() - 1;
+    for (std::size_t i = 0; i < width; ++i) {
       shift = std::max(shift,
-                       norm(live[f].joint_translations[i] -
-                            offline.joint_translations[f * live[f].joint_translations.size() + i]));
+                       norm(live[f].positions[i + 1] - offline.joint_translations[f * width + i]));
     }
   }
   EXPECT_LT(turn, 1e-12);
@@ -105,7 +91,7 @@ class LiveMethod : public testing::TestWithParam<Live> {
     return clip;
   }
   Clip offline(Clip clip) const {
-    cleaner_->clean(clip, Selection::all(clip));
+    clean_in_place(*cleaner_, clip);
     return clip;
   }
 };
@@ -126,18 +112,18 @@ TEST_P(LiveMethod, GivesTheSameForTakesShorterThanItsWindow) {
 TEST_P(LiveMethod, StartsAfreshWhenReset) {
   const Clip clip = take(60);
   const auto stream = make_stream(*cleaner_, clip);
-  const std::vector<LiveFrame> first = run(*stream, clip);
+  const std::vector<Frame> first = run(*stream, clip);
   stream->reset();
-  const std::vector<LiveFrame> second = run(*stream, clip);
+  const std::vector<Frame> second = run(*stream, clip);
   for (std::size_t f = 0; f < 60; ++f) {
     ASSERT_EQ(first[f].rotations, second[f].rotations) << f;
-    ASSERT_EQ(first[f].root_position, second[f].root_position) << f;
+    ASSERT_EQ(first[f].positions, second[f].positions) << f;
   }
   stream->reset();
-  LiveFrame out;
+  Frame out;
   stream->push(frame_at(clip, 0), out);
   stream->reset();  // in the middle of a take
-  const std::vector<LiveFrame> third = run(*stream, clip);
+  const std::vector<Frame> third = run(*stream, clip);
   EXPECT_EQ(first[59].rotations, third[59].rotations);
 }
 
@@ -185,7 +171,7 @@ TEST(Stream, RefusesAMethodThatNeedsTheWholeTake) {
 
 TEST(Stream, RefusesAFrameOfAnotherSkeleton) {
   const Clip clip = moving_take(5, 120);
-  LiveFrame frame = frame_at(clip, 0), out;
+  Frame frame = frame_at(clip, 0), out;
   frame.rotations.pop_back();
   for (const char* method : {"median", "one-euro"}) {
     const auto cleaner = make_cleaner(method);

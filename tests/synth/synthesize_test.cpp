@@ -31,7 +31,7 @@ TEST(Synth, TheHumanoidHas31JointsAndSixChannelsAtItsRoot) {
   }
 }
 
-TEST(Synth, SegmentsHaveTheSharesOfStatureThatWinterGives) {
+TEST(Synth, SegmentsHaveTheSharesOfBodyHeightThatWinterGives) {
   for (std::uint64_t seed : {1, 2, 3, 4}) {
     const Clip pose = synthesize({"still", 0.1, 10, seed, true});
     const auto positions = joint_positions(pose, true);
@@ -49,7 +49,7 @@ TEST(Synth, SegmentsHaveTheSharesOfStatureThatWinterGives) {
     EXPECT_NEAR(length("RightFoot") / top, 0.246, 0.005);
     EXPECT_NEAR(length("LeftForeArm") / top, 0.186, 0.005);
     EXPECT_NEAR(length("RightHand") / top, 0.146, 0.005);
-    // The span of the arms is about the stature.
+    // The span of the arms is about the body height.
     EXPECT_NEAR(2 * wide / top, 1, 0.12);
   }
 }

@@ -162,7 +162,7 @@ class SkeletonWriter {
   GlbMesh bones() const {
     GlbMesh mesh;
     // Bones too short to see would have no normals in single precision.
-    const double least = 1e-3 * scale_ * skeleton_height(skeleton_);
+    const double least = 1e-3 * scale_ * body_height(skeleton_);
     const auto add = [&](std::int32_t joint, Vec3 to) {
       if (joint < 0) return;
       const Vec3 from = positions_[static_cast<std::size_t>(joint)];

@@ -55,7 +55,7 @@ TEST(RealAmc, EverySkeletonIsValidAndOfAPerson) {
     EXPECT_TRUE(result.diagnostics.empty());
     EXPECT_EQ(result.clip.joint_count(), 31u);
     EXPECT_EQ(result.clip.skeleton.end_sites.size(), 7u);
-    const double metres = skeleton_height(result.clip.skeleton) * result.clip.metres_per_unit;
+    const double metres = body_height(result.clip.skeleton) * result.clip.metres_per_unit;
     EXPECT_GT(metres, 1.4);
     EXPECT_LT(metres, 2.1);
     EXPECT_EQ(result.clip.skeleton.limits.size(), 31u);
@@ -146,7 +146,7 @@ TEST(RealAmc, TakesOfBvhKeepTheirJointPositions) {
     SCOPED_TRACE(name);
     const Clip clip = read_clip(data / name).clip;
     const Clip again = read_pair(write_clip(clip, "amc"), write_clip(clip, "asf")).clip;
-    const double size = skeleton_height(clip.skeleton);
+    const double size = body_height(clip.skeleton);
     for (std::size_t f = 0; f < clip.frame_count(); f += 5) {
       const Pose a = forward_kinematics(clip, f), b = forward_kinematics(again, f);
       for (std::size_t j = 1; j < clip.joint_count(); ++j) {

@@ -35,7 +35,7 @@ void expect_same_positions(const Clip& clip, const Clip& again, double relative,
   ASSERT_EQ(clip.frame_count(), again.frame_count());
   if (names.empty()) names = clip.skeleton.names;
   names[0] = "root";
-  const double size = skeleton_height(clip.skeleton) + 1;
+  const double size = body_height(clip.skeleton) + 1;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const Pose expected = forward_kinematics(clip, f), found = forward_kinematics(again, f);
     for (std::size_t j = 0; j < names.size(); ++j) {

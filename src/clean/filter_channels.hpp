@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+
+#include "kinemend/cleaner.hpp"
+#include "kinemend/pose_matrix.hpp"
+
+namespace kinemend {
+
+enum class ChannelChoice {
+  quaternion,  ///< for linear filters: they commute with turning the frame on either side
+  suitable     ///< tangent space where the joint allows it: the noise is even there
+};
+
+/// Lets `filter` work, in place, on the channels of the changeable tracks, and hands these over. It
+/// sees up to eight pieces over the same frames at a time, side by side: of positions three
+/// channels each, from their first sample on. Blocks go in parallel.
+void filter_channels(const TakeView& take, ChannelChoice choice, const TrackSink& sink,
+                     const std::function<void(double)>& tell,
+                     const std::function<void(PoseMatrix&)>& filter);
+
+}  // namespace kinemend

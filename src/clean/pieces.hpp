@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/frame_span.hpp"
+#include "base/parallel.hpp"
+#include "base/progress.hpp"
+#include "kinemend/cleaner.hpp"
+
+// Tracks as filters see them: pieces without long gaps, of rotations and of positions alike.
+namespace kinemend {
+
+/// A stretch of a track with its gaps bridged. Of a track whose gaps are cut it starts and ends
+/// with an observed sample, and none of its gaps is longer than `longest_bridge`; of any other it
+/// is all of the track.
+template <class Sample>
+struct Piece {
+  std::size_t track = 0;
+  std::size_t first_frame = 0;
+  std::vector<Sample> samples;
+  /// One a sample; empty: all of them, or bridges that count like measurements, which those in
+  /// positions of joints do.
+  std::vector<std::uint8_t> observed;
+  std::vector<Action> actions;  ///< set by a filter that tells samples apart; else empty
+};
+
+/// Frames of the longest gap that is bridged where gaps are cut: 0.25 s.
+std::size_t longest_bridge(double frame_rate_hz);
+/// Frames on either side of such a gap that the bridge across it looks at: 0.05 s, at least 3.
+std::size_t bridge_support(double frame_rate_hz);
+
+/// The whole of a track of rotations, with geodesics in its gaps.
+Piece<Quat> rotation_piece(const TakeView& take, std::size_t track);
+/// The pieces of a track of positions, in the order of their frames. Bridges in positions of joints
+/// are straight; those of markers are cubics that leave and meet the observed samples at their own
+/// velocity (by least squares).
+std::vector<Piece<Vec3>> position_pieces(const TakeView& take, std::size_t track);
+/// Puts the geodesic between its observed neighbours (at the ends the nearest one) into each
+/// unobserved sample.
+void bridge_rotations(Piece<Quat>& piece);
+
+/// A marker's track in one piece, for methods that look at all markers in a frame: in long gaps the
+/// movement at either end dies away within about 0.1 s. Empty where nothing was observed.
+std::vector<Vec3> whole_positions(const TakeView& take, std::size_t track);
+
+/// What was observed of a track.
+std::vector<Quat> observed_rotations(const TakeView& take, std::size_t track);
+std::vector<Vec3> observed_positions(const TakeView& take, std::size_t track);
+
+/// A cleaned track from its pieces: of markers the observed samples alone, what was not stays as
+/// it stands; of rotations all samples, those in gaps marked as filled.
+CleanedTrack assemble(Piece<Quat> piece);
+CleanedTrack assemble(const TakeView& take, std::size_t track, std::span<Piece<Vec3>> pieces);
+
+/// The sample of track `track`, of positions, in a frame of this take.
+Vec3& position_in(const TakeView& take, std::size_t track, Frame& frame);
+
+/// Runs `filter(piece)`, for pieces of `Quat` and of `Vec3`, on each changeable track, in parallel,
+/// and hands the tracks over.
+template <class Filter>
+void filter_pieces(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>& tell, const Filter& filter) {
+  const std::vector<std::size_t> tracks = changeable_tracks(take);
+  ShareProgress progress(tell);
+  progress.begin_part(1, tracks.size());
+  for_each_parallel(tracks.size(), tracks.size() * take.frames, [&](std::size_t i) {
+    const std::size_t track = tracks[i];
+    if (take.tracks[track].space == Space::rotation) {
+      Piece<Quat> piece = rotation_piece(take, track);
+      filter(piece);
+      sink(track, assemble(std::move(piece)));
+    } else {
+      std::vector<Piece<Vec3>> pieces = position_pieces(take, track);
+      for (Piece<Vec3>& piece : pieces) filter(piece);
+      sink(track, assemble(take, track, pieces));
+    }
+    progress.step();
+  });
+}
+
+/// One frame of what `filter_pieces` gives: `filter(piece, i)` returns sample i of the piece
+/// filtered.
+template <class Filter>
+Frame filter_frame(const TakeView& window, std::size_t frame, const Filter& filter) {
+  Frame result = frame_of(window, frame);
+  for (const std::size_t track : changeable_tracks(window)) {
+    if (window.tracks[track].space == Space::rotation) {
+      result.rotations[track] = filter(rotation_piece(window, track), frame);
+      continue;
+    }
+    for (const Piece<Vec3>& piece : position_pieces(window, track)) {
+      const std::size_t i = frame - piece.first_frame;
+      if (frame < piece.first_frame || i >= piece.samples.size()) continue;
+      if (piece.observed.empty() || piece.observed[i] != 0)
+        position_in(window, track, result) = filter(piece, i);
+    }
+  }
+  return result;
+}
+
+}  // namespace kinemend

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "kinemend/random.hpp"
+#include "kinemend/rotation.hpp"
+
+namespace kinemend::corrupt {
+
+/// Three independent standard normal numbers: x, then y, then z.
+inline Vec3 normal_vector(Random& random) {
+  const double x = random.normal(), y = random.normal(), z = random.normal();
+  return {x, y, z};
+}
+
+}  // namespace kinemend::corrupt

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "corrupt/noise_events.hpp"
+#include "corrupt/system_noise.hpp"
+#include "kinemend/random.hpp"
+#include "kinemend/rotation.hpp"
+
+namespace kinemend::corrupt {
+
+/// What the error of a track depends on.
+struct NoisyTrack {
+  std::size_t number = 0;  ///< chooses its generator
+  std::size_t limb = 0;
+  bool is_arm = false;
+  int depth_axis = -1;                 ///< 0, 1, 2; -1: no axis is depth
+  std::span<const double> speed;       ///< F, m/s
+  std::span<const Vec3> displacement;  ///< F, mm from the track's mean; empty: none that leaks
+};
+
+/// Errors of the tracks of one take, each the same whatever other tracks are asked for. The parts
+/// that tracks have in common are made once.
+class TrackErrors {
+ public:
+  /// `noise` with all numbers given.
+  TrackErrors(const SystemNoise& noise, std::size_t frames, double rate_hz, const Random& random)
+      : noise_(noise), frames_(frames), rate_hz_(rate_hz), random_(random) {}
+
+  /// F vectors, mm.
+  std::vector<Vec3> errors_of(const NoisyTrack& track);
+
+ private:
+  // Slow noise and floor, of unit variance.
+  struct Stationary {
+    std::vector<Vec3> slow, floor;
+  };
+  struct Limb {
+    Stationary common;
+    std::vector<Vec3> errors;  // of the whole limb, mm; empty where it has none
+  };
+
+  Stationary stationary(const Random& random) const;
+  const Limb& limb(std::size_t number);
+  std::vector<Vec3> limb_errors(const Random& random) const;
+  void add_leaks(std::vector<Vec3>& errors, const NoisyTrack& track, Random random) const;
+  void add_bursts(std::vector<Vec3>& errors, const std::vector<Vec3>& deviations,
+                  const Random& random) const;
+
+  SystemNoise noise_;
+  std::size_t frames_;
+  double rate_hz_;
+  Random random_;
+  Stationary body_;
+  std::map<std::size_t, Limb> limbs_;
+};
+
+}  // namespace kinemend::corrupt

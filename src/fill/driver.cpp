@@ -1,0 +1,130 @@
+#include "fill/driver.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "fill/doubt.hpp"
+
+namespace kinemend::fill {
+
+namespace {
+
+// A doubted sample is a spike where it is farther from the filling than so many expected errors.
+// Not swept.
+constexpr double spike_errors = 4;
+
+// Those of the doubted samples that are far from a filling without them.
+Doubt spikes_among(Doubt doubt, const Track& around, FrameSpan gap, const Filling& filling,
+                   double spike_size) {
+  const double far = std::max(spike_size, spike_errors * filling.expected_error);
+  const auto is_far = [&](std::size_t frame) {
+    const Vec3 value = filling.values[frame - doubt.widened(gap).first];
+    return size_of(around, around.offset_from(around.sample_of(frame, value), frame)) > far;
+  };
+  return {doubt.before > 0 && is_far(gap.first - 1) ? doubt.before : 0,
+          doubt.behind > 0 && is_far(gap.last + 1) ? doubt.behind : 0};
+}
+
+// Without the samples beside the gap that are spikes.
+Filling fill_gap(const GappedTake& take, const OpenGap& gap) {
+  const FrameSpan span = gap.span();
+  if (span.length() == take.frames)
+    return Filling::refused(take.method, std::string(take.never_seen));
+  const Track around = take.around(gap);
+  const FrameSpan inner = within(around, span);
+  const double spike_size = take.spike_size(gap);
+  Doubt doubt = doubt_beside(around, inner, take.frame_rate_hz, spike_size);
+  for (int round = 0; round < 2 && doubt.any(); ++round) {
+    Filling filling = take.fill(gap, doubt.widened(span));
+    if (!filling.made()) {
+      if (take.rests_on_doubted) break;
+      return filling;
+    }
+    const Doubt spikes = spikes_among(doubt, around, inner, filling, spike_size);
+    if (spikes == doubt) {
+      const auto first = filling.values.begin() + static_cast<std::ptrdiff_t>(doubt.before);
+      filling.values = {first, first + static_cast<std::ptrdiff_t>(span.length())};
+      return filling;
+    }
+    doubt = spikes;
+  }
+  return take.fill(gap, span);
+}
+
+class Rounds {
+ public:
+  Rounds(GappedTake& take, const std::vector<OpenGap>& gaps)
+      : take_(take), gaps_(gaps), fillings_(gaps.size()) {}
+
+  // Until a round fills nothing.
+  void run() {
+    std::vector<std::size_t> open(gaps_.size());
+    std::iota(open.begin(), open.end(), std::size_t{0});
+    while (!open.empty()) {
+      try_gaps(open);
+      const std::size_t before = open.size();
+      std::erase_if(open, [&](std::size_t g) { return fillings_[g].made(); });
+      if (open.size() == before) break;
+      std::erase_if(open, [&](std::size_t g) { return !fillings_[g].may_wait; });
+    }
+  }
+
+  void refine() {
+    take_.begin_round();
+    std::vector<std::uint8_t> gains(gaps_.size());
+    tbb::parallel_for(std::size_t{0}, gaps_.size(), [&](std::size_t g) {
+      gains[g] = fillings_[g].made() && take_.gains(gaps_[g]) ? 1 : 0;
+    });
+    std::vector<std::size_t> again;
+    for (std::size_t g = 0; g < gaps_.size(); ++g) {
+      if (gains[g]) again.push_back(g);
+    }
+    if (!again.empty()) try_gaps(again);
+  }
+
+  FillReport finish() {
+    FillReport report;
+    for (std::size_t g = 0; g < gaps_.size(); ++g) {
+      Filling& filling = fillings_[g];
+      if (filling.made()) take_.store(gaps_[g], filling);
+      report.gaps.push_back({gaps_[g].gap, std::move(filling.method), filling.made(),
+                             std::move(filling.reason), filling.expected_error,
+                             gaps_[g].is_position});
+    }
+    return report;
+  }
+
+ private:
+  void try_gaps(const std::vector<std::size_t>& chosen) {
+    take_.begin_round();
+    std::vector<Filling> found(chosen.size());
+    tbb::parallel_for(std::size_t{0}, chosen.size(),
+                      [&](std::size_t i) { found[i] = fill_gap(take_, gaps_[chosen[i]]); });
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      Filling& before = fillings_[chosen[i]];
+      // A second look never takes back what the first has found.
+      if (!found[i].made() && before.made()) continue;
+      // Trials know the true places of companions that were filled, and expect too little then.
+      if (before.made()) found[i].expected_error = before.expected_error;
+      before = std::move(found[i]);
+      take_.learn(gaps_[chosen[i]], before);
+    }
+  }
+
+  GappedTake& take_;
+  const std::vector<OpenGap>& gaps_;
+  std::vector<Filling> fillings_;
+};
+
+}  // namespace
+
+FillReport fill_take(GappedTake& take, const std::vector<OpenGap>& gaps) {
+  Rounds rounds(take, gaps);
+  rounds.run();
+  rounds.refine();
+  return rounds.finish();
+}
+
+}  // namespace kinemend::fill

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fill/filling.hpp"
+#include "fill/track.hpp"
+#include "kinemend/fill.hpp"
+
+// How the gaps of a take are filled, whatever it is a take of.
+namespace kinemend::fill {
+
+/// A missing span that may be filled.
+struct OpenGap {
+  Gap gap;                   ///< `track` as the report names it: a joint or marker
+  bool is_position = false;  ///< of a joint
+  std::size_t track = 0;     ///< among the tracks of the take
+
+  FrameSpan span() const { return {gap.first_frame, gap.last_frame}; }
+};
+
+/// A take whose gaps are filled: all in which joints and markers differ. Errors and distances are
+/// in file units, of rotations in degrees.
+class GappedTake {
+ public:
+  virtual ~GappedTake() = default;
+
+  std::string method = {};  ///< asked for
+  std::size_t frames = 0;
+  double frame_rate_hz = 0;
+  std::string_view never_seen = {};  ///< why a gap as long as the take is refused
+  /// A gap is filled from doubted samples beside it where no method fills it without them.
+  bool rests_on_doubted = false;
+
+  /// The samples around a gap, `doubt_reach` of them at least.
+  virtual Track around(const OpenGap& gap) const = 0;
+  /// A sample beside a gap is a spike where it is farther than this from a filling without it.
+  virtual double spike_size(const OpenGap& gap) const = 0;
+  /// Fills `span`: the gap, or that and doubted samples beside it. Called in parallel.
+  virtual Filling fill(const OpenGap& gap, FrameSpan span) const = 0;
+  /// Before each round: a filling of an earlier one is known from here on.
+  virtual void begin_round() {}
+  virtual void learn(const OpenGap&, const Filling&) {}
+  /// Whether a filled gap gains from a second look, now that all others are filled.
+  virtual bool gains(const OpenGap&) const { return false; }
+  /// Writes what filled a gap, as observed. Called in the order of the gaps, at last.
+  virtual void store(const OpenGap& gap, const Filling& filling) = 0;
+};
+
+/// Fills the gaps in rounds: what one round fills may be evidence for the next. By gap.
+FillReport fill_take(GappedTake& take, const std::vector<OpenGap>& gaps);
+
+/// Whether a gap of a clip that begins with frame `first` of the take is one that may be filled.
+inline bool lies_within(const Gap& gap, std::size_t first, const FillSettings& settings) {
+  return !settings.range || (gap.first_frame + first >= settings.range->first &&
+                             gap.last_frame + first <= settings.range->second);
+}
+
+}  // namespace kinemend::fill

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemend/rotation.hpp"
+
+namespace kinemend::fill {
+
+/// What a method makes of a span of a track.
+struct Filling {
+  std::vector<Vec3> values = {};  ///< of the span's frames, as the track has them; empty: refused
+  std::string method = {};        ///< that made them, or was tried last
+  std::string reason = {};        ///< why it was refused
+  /// Root mean square distance to the truth, file units or degrees; 0: unknown.
+  double expected_error = 0;
+  /// Refused for what other tracks lack now; a later round may see more.
+  bool may_wait = false;
+  /// Made from what other tracks show, so that it tells others something in turn; a curve does not.
+  bool is_evidence = true;
+
+  bool made() const { return !values.empty(); }
+  static Filling refused(std::string_view method, std::string reason, bool may_wait = false) {
+    return {{}, std::string(method), std::move(reason), 0, may_wait};
+  }
+};
+
+}  // namespace kinemend::fill

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/frame_span.hpp"
+#include "kinemend/clip.hpp"
+#include "kinemend/rotation.hpp"
+#include "rotation/rotation_chart.hpp"
+
+namespace kinemend::fill {
+
+/// A chart whose reference is the rotation itself where it is observed and runs along the geodesic
+/// through a gap, so that a curve through the observed vectors has their angular velocity at its
+/// ends, the straight line is slerp, and no turn is cut at 180 degrees.
+/// Through a gap the reference takes the shortest way, or one with a whole turn more about the same
+/// axis where the velocities at both ends tell of it; before the first and behind the last observed
+/// frame it rests.
+RotationChart make_rotation_chart(std::span<const Quat> rotations,
+                                  std::span<const std::uint8_t> observed, double frame_rate_hz);
+
+/// What stands in one frame of a track.
+struct Sample {
+  Vec3 value;     ///< in the track's own vectors
+  Quat rotation;  ///< of a track of rotations
+};
+
+/// Samples of one joint's rotation, or of a position of a joint or marker, as vectors. Only
+/// observed samples are evidence: a filled one stays marked as missing, so that the order in which
+/// gaps are filled does not matter.
+struct Track {
+  std::vector<Vec3> values;            ///< F: positions, or the chart's vectors
+  std::vector<std::uint8_t> observed;  ///< F
+  bool is_position = true;
+  RotationChart chart = {};     ///< of rotations
+  std::size_t joint = 0;        ///< of a joint's track
+  std::size_t first_frame = 0;  ///< of the take, where the track is a part of it
+
+  std::size_t frames() const noexcept { return observed.size(); }
+  Quat rotation(std::size_t frame) const { return chart.rotation_of(frame, values[frame]); }
+  Sample sample_of(std::size_t frame, Vec3 value) const {
+    return {value, is_position ? Quat{} : chart.rotation_of(frame, value)};
+  }
+  Sample sample(std::size_t frame) const { return sample_of(frame, values[frame]); }
+  /// From a sample of this or another track to what stands in `frame`: a difference of positions,
+  /// or Log(other^-1 own).
+  Vec3 offset_from(const Sample& other, std::size_t frame) const {
+    if (is_position) return values[frame] - other.value;
+    return log(conjugate(other.rotation) * rotation(frame));
+  }
+};
+
+/// A span of the take's frames as frames of the track.
+inline FrameSpan within(const Track& track, FrameSpan span) {
+  return {span.first - track.first_frame, span.last - track.first_frame};
+}
+inline std::vector<Vec3> values_in(const Track& track, FrameSpan span) {
+  const auto first = track.values.begin() + static_cast<std::ptrdiff_t>(span.first);
+  return {first, first + static_cast<std::ptrdiff_t>(span.length())};
+}
+
+Track rotation_track(const Clip& clip, std::size_t joint);
+/// `position`: 0 for joint 0, k + 1 for translated joint k.
+Track position_track(const Clip& clip, std::size_t position);
+
+/// Whether a span is filled as if the take started or ended with it.
+struct TakeEnds {
+  bool at_start = false, at_end = false;
+
+  bool any() const { return at_start || at_end; }
+};
+
+/// The span and up to `reach` frames on either side, of a take of so many frames.
+FrameSpan surroundings(FrameSpan span, TakeEnds ends, std::size_t reach, std::size_t frames);
+
+Track part_of(const Track& track, FrameSpan kept);
+
+/// The track up to `reach` frames around an observed span, as if that were a gap: nothing of what
+/// stands in it is known to the chart. With `ends` also as if the take ended there.
+Track hide_span(const Track& track, FrameSpan span, TakeEnds ends, std::size_t reach,
+                double frame_rate_hz);
+
+/// The whole track as if the span were missing too.
+Track without_span(const Track& track, FrameSpan span, double frame_rate_hz);
+
+/// Up to `most` of the frames, evenly chosen.
+std::vector<std::size_t> evenly(const std::vector<std::size_t>& frames, std::size_t most);
+/// The span's frames, or `most` of them.
+std::vector<std::size_t> frames_of(FrameSpan span, std::size_t most = SIZE_MAX);
+
+}  // namespace kinemend::fill

@@ -1,0 +1,140 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "kinemend/frame_numbers.hpp"
+#include "kinemend/text.hpp"
+#include "report/figures.hpp"
+#include "report/texts.hpp"
+#include "report/words.hpp"
+
+// What `check` says.
+namespace kinemend {
+
+std::string with_unit(double value, std::string_view unit) {
+  const std::string text = value == std::floor(value) && value < 1e15
+                               ? grouped(static_cast<std::size_t>(value))
+                               : figure(value);
+  return unit.empty() ? text : fmt::format("{} {}", text, unit);
+}
+
+namespace {
+
+std::string frames_text(const Finding& finding, const TakeFacts& take, const CheckReport& report) {
+  if (finding.first_frame == finding.last_frame)
+    return fmt::format("frame {}", frame_number(finding.first_frame, take.first_frame));
+  if (finding.last_frame - finding.first_frame + 1 + report.calibration_frames >= report.frames)
+    return "throughout";
+  return fmt::format("frames {}-{}", frame_number(finding.first_frame, take.first_frame),
+                     frame_number(finding.last_frame, take.first_frame));
+}
+
+std::string dashes_to_spaces(std::string_view name) {
+  std::string text(name);
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+}  // namespace
+
+std::string finding_sentence(const Finding& finding, const TakeFacts& take,
+                             const CheckReport& report) {
+  std::string text = frames_text(finding, take, report) + ": ";
+  if (!finding.track.empty()) text += printable(finding.track) + " ";
+  text += printable(finding.words);
+  const bool says_all = finding.figure == 0 || finding.kind == FindingKind::calibration;
+  if (!says_all) text += fmt::format(" ({})", with_unit(finding.figure, finding.unit));
+  return text;
+}
+
+std::string check_verdict(const CheckReport& report) {
+  std::size_t counts[3] = {};
+  for (const Finding& finding : report.findings)
+    ++counts[static_cast<std::size_t>(finding.severity)];
+  if (counts[1] + counts[2] == 0) return "nothing wrong";
+  return fmt::format("{} serious, {}", grouped(counts[2]), counted(counts[1], "warning"));
+}
+
+namespace {
+
+// The first few of each kind: a hundred spikes say no more than five.
+std::string findings_text(const TakeFacts& take, const CheckReport& report, bool all) {
+  constexpr std::size_t most_of_a_kind = 5;
+  std::map<FindingKind, std::size_t> shown;
+  std::string text;
+  std::size_t left_out = 0;
+  Table table({Align::left, Align::left, Align::left});
+  for (const Finding& finding : report.findings) {
+    if (!all && ++shown[finding.kind] > most_of_a_kind) {
+      ++left_out;
+      continue;
+    }
+    table.add({std::string(to_string(finding.severity)), dashes_to_spaces(to_string(finding.kind)),
+               finding_sentence(finding, take, report)});
+  }
+  if (!table.empty()) text += "\n" + table.text();
+  if (left_out > 0)
+    text += fmt::format("  and {} more of these kinds (--verbose lists them)\n", grouped(left_out));
+  return text;
+}
+
+std::string tracks_text(const CheckReport& report) {
+  Table table({Align::left, Align::right, Align::right, Align::right, Align::right, Align::right,
+               Align::right, Align::right});
+  table.add({report.is_markers ? "marker" : "joint", "gaps", "frames missing", "longest", "spikes",
+             "frozen or bridged", report.is_markers ? "swaps" : "flips",
+             report.noise_unit.empty() ? "noise" : "noise " + report.noise_unit});
+  for (const TrackHealth& track : report.tracks) {
+    table.add({printable(track.name), grouped(track.gaps), grouped(track.missing_frames),
+               grouped(track.longest_gap), grouped(track.spikes),
+               grouped(track.frozen + track.bridged),
+               grouped(report.is_markers ? track.swaps : track.flips), figure(track.noise)});
+  }
+  return "\n" + table.text();
+}
+
+// Of several people what the feet of each do.
+std::string subjects_text(const CheckReport& report) {
+  if (report.subjects.empty()) return "";
+  const auto length = [](const std::optional<double>& value) {
+    return value ? figure(*value) : "-";
+  };
+  Table table({Align::left, Align::right, Align::right, Align::right});
+  table.add({"subject", "markers", "slide cm", "depth cm"});
+  for (const SubjectHealth& subject : report.subjects) {
+    table.add({subject.name.empty() ? "(none)" : printable(subject.name), grouped(subject.markers),
+               length(subject.slide_cm), length(subject.sink_cm)});
+  }
+  return "\n" + table.text();
+}
+
+}  // namespace
+
+std::string check_text(const TakeFacts& take, const CheckReport& report,
+                       const TextOptions& options) {
+  const std::string name = painted(Paint::bold, shown_name(take), options.colours);
+  if (!take.contents.empty()) {
+    return fmt::format("{}: {}: nothing to check\n", name, take.contents);
+  }
+  std::string text =
+      fmt::format("{}: {}\n  {}, {}\n\n", name, check_verdict(report),
+                  length_text(report.frames, report.frame_rate_hz),
+                  counted(report.tracks.size(), report.is_markers ? "marker" : "joint"));
+  Table table({Align::left, Align::left});
+  for (const CheckFigure& entry : check_figure_table()) {
+    const std::optional<double> value = entry.get(report.figures);
+    const bool of_markers = entry.rule.name == "swaps", of_joints = entry.rule.name == "flips";
+    if (!value || (report.is_markers ? of_joints : of_markers)) continue;
+    table.add({std::string(entry.rule.label), with_unit(*value, unit_of(entry, report))});
+  }
+  for (const Diagnostic& entry : take.diagnostics.entries())
+    table.add({"repaired", printable(diagnostic_text(take.format, entry))});
+  text += table.text() + subjects_text(report) + findings_text(take, report, options.all);
+  if (options.all) text += tracks_text(report);
+  return text;
+}
+
+}  // namespace kinemend

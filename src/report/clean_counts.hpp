@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "kinemend/clean.hpp"
+
+// Sums over what `clean` did.
+namespace kinemend {
+
+std::size_t count_spans(const CleanReport& report, Action action);
+std::size_t tracks_changed(const CleanReport& report);
+/// Frames in which at least one joint or marker was repaired.
+std::size_t frames_repaired(const CleanReport& report);
+std::size_t gaps_left(const CleanReport& report);
+/// Frames a second that were cleaned.
+double frames_per_second(const CleanReport& report);
+/// `track` -1: the root position.
+bool is_changed(const CleanReport& report, std::int32_t track);
+std::string track_name(const CleanReport& report, std::int32_t track);
+/// Frames in which a leg turned or the body was lowered.
+std::size_t frames_adjusted(const FeetReport& report);
+std::size_t contacts_held(const FeetReport& report);
+
+}  // namespace kinemend

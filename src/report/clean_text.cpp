@@ -1,0 +1,259 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "kinemend/frame_numbers.hpp"
+#include "kinemend/text.hpp"
+#include "report/clean_counts.hpp"
+#include "report/texts.hpp"
+#include "report/words.hpp"
+
+// What `clean` says.
+namespace kinemend {
+
+namespace {
+
+constexpr std::size_t short_list = 8;
+
+std::string shown_unit(const CleanReport& report) {
+  return report.unit.empty() ? "units" : report.unit;
+}
+
+// Below this much jitter a take is not called noisy.
+double noticeable_noise(const CleanReport& report) {
+  constexpr double noticeable_deg = 0.1;
+  constexpr double noticeable_heights = 0.5 / 1750;  // half a millimetre of a person
+  return report.kind == TakeKind::markers ? noticeable_heights * report.body_height
+                                          : noticeable_deg;
+}
+
+// The middle one of the noises of what was smoothed and has one; 0 without any.
+double typical_noise(const CleanReport& report, std::size_t& count) {
+  std::vector<double> noises;
+  for (const TrackSummary& row : report.tracks) {
+    if (row.frames_changed > row.frames_repaired && row.noise > 0) noises.push_back(row.noise);
+  }
+  count = noises.size();
+  if (noises.empty()) return 0;
+  const auto middle = noises.begin() + static_cast<std::ptrdiff_t>(noises.size() / 2);
+  std::nth_element(noises.begin(), middle, noises.end());
+  return *middle;
+}
+
+// What changed, most first.
+std::vector<const TrackSummary*> changed_rows(const CleanReport& report) {
+  std::vector<const TrackSummary*> rows;
+  for (const TrackSummary& row : report.tracks) {
+    if (row.frames_changed > 0) rows.push_back(&row);
+  }
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const auto* a, const auto* b) { return a->rms_change > b->rms_change; });
+  return rows;
+}
+
+std::string change_table(const CleanReport& report, bool all_rows) {
+  const std::vector<const TrackSummary*> rows = changed_rows(report);
+  if (rows.empty()) return "";
+  Table table({Align::left, Align::right, Align::right, Align::right, Align::right, Align::right,
+               Align::right});
+  const std::string unit = shown_unit(report);
+  table.add({noun_of(report.kind), "noise " + unit, "change rms " + unit, "max " + unit,
+             "frames repaired", "peak " + unit + "/s before", "after"});
+  const std::size_t shown = all_rows ? rows.size() : std::min(rows.size(), short_list);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const TrackSummary& row = *rows[i];
+    table.add({printable(row.name), row.noise > 0 ? figure(row.noise) : "-", figure(row.rms_change),
+               figure(row.max_change), row.frames_repaired > 0 ? grouped(row.frames_repaired) : "-",
+               figure(row.peak_speed_before), figure(row.peak_speed_after)});
+  }
+  std::string text = table.text();
+  if (shown < rows.size())
+    text += fmt::format("  and {} that changed less (--verbose lists them)\n",
+                        counted(rows.size() - shown, noun_of(report.kind)));
+  return text;
+}
+
+// Gaps that were filled, by method, and those that were refused, one a line.
+std::string gaps_text(const CleanReport& report, std::int64_t first_frame, bool all_rows) {
+  if (report.fill.gaps.empty()) return "";
+  std::map<std::string, std::size_t> filled;
+  std::string refused;
+  std::size_t listed = 0;
+  for (const GapOutcome& outcome : report.fill.gaps) {
+    if (outcome.filled) {
+      ++filled[outcome.method];
+      continue;
+    }
+    if (++listed > short_list && !all_rows) continue;
+    refused += fmt::format("    {}, frames {} to {}: {}\n",
+                           printable(report.tracks[outcome.gap.track].name),
+                           frame_number(outcome.gap.first_frame, first_frame),
+                           frame_number(outcome.gap.last_frame, first_frame), outcome.reason);
+  }
+  std::vector<std::string> methods;
+  methods.reserve(filled.size());
+  for (const auto& [method, count] : filled)
+    methods.push_back(fmt::format("{} by {}", grouped(count), method));
+  std::string text = fmt::format("  {} of {} filled", report.fill.filled(),
+                                 counted(report.fill.gaps.size(), "gap"));
+  if (!methods.empty()) text += fmt::format(": {}", fmt::join(methods, ", "));
+  text += "\n";
+  if (listed > 0) text += fmt::format("  {} refused:\n{}", listed, refused);
+  if (listed > short_list && !all_rows)
+    text += fmt::format("    and {} more (--verbose lists them)\n", listed - short_list);
+  return text;
+}
+
+std::string swap_text(const CleanOutcome& outcome, std::int64_t first_frame) {
+  const CleanReport& report = outcome.report;
+  std::string text;
+  for (const MarkerSwap& swap : outcome.swaps) {
+    text += fmt::format("  {} and {} were swapped in frames {} to {}\n",
+                        printable(report.tracks[swap.first_marker].name),
+                        printable(report.tracks[swap.second_marker].name),
+                        frame_number(swap.first_frame, first_frame),
+                        frame_number(swap.last_frame, first_frame));
+  }
+  return text;
+}
+
+std::string leftovers_text(const CleanOutcome& outcome) {
+  std::string text;
+  for (const Leftover& leftover : outcome.leftovers)
+    text += fmt::format("  {} ({})\n", leftover.what, leftover.mend);
+  return text;
+}
+
+// Of tracks that changed at all: what nobody touched fell back to nothing.
+std::string fall_backs_text(const CleanReport& report, bool all_rows) {
+  constexpr std::size_t few = 4;
+  std::string text;
+  for (const FallBack& fall_back : report.fall_backs) {
+    std::vector<std::string> names;
+    double sum = 0;
+    for (std::size_t i = 0; i < fall_back.tracks.size(); ++i) {
+      if (!is_changed(report, fall_back.tracks[i])) continue;
+      names.push_back(printable(track_name(report, fall_back.tracks[i])));
+      sum += fall_back.shares[i];
+    }
+    if (names.empty()) continue;
+    const double share = sum / static_cast<double>(names.size());
+    text +=
+        fmt::format("  {} in place of {} for {}{}: {}", fall_back.method, report.method,
+                    counted(names.size(), noun_of(report.kind)),
+                    share < 0.995 ? fmt::format(" ({:.0f} %)", 100 * share) : "", fall_back.reason);
+    if (all_rows || names.size() <= few) text += fmt::format(" ({})", fmt::join(names, ", "));
+    text += "\n";
+  }
+  return text;
+}
+
+// Changed joints or markers that are more another method's than the one's that was asked for.
+std::size_t count_fallen_back(const CleanReport& report) {
+  std::map<std::int32_t, double> shares;
+  for (const FallBack& fall_back : report.fall_backs) {
+    for (std::size_t i = 0; i < fall_back.tracks.size(); ++i) {
+      const std::int32_t track = fall_back.tracks[i];
+      if (track >= 0 && is_changed(report, track)) shares[track] += fall_back.shares[i];
+    }
+  }
+  return static_cast<std::size_t>(std::count_if(
+      shares.begin(), shares.end(), [](const auto& entry) { return entry.second > 0.5; }));
+}
+
+}  // namespace
+
+std::string clean_verdict(const TakeFacts& take, const CleanOutcome& outcome) {
+  const CleanReport& report = outcome.report;
+  if (!take.contents.empty()) return take.contents + ": nothing to clean";
+  const std::size_t changed = tracks_changed(report);
+  const std::size_t spikes = count_spans(report, Action::despiked);
+  const std::size_t gaps = count_spans(report, Action::filled);
+  const std::size_t left = gaps_left(report);
+  std::vector<std::string> left_over;
+  if (left > 0) left_over.push_back(counted(left, "gap") + " left");
+  for (const Leftover& leftover : outcome.leftovers) left_over.push_back(leftover.what);
+  const std::string swaps =
+      outcome.swaps.empty() ? "" : counted(outcome.swaps.size(), "swap") + " of markers undone";
+  if (changed == 0 && report.root_max_change == 0) {
+    if (!swaps.empty()) left_over.insert(left_over.begin(), swaps);
+    if (left_over.empty()) return "clean: nothing changed";
+    const char* result = swaps.empty() ? "nothing changed" : "mended";
+    return fmt::format("{}: {}", result, fmt::join(left_over, ", "));
+  }
+  std::size_t noisy = 0;
+  const double noise = typical_noise(report, noisy);
+  std::vector<std::string> findings;
+  if (noise > 0) {
+    findings.push_back(fmt::format("{} {} jitter on {}", figure(noise), shown_unit(report),
+                                   counted(noisy, noun_of(report.kind))));
+  } else if (changed > 0) {
+    findings.push_back(counted(changed, noun_of(report.kind)) + " changed");
+  } else {
+    findings.push_back("the root position changed");
+  }
+  if (spikes > 0) findings.push_back(counted(spikes, "spike"));
+  if (gaps > 0) findings.push_back(counted(gaps, "gap"));
+  if (!swaps.empty()) findings.push_back(swaps);
+  findings.insert(findings.end(), left_over.begin(), left_over.end());
+  std::string all = fmt::format("{}", fmt::join(findings, ", "));
+  if (const std::size_t count = count_fallen_back(report); count > 0)
+    all += fmt::format("; {} in place of {} for {}", report.fall_backs.front().method,
+                       report.method, counted(count, noun_of(report.kind)));
+  if (noise >= noticeable_noise(report)) return "noisy: " + all;
+  if (spikes + gaps + outcome.swaps.size() > 0) return "damaged: " + all;
+  return noise > 0 ? "nearly clean: " + all : "smoothed: " + all;
+}
+
+namespace {
+
+// The take's name, the verdict and where the result went, on one line.
+std::string headline(const TakeFacts& take, const CleanOutcome& outcome, bool colours) {
+  const std::string result = clean_verdict(take, outcome);
+  const bool is_good = result.compare(0, 5, "noisy") != 0 && result.compare(0, 7, "damaged") != 0;
+  const std::string line = fmt::format(
+      "{}: {}", shown_name(take), painted(is_good ? Paint::green : Paint::yellow, result, colours));
+  return line + (take.output.empty() ? "; nothing written (--dry-run)" : written_text(take)) + "\n";
+}
+
+// A table of what changed, the gaps, and the sums.
+std::string details(const TakeFacts& take, const CleanOutcome& outcome, bool all_rows) {
+  if (!take.contents.empty()) return "";
+  const CleanReport& report = outcome.report;
+  std::string text = fmt::format("  {}, method {}",
+                                 length_text(report.frames, report.frame_rate_hz), report.method);
+  if (report.calibration_frames > 0) {
+    text += fmt::format(
+        "; the first {} a calibration pose and left alone",
+        report.calibration_frames == 1 ? "is" : fmt::format("{} are", report.calibration_frames));
+  }
+  text += "\n";
+  if (const std::string table = change_table(report, all_rows); !table.empty())
+    text += "\n" + table + "\n";
+  if (report.root_max_change > 0) {
+    text += fmt::format("  root position: change rms {}, max {} (file units)\n",
+                        figure(report.root_rms_change), figure(report.root_max_change));
+  }
+  text += fall_backs_text(report, all_rows) + swap_text(outcome, take.first_frame) +
+          gaps_text(report, take.first_frame, all_rows) + leftovers_text(outcome);
+  if (report.feet) text += feet_text(*report.feet, take.first_frame, all_rows);
+  text += fmt::format("  {} of {} changed, {} repaired", tracks_changed(report),
+                      counted(report.tracks.size(), noun_of(report.kind)),
+                      counted(frames_repaired(report), "frame"));
+  if (report.seconds > 0)
+    text +=
+        fmt::format("; {} frames/s", grouped(static_cast<std::size_t>(frames_per_second(report))));
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string clean_text(const TakeFacts& take, const CleanOutcome& outcome,
+                       const TextOptions& options) {
+  std::string text = headline(take, outcome, options.colours);
+  if (options.details) text += details(take, outcome, options.all);
+  return text;
+}
+
+}  // namespace kinemend

@@ -1,0 +1,217 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "kinemend/curves.hpp"
+#include "kinemend/frame_numbers.hpp"
+#include "kinemend/svg.hpp"
+#include "kinemend/text.hpp"
+
+namespace kinemend {
+
+namespace {
+
+using Point = Svg::Point;
+
+constexpr double left = 64, right = 12, top = 28, bottom = 22, space = 10;  // pixels
+constexpr std::string_view before_ink = "#d9480f", after_ink = "#0b7285",
+                           difference_ink = "#5f3dc4";
+constexpr std::string_view text_ink = "#343a40", quiet_ink = "#868e96", grid_ink = "#e9ecef";
+
+// What is drawn: frames, and where they are.
+struct Span {
+  std::size_t first = 0, count = 0;
+  double width = 0;
+
+  double x(double frame) const {
+    const double steps = std::max(static_cast<double>(count) - 1, 1.0);
+    return left + (width - left - right) * (frame - static_cast<double>(first)) / steps;
+  }
+};
+
+struct Panel {
+  double top = 0, height = 0, low = 0, high = 1;
+
+  double y(double value) const { return top + height * (high - value) / (high - low); }
+};
+
+std::string_view band_colour(std::string_view kind) {
+  if (kind == "spike") return "#ffa8a8";
+  if (kind == "gap") return "#ffd43b";
+  if (kind == "slide") return "#b197fc";
+  return "#dee2e6";
+}
+
+void widen(const std::vector<double>& curve, const Span& span, double& low, double& high) {
+  for (std::size_t i = 0; i < span.count; ++i) {
+    const double value = curve[span.first + i];
+    if (!std::isfinite(value)) continue;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+}
+
+// A panel that holds the curves with some room; `least` is a range of values below which it does
+// not get.
+Panel panel_of(const std::vector<const std::vector<double>*>& curves, const Span& span, double y,
+               double height, double least) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const auto* curve : curves) widen(*curve, span, low, high);
+  if (low > high) low = high = 0;
+  const double room = std::max(0.08 * (high - low), (least - (high - low)) / 2);
+  return {y, height, low - room, high + room};
+}
+
+// Lines that break where samples are missing. Where several frames share a pixel, its least and
+// largest values stand for them.
+std::vector<std::vector<Point>> lines_of(const std::vector<double>& curve, const Span& span,
+                                         const Panel& panel) {
+  const auto pixels = static_cast<std::size_t>(span.width);
+  const std::size_t stride =
+      std::max(span.count / std::max(pixels, std::size_t{1}), std::size_t{1});
+  std::vector<std::vector<Point>> lines(1);
+  const auto add = [&](std::size_t frame) {
+    lines.back().push_back({span.x(static_cast<double>(frame)), panel.y(curve[frame])});
+  };
+  for (std::size_t f = span.first; f < span.first + span.count; f += stride) {
+    const std::size_t end = std::min(f + stride, span.first + span.count);
+    std::size_t low = end, high = end;
+    bool breaks = false;
+    for (std::size_t g = f; g < end; ++g) {
+      if (!std::isfinite(curve[g])) {
+        breaks = true;
+        continue;
+      }
+      if (low == end || curve[g] < curve[low]) low = g;
+      if (high == end || curve[g] > curve[high]) high = g;
+    }
+    if (low != end) {
+      add(std::min(low, high));
+      if (low != high) add(std::max(low, high));
+    }
+    if (breaks && !lines.back().empty()) lines.emplace_back();
+  }
+  // A sample alone between two gaps is a dot.
+  for (std::vector<Point>& line : lines) {
+    if (line.size() == 1) line.push_back({line[0].x + 0.1, line[0].y});
+  }
+  return lines;
+}
+
+// The distance of round numbers, about `count` of which lie within `range`.
+double round_step(double range, double count) {
+  const double step = range / count, power = std::pow(10.0, std::floor(std::log10(step)));
+  for (const double digit : {1.0, 2.0, 5.0}) {
+    if (digit * power >= step) return digit * power;
+  }
+  return 10 * power;
+}
+
+// Level lines at round values.
+void draw_levels(Svg& svg, const Panel& panel, const Span& span) {
+  const double step = round_step(panel.high - panel.low, 4);
+  svg.open_group(fmt::format("font-size=\"11\" fill=\"{}\" text-anchor=\"end\"", quiet_ink));
+  for (double k = std::ceil(panel.low / step); k * step <= panel.high; ++k) {
+    const double y = panel.y(k * step);
+    svg.line({left, y}, {span.width - right, y}, fmt::format("stroke=\"{}\"", grid_ink));
+    svg.text(left - 5, y + 4, "", fmt::format("{:.4g}", k == 0 ? 0.0 : k * step));
+  }
+  svg.close_group();
+}
+
+// Frame numbers below the panels.
+void draw_frames(Svg& svg, const TrackCurves& curves, const Span& span, double y) {
+  if (span.count == 0) return;
+  const auto number = [&](std::size_t frame) { return frame_number(frame, curves.first_frame); };
+  const double step = std::max(round_step(static_cast<double>(span.count), 8), 1.0);
+  svg.open_group(fmt::format("font-size=\"11\" fill=\"{}\" text-anchor=\"middle\"", quiet_ink));
+  const auto last = static_cast<double>(number(span.first + span.count - 1));
+  for (double n = step * std::ceil(static_cast<double>(number(span.first)) / step); n <= last;
+       n += step) {
+    svg.text(span.x(n - static_cast<double>(curves.first_frame)), y, "", fmt::format("{:.0f}", n));
+  }
+  svg.close_group();
+}
+
+void draw_bands(Svg& svg, const TrackCurves& curves, std::span<const ReportFinding> findings,
+                const Span& span, double bottom_y) {
+  const std::size_t last = span.first + span.count;
+  for (const ReportFinding& finding : findings) {
+    const bool is_other = !finding.quantity.empty() && finding.quantity != curves.quantity;
+    const bool is_here = !is_other && finding.track == curves.name &&
+                         finding.last_frame >= span.first && finding.first_frame < last;
+    // What is smoothed all along would cover everything.
+    if (!is_here || finding.kind == "noise") continue;
+    const double from =
+        span.x(static_cast<double>(std::max(finding.first_frame, span.first)) - 0.5);
+    const double to = span.x(static_cast<double>(std::min(finding.last_frame, last - 1)) + 0.5);
+    const double x = std::max(from, left), width = std::min(to, span.width - right) - x;
+    svg.rectangle(x, top, std::max(width, 1.0), bottom_y - top,
+                  fmt::format("fill=\"{}\" opacity=\".5\"", band_colour(finding.kind)));
+  }
+}
+
+void draw_curve(Svg& svg, const std::vector<double>& curve, const Span& span, const Panel& panel,
+                std::string_view ink, double width) {
+  svg.path(lines_of(curve, span, panel),
+           fmt::format("fill=\"none\" stroke-linejoin=\"round\" stroke=\"{}\" stroke-width=\"{}\"",
+                       ink, width));
+}
+
+void draw_key(Svg& svg, double x, std::string_view ink, std::string_view name) {
+  svg.line({x, 14}, {x + 22, 14}, fmt::format("stroke=\"{}\" stroke-width=\"2\"", ink));
+  svg.text(x + 27, 18, fmt::format("fill=\"{}\"", text_ink), name);
+}
+
+}  // namespace
+
+std::string curves_svg(const TrackCurves& curves, std::span<const ReportFinding> findings,
+                       const CurveStyle& style) {
+  const std::size_t frames = curves.difference.size();
+  const std::size_t first = std::min(style.first_frame, frames);
+  const std::size_t last = frames == 0 ? 0 : std::min(style.last_frame, frames - 1);
+  const Span span{first, last < first || frames == 0 ? 0 : last - first + 1, style.width};
+  const std::size_t panels = curves.axes.size() + 1;
+  const double last_y = top + static_cast<double>(panels) * (style.panel_height + space) - space;
+  const std::string name = xml_escaped(printable(curves.name));
+  const std::string unit = curves.unit.empty() ? "" : ", " + xml_escaped(printable(curves.unit));
+  Svg svg(style.width, last_y + bottom, name + " before and after");
+  svg.open_group(
+      "font-size=\"13\" font-family=\"system-ui,-apple-system,Segoe "
+      "UI,Helvetica,Arial,sans-serif\"");
+  svg.text(left, 18, fmt::format("font-weight=\"600\" fill=\"{}\"", text_ink), name + unit);
+  draw_key(svg, style.width - 310, before_ink, "before");
+  draw_key(svg, style.width - 215, after_ink, "after");
+  draw_key(svg, style.width - 130, difference_ink, "difference");
+  for (std::size_t p = 0; p < panels; ++p) {
+    const double y = top + static_cast<double>(p) * (style.panel_height + space);
+    svg.rectangle(left, y, style.width - left - right, style.panel_height, "fill=\"#f8f9fa\"");
+  }
+  draw_bands(svg, curves, findings, span, last_y);
+  // Curves that hardly move are not blown up to fill their panel.
+  constexpr double least_range = 1e-6;
+  for (std::size_t p = 0; p < panels; ++p) {
+    const bool is_axis = p < curves.axes.size();
+    const double y = top + static_cast<double>(p) * (style.panel_height + space);
+    const Panel panel =
+        is_axis ? panel_of({&curves.before[p], &curves.after[p]}, span, y, style.panel_height,
+                           least_range)
+                : panel_of({&curves.difference}, span, y, style.panel_height, least_range);
+    draw_levels(svg, panel, span);
+    if (is_axis) {
+      draw_curve(svg, curves.before[p], span, panel, before_ink, 1);
+      draw_curve(svg, curves.after[p], span, panel, after_ink, 1.5);
+      svg.text(left + 6, y + 15, fmt::format("fill=\"{}\"", text_ink), curves.axes[p]);
+    } else {
+      draw_curve(svg, curves.difference, span, panel, difference_ink, 1);
+    }
+  }
+  draw_frames(svg, curves, span, last_y + 15);
+  svg.close_group();
+  return std::move(svg).finish();
+}
+
+}  // namespace kinemend

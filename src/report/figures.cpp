@@ -1,0 +1,122 @@
+#include "report/figures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <vector>
+
+namespace kinemend {
+
+namespace {
+
+using Value = std::optional<double>;
+
+// None where no foot was found to stand.
+Value slide_of(const FootSlide& slide) {
+  return slide.contact_steps > 0 ? Value(slide.per_frame) : std::nullopt;
+}
+
+template <class Figures>
+std::vector<FigureRule> rules_of(const Figures& figures) {
+  std::vector<FigureRule> rules;
+  std::transform(figures.begin(), figures.end(), std::back_inserter(rules),
+                 [](const auto& figure) { return figure.rule; });
+  return rules;
+}
+
+}  // namespace
+
+std::span<const CheckFigure> check_figure_table() {
+  static constexpr auto table = std::to_array<CheckFigure>(
+      {{{"gaps", "gaps", "", "max_gaps", true},
+        {FindingKind::gap, FindingKind::gap},
+        [](const CheckFigures& f) -> Value { return static_cast<double>(f.gaps); }},
+       {{"longest_gap_s", "longest gap", "s", "max_gap_s"},
+        {FindingKind::gap, FindingKind::gap},
+        [](const CheckFigures& f) -> Value { return f.longest_gap_s; }},
+       {{"missing_percent", "samples missing", "%", "max_missing"},
+        {FindingKind::gap, FindingKind::gap},
+        [](const CheckFigures& f) -> Value { return f.missing_percent; }},
+       {{"swaps", "swapped markers", "", "max_swaps", true},
+        {FindingKind::swap, FindingKind::swap},
+        [](const CheckFigures& f) -> Value { return static_cast<double>(f.swaps); }},
+       {{"spikes", "spikes", "", "max_spikes", true},
+        {FindingKind::spike, FindingKind::spike},
+        [](const CheckFigures& f) -> Value { return static_cast<double>(f.spikes); }},
+       {{"frozen", "frozen or bridged spans", "", "max_frozen", true},
+        {FindingKind::frozen, FindingKind::bridged},
+        [](const CheckFigures& f) -> Value { return static_cast<double>(f.frozen); }},
+       {{"worst_noise", "noise of the worst track", "", "max_noise"},
+        {FindingKind::noise, FindingKind::noise},
+        [](const CheckFigures& f) -> Value { return f.worst_noise; }},
+       {{"length_change_percent", "change of a length", "%", "max_length_change"},
+        {FindingKind::length, FindingKind::length},
+        [](const CheckFigures& f) -> Value { return f.length_change_percent; }},
+       {{"slide_cm", "slide of a standing foot", "cm", "max_slide_cm"},
+        {FindingKind::slide, FindingKind::slide},
+        [](const CheckFigures& f) -> Value { return f.slide_cm; }},
+       {{"sink_cm", "depth below the floor", "cm", "max_sink_cm"},
+        {FindingKind::sink, FindingKind::sink},
+        [](const CheckFigures& f) -> Value { return f.sink_cm; }},
+       {{"flips", "Euler flips", "", "max_flips", true},
+        {FindingKind::euler_flip, FindingKind::euler_flip},
+        [](const CheckFigures& f) -> Value { return static_cast<double>(f.flips); }}});
+  return table;
+}
+
+std::string unit_of(const CheckFigure& figure, const CheckReport& report) {
+  const bool is_of_tracks = figure.rule.unit.empty() && !figure.rule.is_count;
+  return is_of_tracks ? report.noise_unit : std::string(figure.rule.unit);
+}
+
+std::span<const ComparisonFigure> comparison_figure_table() {
+  static constexpr auto table = std::to_array<ComparisonFigure>(
+      {{{"rms_deg", "joint-angle channels, mean over frames (Mall et al.)", "deg", "max_rms_deg"},
+        [](const Comparison& c) -> Value { return c.rms_deg; }},
+       {{"geodesic_rms_deg", "angle between local rotations, all joints", "deg",
+         "max_geodesic_rms_deg"},
+        [](const Comparison& c) -> Value { return c.geodesic_rms_deg; }},
+       {{"geodesic_p99_deg", "its 99th percentile", "deg", "max_geodesic_p99_deg"},
+        [](const Comparison& c) -> Value { return c.geodesic_p99_deg; }},
+       {{"geodesic_max_deg", "its largest value", "deg", "max_geodesic_max_deg"},
+        [](const Comparison& c) -> Value { return c.geodesic_max_deg; }},
+       {{"mpjpe", "mean distance of joint positions, file units", "units", "max_mpjpe"},
+        [](const Comparison& c) -> Value { return c.mpjpe; }},
+       {{"mpjpe_cm", "the same where the unit is known", "cm", "max_mpjpe_cm"},
+        [](const Comparison& c) -> Value { return c.mpjpe_cm; }},
+       {{"accel_error", "difference of joint accelerations", "units/s2", "max_accel_error"},
+        [](const Comparison& c) -> Value { return c.accel_error; }},
+       {{"psnr_db", "peak signal to noise of the logarithms (Dean)", "dB", "min_psnr_db", false,
+         true},
+        [](const Comparison& c) -> Value { return c.psnr_db; }},
+       {{"rmse_per_marker_m", "distance of joint positions per frame, mean (Xiao et al.)", "m",
+         "max_rmse_per_marker_m"},
+        [](const Comparison& c) -> Value {
+          return c.rmse_per_marker_m ? Value(c.rmse_per_marker_m->mean) : std::nullopt;
+        }},
+       {{"rmse_per_marker_deviation_m", "its standard deviation over frames", "m",
+         "max_rmse_per_marker_deviation_m"},
+        [](const Comparison& c) -> Value {
+          return c.rmse_per_marker_m ? Value(c.rmse_per_marker_m->deviation) : std::nullopt;
+        }},
+       {{"mse_rad2", "squared angle, mean over joints (Courty)", "rad2", "max_mse_rad2"},
+        [](const Comparison& c) -> Value { return c.mse_rad2; }},
+       {{"foot_slide", "travel per frame of feet in contact, of OTHER", "units", "max_foot_slide"},
+        [](const Comparison& c) { return slide_of(c.foot_slide); }},
+       {{"foot_slide_reference", "the same of REFERENCE, for comparison", "units",
+         "max_foot_slide_reference"},
+        [](const Comparison& c) { return slide_of(c.foot_slide_reference); }}});
+  return table;
+}
+
+std::span<const FigureRule> check_figures() {
+  static const std::vector<FigureRule> rules = rules_of(check_figure_table());
+  return rules;
+}
+
+std::span<const FigureRule> comparison_figures() {
+  static const std::vector<FigureRule> rules = rules_of(comparison_figure_table());
+  return rules;
+}
+
+}  // namespace kinemend

@@ -1,0 +1,265 @@
+#include "report/json.hpp"
+
+#include <utility>
+
+#include "kinemend/frame_numbers.hpp"
+#include "kinemend/report.hpp"
+#include "kinemend/version.hpp"
+#include "report/clean_counts.hpp"
+
+namespace kinemend {
+
+namespace {
+
+Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
+Json positive_or_null(double value) { return value > 0 ? Json(value) : Json(); }
+
+Json number(double value, bool is_count) {
+  return is_count ? Json(static_cast<std::uint64_t>(value)) : Json(value);
+}
+Json number(const std::optional<double>& value, bool is_count = false) {
+  return value ? number(*value, is_count) : Json();
+}
+
+Json json_of(const OptionValues& options) {
+  Json json = Json::object();
+  for (const auto& [name, value] : options)
+    json[name] = std::visit([](const auto& v) { return Json(v); }, value);
+  return json;
+}
+
+Json json_of(const Diagnostics& diagnostics, std::string_view format) {
+  const char* const place = format == "c3d" ? "first_byte" : "first_line";
+  Json list = Json::array();
+  for (const Diagnostic& entry : diagnostics.entries()) {
+    list.push_back({{"name", entry.name},
+                    {"message", entry.message},
+                    {place, entry.first_line},
+                    {"count", entry.count}});
+  }
+  return list;
+}
+
+Json json_of(const ReportFinding& finding, std::int64_t first_frame) {
+  Json json = {{"kind", finding.kind},
+               {"verdict", finding.verdict},
+               {"track", text_or_null(finding.track)},
+               {"first_frame", frame_number(finding.first_frame, first_frame)},
+               {"last_frame", frame_number(finding.last_frame, first_frame)},
+               {"amount", number(finding.amount)},
+               {"unit", text_or_null(finding.unit)},
+               {"reason", text_or_null(finding.reason)}};
+  // What only some commands know.
+  if (finding.rms) json["rms"] = *finding.rms;
+  if (!finding.quantity.empty()) json["quantity"] = finding.quantity;
+  if (!finding.method.empty()) json["method"] = finding.method;
+  return json;
+}
+
+Json figures_json(const Report& report) {
+  Json json = Json::object();
+  for (const ReportFigure& figure : figures_of(report))
+    json[figure.name] = number(figure.value, figure.is_count);
+  return json;
+}
+
+Json tracks_json(const ReportTracks& tracks) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < tracks.names.size(); ++i) {
+    Json row = {{"name", tracks.names[i]}};
+    for (const ReportColumn& column : tracks.columns)
+      row[column.name] = number(column.values[i], column.is_count);
+    list.push_back(std::move(row));
+  }
+  return list;
+}
+
+Json json_of(const FeetFigures& figures) {
+  return {{"slide", figures.slide},
+          {"most_slide", figures.most_slide},
+          {"sink", figures.sink},
+          {"knee_pop_deg", figures.knee_pop_deg}};
+}
+
+Json contacts_json(const FeetReport& report, std::int64_t first_frame) {
+  Json contacts = Json::array();
+  for (std::size_t i = 0; i < report.contacts.size(); ++i) {
+    const FootContact& contact = report.contacts[i];
+    const bool is_held = report.held[i] != 0;
+    contacts.push_back({{"side", report.sides[contact.leg]},
+                        {"part", to_string(contact.part)},
+                        {"first_frame", frame_number(contact.first_frame, first_frame)},
+                        {"last_frame", frame_number(contact.last_frame, first_frame)},
+                        {"held", is_held},
+                        {"reason", is_held ? Json() : Json(report.reasons[i])}});
+  }
+  return contacts;
+}
+
+Json feet_json(const FeetReport& report, std::int64_t first_frame, bool with_contacts) {
+  // Feet that never stand neither slide nor sink.
+  const bool has_contact = !report.contacts.empty();
+  Json json = {{"metres_per_unit", positive_or_null(report.metres_per_unit)},
+               {"held", contacts_held(report)},
+               {"frames_adjusted", frames_adjusted(report)},
+               {"before", has_contact ? json_of(report.before) : Json()},
+               {"after", has_contact ? json_of(report.after) : Json()}};
+  if (with_contacts) json["contacts"] = contacts_json(report, first_frame);
+  return json;
+}
+
+Json fall_backs_json(const CleanReport& report) {
+  Json list = Json::array();
+  for (const FallBack& fall_back : report.fall_backs) {
+    Json tracks = Json::array();
+    for (std::size_t i = 0; i < fall_back.tracks.size(); ++i) {
+      tracks.push_back(
+          {{"name", track_name(report, fall_back.tracks[i])}, {"share", fall_back.shares[i]}});
+    }
+    list.push_back(
+        {{"method", fall_back.method}, {"reason", fall_back.reason}, {"tracks", tracks}});
+  }
+  return list;
+}
+
+Json leftovers_json(const std::vector<Leftover>& leftovers) {
+  Json list = Json::array();
+  for (const Leftover& leftover : leftovers)
+    list.push_back({{"what", leftover.what}, {"mend", leftover.mend}});
+  return list;
+}
+
+Json subjects_json(const CheckReport& report) {
+  Json list = Json::array();
+  for (const SubjectHealth& subject : report.subjects) {
+    list.push_back({{"name", subject.name},
+                    {"markers", subject.markers},
+                    {"slide_cm", number(subject.slide_cm)},
+                    {"sink_cm", number(subject.sink_cm)}});
+  }
+  return list;
+}
+
+// What only one command has, between the verdict and the figures.
+void add_own(const TakeFacts& take, const CleanOutcome& outcome, Depth depth, Json& json) {
+  json["method"] = outcome.report.method;
+  if (depth != Depth::row) json["options"] = json_of(outcome.options);
+  if (outcome.report.feet) {
+    json["feet"] = feet_json(*outcome.report.feet, take.first_frame, depth != Depth::row);
+  }
+  if (depth == Depth::row) return;
+  json["fall_backs"] = fall_backs_json(outcome.report);
+  json["leftovers"] = leftovers_json(outcome.leftovers);
+}
+void add_own(const TakeFacts& /*take*/, const CheckReport& report, Depth /*depth*/, Json& json) {
+  json["subjects"] = subjects_json(report);
+}
+void add_own(const TakeFacts& /*take*/, const FillOutcome& /*outcome*/, Depth /*depth*/,
+             Json& /*json*/) {}
+void add_own(const TakeFacts& /*take*/, const CompareOutcome& outcome, Depth /*depth*/,
+             Json& json) {
+  json["reference"] = outcome.reference;
+}
+void add_own(const TakeFacts& take, const FeetReport& report, Depth /*depth*/, Json& json) {
+  json["feet"] = feet_json(report, take.first_frame, true);
+}
+
+const std::vector<std::string>* warnings_of(const Report& report) {
+  if (const auto* clean = std::get_if<CleanOutcome>(&report.result)) return &clean->report.warnings;
+  if (const auto* fill = std::get_if<FillOutcome>(&report.result)) return &fill->report.warnings;
+  if (const auto* feet = std::get_if<FeetReport>(&report.result)) return &feet->warnings;
+  return nullptr;
+}
+
+// The frames at the start that are no motion; none where the command does not look for them.
+std::optional<std::size_t> calibration_frames(const Report& report) {
+  if (const auto* clean = std::get_if<CleanOutcome>(&report.result))
+    return clean->report.calibration_frames;
+  if (const auto* check = std::get_if<CheckReport>(&report.result))
+    return check->calibration_frames;
+  return std::nullopt;
+}
+
+double metres_per_unit_of(const Report& report) {
+  // Where the file does not say, the check has found what makes the body a person.
+  const auto* check = std::get_if<CheckReport>(&report.result);
+  return check != nullptr ? check->metres_per_unit : report.take.metres_per_unit;
+}
+
+// Puts a text of several lines a few blanks to the right. No string of JSON holds a line's end.
+void append_indented(std::string_view text, std::size_t blanks, std::string& result) {
+  result.append(blanks, ' ');
+  for (const char c : text) {
+    result += c;
+    if (c == '\n') result.append(blanks, ' ');
+  }
+}
+
+}  // namespace
+
+std::string text_of(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+Json take_json(const Report& report, Depth depth) {
+  const TakeFacts& take = report.take;
+  const std::optional<std::size_t> calibration = calibration_frames(report);
+  const ReportTracks tracks = tracks_of(report);
+  Json json = {{"input", take.input},
+               {"output", text_or_null(take.output)},
+               {"kind", take.kind == TakeKind::markers ? "markers" : "joints"},
+               {"format", text_or_null(take.format)},
+               {"frames", take.frames},
+               {"first_frame", take.first_frame},
+               {"frame_rate_hz", take.frame_rate_hz},
+               {"calibration_frames", calibration ? Json(*calibration) : Json()},
+               {"unit", text_or_null(take.unit)},
+               {"metres_per_unit", positive_or_null(metres_per_unit_of(report))},
+               {"track_unit", text_or_null(tracks.unit)},
+               {"verdict", text_or_null(verdict_of(report))}};
+  std::visit([&](const auto& result) { add_own(take, result, depth, json); }, report.result);
+  json["figures"] = figures_json(report);
+  const std::vector<std::string>* const warnings = warnings_of(report);
+  json["warnings"] = warnings != nullptr ? Json(*warnings) : Json::array();
+  if (depth == Depth::row) return json;
+  json["diagnostics"] = json_of(take.diagnostics, take.format);
+  json["findings"] = Json::array();
+  for (const ReportFinding& finding : findings_of(report, depth == Depth::all))
+    json["findings"].push_back(json_of(finding, take.first_frame));
+  json["tracks"] = tracks_json(tracks);
+  return json;
+}
+
+Json failure_entry(std::string_view input, std::string_view error, int exit_code) {
+  return {{"input", input}, {"error", error}, {"exit_code", exit_code}};
+}
+
+std::string to_json(const Report& report, bool with_spans) {
+  return text_of(take_json(report, with_spans ? Depth::all : Depth::summary));
+}
+
+std::string failure_json(std::string_view input, std::string_view error, int exit_code) {
+  return text_of(failure_entry(input, error, exit_code));
+}
+
+std::string diagnostics_json(const Diagnostics& diagnostics, std::string_view format) {
+  return text_of(json_of(diagnostics, format));
+}
+
+std::string report_document(std::string_view command, std::span<const std::string> takes) {
+  std::string document = text_of(Json{{"schema", report_schema},
+                                      {"kinemend", version()},
+                                      {"command", command},
+                                      {"takes", Json::array()}});
+  if (takes.empty()) return document + "\n";
+  // The entries are texts already: a report of long takes is long.
+  document.resize(document.rfind("[]"));
+  document += "[\n";
+  for (std::size_t i = 0; i < takes.size(); ++i) {
+    append_indented(takes[i], 4, document);
+    document += i + 1 < takes.size() ? ",\n" : "\n";
+  }
+  return document + "  ]\n}\n";
+}
+
+}  // namespace kinemend

@@ -1,0 +1,94 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "kinemend/frame_numbers.hpp"
+#include "kinemend/report.hpp"
+#include "kinemend/text.hpp"
+#include "report/words.hpp"
+
+namespace kinemend {
+
+namespace {
+
+// The usual name of a unit of length; empty for lengths that have none.
+std::string unit_name(double metres) {
+  for (const char* const name : {"m", "cm", "mm", "in"}) {
+    const double known = metres_per_unit(name);
+    if (std::fabs(metres - known) <= 1e-9 * known) return name;
+  }
+  return "";
+}
+
+std::string counted_message(const Diagnostic& diagnostic) {
+  const std::string times =
+      diagnostic.count > 1 ? fmt::format(" ({} times)", grouped(diagnostic.count)) : "";
+  return diagnostic.message + times;
+}
+
+bool places_are_bytes(std::string_view format) { return format == "c3d"; }
+
+}  // namespace
+
+std::string contents_without_markers(const MarkerClip& clip) {
+  if (clip.marker_count() > 0) return "";
+  for (const SourceFact& fact : clip.source.facts) {
+    if (fact.name == "analog frames")
+      return counted(std::stoul(fact.text), "analog frame") + ", no points";
+    if (fact.name == "rotations") return "rotations of " + fact.text + ", no points";
+  }
+  return "no points";
+}
+
+TakeFacts take_facts(const Clip& clip) {
+  TakeFacts facts;
+  facts.format = clip.source.format;
+  facts.unit = unit_name(clip.metres_per_unit);
+  facts.metres_per_unit = clip.metres_per_unit;
+  facts.tracks = clip.skeleton.names;
+  facts.frames = clip.frame_count();
+  facts.first_frame = first_frame_number(clip);
+  facts.frame_rate_hz = clip.frame_rate_hz;
+  return facts;
+}
+
+TakeFacts take_facts(const MarkerClip& clip) {
+  TakeFacts facts;
+  facts.kind = TakeKind::markers;
+  facts.format = clip.source.format;
+  facts.unit = clip.unit;
+  facts.metres_per_unit = metres_per_unit(clip.unit);
+  facts.tracks = clip.names;
+  facts.frames = clip.frame_count();
+  facts.first_frame = first_frame_number(clip);
+  facts.frame_rate_hz = clip.frame_rate_hz;
+  facts.contents = contents_without_markers(clip);
+  return facts;
+}
+
+std::string diagnostic_text(std::string_view format, const Diagnostic& diagnostic) {
+  if (diagnostic.first_line == 0) return counted_message(diagnostic);
+  return fmt::format("{} {}: {}", places_are_bytes(format) ? "byte" : "line", diagnostic.first_line,
+                     counted_message(diagnostic));
+}
+
+std::string diagnostic_line(const SourceInfo& source, const Diagnostic& diagnostic) {
+  if (diagnostic.first_line == 0 || places_are_bytes(source.format))
+    return source.name + ": " + diagnostic_text(source.format, diagnostic);
+  return fmt::format("{}:{}: {}", source.name, diagnostic.first_line, counted_message(diagnostic));
+}
+
+const char* noun_of(TakeKind kind) { return kind == TakeKind::markers ? "marker" : "joint"; }
+
+std::string shown_name(const TakeFacts& take) {
+  return take.input == "-" ? "standard input" : printable(take.input);
+}
+
+std::string written_text(const TakeFacts& take) {
+  return take.output == "-" ? "" : "; written to " + printable(take.output);
+}
+
+}  // namespace kinemend

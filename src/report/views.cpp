@@ -1,0 +1,201 @@
+#include <fmt/format.h>
+
+#include <type_traits>
+#include <utility>
+
+#include "kinemend/report.hpp"
+#include "kinemend/text.hpp"
+#include "report/clean_counts.hpp"
+#include "report/figures.hpp"
+#include "report/texts.hpp"
+#include "report/words.hpp"
+
+// The same questions to the result of any command.
+namespace kinemend {
+
+namespace {
+
+ReportFigure count_figure(std::string_view name, std::string_view label, std::size_t count) {
+  return {std::string(name), std::string(label), static_cast<double>(count), true, ""};
+}
+
+std::vector<ReportFigure> figures(const TakeFacts& take, const CleanOutcome& outcome) {
+  const CleanReport& report = outcome.report;
+  const bool is_joints = take.kind == TakeKind::joints;
+  const auto of_root = [&](double value) {
+    return is_joints ? std::optional<double>(value) : std::nullopt;
+  };
+  return {count_figure("tracks_changed", std::string(noun_of(take.kind)) + "s changed",
+                       tracks_changed(report)),
+          count_figure("frames_repaired", "frames repaired", frames_repaired(report)),
+          count_figure("spikes", "spikes repaired", count_spans(report, Action::despiked)),
+          count_figure("gaps", "gaps filled", count_spans(report, Action::filled)),
+          count_figure("gaps_refused", "gaps refused", report.fill.refused()),
+          // Files of joints mostly cannot tell a missing sample.
+          {"gaps_left", "gaps left",
+           is_joints ? std::nullopt : std::optional<double>(gaps_left(report)), true, ""},
+          count_figure("swaps_undone", "swaps undone", outcome.swaps.size()),
+          {"root_rms_change", "root position, change rms", of_root(report.root_rms_change), false,
+           take.unit},
+          {"root_max_change", "root position, largest change", of_root(report.root_max_change),
+           false, take.unit},
+          {"seconds", "time taken", report.seconds, false, "s"},
+          {"frames_per_second", "speed", frames_per_second(report), false, "1/s"}};
+}
+
+std::vector<ReportFigure> figures(const TakeFacts& /*take*/, const CheckReport& report) {
+  std::vector<ReportFigure> list;
+  for (const CheckFigure& figure : check_figure_table()) {
+    list.push_back({std::string(figure.rule.name), std::string(figure.rule.label),
+                    figure.get(report.figures), figure.rule.is_count, unit_of(figure, report)});
+  }
+  return list;
+}
+
+std::vector<ReportFigure> figures(const TakeFacts& /*take*/, const FillOutcome& outcome) {
+  return {count_figure("gaps", "gaps", outcome.report.gaps.size()),
+          count_figure("filled", "filled", outcome.report.filled()),
+          count_figure("refused", "refused", outcome.report.refused()),
+          count_figure("not_within_range", "not within the range", outcome.not_within_range)};
+}
+
+std::vector<ReportFigure> figures(const TakeFacts& /*take*/, const CompareOutcome& outcome) {
+  std::vector<ReportFigure> list = {
+      count_figure("frames_compared", "frames compared", outcome.comparison.frames),
+      {"psnr_peak", "peak of psnr_db", outcome.comparison.psnr_peak, false, "rad"}};
+  for (const ComparisonFigure& figure : comparison_figure_table()) {
+    list.push_back({std::string(figure.rule.name), std::string(figure.rule.label),
+                    figure.get(outcome.comparison), false, std::string(figure.rule.unit)});
+  }
+  return list;
+}
+
+std::vector<ReportFigure> figures(const TakeFacts& /*take*/, const FeetReport& report) {
+  return {count_figure("contacts", "contacts", report.contacts.size()),
+          count_figure("held", "held", contacts_held(report))};
+}
+
+// A column of one member of every row.
+template <class Row, class Member>
+ReportColumn column(std::string name, std::string label, const std::vector<Row>& rows,
+                    Member Row::*member) {
+  ReportColumn result{std::move(name), std::move(label), !std::is_floating_point_v<Member>, {}};
+  result.values.reserve(rows.size());
+  for (const Row& row : rows) result.values.push_back(static_cast<double>(row.*member));
+  return result;
+}
+
+template <class Row>
+std::vector<std::string> names_of(const std::vector<Row>& rows) {
+  std::vector<std::string> names;
+  names.reserve(rows.size());
+  for (const Row& row : rows) names.push_back(row.name);
+  return names;
+}
+
+ReportTracks tracks(const TakeFacts& take, const CleanOutcome& outcome) {
+  using Row = TrackSummary;
+  const std::vector<Row>& rows = outcome.report.tracks;
+  ReportTracks result{
+      outcome.report.unit,
+      names_of(rows),
+      {column("noise", "noise", rows, &Row::noise),
+       column("rms_change", "change rms", rows, &Row::rms_change),
+       column("max_change", "largest change", rows, &Row::max_change),
+       column("frames_changed", "frames changed", rows, &Row::frames_changed),
+       column("frames_repaired", "frames repaired", rows, &Row::frames_repaired),
+       column("peak_speed_before", "peak speed before", rows, &Row::peak_speed_before),
+       column("peak_speed_after", "after", rows, &Row::peak_speed_after),
+       column("peak_frames", "frames of a peak", rows, &Row::peak_frames)}};
+  if (take.kind == TakeKind::markers) {
+    result.columns.push_back(column("gaps_left", "gaps left", rows, &Row::gaps_left));
+    result.columns.push_back(
+        column("frames_missing", "frames missing", rows, &Row::frames_missing));
+  }
+  return result;
+}
+
+ReportTracks tracks(const TakeFacts& /*take*/, const CheckReport& report) {
+  using Row = TrackHealth;
+  const std::vector<Row>& rows = report.tracks;
+  return {report.noise_unit,
+          names_of(rows),
+          {column("gaps", "gaps", rows, &Row::gaps),
+           column("longest_gap", "longest gap, frames", rows, &Row::longest_gap),
+           column("missing_frames", "frames missing", rows, &Row::missing_frames),
+           column("spikes", "spikes", rows, &Row::spikes),
+           column("frozen", "frozen", rows, &Row::frozen),
+           column("bridged", "bridged", rows, &Row::bridged),
+           column("swaps", "swaps", rows, &Row::swaps), column("flips", "flips", rows, &Row::flips),
+           column("noise", "noise", rows, &Row::noise)}};
+}
+
+ReportTracks tracks(const TakeFacts& take, const CompareOutcome& outcome) {
+  using Row = JointComparison;
+  const std::vector<Row>& rows = outcome.comparison.joints;
+  return {"deg",
+          take.tracks,
+          {column("geodesic_rms_deg", "rms", rows, &Row::geodesic_rms_deg),
+           column("geodesic_max_deg", "largest", rows, &Row::geodesic_max_deg),
+           column("peak_speed_reference_deg_s", "peak speed of the reference", rows,
+                  &Row::peak_speed_reference_deg_s),
+           column("peak_speed_other_deg_s", "of the other", rows, &Row::peak_speed_other_deg_s),
+           column("peak_frames", "frames of a peak", rows, &Row::peak_frames)}};
+}
+
+ReportTracks tracks(const TakeFacts& /*take*/, const FillOutcome& /*outcome*/) { return {}; }
+ReportTracks tracks(const TakeFacts& /*take*/, const FeetReport& /*report*/) { return {}; }
+
+std::string verdict(const TakeFacts& take, const CleanOutcome& outcome) {
+  return clean_verdict(take, outcome);
+}
+std::string verdict(const TakeFacts& take, const CheckReport& report) {
+  return take.contents.empty() ? check_verdict(report) : take.contents + ": nothing to check";
+}
+std::string verdict(const TakeFacts& take, const FillOutcome& outcome) {
+  return take.contents.empty() ? fill_verdict(outcome) : take.contents + ": nothing to fill";
+}
+std::string verdict(const TakeFacts& /*take*/, const CompareOutcome& /*outcome*/) { return ""; }
+std::string verdict(const TakeFacts& /*take*/, const FeetReport& report) {
+  return fmt::format("{} of {} held", grouped(contacts_held(report)),
+                     counted(report.contacts.size(), "contact"));
+}
+
+std::string text(const TakeFacts& take, const CleanOutcome& outcome, const TextOptions& options) {
+  return clean_text(take, outcome, options);
+}
+std::string text(const TakeFacts& take, const CheckReport& report, const TextOptions& options) {
+  return check_text(take, report, options);
+}
+std::string text(const TakeFacts& take, const FillOutcome& outcome, const TextOptions& options) {
+  return fill_text(take, outcome, options);
+}
+std::string text(const TakeFacts& take, const CompareOutcome& outcome, const TextOptions& options) {
+  return comparison_text(take, outcome, options);
+}
+std::string text(const TakeFacts& take, const FeetReport& report, const TextOptions& options) {
+  return feet_text(report, take.first_frame, options.all);
+}
+
+}  // namespace
+
+std::string verdict_of(const Report& report) {
+  return std::visit([&](const auto& result) { return verdict(report.take, result); },
+                    report.result);
+}
+
+std::vector<ReportFigure> figures_of(const Report& report) {
+  return std::visit([&](const auto& result) { return figures(report.take, result); },
+                    report.result);
+}
+
+ReportTracks tracks_of(const Report& report) {
+  return std::visit([&](const auto& result) { return tracks(report.take, result); }, report.result);
+}
+
+std::string to_text(const Report& report, const TextOptions& options) {
+  return std::visit([&](const auto& result) { return text(report.take, result, options); },
+                    report.result);
+}
+
+}  // namespace kinemend

@@ -1,0 +1,193 @@
+#include "tracks/held_samples.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+
+#include "base/parallel.hpp"
+#include "base/quantiles.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr std::size_t longest_step = 8, fewest_samples = 8;
+// Differences between measurements over those at them. A chart bends what is held or straight by up
+// to some percent, Euler angles that are interpolated by more.
+constexpr double largest_ratio = 0.2;
+constexpr double least_difference = 1e-5;  // degrees: a track that does not move shows no pattern
+constexpr double agreeing_tracks = 0.9;
+
+// Sizes of the differences of order 1 or 2 by the frame at which they show a new measurement.
+std::vector<std::optional<double>> difference_sizes(std::span<const Vec3> track,
+                                                    std::span<const std::uint8_t> missing,
+                                                    SampleJoin join) {
+  std::vector<std::optional<double>> sizes(track.size());
+  for (std::size_t t = 1; t + (join == SampleJoin::linear ? 1 : 0) < track.size(); ++t) {
+    if (missing[t - 1] != 0 || missing[t] != 0) continue;
+    if (join == SampleJoin::held) {
+      sizes[t] = norm(track[t] - track[t - 1]);
+    } else if (missing[t + 1] == 0) {
+      sizes[t] = norm((track[t + 1] - track[t]) - (track[t] - track[t - 1]));
+    }
+  }
+  return sizes;
+}
+
+// The phase at which alone the differences are of size, if there is one: half of them are, there,
+// and hardly any of another phase, but where spikes are.
+std::optional<std::size_t> lone_phase(const std::vector<std::optional<double>>& sizes,
+                                      std::size_t step) {
+  constexpr double nearly_all = 0.9;
+  std::array<double, longest_step> usual{}, large{};
+  std::vector<double> of_phase;
+  for (std::size_t phase = 0; phase < step; ++phase) {
+    of_phase.clear();
+    for (std::size_t t = phase; t < sizes.size(); t += step) {
+      if (sizes[t]) of_phase.push_back(*sizes[t]);
+    }
+    if (of_phase.size() < fewest_samples) return std::nullopt;
+    usual[phase] = quantile_of(of_phase, 0.5);
+    large[phase] = quantile_of(of_phase, nearly_all);
+  }
+  const auto lone =
+      static_cast<std::size_t>(std::max_element(usual.begin(), usual.end()) - usual.begin());
+  for (std::size_t phase = 0; phase < step; ++phase) {
+    if (phase != lone && large[phase] > largest_ratio * usual[lone]) return std::nullopt;
+  }
+  return usual[lone] > least_difference ? std::optional(lone) : std::nullopt;
+}
+
+bool moves(const std::vector<std::optional<double>>& sizes) {
+  std::size_t moving = 0;
+  for (const auto& size : sizes) moving += size && *size > least_difference;
+  return moving * 2 * longest_step > sizes.size();
+}
+
+// How many tracks see each pattern of one join, step by step and phase by phase.
+struct Votes {
+  std::size_t moving = 0;
+  std::array<std::array<std::size_t, longest_step>, longest_step + 1> votes{};
+};
+
+SamplePattern elected(const VectorTracks& tracks, const SampleMarks& missing, SampleJoin join) {
+  Votes count;
+  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
+    const auto sizes = difference_sizes(tracks.track(n), missing.track(n), join);
+    if (!moves(sizes)) continue;
+    ++count.moving;
+    for (std::size_t step = 2; step <= longest_step; ++step) {
+      if (const auto phase = lone_phase(sizes, step)) ++count.votes[step][*phase];
+    }
+  }
+  // Samples held for four frames change at every second frame at most, too: the longest step is the
+  // right one.
+  for (std::size_t step = longest_step; step >= 2; --step) {
+    for (std::size_t phase = 0; phase < step; ++phase) {
+      if (count.moving > 0 && static_cast<double>(count.votes[step][phase]) >=
+                                  agreeing_tracks * static_cast<double>(count.moving))
+        return {join, step, phase};
+    }
+  }
+  return {};
+}
+
+// Second derivatives, per square of the samples' distance, of the natural cubic spline through
+// them.
+std::vector<Vec3> spline_curvatures(std::span<const Vec3> samples) {
+  const std::size_t count = samples.size();
+  std::vector<Vec3> curvatures(count);
+  if (count < 3) return curvatures;
+  std::vector<double> pivot(count);
+  for (std::size_t i = 1; i + 1 < count; ++i) {
+    pivot[i] = 1 / (4 - pivot[i - 1]);
+    const Vec3 bend = 6 * ((samples[i + 1] - samples[i]) - (samples[i] - samples[i - 1]));
+    curvatures[i] = pivot[i] * (bend - curvatures[i - 1]);
+  }
+  for (std::size_t i = count - 2; i > 0; --i)
+    curvatures[i] = curvatures[i] - pivot[i] * curvatures[i + 1];
+  return curvatures;
+}
+
+// A frame's place among samples: `share` of the way from `sample` to the next; at the ends outside
+// of it.
+struct Place {
+  std::size_t sample;
+  double share;
+};
+
+Place place_of(std::size_t frame, std::size_t samples, const SamplePattern& pattern) {
+  const std::size_t before = frame < pattern.first ? 0 : (frame - pattern.first) / pattern.step;
+  const std::size_t sample = std::min(before, samples - 2);
+  return {sample, (static_cast<double>(frame) - static_cast<double>(pattern.frame(sample))) /
+                      static_cast<double>(pattern.step)};
+}
+
+Vec3 spline_at(std::span<const Vec3> samples, std::span<const Vec3> curvatures, Place place) {
+  const std::size_t i = place.sample;
+  const double b = place.share, a = 1 - b;
+  const Vec3 line = a * samples[i] + b * samples[i + 1];
+  // Straight on beyond the ends.
+  if (b < 0) return line - (b / 6) * (2 * curvatures[i] + curvatures[i + 1]);
+  if (b > 1) return line + ((b - 1) / 6) * (curvatures[i] + 2 * curvatures[i + 1]);
+  return line + ((a * a - 1) * a / 6) * curvatures[i] + ((b * b - 1) * b / 6) * curvatures[i + 1];
+}
+
+// Joined as the take was before.
+Vec3 joined_at(std::span<const Vec3> samples, SampleJoin join, Place place) {
+  const std::size_t i = place.sample;
+  if (join == SampleJoin::held) return samples[place.share >= 1 ? i + 1 : i];
+  return samples[i] + place.share * (samples[i + 1] - samples[i]);
+}
+
+bool follows_from_marked(std::span<const std::uint8_t> marked, SampleJoin join, Place place) {
+  const std::size_t i = place.sample;
+  if (join == SampleJoin::held) return marked[place.share >= 1 ? i + 1 : i] != 0;
+  return (marked[i] != 0 && place.share < 1) || (marked[i + 1] != 0 && place.share > 0);
+}
+
+}  // namespace
+
+SamplePattern find_sample_pattern(const VectorTracks& tracks, const SampleMarks& missing) {
+  const SamplePattern held = elected(tracks, missing, SampleJoin::held);
+  return held.join != SampleJoin::none ? held : elected(tracks, missing, SampleJoin::linear);
+}
+
+VectorTracks measured_samples(const VectorTracks& tracks, const SamplePattern& pattern) {
+  VectorTracks result(pattern.samples(tracks.frames()), tracks.tracks());
+  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
+    for (std::size_t i = 0; i < result.frames(); ++i)
+      result.set(i, n, tracks.at(pattern.frame(i), n));
+  }
+  return result;
+}
+
+SampleMarks marks_of_samples(const SampleMarks& marks, const SamplePattern& pattern) {
+  SampleMarks result(pattern.samples(marks.frames), marks.tracks);
+  for (std::size_t n = 0; n < marks.tracks; ++n) {
+    for (std::size_t i = 0; i < result.frames; ++i) result(i, n) = marks(pattern.frame(i), n);
+  }
+  return result;
+}
+
+SampleMarks spread_samples(const VectorTracks& samples, const SampleMarks& marked,
+                           const std::vector<double>& shares, const SamplePattern& pattern,
+                           VectorTracks& tracks) {
+  SampleMarks result(tracks.frames(), tracks.tracks());
+  for_each_parallel(tracks.tracks(), tracks.values.size(), [&](std::size_t n) {
+    const auto values = samples.track(n);
+    const std::vector<Vec3> curvatures =
+        shares[n] > 0 ? spline_curvatures(values) : std::vector<Vec3>();
+    for (std::size_t t = 0; t < tracks.frames(); ++t) {
+      const Place place = place_of(t, values.size(), pattern);
+      result(t, n) = follows_from_marked(marked.track(n), pattern.join, place) ? 1 : 0;
+      Vec3 value = result(t, n) != 0 ? joined_at(values, pattern.join, place) : tracks.at(t, n);
+      if (shares[n] > 0) value += shares[n] * (spline_at(values, curvatures, place) - value);
+      tracks.set(t, n, value);
+    }
+  });
+  return result;
+}
+
+}  // namespace kinemend

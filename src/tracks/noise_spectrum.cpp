@@ -1,0 +1,315 @@
+#include "tracks/noise_spectrum.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <span>
+
+#include "base/parallel.hpp"
+#include "base/quantiles.hpp"
+#include "kinemend/frame_rate.hpp"
+#include "signal/coloured_noise.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr std::array correlations{0.0, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.98};
+constexpr std::size_t strengths = 80;
+constexpr double least_deviation = 0.02, largest_deviation = 60;  // degrees
+constexpr signal::CutoffGrid model_cutoffs{0.003, 50, 16};
+constexpr double least_motion = 1e-3;  // degrees
+constexpr std::size_t few_windows = 4,
+                      most_lanes = 2400;  // windows of single channels whose evidence is summed
+// Of positions under slow noise: the take is looked at in two parts of that length, and noise is
+// not taken for more than so many times what the windows show.
+constexpr double slow_correlation = 0.8, longest_s = 30, most_of_quiet = 4;
+
+double deviation_of(std::size_t strength) {
+  return least_deviation *
+         std::pow(largest_deviation / least_deviation,
+                  static_cast<double>(strength) / static_cast<double>(strengths - 1));
+}
+
+double fast_share_of(double correlation) {
+  return std::sqrt((1 - correlation) / (1 + correlation));
+}
+
+// Where the evidence is looked for: `frames` from each of `starts`.
+struct Windows {
+  std::size_t frames;
+  std::vector<std::size_t> starts;
+};
+
+Windows windows_of(std::size_t frames, std::size_t length, std::size_t most) {
+  Windows windows{std::min(frames, length), {}};
+  const std::size_t fit = std::max<std::size_t>(1, frames / windows.frames);
+  const std::size_t count = std::min(fit, most);
+  for (std::size_t k = 0; k < count; ++k) {
+    windows.starts.push_back(count == 1 ? (frames - windows.frames) / 2
+                                        : k * (frames - windows.frames) / (count - 1));
+  }
+  return windows;
+}
+
+double component(Vec3 v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+using Curve = std::array<double, strengths>;  // -2 log likelihood of each strength
+
+// Tracks and which of their samples are none.
+struct SeenTracks {
+  VectorTracks tracks;
+  SampleMarks missing;
+};
+
+// Of a few marked samples the line between their neighbours tells as much, and the noise's thread
+// is not broken.
+void mark_long_runs(std::span<const std::uint8_t> marked, std::span<std::uint8_t> result) {
+  constexpr std::size_t few = 3;
+  for (std::size_t t = 0; t < marked.size();) {
+    std::size_t end = t;
+    while (end < marked.size() && marked[end] != 0) ++end;
+    if (end - t > few)
+      std::fill(result.begin() + static_cast<std::ptrdiff_t>(t),
+                result.begin() + static_cast<std::ptrdiff_t>(end), std::uint8_t{1});
+    t = end + 1;
+  }
+}
+
+// That of every track and axis under noise of one colour: each window has its likeliest motion. Of
+// windows with hardly a sample nothing is known.
+std::vector<Curve> misfit_curves(const SeenTracks& seen, const Windows& windows,
+                                 std::span<const signal::SmoothingModel> models,
+                                 double correlation) {
+  constexpr double fewest_samples = 12;
+  const VectorTracks& tracks = seen.tracks;
+  const std::size_t channels = 3 * tracks.tracks(), count = windows.starts.size();
+  std::vector<Curve> of_lanes(channels * count);
+  Curve inverse, logarithm;
+  for (std::size_t s = 0; s < strengths; ++s) {
+    inverse[s] = 1 / (deviation_of(s) * deviation_of(s));
+    logarithm[s] = -std::log(inverse[s]);
+  }
+  const std::size_t blocks =
+      (of_lanes.size() + signal::block_channels - 1) / signal::block_channels;
+  for_each_parallel(blocks, of_lanes.size() * windows.frames * models.size(), [&](std::size_t b) {
+    const std::size_t first = b * signal::block_channels;
+    const std::size_t used = std::min(signal::block_channels, of_lanes.size() - first);
+    signal::ChannelBlock y(windows.frames);
+    signal::NoisePrecision precision(windows.frames);
+    std::array<std::uint8_t, signal::block_channels> known{};
+    for (std::size_t i = 0; i < used; ++i) {
+      const std::size_t channel = (first + i) / count;
+      const auto track = tracks.track(channel / 3);
+      const std::size_t start = windows.starts[(first + i) % count];
+      const double origin = component(track[start], channel % 3);
+      for (std::size_t t = 0; t < windows.frames; ++t)
+        y(t, i) = component(track[start + t], channel % 3) - origin;
+      precision.set_channel(i, correlation,
+                            seen.missing.track(channel / 3).subspan(start, windows.frames));
+      known[i] = precision.observed[i] >= fewest_samples ? 1 : 0;
+      if (known[i] == 0) precision.set_channel(i, 0, {});
+      of_lanes[first + i].fill(known[i] != 0 ? std::numeric_limits<double>::infinity() : 0);
+    }
+    for (const signal::SmoothingModel& model : models) {
+      const signal::ColouredEvidence evidence = signal::evidence_of(y, precision, model);
+      for (std::size_t i = 0; i < used; ++i) {
+        Curve& least = of_lanes[first + i];
+        if (known[i] == 0) continue;
+        for (std::size_t s = 0; s < strengths; ++s) {
+          least[s] = std::min(least[s], evidence.squares[i] * inverse[s] + evidence.logarithms[i] +
+                                            evidence.differences[i] * logarithm[s]);
+        }
+      }
+    }
+  });
+  std::vector<Curve> curves(channels, Curve{});
+  for (std::size_t lane = 0; lane < of_lanes.size(); ++lane) {
+    for (std::size_t s = 0; s < strengths; ++s) curves[lane / count][s] += of_lanes[lane][s];
+  }
+  return curves;
+}
+
+struct Estimate {
+  double correlation = 0;
+  std::vector<double> deviations;  // 3 N
+  double misfit = std::numeric_limits<double>::infinity();
+};
+
+void take_better(Estimate& best, const SeenTracks& seen, const Windows& windows,
+                 std::span<const signal::SmoothingModel> models, double correlation) {
+  Estimate found{correlation, {}, 0};
+  for (const Curve& curve : misfit_curves(seen, windows, models, correlation)) {
+    const auto least = std::min_element(curve.begin(), curve.end());
+    found.misfit += *least;
+    found.deviations.push_back(deviation_of(static_cast<std::size_t>(least - curve.begin())));
+  }
+  if (found.misfit < best.misfit) best = std::move(found);
+}
+
+Estimate estimate(const SeenTracks& seen, const Windows& windows,
+                  std::span<const std::size_t> orders, double frame_rate_hz) {
+  const auto models =
+      signal::models_of_orders(orders, model_cutoffs, windows.frames, frame_rate_hz);
+  Estimate best;
+  for (const double correlation : correlations)
+    take_better(best, seen, windows, models, correlation);
+  return best;
+}
+
+bool is_white(const SeenTracks& seen, const Windows& windows, std::span<const std::size_t> orders,
+              double frame_rate_hz) {
+  const auto models =
+      signal::models_of_orders(orders, model_cutoffs, windows.frames, frame_rate_hz);
+  Estimate best;
+  // What is correlated by more is likelier with a little than with none, too.
+  for (const double correlation : {correlations[0], correlations[1]})
+    take_better(best, seen, windows, models, correlation);
+  return best.correlation == 0;
+}
+
+// Of a track: the root mean square along each axis of the velocity of means over 0.25 s.
+Vec3 slow_speeds(std::span<const Vec3> track, double frame_rate_hz) {
+  const auto half =
+      static_cast<std::size_t>(std::max(1L, std::lround(0.125 * window_rate_hz(frame_rate_hz))));
+  const std::size_t width = 2 * half + 1;
+  if (track.size() < 2 * width) return {};
+  // Means a window apart: their difference is that of the sums on either side.
+  Vec3 squares, before, after;
+  for (std::size_t t = 0; t < width; ++t) {
+    before += track[t];
+    after += track[t + width];
+  }
+  std::size_t count = 0;
+  const double scale = frame_rate_hz / static_cast<double>(width * width);
+  for (std::size_t t = 0;; ++t) {
+    const Vec3 v = scale * (after - before);
+    squares += Vec3{v.x * v.x, v.y * v.y, v.z * v.z};
+    ++count;
+    if (t + 2 * width >= track.size()) break;
+    before += track[t + width] - track[t];
+    after += track[t + 2 * width] - track[t + width];
+  }
+  const double share = 1 / static_cast<double>(count);
+  return {std::sqrt(share * squares.x), std::sqrt(share * squares.y), std::sqrt(share * squares.z)};
+}
+
+// Noise of 1.5 degrees with a correlation of 0.95 has 0.22 degrees and a product of 0.59 at least,
+// clean clips 0.14 degrees at most. Clean markers that hardly move show noise over speed, too:
+// slow dances at 30 and 60 Hz reach what video and depth cameras have, and are not told apart.
+bool is_clear(const NoiseSpectrum& spectrum, double frame_rate_hz, TrackKind kind) {
+  constexpr double least_rotation_deg = 0.18, least_of_rotations = 0.43;
+  constexpr double least_deg = 0.05, least_ms = 1.8, least_product = 1;
+  const double folding = rate_factor_of(frame_rate_hz);
+  const double at_120_hz = spectrum.fast_noise / folding,
+               at_120_hz_ms = spectrum.fast_noise_ms / folding;
+  if (kind == TrackKind::rotations)
+    return at_120_hz > least_rotation_deg &&
+           at_120_hz * at_120_hz * at_120_hz_ms > least_of_rotations;
+  return at_120_hz > least_deg && at_120_hz_ms > least_ms &&
+         spectrum.fast_noise * spectrum.fast_noise_ms > least_product;
+}
+
+}  // namespace
+
+double NoiseSpectrum::fast_share() const { return fast_share_of(correlation); }
+
+double NoiseSpectrum::share_below(double frequency_hz, double frame_rate_hz) const {
+  const double angle = pi * std::min(0.5, frequency_hz / frame_rate_hz);
+  return 2 / pi * std::atan((1 + correlation) / (1 - correlation) * std::tan(angle));
+}
+
+std::vector<double> NoiseSpectrum::strengths() const {
+  std::vector<double> result;
+  for (const Vec3 d : deviations) result.push_back(std::sqrt(dot(d, d) / 3));
+  return result;
+}
+
+std::vector<double> coloured_shares(const NoiseSpectrum& spectrum, double scale,
+                                    double frame_rate_hz) {
+  constexpr double start = 0.02, whole = 0.05;  // degrees at 120 Hz
+  std::vector<double> shares;
+  for (const Vec3 d : spectrum.deviations) {
+    const double level =
+        scale * std::max({d.x, d.y, d.z}) * spectrum.fast_share() / rate_factor_of(frame_rate_hz);
+    const double r = std::clamp((level - start) / (whole - start), 0.0, 1.0);
+    shares.push_back(r * r * (3 - 2 * r));
+  }
+  return shares;
+}
+
+NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& marked,
+                                double frame_rate_hz, TrackKind kind) {
+  constexpr std::size_t fewest_frames = 24, fewest_tracks = 4, fewest_seconds = 4;
+  NoiseSpectrum spectrum;
+  const auto second = static_cast<std::size_t>(std::lround(window_rate_hz(frame_rate_hz)));
+  // Markers may stand still, or go on alike, for a second or two.
+  const std::size_t fewest = kind == TrackKind::positions ? fewest_seconds * second : 0;
+  if (tracks.frames() < std::max(fewest_frames, fewest)) return spectrum;
+  // What stands still has no noise.
+  std::vector<std::size_t> moving;
+  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
+    const auto track = tracks.track(n);
+    if (std::any_of(track.begin(), track.end(),
+                    [&](Vec3 v) { return norm(v - track[0]) > least_motion; }))
+      moving.push_back(n);
+  }
+  if (moving.size() < fewest_tracks) return spectrum;
+  SeenTracks seen{VectorTracks(tracks.frames(), moving.size()),
+                  SampleMarks(tracks.frames(), moving.size())};
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    const auto track = tracks.track(moving[i]);
+    std::copy(track.begin(), track.end(), seen.tracks.track(i).begin());
+    fill_marked(seen.tracks.track(i), marked.track(moving[i]));
+    mark_long_runs(marked.track(moving[i]), seen.missing.track(i));
+  }
+  constexpr std::size_t all_orders[] = {1, 2, 3}, smooth_order[] = {3};
+  const std::size_t most_windows = std::clamp<std::size_t>(most_lanes / (3 * moving.size()), 4, 24);
+  const std::size_t window = std::max(fewest_frames, second);
+  // White noise shows in a few windows already.
+  if (is_white(seen, windows_of(tracks.frames(), window, few_windows), all_orders, frame_rate_hz))
+    return spectrum;
+  Estimate found =
+      estimate(seen, windows_of(tracks.frames(), window, most_windows), all_orders, frame_rate_hz);
+  if (found.correlation == 0) return spectrum;
+
+  const double share = fast_share_of(found.correlation);
+  std::vector<double> levels, times;
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    const Vec3 speeds = slow_speeds(seen.tracks.track(i), frame_rate_hz);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double level = share * found.deviations[3 * i + axis];
+      levels.push_back(level);
+      times.push_back(1000 * level / std::max(1e-6, component(speeds, axis)));
+    }
+  }
+  spectrum.fast_noise = median_of(levels);
+  spectrum.fast_noise_ms = median_of(times);
+  spectrum.is_clear = is_clear(spectrum, frame_rate_hz, kind);
+  if (!spectrum.is_clear) return spectrum;
+  spectrum.is_slow = kind == TrackKind::positions && found.correlation >= slow_correlation;
+  if (spectrum.is_slow) {
+    Estimate whole =
+        estimate(seen,
+                 windows_of(tracks.frames(),
+                            static_cast<std::size_t>(longest_s * window_rate_hz(frame_rate_hz)), 2),
+                 smooth_order, frame_rate_hz);
+    const double most =
+        most_of_quiet * fast_share_of(found.correlation) / fast_share_of(whole.correlation);
+    for (std::size_t c = 0; c < whole.deviations.size(); ++c)
+      whole.deviations[c] = std::min(whole.deviations[c], most * found.deviations[c]);
+    // At very low rates there is no model of a smooth motion.
+    if (!whole.deviations.empty()) found = std::move(whole);
+  }
+  spectrum.correlation = found.correlation;
+  spectrum.deviations.assign(tracks.tracks(), {});
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    const double* d = &found.deviations[3 * i];
+    spectrum.deviations[moving[i]] = {d[0], d[1], d[2]};
+  }
+  return spectrum;
+}
+
+}  // namespace kinemend

@@ -1,0 +1,61 @@
+// Real pairs: one motion seen by a video or depth camera and by optical markers.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <variant>
+
+#include "kinemend/io.hpp"
+#include "quality/marker_quality.hpp"
+
+namespace kinemend::quality {
+namespace {
+
+MarkerClip half_of(const std::string& pair, const std::string& half) {
+  const std::filesystem::path folder = KINEMEND_DATA_FOLDER;
+  return std::get<MarkerClip>(read_take(folder / "real" / (pair + "." + half + ".trc")).take);
+}
+
+// Root mean square of the difference of velocities, units a second.
+double velocity_error(const MarkerClip& a, const MarkerClip& b) {
+  double sum = 0, count = 0;
+  for (std::size_t f = 1; f + 1 < a.frame_count(); ++f) {
+    for (std::size_t m = 0; m < a.marker_count(); ++m) {
+      if (!a.is_observed(f - 1, m) || !a.is_observed(f + 1, m) || !b.is_observed(f - 1, m) ||
+          !b.is_observed(f + 1, m))
+        continue;
+      const Vec3 off = (a.position(f + 1, m) - a.position(f - 1, m)) -
+                       (b.position(f + 1, m) - b.position(f - 1, m));
+      sum += dot(off, off);
+      count += 1;
+    }
+  }
+  return std::sqrt(sum / count) * a.frame_rate_hz / 2;
+}
+
+class RealPairs : public testing::TestWithParam<const char*> {};
+
+TEST_P(RealPairs, ComeNearerToTheirReference) {
+  const MarkerClip reference = half_of(GetParam(), "reference"),
+                   noisy = half_of(GetParam(), "noisy");
+  EXPECT_LT(velocity_error(cleaned_markers(noisy, "auto"), reference),
+            0.75 * velocity_error(noisy, reference));
+}
+
+TEST_P(RealPairs, LeaveTheirReferenceAlone) {
+  const MarkerClip reference = half_of(GetParam(), "reference");
+  EXPECT_LT(test::rms_distance(cleaned_markers(reference, "auto"), reference), 0.3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Systems, RealPairs,
+                         testing::Values("video-regular_FULL", "video-60fps_01_HEAVY", "depth-CTK",
+                                         "depth-RTK"),
+                         [](const auto& pair) {
+                           std::string name = pair.param;
+                           for (char& c : name) c = c == '-' ? '_' : c;
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace kinemend::quality
