@@ -198,7 +198,7 @@ Vec3 slow_speeds(std::span<const Vec3> track, double frame_rate_hz) {
 
 // Noise of 1.5 degrees with a correlation of 0.95 has 0.22 degrees and a product of 0.59 at least,
 // clean clips 0.14 degrees at most. Clean markers that hardly move show noise over speed, too:
-// slow dances at 30 and 60 Hz reach what video and depth cameras have, and are not told apart.
+// slow dances at 30 and 60 Hz reach what video and depth cameras have; distances tell them apart.
 bool is_clear(const NoiseSpectrum& spectrum, double frame_rate_hz, TrackKind kind) {
   constexpr double least_rotation_deg = 0.18, least_of_rotations = 0.43;
   constexpr double least_deg = 0.05, least_ms = 1.8, least_product = 1;

@@ -6,6 +6,7 @@
 #include <string>
 #include <variant>
 
+#include "kinemend/convert.hpp"
 #include "kinemend/io.hpp"
 #include "quality/marker_quality.hpp"
 
@@ -46,6 +47,20 @@ TEST_P(RealPairs, ComeNearerToTheirReference) {
 TEST_P(RealPairs, LeaveTheirReferenceAlone) {
   const MarkerClip reference = half_of(GetParam(), "reference");
   EXPECT_LT(test::rms_distance(cleaned_markers(reference, "auto"), reference), 0.3);
+}
+
+// Slow dances, whose markers hardly move, at the rates of video and depth cameras.
+TEST(CleanMarkersAtLowRates, AreLeftAlone) {
+  const std::filesystem::path folder = KINEMEND_DATA_FOLDER;
+  for (const char* take : {"49_09", "49_22"}) {
+    const Clip clip =
+        std::get<Clip>(read_take(folder / "cmu" / "bvh" / (take + std::string(".bvh"))).take);
+    for (const double rate_hz : {30.0, 60.0}) {
+      const MarkerClip markers = joint_markers(resample(clip, rate_hz));
+      EXPECT_LT(test::rms_distance(cleaned_markers(markers, "auto"), markers), 1e-3)
+          << take << " at " << rate_hz << " Hz";
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Systems, RealPairs,
