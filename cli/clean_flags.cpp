@@ -66,6 +66,17 @@ std::vector<std::string> fill_choices() {
   return names;
 }
 
+Flag noise_flag() {
+  Flag flag = file_flag("noise", "white|auto|FILE", "Cleaning",
+                        "what the noise is: found in the take (auto), white, or as in a report",
+                        "FILE is a --report of clean or --json of check on a take of the same "
+                        "system: its colour, and the strength of each joint or marker, are gone "
+                        "by. For auto and the learned methods.");
+  flag.spec.default_value = std::string("auto");
+  flag.has_default = true;
+  return flag;
+}
+
 Flag fill_flag() {
   Flag flag = text_flag("fill", "METHOD", "Cleaning", "fill gaps before anything is smoothed",
                         "auto picks a method for each gap, and refuses what it would only guess; "
@@ -136,6 +147,7 @@ std::vector<Flag> cleaning_flags() {
        configurable(number_flag("max_change", "", 0, 0, 1e12, "Cleaning",
                                 "no marker moves further than this, file units; 0: no limit",
                                 "Typical: 5 to 20 mm against jitter alone; spikes need more.")),
+       noise_flag(),
        fill_flag(),
        configurable(switch_flag("fill_all", "Cleaning",
                                 "fill every gap, also where the rules of --fill refuse")),

@@ -8,6 +8,7 @@
 
 #include "kinemend/frame_numbers.hpp"
 #include "kinemend/io.hpp"
+#include "known_noise.hpp"
 #include "method_options.hpp"
 #include "takes.hpp"
 
@@ -184,6 +185,7 @@ CleanPlan make_cleaning(const Arguments& arguments) {
   pass_seed(arguments, method, plan.options);
   plan.cleaner = make_cleaner(method.name, plan.options);
   plan.settings = clean_settings(settings);
+  plan.settings.noise = known_noise(arguments.text("noise"));
   if (arguments.given("contacts") && !plan.settings.feet) plan.settings.feet.emplace();
   if (plan.settings.feet)
     plan.settings.feet->names = names_of_map(map_path(arguments, plan.options));

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "kinemend/cleaner.hpp"
 #include "kinemend/clip.hpp"
 #include "kinemend/gaps.hpp"
 #include "kinemend/known_names.hpp"
@@ -123,6 +124,7 @@ struct CheckReport {
   std::size_t calibration_frames = 0;  ///< at the start; only `calibration` speaks of them
   double metres_per_unit = 0;          ///< as used; 0: unknown
   std::string noise_unit;              ///< "deg", or the markers' unit
+  std::vector<NoiseCharacter> noise;   ///< what `auto` finds; none of a space without noise
   CheckFigures figures;
   std::vector<TrackHealth> tracks;      ///< J, or the markers that are positions
   std::vector<SubjectHealth> subjects;  ///< of a take of several; their feet, lengths and size are

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +17,14 @@
 #include "kinemend/marker_clip.hpp"
 
 namespace kinemend {
+
+/// The noise of a capture system, as it was measured on another take of it.
+struct KnownNoise {
+  double correlation = 0;  ///< from one measurement to the next (0 to 0.99); 0: white
+  /// By names of joints or markers, per axis: degrees, or file units (> 0). Of others it is
+  /// measured.
+  std::map<std::string, double> strengths;
+};
 
 /// What the user asks for beside the method.
 struct CleanSettings {
@@ -36,6 +45,9 @@ struct CleanSettings {
   /// Frames [first, last] that may change, counted from 0; the method sees all of the take, and the
   /// result is blended in over 0.1 s at either end that is not an end of the take.
   std::optional<std::pair<std::size_t, std::size_t>> range;
+  /// What `auto` and the learned methods take the noise to be; not set: they find it out. Other
+  /// methods do not look at it.
+  std::optional<KnownNoise> noise;
   double peak_loss_limit = 0.10;  ///< a larger loss of a peak speed is a warning (0..1)
   /// Fills gaps from what the method made of the measured samples, or without the spikes that it
   /// left there; not set: no. Gaps outside the selection and the range stay. Its own list of names
@@ -91,9 +103,10 @@ struct CleanReport {
   std::size_t frames = 0;
   std::size_t calibration_frames = 0;  ///< at the start, left alone; joints only
   double frame_rate_hz = 0;
-  double body_height = 0;            ///< file units: what degrees were measured by; markers only
-  std::vector<TrackSummary> tracks;  ///< J or M
-  double root_rms_change = 0;        ///< file units; joints only
+  double body_height = 0;             ///< file units: what degrees were measured by; markers only
+  std::vector<TrackSummary> tracks;   ///< J or M
+  std::vector<NoiseCharacter> noise;  ///< `CleanTrace::characters`
+  double root_rms_change = 0;         ///< file units; joints only
   double root_max_change = 0;
   std::vector<ReportSpan> spans;  ///< by track, then frame; spans of `kept` are left out
   FillReport fill;                ///< of `CleanSettings::fill`

@@ -26,6 +26,12 @@ struct FallBack {
   std::vector<double> shares;        ///< how much of each is the other method's (0..1), over frames
 };
 
+/// Noise whose samples depend on each other.
+struct ColouredNoise {
+  double strength = 0;     ///< deviation of each axis: degrees of rotations, else file units
+  double correlation = 0;  ///< from one frame to the next; 0: it is white, or not known
+};
+
 /// What a cleaner made of a track: F samples of its space.
 struct CleanedTrack {
   std::vector<Quat> rotations;
@@ -33,16 +39,35 @@ struct CleanedTrack {
   /// F where the cleaner tells samples apart (spikes, fills); else empty. A marker that was not
   /// seen has a position where it says `filled`, and what stands there else means nothing.
   std::vector<Action> actions;
+  ColouredNoise noise{};  ///< that it took out, where it is coloured
 };
 
 /// Takes what a cleaner made of a track. Called at most once a track, from any thread; it may write
 /// into the clip at once, whose samples of this track are not looked at again.
 using TrackSink = std::function<void(std::size_t track, CleanedTrack cleaned)>;
 
+/// What the noise of a take's rotations, or of its positions, is like.
+struct NoiseCharacter {
+  Space space = Space::rotation;
+  /// Per axis, the median of the tracks that have some: degrees of rotations, else file units.
+  double strength = 0;
+  double correlation = 0;  ///< from one measurement to the next; 0: white
+  /// Frames for which there is one measurement: 4 where 30 Hz were brought to 120.
+  std::size_t frames_per_sample = 1;
+  bool is_interpolated = false;  ///< the frames between are on a line; else the sample is held
+
+  /// The frequency below which a share of the noise's power lies (0..1), hertz, at the frame rate
+  /// of the take.
+  double frequency_of_share(double share, double frame_rate_hz) const;
+};
+
 /// What a cleaner says of its work beside the cleaned tracks.
 struct CleanTrace {
   /// One a track: estimated noise per axis before cleaning, degrees or file units; else empty.
   std::vector<double> noise;
+  /// At most one for rotations and one for positions, of methods that look; none of a space without
+  /// noise.
+  std::vector<NoiseCharacter> characters;
   std::vector<FallBack> fall_backs;
   std::vector<std::string> warnings;
 };
@@ -105,10 +130,11 @@ class Cleaner {
   virtual std::unique_ptr<FrameFilter> make_frame_filter(const TakeView& like) const;
 };
 
-/// What `clean_in_place` did: the trace, and the actions of each track (empty: nothing in
-/// particular).
+/// What `clean_in_place` did: the trace, and of each track the actions (empty: nothing in
+/// particular) and the noise.
 struct InPlaceTrace : CleanTrace {
   std::vector<std::vector<Action>> actions;
+  std::vector<ColouredNoise> coloured;
 };
 /// The cleaner alone, without the pipeline of `clean_clip`: writes what it makes of the clip back
 /// into it. Markers that it filled become observed.

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,13 @@ enum class GapTreatment : std::uint8_t {
   cut,
 };
 
+/// Noise that is known, in place of what a method finds. `auto` and the learned methods go by it.
+struct TakeNoise {
+  std::optional<double> correlation;  ///< from one measurement to the next, 0 to 0.99; 0: white
+  /// J or M, per axis: degrees of joints, file units of markers; 0: as measured. Empty: all so.
+  std::vector<double> strengths;
+};
+
 /// What may change. A joint's rotation, or a marker's position, and what becomes of positions of
 /// joints.
 struct Selection {
@@ -31,6 +39,7 @@ struct Selection {
   bool root_position = true;           ///< position of joint 0
   bool translations = true;            ///< positions of translated joints that are selected
   double body_height = 0;  ///< of the person, file units, by which markers are measured; 0: found
+  TakeNoise noise{};
 
   bool includes(std::size_t owner) const { return owners.empty() || owners[owner] != 0; }
 };
@@ -49,6 +58,7 @@ struct Track {
   /// joints' positions; a quarter of the body height of markers, about the length of a limb's
   /// segment.
   double radian = 1;
+  double noise = 0;  ///< of each axis, where it is known: degrees or file units; 0: not known
   bool selected = true;
 
   Quat rotation(std::size_t frame) const { return rotations[frame * stride]; }
@@ -70,6 +80,7 @@ struct TakeView {
   GapTreatment gaps = GapTreatment::bridge;
   /// Of markers: file units, by which distances are measured. That of joints is their skeleton's.
   double body_height = 1;
+  std::optional<double> noise_correlation;  ///< `TakeNoise::correlation`
 
   /// The track of the root position; of joints only.
   std::size_t root_track() const noexcept { return owners; }

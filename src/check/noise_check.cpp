@@ -33,7 +33,7 @@ void add_spike(TrackHealth& track, std::string name, std::size_t frame, double s
 
 // What `auto` says of a take.
 struct Verdict {
-  std::vector<double> noise;                               // one a track; empty: too short to tell
+  CleanTrace trace;                                        // no noise: too short to tell
   std::vector<std::map<std::size_t, double>> spike_sizes;  // of each track, by frame
 
   const double* spike(std::size_t track, std::size_t frame) const {
@@ -55,7 +55,7 @@ Verdict verdict_of(const TakeView& take) {
               : norm(track.position(f) - cleaned.positions[f]);
     }
   };
-  verdict.noise = make_auto({})->clean(take, sink, {}).noise;
+  verdict.trace = make_auto({})->clean(take, sink, {});
   return verdict;
 }
 
@@ -65,8 +65,10 @@ void check_noise_and_spikes(const Clip& clip, const CheckSettings& settings, Che
   const std::size_t frames = clip.frame_count(), joints = clip.joint_count();
   if (frames == 0) return;
   const Verdict verdict = verdict_of(view_of(clip));
-  for (std::size_t j = 0; j < joints && !verdict.noise.empty(); ++j)
-    add_noise(report.tracks[j], verdict.noise[j], settings.noise_deg, frames, report);
+  const std::vector<double>& noise = verdict.trace.noise;
+  report.noise = verdict.trace.characters;
+  for (std::size_t j = 0; j < joints && !noise.empty(); ++j)
+    add_noise(report.tracks[j], noise[j], settings.noise_deg, frames, report);
   // By frame, then joint.
   for (std::size_t f = 0; f < frames; ++f) {
     for (std::size_t j = 0; j < joints; ++j) {
@@ -85,14 +87,15 @@ void check_noise_and_spikes(const MarkerClip& clip, const std::vector<std::size_
   const std::size_t frames = clip.frame_count();
   if (frames == 0 || markers.empty()) return;
   const Verdict verdict = verdict_of(view_of(clip));
+  const std::vector<double>& noise = verdict.trace.noise;
+  report.noise = verdict.trace.characters;
   // Without a unit there is no limit to compare with.
   const double limit = report.metres_per_unit > 0
                            ? 0.01 * settings.noise_cm / report.metres_per_unit
                            : std::numeric_limits<double>::infinity();
   for (std::size_t n = 0; n < markers.size(); ++n) {
     const std::size_t m = markers[n];
-    if (!verdict.noise.empty())
-      add_noise(report.tracks[n], verdict.noise[m], limit, frames, report);
+    if (!noise.empty()) add_noise(report.tracks[n], noise[m], limit, frames, report);
     for (std::size_t f = 0; f < frames; ++f) {
       if (const double* size = verdict.spike(m, f))
         add_spike(report.tracks[n], report.tracks[n].name, f, *size, report.noise_unit, report);

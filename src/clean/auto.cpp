@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "base/progress.hpp"
+#include "base/quantiles.hpp"
 #include "clean/auto_scale.hpp"
 #include "clean/method_list.hpp"
 #include "clean/neighbours.hpp"
@@ -98,6 +100,20 @@ CleanedTrack track_of(const TakeView& take, std::size_t number, std::span<const 
   return assemble(take, number, pieces);
 }
 
+// Nothing where no track is to be smoothed.
+std::optional<NoiseCharacter> character_of(const TakeView& take, Space space,
+                                           const CleanedTracks& verdicts) {
+  std::vector<double> strengths;
+  for (std::size_t n = 0; n < verdicts.noise.size(); ++n) {
+    if (verdicts.shares[n] > 0) strengths.push_back(verdicts.noise[n]);
+  }
+  if (strengths.empty()) return std::nullopt;
+  const double unit = space == Space::rotation ? 1 : 1 / degrees_per_unit(take);
+  return NoiseCharacter{space, unit * median_of(strengths),
+                        verdicts.spectrum.is_clear ? verdicts.spectrum.correlation : 0,
+                        verdicts.pattern.step, verdicts.pattern.join == SampleJoin::linear};
+}
+
 class Auto final : public Cleaner {
  public:
   explicit Auto(const AutoOptions& options) : options_(options) {}
@@ -137,9 +153,11 @@ class Auto final : public Cleaner {
       }
       progress.step();
     });
-    const CleanedTracks verdicts = clean_tracks(
-        tracks, suspects, gaps, tracks_nearby(take, numbers), take.frame_rate_hz,
-        {options_.sensitivity, options_.despike, kind_of(take.tracks[numbers.front()])}, &progress);
+    const CleanedTracks verdicts =
+        clean_tracks(tracks, suspects, gaps, tracks_nearby(take, numbers), take.frame_rate_hz,
+                     settings_for(take, numbers), &progress);
+    if (const auto character = character_of(take, take.tracks[numbers.front()].space, verdicts))
+      trace.characters.push_back(*character);
     progress.begin_part(1, count);
     for_each_parallel(count, frames * count, [&](std::size_t n) {
       const Track& track = take.tracks[numbers[n]];
@@ -149,10 +167,27 @@ class Auto final : public Cleaner {
       const auto spikes = verdicts.marked.track(n);
       const bool smoothed = verdicts.shares[n] != 0;
       const bool spiked = std::find(spikes.begin(), spikes.end(), 1) != spikes.end();
-      if (smoothed || spiked || needs_bridges(take, numbers[n]))
-        sink(numbers[n], track_of(take, numbers[n], tracks.track(n), spikes, smoothed));
+      if (smoothed || spiked || needs_bridges(take, numbers[n])) {
+        CleanedTrack cleaned = track_of(take, numbers[n], tracks.track(n), spikes, smoothed);
+        if (smoothed && verdicts.spectrum.is_clear)
+          cleaned.noise = {trace.noise[numbers[n]], verdicts.spectrum.correlation};
+        sink(numbers[n], std::move(cleaned));
+      }
       progress.step();
     });
+  }
+
+  TrackCleaningSettings settings_for(const TakeView& take,
+                                     const std::vector<std::size_t>& numbers) const {
+    TrackCleaningSettings settings{options_.sensitivity, options_.despike,
+                                   kind_of(take.tracks[numbers.front()])};
+    settings.correlation = take.noise_correlation;
+    for (const std::size_t n : numbers) {
+      const Track& track = take.tracks[n];
+      const double unit = track.space == Space::rotation ? 1 : degrees_per_unit(take);
+      settings.noise.push_back(unit * track.noise);
+    }
+    return settings;
   }
 
   static TrackKind kind_of(const Track& track) {

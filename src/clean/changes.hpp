@@ -73,7 +73,8 @@ ReportScale joint_scale();
 /// Of positions of markers, in their unit (empty: unknown).
 ReportScale marker_scale(const std::string& unit, double body_height);
 
-/// What the report says of one joint or marker.
+/// What the report says of one joint or marker. `noise`: where it is coloured; white noise is
+/// measured.
 struct TrackReport {
   TrackSummary summary;
   std::vector<ReportSpan> spans;
@@ -81,7 +82,8 @@ struct TrackReport {
 };
 template <class Sample>
 TrackReport report_track(std::string name, std::size_t owner, const TrackEdit<Sample>& track,
-                         const TrackChanges& changes, const ReportScale& scale);
+                         const TrackChanges& changes, const ColouredNoise& noise,
+                         const ReportScale& scale);
 
 /// The spans of one track, `kept` left out.
 std::vector<ReportSpan> spans_of(std::int32_t owner, const TrackChanges& changes,

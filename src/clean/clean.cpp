@@ -118,8 +118,8 @@ class Finisher {
         blend(edit, order, work_.settings.max_change_deg * radians_per_degree,
               may_turn ? work_.weights : nothing_);
     put_back(joint, edit.after, changes);
-    reports_[joint] =
-        report_track(take_.joints->skeleton.names[joint], joint, edit, changes, work_.scale);
+    reports_[joint] = report_track(take_.joints->skeleton.names[joint], joint, edit, changes,
+                                   cleaned.noise, work_.scale);
   }
 
   void finish_positions(std::size_t number, CleanedTrack cleaned) {
@@ -138,8 +138,8 @@ class Finisher {
     const TrackChanges changes = blend(edit, limits, track.selected ? work_.weights : nothing_);
     put_back(number, edit.after, changes);
     if (take_.markers) {
-      reports_[number] =
-          report_track(take_.markers->names[number], number, edit, changes, work_.scale);
+      reports_[number] = report_track(take_.markers->names[number], number, edit, changes,
+                                      cleaned.noise, work_.scale);
     } else if (number == take_.root_track()) {
       root_ = changes;
     }
@@ -232,6 +232,7 @@ void clean_whole(AnyClip& motion, const Cleaner& cleaner, const Work& work, Clea
   InPlaceTrace trace = clean_in_place(cleaner, cleaned, work.selection, cleaning.shares());
   report.warnings.insert(report.warnings.end(), trace.warnings.begin(), trace.warnings.end());
   report.fall_backs = trace.fall_backs;
+  report.noise = trace.characters;
   cleaning.finish();
   if (settings.fill) {
     const Stage stage(settings, "filling");
@@ -251,7 +252,7 @@ void clean_whole(AnyClip& motion, const Cleaner& cleaner, const Work& work, Clea
   Finisher<AnyClip> finisher(work, take, motion);
   for_each_parallel(take.tracks.size(), take.tracks.size() * take.frames, [&](std::size_t n) {
     finisher.finish(n, {rotations_of(result.tracks[n]), positions_of(result.tracks[n]),
-                        std::move(trace.actions[n])});
+                        std::move(trace.actions[n]), trace.coloured[n]});
   });
   finisher.report(trace, report);
   keep_observed(cleaned, motion);
@@ -271,6 +272,7 @@ void clean_track_by_track(AnyClip& motion, const Cleaner& cleaner, const Work& w
       stage.shares());
   report.warnings.insert(report.warnings.end(), trace.warnings.begin(), trace.warnings.end());
   report.fall_backs = trace.fall_backs;
+  report.noise = trace.characters;
   finisher.finish_others();
   finisher.report(trace, report);
   stage.finish();

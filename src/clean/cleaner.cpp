@@ -1,5 +1,6 @@
 #include "kinemend/cleaner.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "clean/pieces.hpp"
@@ -22,6 +23,12 @@ std::string_view to_string(Action action) {
       return "refused";
   }
   return "unknown";
+}
+
+double NoiseCharacter::frequency_of_share(double share, double frame_rate_hz) const {
+  const double rate_hz = frame_rate_hz / static_cast<double>(frames_per_sample);
+  // The spectrum is that of noise whose samples depend on the one before.
+  return rate_hz / pi * std::atan(std::tan(share * pi / 2) * (1 - correlation) / (1 + correlation));
 }
 
 namespace {
@@ -48,9 +55,11 @@ InPlaceTrace clean_view(const Cleaner& cleaner, const TakeView& take, AnyClip& c
                         const std::function<void(double)>& progress) {
   InPlaceTrace trace;
   trace.actions.resize(take.tracks.size());
+  trace.coloured.resize(take.tracks.size());
   const TrackSink sink = [&](std::size_t track, CleanedTrack cleaned) {
     put_back(clip, track, cleaned);
     trace.actions[track] = std::move(cleaned.actions);
+    trace.coloured[track] = cleaned.noise;
   };
   static_cast<CleanTrace&>(trace) = cleaner.clean(take, sink, progress);
   return trace;

@@ -9,6 +9,7 @@
 #include "clean/example_tuning.hpp"
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
+#include "clean/prior_hold.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/model.hpp"
 #include "priors/example_filter.hpp"
@@ -114,6 +115,7 @@ class ExampleCleaning {
                    settings_for(work));
     finish(work, {weights.welsch, noise, rest, suspects}, cleaned);
     work.channels.poses = std::move(cleaned);
+    if (options_.lambda == 0 && options_.welsch_deg == 0) leave_coloured_noise_to_auto(work);
   }
 
  private:

@@ -5,6 +5,7 @@
 
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
+#include "clean/prior_hold.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/model.hpp"
 #include "priors/linear_dynamics.hpp"
@@ -59,6 +60,7 @@ void filter(PriorWork& work, const KalmanLearnedOptions& options, const LinearDy
   } else {
     filter_with_dynamics(channels.poses, facts, dynamics);
   }
+  if (options.noise_deg <= 0) leave_coloured_noise_to_auto(work);
 }
 
 }  // namespace

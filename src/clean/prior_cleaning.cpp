@@ -71,17 +71,24 @@ struct AutoRun {
   }
 };
 
+// With what is known of the take.
+Selection all_tracks(const TakeView& view) {
+  Selection all;
+  all.body_height = view.body_height;
+  all.noise.correlation = view.noise_correlation;
+  for (std::size_t n = 0; n < view.owners; ++n) all.noise.strengths.push_back(view.tracks[n].noise);
+  return all;
+}
+
 AutoRun<Clip> run_auto(const PriorTake<Clip>& take) {
   AutoRun<Clip> run{take.clip, {}};
-  run.trace = clean_in_place(*make_auto(), run.clip);
+  run.trace = clean_in_place(*make_auto(), run.clip, all_tracks(take.view));
   return run;
 }
 
 AutoRun<MarkerClip> run_auto(const PriorTake<MarkerClip>& take) {
   AutoRun<MarkerClip> run{take.clip, {}};
-  Selection all;
-  all.body_height = take.view.body_height;
-  run.trace = clean_in_place(*make_auto(), run.clip, all);
+  run.trace = clean_in_place(*make_auto(), run.clip, all_tracks(take.view));
   return run;
 }
 
@@ -117,6 +124,10 @@ PriorWork work_of(const PriorTake<AnyClip>& take, const AutoRun<AnyClip>& run) {
   work.needs.assign(width / 3, 1);
   work.suspect.assign(frames * width, 0);
   const std::vector<double> needs = needs_of(take.view, run.trace.noise);
+  work.is_white = std::all_of(run.trace.characters.begin(), run.trace.characters.end(),
+                              [](const NoiseCharacter& noise) {
+                                return noise.correlation == 0 && noise.frames_per_sample == 1;
+                              });
   for (std::size_t part = 0; part < take.part_count(); ++part) {
     const auto track = take.track(part);
     if (!track) continue;
@@ -195,7 +206,7 @@ void leave_far_turns_to_auto(PriorWork& work, const BodyLayout& layout,
 }
 
 // What `auto` made of the tracks that the result may need: not of parts whose every sample is the
-// filter's.
+// filter's. A filter may leave noise that is not white to `auto`.
 template <class AnyClip>
 std::vector<CleanedTrack> keep_fallback(const PriorTake<AnyClip>& take, AutoRun<AnyClip> run,
                                         const PriorWork& work,
@@ -203,13 +214,14 @@ std::vector<CleanedTrack> keep_fallback(const PriorTake<AnyClip>& take, AutoRun<
   const TakeView view = view_of(run.clip);
   std::vector<std::uint8_t> needed(view.tracks.size(), 1);
   for (std::size_t part = 0; part < take.match.tracks.size(); ++part) {
-    if (chosen[part] == 0 || work.needs[part] == 0) continue;
+    if (chosen[part] == 0 || work.needs[part] == 0 || !work.is_white) continue;
     const std::size_t track = *take.track(part);
     if (fill || observed_of(take.view.tracks[track]).empty()) needed[track] = 0;
   }
   std::vector<CleanedTrack> kept(view.tracks.size());
   for (std::size_t n = 0; n < kept.size(); ++n) {
     kept[n].actions = std::move(run.trace.actions[n]);
+    kept[n].noise = run.trace.coloured[n];
     if (needed[n] == 0) continue;
     kept[n].rotations = rotations_of(view.tracks[n]);
     kept[n].positions = positions_of(view.tracks[n]);
@@ -280,6 +292,7 @@ CleanTrace clean_known(const PriorTake<AnyClip>& take, bool fill, const PriorFil
     const std::size_t n = *take.track(part);
     is_filtered[n] = 1;
     CleanedTrack cleaned = filtered_track(view, result, n, fill, fallback[n]);
+    cleaned.noise = fallback[n].noise;
     cleaned.actions = actions_of(view, n, work, part, fill, std::move(fallback[n].actions));
     sink(n, std::move(cleaned));
   }

@@ -30,6 +30,8 @@ struct PriorWork {
   /// D / 3: how much of the filter's result each part wants, by its noise: 0 where `auto` finds it
   /// clean, to 1. A filter that is told the noise by hand sets them to 1.
   std::vector<double> needs;
+  std::string why_no_need = "auto finds little or no noise in them";
+  bool is_white = true;  ///< the noise, and every frame is a measurement, as far as `auto` can tell
   /// D / 3: 1 for parts that are not observed because they are left to `auto`. Empty: none.
   std::vector<std::uint8_t> left_out;
   /// F x D, what `auto` makes of the take, for what the model cannot explain; gaps are bridged.

@@ -51,7 +51,7 @@ void hold_to_needs(PriorWork& work) {
   if (has_dense_spikes(work)) std::fill(work.needs.begin(), work.needs.end(), 1.0);
   std::vector<double> left_alone;
   for (const double need : work.needs) left_alone.push_back(1 - std::min(need, 1.0));
-  add_fall_back(work, "auto finds little or no noise in them", std::move(left_alone));
+  add_fall_back(work, work.why_no_need, std::move(left_alone));
   std::vector<double> offsets(frames);
   std::vector<std::uint8_t> held(frames);
   for (std::size_t c = 0; c < poses.channels; ++c) {
@@ -66,6 +66,12 @@ void hold_to_needs(PriorWork& work) {
     bridge_offsets(offsets, held);
     for (std::size_t f = 0; f < frames; ++f) poses(f, c) += offsets[f];
   }
+}
+
+void leave_coloured_noise_to_auto(PriorWork& work) {
+  if (work.is_white) return;
+  std::fill(work.needs.begin(), work.needs.end(), 0.0);
+  work.why_no_need = "the model takes noise for white, and theirs is not";
 }
 
 bool is_left_alone(const PriorWork& work, std::size_t part, bool fill) {

@@ -15,6 +15,10 @@ namespace kinemend {
 /// `auto`, every part needs the filter.
 void hold_to_needs(PriorWork& work);
 
+/// Of a filter that takes noise for white: no part needs it where noise has a colour, or frames are
+/// samples of a lower rate, which `auto` sees. The filter may fill gaps.
+void leave_coloured_noise_to_auto(PriorWork& work);
+
 /// Whether the filter has no say in a part: no need, and nothing that it may fill.
 bool is_left_alone(const PriorWork& work, std::size_t part, bool fill);
 

@@ -100,7 +100,8 @@ ReportScale marker_scale(const std::string& unit, double body_height) {
 
 template <class Sample>
 TrackReport report_track(std::string name, std::size_t owner, const TrackEdit<Sample>& track,
-                         const TrackChanges& changes, const ReportScale& scale) {
+                         const TrackChanges& changes, const ColouredNoise& noise,
+                         const ReportScale& scale) {
   const std::size_t frames = track.before.size();
   const bool cut = scale.gaps == GapTreatment::cut;
   TrackReport report;
@@ -127,22 +128,25 @@ TrackReport report_track(std::string name, std::size_t owner, const TrackEdit<Sa
   }
   if (counted.empty()) return report;
   summary.rms_change = std::sqrt(squares / static_cast<double>(counted.size()));
-  const double noise = track_noise(counted, noise_samples);
-  const Peaks peaks =
-      measure_peaks(track.before, track.after, std::move(left_out), noise, scale.frame_rate_hz);
+  const double white = track_noise(counted, noise_samples);
+  const bool is_white = noise.correlation == 0;
+  const double strength = is_white ? white : noise.strength / scale.per_sample_unit;
+  const Peaks peaks = measure_peaks(track.before, track.after, std::move(left_out),
+                                    {white, strength, noise.correlation}, scale.frame_rate_hz);
   summary.peak_speed_before = peaks.before * scale.per_sample_unit;
   summary.peak_speed_after = peaks.after * scale.per_sample_unit;
   summary.peak_frames = peaks.frames;
   add(peak_warning(summary.name, peaks, scale.per_sample_unit, scale.speed_unit, scale.slow,
                    scale.peak_loss_limit),
       report.warnings);
-  add(change_warning(summary.name, changes, noise * scale.per_sample_unit, scale), report.warnings);
+  add(change_warning(summary.name, changes, strength * scale.per_sample_unit, scale),
+      report.warnings);
   return report;
 }
 
 template TrackReport report_track(std::string, std::size_t, const TrackEdit<Quat>&,
-                                  const TrackChanges&, const ReportScale&);
+                                  const TrackChanges&, const ColouredNoise&, const ReportScale&);
 template TrackReport report_track(std::string, std::size_t, const TrackEdit<Vec3>&,
-                                  const TrackChanges&, const ReportScale&);
+                                  const TrackChanges&, const ColouredNoise&, const ReportScale&);
 
 }  // namespace kinemend

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 
 #include "kinemend/error.hpp"
@@ -16,6 +17,26 @@ void check_number(const char* name, double value, double maximum) {
   throw Error(ErrorKind::usage, fmt::format("{}: {} is outside 0 to {}", name, value, maximum));
 }
 
+TakeNoise noise_of(const std::vector<std::string>& names, const CleanSettings& settings) {
+  TakeNoise noise;
+  if (!settings.noise) return noise;
+  noise.correlation = settings.noise->correlation;
+  for (const std::string& name : names) {
+    const auto known = settings.noise->strengths.find(name);
+    noise.strengths.push_back(known == settings.noise->strengths.end() ? 0 : known->second);
+  }
+  return noise;
+}
+
+void check_noise(const KnownNoise& noise) {
+  check_number("noise correlation", noise.correlation, 0.99);
+  for (const auto& [name, strength] : noise.strengths) {
+    if (!(strength > 0 && std::isfinite(strength)))
+      throw Error(ErrorKind::usage,
+                  fmt::format("noise of '{}': {} is not above 0", name, strength));
+  }
+}
+
 }  // namespace
 
 void check_settings(const CleanSettings& settings, std::size_t frames) {
@@ -23,6 +44,7 @@ void check_settings(const CleanSettings& settings, std::size_t frames) {
   check_number("max_change_deg", settings.max_change_deg, 180);
   check_number("max_change", settings.max_change, std::numeric_limits<double>::infinity());
   check_number("peak_loss_limit", settings.peak_loss_limit, 1);
+  if (settings.noise) check_noise(*settings.noise);
   if (settings.fill && !settings.fill->names.empty())
     throw Error(ErrorKind::usage,
                 "fill: what is filled is what may change; it has no names of its own");
@@ -40,6 +62,7 @@ Selection selection_of(const Clip& clip, const CleanSettings& settings) {
   selection.owners = select_names(clip.skeleton.names, settings, "joint");
   selection.root_position = settings.root_position && clip.joint_count() > 0 &&
                             selection.owners[0] != 0 && clip.skeleton.has_position_channels(0);
+  selection.noise = noise_of(clip.skeleton.names, settings);
   return selection;
 }
 
@@ -50,6 +73,7 @@ Selection selection_of(const MarkerClip& clip, const CleanSettings& settings) {
     if (!clip.holds_positions(m)) selection.owners[m] = 0;
   }
   selection.body_height = body_height(clip);
+  selection.noise = noise_of(clip.names, settings);
   return selection;
 }
 

@@ -7,6 +7,7 @@
 #include "base/quantiles.hpp"
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
+#include "clean/prior_hold.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/model.hpp"
 #include "priors/wiener_guard.hpp"
@@ -134,6 +135,7 @@ void filter(PriorWork& work, const WienerOptions& options, const WienerPrior& kn
   turn_channels(poses, axes);
   turn_channels(work.fallback, axes);
   work.rejected = std::move(result.rejected);
+  if (options.noise_deg <= 0) leave_coloured_noise_to_auto(work);
 }
 
 }  // namespace

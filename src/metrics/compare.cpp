@@ -25,7 +25,7 @@ Peaks peaks_of(const std::vector<Quat>& reference, const std::vector<Quat>& othe
   const double noise = std::max(track_noise(reference), track_noise(other));
   std::vector<std::uint8_t> spikes(reference.size());
   peaks::leave_out_spikes(other, noise, spikes);
-  return measure_peaks(reference, other, std::move(spikes), noise, frame_rate_hz);
+  return measure_peaks(reference, other, std::move(spikes), {noise, noise}, frame_rate_hz);
 }
 
 void fill_joints(const Clip& reference, const Clip& other, std::size_t first_frame,

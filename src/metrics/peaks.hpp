@@ -13,6 +13,18 @@
 // Peak speeds of two versions of a track, in radians or the points' unit.
 namespace kinemend {
 
+/// Of the samples of a track, along each axis.
+struct SampleNoise {
+  double white = 0;        ///< of white noise as strong at the highest frequencies
+  double strength = 0;     ///< of all of it
+  double correlation = 0;  ///< from one frame to the next
+
+  /// Deviation of the difference of two samples so many frames apart.
+  double of_difference(std::size_t frames) const {
+    return strength * std::sqrt(2 * (1 - std::pow(correlation, static_cast<double>(frames))));
+  }
+};
+
 struct Peaks {
   double before = 0;  ///< a second
   double after = 0;
@@ -73,17 +85,16 @@ double peak_speed(const std::vector<Sample>& track, const std::vector<std::uint8
 
 }  // namespace peaks
 
-/// The peaks of a track with white noise of this size; `left_out` marks samples that do not count,
+/// The peaks of a track with noise of this kind; `left_out` marks samples that do not count,
 /// and nor do spikes. They are measured over the shortest step (one frame to 50 ms) in which noise
 /// adds less than a tenth.
 template <class Sample>
 Peaks measure_peaks(const std::vector<Sample>& before, const std::vector<Sample>& after,
-                    std::vector<std::uint8_t> left_out, double noise, double rate_hz) {
+                    std::vector<std::uint8_t> left_out, const SampleNoise& noise, double rate_hz) {
   constexpr double longest_s = 0.05;
   constexpr double noise_share = 0.1;
-  // Of the difference of two samples.
-  const double largest_noise = longest_of_noise(before.size()) * std::sqrt(2.0) * noise;
-  peaks::leave_out_spikes(before, noise, left_out);
+  const double longest = longest_of_noise(before.size());
+  peaks::leave_out_spikes(before, noise.white, left_out);
   const auto most =
       static_cast<std::size_t>(std::max(1.0, std::round(longest_s * window_rate_hz(rate_hz))));
   Peaks result;
@@ -92,7 +103,7 @@ Peaks measure_peaks(const std::vector<Sample>& before, const std::vector<Sample>
     if (peak < 0) break;
     result.before = peak;
     result.frames = gap;
-    result.noise = largest_noise * rate_hz / static_cast<double>(gap);
+    result.noise = longest * noise.of_difference(gap) * rate_hz / static_cast<double>(gap);
     if (result.noise <= noise_share * peak) break;
   }
   result.after = std::max(0.0, peaks::peak_speed(after, left_out, result.frames, rate_hz));

@@ -53,6 +53,12 @@ Track position_track(const Clip& clip, std::size_t number) {
   return track;
 }
 
+void tell_noise(const TakeNoise& noise, TakeView& take) {
+  take.noise_correlation = noise.correlation;
+  for (std::size_t n = 0; n < noise.strengths.size(); ++n)
+    take.tracks[n].noise = noise.strengths[n];
+}
+
 }  // namespace
 
 TakeView view_of(const Clip& clip, const Selection& selection) {
@@ -75,6 +81,7 @@ TakeView view_of(const Clip& clip, const Selection& selection) {
                                   selection.includes(static_cast<std::size_t>(track.owner));
     take.tracks.push_back(track);
   }
+  tell_noise(selection.noise, take);
   return take;
 }
 
@@ -97,6 +104,7 @@ TakeView view_of(const MarkerClip& clip, const Selection& selection) {
     track.selected = selection.includes(m) && clip.holds_positions(m);
     take.tracks.push_back(track);
   }
+  tell_noise(selection.noise, take);
   return take;
 }
 

@@ -130,6 +130,9 @@ std::string check_text(const TakeFacts& take, const CheckReport& report,
     if (!value || (report.is_markers ? of_joints : of_markers)) continue;
     table.add({std::string(entry.rule.label), with_unit(*value, unit_of(entry, report))});
   }
+  const TakeKind kind = report.is_markers ? TakeKind::markers : TakeKind::joints;
+  for (const NoiseCharacter& noise : report.noise)
+    table.add({"noise found", noise_words(noise, kind, report.noise_unit, report.frame_rate_hz)});
   for (const Diagnostic& entry : take.diagnostics.entries())
     table.add({"repaired", printable(diagnostic_text(take.format, entry))});
   text += table.text() + subjects_text(report) + findings_text(take, report, options.all);

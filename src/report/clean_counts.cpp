@@ -11,6 +11,15 @@ std::size_t count_spans(const CleanReport& report, Action action) {
                     [&](const ReportSpan& span) { return span.action == action; }));
 }
 
+std::size_t count_bursts(const CleanReport& report) {
+  constexpr std::size_t fewest_frames = 3;
+  return static_cast<std::size_t>(
+      std::count_if(report.spans.begin(), report.spans.end(), [](const ReportSpan& span) {
+        return span.action == Action::despiked &&
+               span.last_frame - span.first_frame + 1 >= fewest_frames;
+      }));
+}
+
 std::size_t tracks_changed(const CleanReport& report) {
   return static_cast<std::size_t>(
       std::count_if(report.tracks.begin(), report.tracks.end(),

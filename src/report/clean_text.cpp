@@ -235,6 +235,9 @@ std::string details(const TakeFacts& take, const CleanOutcome& outcome, bool all
     text += fmt::format("  root position: change rms {}, max {} (file units)\n",
                         figure(report.root_rms_change), figure(report.root_max_change));
   }
+  for (const NoiseCharacter& noise : report.noise)
+    text += fmt::format("  noise: {}\n",
+                        noise_words(noise, report.kind, report.unit, report.frame_rate_hz));
   text += fall_backs_text(report, all_rows) + swap_text(outcome, take.first_frame) +
           gaps_text(report, take.first_frame, all_rows) + leftovers_text(outcome);
   if (report.feet) text += feet_text(*report.feet, take.first_frame, all_rows);

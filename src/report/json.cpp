@@ -129,6 +129,24 @@ Json leftovers_json(const std::vector<Leftover>& leftovers) {
   return list;
 }
 
+Json noise_json(const std::vector<NoiseCharacter>& characters, double frame_rate_hz) {
+  constexpr double half = 0.5, nearly_all = 0.9;
+  Json list = Json::array();
+  for (const NoiseCharacter& noise : characters) {
+    list.push_back(
+        {{"quantity", noise.space == Space::rotation ? "rotation" : "position"},
+         {"strength", noise.strength},
+         {"correlation", noise.correlation},
+         {"half_below_hz", noise.frequency_of_share(half, frame_rate_hz)},
+         {"ninety_percent_below_hz", noise.frequency_of_share(nearly_all, frame_rate_hz)},
+         {"samples", noise.frames_per_sample == 1 ? "every_frame"
+                     : noise.is_interpolated      ? "interpolated"
+                                                  : "held"},
+         {"sample_rate_hz", frame_rate_hz / static_cast<double>(noise.frames_per_sample)}});
+  }
+  return list;
+}
+
 Json subjects_json(const CheckReport& report) {
   Json list = Json::array();
   for (const SubjectHealth& subject : report.subjects) {
@@ -147,11 +165,13 @@ void add_own(const TakeFacts& take, const CleanOutcome& outcome, Depth depth, Js
   if (outcome.report.feet) {
     json["feet"] = feet_json(*outcome.report.feet, take.first_frame, depth != Depth::row);
   }
+  json["noise"] = noise_json(outcome.report.noise, outcome.report.frame_rate_hz);
   if (depth == Depth::row) return;
   json["fall_backs"] = fall_backs_json(outcome.report);
   json["leftovers"] = leftovers_json(outcome.leftovers);
 }
 void add_own(const TakeFacts& /*take*/, const CheckReport& report, Depth /*depth*/, Json& json) {
+  json["noise"] = noise_json(report.noise, report.frame_rate_hz);
   json["subjects"] = subjects_json(report);
 }
 void add_own(const TakeFacts& /*take*/, const FillOutcome& /*outcome*/, Depth /*depth*/,

@@ -29,6 +29,7 @@ std::vector<ReportFigure> figures(const TakeFacts& take, const CleanOutcome& out
                        tracks_changed(report)),
           count_figure("frames_repaired", "frames repaired", frames_repaired(report)),
           count_figure("spikes", "spikes repaired", count_spans(report, Action::despiked)),
+          count_figure("bursts", "bursts among them", count_bursts(report)),
           count_figure("gaps", "gaps filled", count_spans(report, Action::filled)),
           count_figure("gaps_refused", "gaps refused", report.fill.refused()),
           // Files of joints mostly cannot tell a missing sample.

@@ -149,25 +149,22 @@ void take_better(Estimate& best, const SeenTracks& seen, const Windows& windows,
   if (found.misfit < best.misfit) best = std::move(found);
 }
 
+// Of the colour among these that is likeliest.
 Estimate estimate(const SeenTracks& seen, const Windows& windows,
-                  std::span<const std::size_t> orders, double frame_rate_hz) {
+                  std::span<const std::size_t> orders, std::span<const double> colours,
+                  double frame_rate_hz) {
   const auto models =
       signal::models_of_orders(orders, model_cutoffs, windows.frames, frame_rate_hz);
   Estimate best;
-  for (const double correlation : correlations)
-    take_better(best, seen, windows, models, correlation);
+  for (const double correlation : colours) take_better(best, seen, windows, models, correlation);
   return best;
 }
 
 bool is_white(const SeenTracks& seen, const Windows& windows, std::span<const std::size_t> orders,
               double frame_rate_hz) {
-  const auto models =
-      signal::models_of_orders(orders, model_cutoffs, windows.frames, frame_rate_hz);
-  Estimate best;
   // What is correlated by more is likelier with a little than with none, too.
-  for (const double correlation : {correlations[0], correlations[1]})
-    take_better(best, seen, windows, models, correlation);
-  return best.correlation == 0;
+  const auto colours = std::span(correlations).first(2);
+  return estimate(seen, windows, orders, colours, frame_rate_hz).correlation == 0;
 }
 
 // Of a track: the root mean square along each axis of the velocity of means over 0.25 s.
@@ -241,7 +238,8 @@ std::vector<double> coloured_shares(const NoiseSpectrum& spectrum, double scale,
 }
 
 NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& marked,
-                                double frame_rate_hz, TrackKind kind) {
+                                double frame_rate_hz, TrackKind kind,
+                                std::optional<double> correlation) {
   constexpr std::size_t fewest_frames = 24, fewest_tracks = 4, fewest_seconds = 4;
   NoiseSpectrum spectrum;
   const auto second = static_cast<std::size_t>(std::lround(window_rate_hz(frame_rate_hz)));
@@ -269,10 +267,13 @@ NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& m
   const std::size_t most_windows = std::clamp<std::size_t>(most_lanes / (3 * moving.size()), 4, 24);
   const std::size_t window = std::max(fewest_frames, second);
   // White noise shows in a few windows already.
-  if (is_white(seen, windows_of(tracks.frames(), window, few_windows), all_orders, frame_rate_hz))
+  const std::span<const double> colours =
+      correlation ? std::span<const double>(&*correlation, 1) : std::span(correlations);
+  if (!correlation &&
+      is_white(seen, windows_of(tracks.frames(), window, few_windows), all_orders, frame_rate_hz))
     return spectrum;
-  Estimate found =
-      estimate(seen, windows_of(tracks.frames(), window, most_windows), all_orders, frame_rate_hz);
+  Estimate found = estimate(seen, windows_of(tracks.frames(), window, most_windows), all_orders,
+                            colours, frame_rate_hz);
   if (found.correlation == 0) return spectrum;
 
   const double share = fast_share_of(found.correlation);
@@ -287,7 +288,7 @@ NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& m
   }
   spectrum.fast_noise = median_of(levels);
   spectrum.fast_noise_ms = median_of(times);
-  spectrum.is_clear = is_clear(spectrum, frame_rate_hz, kind);
+  spectrum.is_clear = correlation || is_clear(spectrum, frame_rate_hz, kind);
   if (!spectrum.is_clear) return spectrum;
   spectrum.is_slow = kind == TrackKind::positions && found.correlation >= slow_correlation;
   if (spectrum.is_slow) {
@@ -295,7 +296,7 @@ NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& m
         estimate(seen,
                  windows_of(tracks.frames(),
                             static_cast<std::size_t>(longest_s * window_rate_hz(frame_rate_hz)), 2),
-                 smooth_order, frame_rate_hz);
+                 smooth_order, colours, frame_rate_hz);
     const double most =
         most_of_quiet * fast_share_of(found.correlation) / fast_share_of(whole.correlation);
     for (std::size_t c = 0; c < whole.deviations.size(); ++c)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "tracks/vector_tracks.hpp"
@@ -41,8 +42,10 @@ std::vector<double> coloured_shares(const NoiseSpectrum& spectrum, double scale,
 /// what goes on while motion comes and goes. Of positions under noise that is slow, the strength is
 /// then estimated from two stretches of 30 s, as the rest of a motion whose third differences are
 /// white, up to four times what the windows show. Takes under 24 frames (positions: 4 s) and of
-/// fewer than four tracks that move are not looked at.
+/// fewer than four tracks that move are not looked at. Where the `correlation` is known (above 0),
+/// the strength alone is estimated, and is clear.
 NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& marked,
-                                double frame_rate_hz, TrackKind kind);
+                                double frame_rate_hz, TrackKind kind,
+                                std::optional<double> correlation = std::nullopt);
 
 }  // namespace kinemend

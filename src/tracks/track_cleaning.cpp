@@ -92,6 +92,27 @@ void leave_hardly_observed(const SampleMarks& missing, std::vector<double>& shar
   }
 }
 
+// The noise of tracks whose marked samples are `missing`; white where it shows no colour.
+NoiseSpectrum spectrum_of(const VectorTracks& tracks, const SampleMarks& missing,
+                          const std::vector<LinearTrend>& trends, double frame_rate_hz,
+                          const TrackCleaningSettings& settings) {
+  NoiseSpectrum spectrum =
+      noise_spectrum_of(tracks, missing, frame_rate_hz, settings.kind, settings.correlation);
+  if (settings.correlation || !spectrum.is_clear || settings.kind == TrackKind::rotations)
+    return spectrum;
+  spectrum.is_clear = shows_in_distances(tracks, trends, missing, spectrum);
+  return spectrum;
+}
+
+// What is known of the noise in place of what was measured.
+void take_known(const std::vector<double>& known, CleanedTracks& cleaned) {
+  for (std::size_t n = 0; n < known.size(); ++n) {
+    if (known[n] <= 0) continue;
+    cleaned.noise[n] = known[n];
+    if (cleaned.spectrum.is_clear) cleaned.spectrum.deviations[n] = {known[n], known[n], known[n]};
+  }
+}
+
 // Every frame is a measurement.
 CleanedTracks clean_measurements(VectorTracks& tracks, const SampleMarks& spike_candidates,
                                  const SampleMarks& always_missing,
@@ -113,16 +134,18 @@ CleanedTracks clean_measurements(VectorTracks& tracks, const SampleMarks& spike_
     cleaned.noise = noise_levels(tracks, always_missing, tuning.noise);
   }
   const SampleMarks missing = either(cleaned.marked, always_missing);
-  if (may_be_coloured(cleaned.noise, frame_rate_hz)) {
+  const bool looks_for_colour = settings.correlation
+                                    ? *settings.correlation > 0
+                                    : may_be_coloured(cleaned.noise, frame_rate_hz);
+  if (looks_for_colour) {
     VectorTracks plain = tracks;
     undo_whitening(plain, whitenings);
-    cleaned.spectrum = noise_spectrum_of(plain, missing, frame_rate_hz, settings.kind);
-    if (cleaned.spectrum.is_clear && settings.kind == TrackKind::positions)
-      cleaned.spectrum.is_clear = shows_in_distances(plain, trends, missing, cleaned.spectrum);
+    cleaned.spectrum = spectrum_of(plain, missing, trends, frame_rate_hz, settings);
     if (cleaned.spectrum.is_clear) tracks = std::move(plain);
   }
+  if (cleaned.spectrum.is_clear) cleaned.noise = cleaned.spectrum.strengths();
+  take_known(settings.noise, cleaned);
   if (cleaned.spectrum.is_clear) {
-    cleaned.noise = cleaned.spectrum.strengths();
     cleaned.shares = coloured_shares(cleaned.spectrum, settings.sensitivity, frame_rate_hz);
     leave_hardly_observed(missing, cleaned.shares);
     smooth_coloured(tracks, missing, cleaned.spectrum, settings.sensitivity, cleaned.shares,

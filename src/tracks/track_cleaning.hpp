@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "base/progress.hpp"
@@ -18,6 +19,8 @@ struct TrackCleaningSettings {
   double sensitivity = 1;  ///< scales the estimated noise
   bool despike = true;
   TrackKind kind = TrackKind::rotations;
+  std::optional<double> correlation{};  ///< of the noise, where it is known; 0: white
+  std::vector<double> noise{};          ///< N, degrees, where it is known, else 0; empty: nowhere
   TrackTuning tuning = {};
 };
 

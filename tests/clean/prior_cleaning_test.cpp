@@ -8,8 +8,10 @@
 #include <fstream>
 
 #include "clean/marker_takes.hpp"
+#include "clean/prior_hold.hpp"
 #include "clean/takes.hpp"
 #include "kinemend/clean.hpp"
+#include "kinemend/corrupt.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
@@ -130,6 +132,27 @@ TEST(PriorCleaning, GoesAsFarAsTheNoiseAsksFor) {
 }
 
 // What the filter puts into a gap joins the samples beside it, which it may not change.
+TEST(PriorCleaning, AFilterOfWhiteNoiseLeavesNoiseWithAColourToAuto) {
+  Clip noisy = synthesize({.motion = "walk", .duration_s = 6});
+  Random random(3);
+  apply_damage(noisy, "ar1", {{"std_deg", 1.5}, {"correlation", 0.8}}, random);
+  Clip by_auto = noisy;
+  clean_in_place(*make_auto(), by_auto);
+  bool is_white = true;
+  Clip filtered = noisy;
+  const InPlaceTrace trace = clean_in_place(Filtering(layout_of(noisy), false,
+                                                      [&](PriorWork& work) {
+                                                        flatten(work);
+                                                        is_white = work.is_white;
+                                                        leave_coloured_noise_to_auto(work);
+                                                      }),
+                                            filtered);
+  EXPECT_FALSE(is_white);
+  EXPECT_EQ(filtered.local_rotations, by_auto.local_rotations);
+  ASSERT_FALSE(trace.fall_backs.empty());
+  EXPECT_THAT(trace.fall_backs[0].reason, HasSubstr("takes noise for white"));
+}
+
 TEST(PriorCleaning, WhatIsFilledInACleanTakeMeetsTheSamplesBesideIt) {
   const Clip truth = walk();
   const auto arm = static_cast<std::size_t>(truth.skeleton.find("LeftArm"));

@@ -29,6 +29,29 @@ TEST_F(ReportWords, NameTheMethodThatDidTheWork) {
   EXPECT_THAT(run({"clean", "noisy.bvh", "--dry-run"}).out, Not(HasSubstr("in place of")));
 }
 
+TEST_F(ReportWords, NoiseHasAColourAndCanBeToldFromAnotherTake) {
+  synth("walk.bvh", "walk", "6");
+  ASSERT_EQ(run({"corrupt", "walk.bvh", "-o", "slow.bvh", "--damage",
+                 "ar1:std_deg=1.5,correlation=0.8", "--seed", "3"})
+                .code,
+            0);
+  const Ran found = run({"clean", "slow.bvh", "-o", "a.bvh", "--report", "a.json"});
+  ASSERT_EQ(found.code, 0) << found.err;
+  EXPECT_THAT(found.out,
+              AllOf(HasSubstr("  noise: 1."), HasSubstr(" deg per axis, slow, 90 % below ")));
+  EXPECT_THAT(run({"check", "slow.bvh"}).out, HasSubstr(" deg per axis, slow, 90 % below "));
+  const Ran told = run({"clean", "slow.bvh", "-o", "b.bvh", "--noise", "a.json"});
+  ASSERT_EQ(told.code, 0) << told.err;
+  EXPECT_THAT(told.out, HasSubstr("slow, 90 % below "));
+  EXPECT_THAT(run({"clean", "slow.bvh", "-o", "c.bvh", "--noise", "white"}).out,
+              HasSubstr(" deg per axis, white"));
+  for (const char* none : {"walk.bvh", "none.json"}) {
+    const Ran refused = run({"clean", "slow.bvh", "-o", "d.bvh", "--noise", none});
+    EXPECT_NE(refused.code, 0);
+    EXPECT_THAT(refused.err, HasSubstr(none));
+  }
+}
+
 TEST_F(ReportWords, FrozenSpansAreNotNothing) {
   synth("walk.bvh", "walk", "6");
   ASSERT_EQ(run({"corrupt", "walk.bvh", "-o", "frozen.bvh", "--damage",

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "kinemend/metrics.hpp"
 #include "kinemend/random.hpp"
@@ -28,6 +29,23 @@ TEST(LongestOfNoise, IsPassedByOneSetInTwenty) {
     const double expected = 0.05 * sets, deviation = std::sqrt(expected);
     EXPECT_NEAR(longer, expected, 4 * deviation + 0.3 * expected) << count;
   }
+}
+
+// By drawing.
+TEST(SampleNoise, KnowsHowFarSamplesThatDependOnEachOtherGoApart) {
+  const SampleNoise noise{0, 2, 0.8};
+  Random random(7);
+  std::vector<double> samples{2 * random.normal()};
+  for (int t = 1; t < 200000; ++t)
+    samples.push_back(0.8 * samples.back() + 2 * std::sqrt(1 - 0.64) * random.normal());
+  for (const std::size_t gap : {1u, 2u, 6u, 40u}) {
+    double squares = 0;
+    for (std::size_t t = gap; t < samples.size(); ++t)
+      squares += (samples[t] - samples[t - gap]) * (samples[t] - samples[t - gap]);
+    const double deviation = std::sqrt(squares / static_cast<double>(samples.size() - gap));
+    EXPECT_NEAR(noise.of_difference(gap), deviation, 0.02 * deviation) << gap;
+  }
+  EXPECT_NEAR((SampleNoise{1, 1}.of_difference(3)), std::sqrt(2.0), 1e-12);
 }
 
 Clip turning(double speed_deg_s, std::size_t frames = 240) {

@@ -1,0 +1,55 @@
+#include "known_noise.hpp"
+
+#include <fmt/format.h>
+
+#include "json.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/io.hpp"
+
+namespace kinemend::cli {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& path, std::string_view reason) {
+  throw Error(ErrorKind::usage, fmt::format("--noise {}: {}", path, reason));
+}
+
+// The entry of the noise of the take's own tracks.
+const Json& noise_of_tracks(const Json& take, const std::string& path) {
+  const char* quantity = take.at("kind") == "markers" ? "position" : "rotation";
+  for (const Json& noise : take.at("noise")) {
+    if (noise.at("quantity") == quantity) return noise;
+  }
+  fail(path, "the take of this report has no noise");
+}
+
+KnownNoise noise_of_report(const Json& report, const std::string& path) {
+  if (!report.is_object() || report.value("schema", "") != "kinemend.report/1")
+    fail(path, "is not white, auto, or a report of clean or check");
+  const Json& takes = report.at("takes");
+  if (takes.empty() || !takes.front().contains("noise"))
+    fail(path, "the report says nothing of noise; clean and check write such reports");
+  const Json& take = takes.front();
+  KnownNoise known;
+  known.correlation = noise_of_tracks(take, path).at("correlation").get<double>();
+  for (const Json& track : take.at("tracks")) {
+    const double strength = track.value("noise", 0.0);
+    if (strength > 0) known.strengths[track.at("name").get<std::string>()] = strength;
+  }
+  return known;
+}
+
+}  // namespace
+
+std::optional<KnownNoise> known_noise(const std::string& choice) {
+  if (choice == "auto") return std::nullopt;
+  if (choice == "white") return KnownNoise{};
+  const std::string text = read_file(choice);
+  try {
+    return noise_of_report(Json::parse(text), choice);
+  } catch (const Json::exception&) {
+    fail(choice, "is not white, auto, or a report of clean or check");
+  }
+}
+
+}  // namespace kinemend::cli

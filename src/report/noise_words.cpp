@@ -1,0 +1,37 @@
+#include <fmt/format.h>
+
+#include "kinemend/text.hpp"
+#include "report/words.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr double slow_correlation = 0.7, shown_share = 0.9;
+
+std::string colour_words(const NoiseCharacter& noise, double frame_rate_hz) {
+  if (noise.correlation == 0) return "white";
+  return fmt::format("{}, {:.0f} % below {} Hz",
+                     noise.correlation < slow_correlation ? "coloured" : "slow", 100 * shown_share,
+                     figure(noise.frequency_of_share(shown_share, frame_rate_hz)));
+}
+
+}  // namespace
+
+std::string noise_words(const NoiseCharacter& noise, TakeKind kind, std::string_view unit,
+                        double frame_rate_hz) {
+  const bool is_of_tracks = (kind == TakeKind::joints) == (noise.space == Space::rotation);
+  const std::string lead = is_of_tracks ? "" : "positions: ";
+  const std::string shown_unit =
+      is_of_tracks && !unit.empty() ? std::string(unit) : std::string("units");
+  std::string words = fmt::format("{}{} {} per axis, {}", lead, figure(noise.strength), shown_unit,
+                                  colour_words(noise, frame_rate_hz));
+  if (noise.frames_per_sample == 1) return words;
+  const double rate_hz = frame_rate_hz / static_cast<double>(noise.frames_per_sample);
+  if (noise.is_interpolated)
+    return words + fmt::format("; {} Hz samples joined by lines", figure(rate_hz));
+  return words + fmt::format("; {} Hz samples, each held for {} frames", figure(rate_hz),
+                             noise.frames_per_sample);
+}
+
+}  // namespace kinemend
