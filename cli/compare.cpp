@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <optional>
+#include <variant>
 #include <vector>
 
 #include "commands.hpp"
+#include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/metrics.hpp"
 #include "kinemend/report.hpp"
@@ -27,28 +30,78 @@ ComparisonSettings comparison_settings(const Arguments& arguments, const Clip& r
   return settings;
 }
 
-TakeFacts take_of(const ReadResult& read, const std::string& name) {
-  TakeFacts facts = take_facts(read.clip);
+TakeFacts take_of(const TakeResult& read, const std::string& name) {
+  TakeFacts facts = std::visit([](const auto& take) { return take_facts(take); }, read.take);
   facts.input = name;
   facts.diagnostics = read.diagnostics;
   return facts;
+}
+
+TakeResult read_one(const std::string& name, const Arguments& arguments) {
+  TakeResult read = read_take(std::filesystem::path(name), read_options(arguments));
+  std::visit([&](const auto& take) { warn_of_repairs(take.source, read.diagnostics); }, read.take);
+  return read;
+}
+
+MarkerFit fit_of(const std::string& name) {
+  if (name == "rigid") return MarkerFit::rigid;
+  return name == "gain-offset" ? MarkerFit::gain_offset : MarkerFit::none;
+}
+
+const MarkerClip& markers_of(const TakeResult& read, const std::string& name) {
+  if (const auto* markers = std::get_if<MarkerClip>(&read.take)) return *markers;
+  throw Error(ErrorKind::usage,
+              fmt::format("{}: holds joints, and the other take markers; kinemend "
+                          "convert makes markers of joints",
+                          name));
+}
+
+// Where one of the two holds markers.
+CompareOutcome compare_as_markers(const TakeResult& reference, const TakeResult& other,
+                                  const Arguments& arguments) {
+  CompareOutcome outcome;
+  outcome.reference = arguments.positionals[0];
+  outcome.fit = fit_of(arguments.text("fit"));
+  MarkerComparisonSettings settings;
+  settings.fit = outcome.fit;
+  settings.lag_frames = arguments.whole("lag");
+  settings.least_motion = arguments.number("least_motion");
+  std::optional<TakeResult> fit_to;
+  if (const std::string name = arguments.text("fit_to"); !name.empty()) {
+    fit_to = read_one(name, arguments);
+    settings.fit_to = &markers_of(*fit_to, name);
+  }
+  outcome.markers = compare_markers(markers_of(reference, outcome.reference),
+                                    markers_of(other, arguments.positionals[1]), settings);
+  return outcome;
+}
+
+CompareOutcome compare_takes(const TakeResult& reference, const TakeResult& other,
+                             const Arguments& arguments) {
+  const auto* first = std::get_if<Clip>(&reference.take);
+  const auto* second = std::get_if<Clip>(&other.take);
+  if (first == nullptr || second == nullptr) return compare_as_markers(reference, other, arguments);
+  for (const char* flag : {"fit", "fit_to", "lag", "least_motion"}) {
+    if (arguments.given(flag))
+      throw Error(ErrorKind::usage, fmt::format("--{} is for takes of markers", dashed(flag)));
+  }
+  CompareOutcome outcome;
+  outcome.reference = arguments.positionals[0];
+  outcome.comparison = compare_clips(*first, *second, comparison_settings(arguments, *first));
+  return outcome;
 }
 
 int run(const Arguments& arguments) {
   const std::string reference_name = arguments.positionals[0];
   const std::string other_name = arguments.positionals[1];
   check_single_use({reference_name, other_name}, {}, false);
-  const ReadResult reference =
-      read_clip(std::filesystem::path(reference_name), read_options(arguments));
-  const ReadResult other = read_clip(std::filesystem::path(other_name), read_options(arguments));
-  warn_of_repairs(reference.clip.source, reference.diagnostics);
-  warn_of_repairs(other.clip.source, other.diagnostics);
-  Report report{take_of(other, other_name),
-                CompareOutcome{reference_name,
-                               compare_clips(reference.clip, other.clip,
-                                             comparison_settings(arguments, reference.clip))}};
-  // Joints are the same, and the reference says how they are spelled.
-  report.take.tracks = reference.clip.skeleton.names;
+  const TakeResult reference = read_one(reference_name, arguments);
+  const TakeResult other = read_one(other_name, arguments);
+  Report report{take_of(other, other_name), compare_takes(reference, other, arguments)};
+  // Joints are the same, and the reference says how they are spelled; lengths are in its unit.
+  const TakeFacts shown = take_of(reference, reference_name);
+  report.take.tracks = shown.tracks;
+  if (!shown.unit.empty()) report.take.unit = shown.unit;
   if (arguments.flag("json")) {
     const std::vector<std::string> takes = {to_json(report)};
     write_out(report_document("compare", takes));
@@ -71,9 +124,28 @@ Flag number_without_default(std::string name, std::string unit, double minimum, 
 std::vector<Flag> flags() {
   Flag up = text_flag("up", "", "Figures", "vertical axis, for foot_slide (default y)");
   up.spec.choices = {"x", "y", "z"};
+  Flag fit = text_flag("fit", "", "Markers", "bring REFERENCE to OTHER first",
+                       "rigid: one turn and one shift of the whole take; gain-offset: a gain and "
+                       "an offset of each channel, which calibration would mend and which are no "
+                       "noise.");
+  fit.spec.choices = {"none", "rigid", "gain-offset"};
+  fit.spec.default_value = std::string("none");
+  fit.has_default = true;
+  Flag fit_to = text_flag("fit_to", "TAKE", "Markers",
+                          "fit to this take in place of OTHER: the one before cleaning",
+                          "A fit to each of several cleaned takes flatters the one that stands "
+                          "still.");
+  fit_to.completion = Completion::file;
   std::vector<Flag> list = {
       json_flag("print JSON instead of text"),
-      switch_flag("per_joint", "Output", "also list every joint"),
+      switch_flag("per_joint", "Output", "also list every joint or marker"),
+      fit,
+      fit_to,
+      whole_flag("lag", 0, -1e6, 1e6, "Markers", "frames by which OTHER comes behind REFERENCE",
+                 "The lag that is found is printed as lag_s, and not applied."),
+      number_flag("least_motion", "", 0, 0, 1e12, "Markers",
+                  "channels of REFERENCE that move by less do not count, file units",
+                  "Standard deviation over the take. Distances count all."),
       number_without_default("metres_per_unit", "m", 1e-9, 1e6, "Figures",
                              "length of a file unit; found from the skeleton's height otherwise"),
       number_without_default("psnr_peak", "rad", 1e-9, 1e6, "Figures",
@@ -101,16 +173,18 @@ Command compare_command() {
   command.name = "compare";
   command.summary = "print every error figure of a take against its reference";
   command.description =
-      "Both takes have the same joints and frames. A calibration pose at the start of the "
-      "reference "
-      "is left out. Each --max and --min option sets a limit; where a figure passes one, the exit "
+      "Both takes have the same frames, and the same joints or markers of the same names. A "
+      "calibration pose at the start of a reference of joints is left out. Each --max and --min "
+      "option sets a limit; where a figure passes one, the exit "
       "code is 1.";
   command.positionals = {{"REFERENCE", "the truth; - is standard input", 1, 1, {}},
                          {"OTHER", "the take to judge", 1, 1, {}}};
   command.flags = flags();
   command.examples = {{"kinemend compare truth.bvh cleaned.bvh", "all figures"},
                       {"kinemend compare truth.bvh cleaned.bvh --max-geodesic-rms-deg 1.2",
-                       "as a check in a script"}};
+                       "as a check in a script"},
+                      {"kinemend compare optical.c3d video.trc --fit gain-offset --per-joint",
+                       "one motion seen by two systems: error by frequency, velocity, lag"}};
   command.run = run;
   return command;
 }

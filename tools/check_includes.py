@@ -14,7 +14,7 @@ USES = {
     "motion": {"rotation"},
     "io": {"motion"},
     "representation": {"motion"},
-    "metrics": {"motion"},
+    "metrics": {"motion", "signal"},
     "corrupt": {"motion"},
     "synth": {"motion"},
     "signal": {"base"},

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "kinemend/clip.hpp"
+#include "kinemend/marker_clip.hpp"
 
 namespace kinemend {
 
@@ -149,5 +152,56 @@ struct Comparison {
 /// Errors: `ErrorKind::usage` when joints or numbers of frames differ, saying how.
 Comparison compare_clips(const Clip& reference, const Clip& other,
                          const ComparisonSettings& settings = {});
+
+/// How a reference is brought to what another system shows of the same motion.
+enum class MarkerFit : std::uint8_t {
+  none,
+  rigid,        ///< one turn and one shift of the whole take (Kabsch 1976)
+  gain_offset,  ///< a gain and an offset of each channel: what calibration would mend is no noise
+};
+
+struct MarkerComparisonSettings {
+  MarkerFit fit = MarkerFit::none;
+  /// The take that the reference is fitted to; null: `other`. A fit to each of several cleaned
+  /// takes flatters the one that stands still: fit to the take before cleaning.
+  const MarkerClip* fit_to = nullptr;
+  /// Frames by which the takes that are compared come behind the reference.
+  std::int64_t lag_frames = 0;
+  /// Channels whose reference has a smaller standard deviation do not count, file units (>= 0).
+  double least_motion = 0;
+};
+
+/// Errors of a marker, or of a whole take: file units of the reference. Root mean squares are over
+/// samples that both takes have.
+struct MarkerErrors {
+  std::size_t samples = 0;  ///< of markers
+  double rms_distance = 0;  ///< of positions
+  double max_distance = 0;
+  double rms = 0;           ///< along an axis, over the channels that count
+  double velocity_rms = 0;  ///< the same of velocities by central differences, a second
+  /// The same of the error's parts below 2 Hz, from 2 to 6, 6 to 15 and above 15 Hz: differences of
+  /// fourth-order Butterworth filters, forward and backward. None of a cut at or above half the
+  /// rate, or for under 16 frames.
+  std::array<std::optional<double>, 4> bands;
+  std::optional<double> above_6_hz;  ///< jitter
+};
+
+struct MarkerComparison {
+  std::size_t frames = 0;  ///< compared
+  MarkerErrors all;
+  double p99_distance = 0;
+  /// By how much the other take comes behind the reference, seconds, where their velocities agree
+  /// best within half a second; not applied. 0 where they hardly move.
+  double lag_s = 0;
+  std::vector<std::string> names;  ///< of the markers that both have, as the reference spells them
+  std::vector<MarkerErrors> markers;   ///< of each of these
+  std::vector<std::string> unmatched;  ///< of the reference, without a counterpart
+};
+
+/// Markers are paired by name, with or without their subject; lengths of `other` are brought to the
+/// reference's unit where both files state theirs. Errors: `ErrorKind::usage` where numbers of
+/// frames or rates differ, no marker is in both, or too few frames are left behind the lag.
+MarkerComparison compare_markers(const MarkerClip& reference, const MarkerClip& other,
+                                 const MarkerComparisonSettings& settings = {});
 
 }  // namespace kinemend

@@ -66,9 +66,13 @@ struct FillOutcome {
 };
 /// What `compare` measured: the take is the other one.
 struct CompareOutcome {
-  std::string reference;  ///< as it was named
-  Comparison comparison;
+  std::string reference;                      ///< as it was named
+  Comparison comparison;                      ///< of joints
+  std::optional<MarkerComparison> markers{};  ///< of markers, in place of it
+  MarkerFit fit = MarkerFit::none;            ///< of the reference to the other; markers only
 };
+/// "none", "rigid", "gain-offset".
+std::string_view to_string(MarkerFit fit);
 
 /// One take and what a command made of it. `FeetReport`: of `contacts`.
 struct Report {
@@ -127,7 +131,7 @@ struct ReportTracks {
 /// No names where a command looks at no tracks.
 ReportTracks tracks_of(const Report& report);
 
-/// A figure of `check` or `compare`, on which a limit can be set.
+/// A figure of `check` or `compare` (joints' first, then markers'), on which a limit can be set.
 struct FigureRule {
   std::string_view name;   ///< as in `ReportFigure`
   std::string_view label;  ///< for people

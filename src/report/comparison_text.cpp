@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -15,29 +16,65 @@ std::string exact(double value) {
   return std::isinf(value) ? "equal" : fmt::format("{:.4g}", value);
 }
 
+std::string figures_text(const TakeFacts& take, const CompareOutcome& outcome) {
+  Table table({Align::left, Align::right, Align::left, Align::left});
+  for_each_figure(outcome, [&](const FigureRule& rule, const std::optional<double>& value) {
+    table.add({std::string(rule.name), value ? exact(*value) : "-",
+               value ? unit_of(rule, take) : "", std::string(rule.label)});
+  });
+  return table.text();
+}
+
+std::string joints_text(const TakeFacts& take, const Comparison& comparison) {
+  Table table({Align::left, Align::right, Align::right, Align::right, Align::right});
+  table.add({"joint", "rms deg", "max deg", "peak deg/s reference", "other"});
+  for (std::size_t j = 0; j < comparison.joints.size(); ++j) {
+    const JointComparison& joint = comparison.joints[j];
+    table.add({printable(take.tracks[j]), figure(joint.geodesic_rms_deg),
+               figure(joint.geodesic_max_deg), figure(joint.peak_speed_reference_deg_s),
+               figure(joint.peak_speed_other_deg_s)});
+  }
+  return table.text();
+}
+
+std::string markers_text(const TakeFacts& take, const MarkerComparison& comparison) {
+  const std::string unit = take.unit.empty() ? "units" : take.unit;
+  Table table({Align::left, Align::right, Align::right, Align::right, Align::right, Align::right});
+  table.add({"marker", "samples", "rms distance " + unit, "max", "velocity rms " + unit + "/s",
+             "above 6 Hz " + unit});
+  for (std::size_t m = 0; m < comparison.markers.size(); ++m) {
+    const MarkerErrors& row = comparison.markers[m];
+    table.add({printable(comparison.names[m]), grouped(row.samples), figure(row.rms_distance),
+               figure(row.max_distance), figure(row.velocity_rms),
+               row.above_6_hz ? figure(*row.above_6_hz) : "-"});
+  }
+  return table.text();
+}
+
+// What the figures of markers are of.
+std::string pairing_text(const CompareOutcome& outcome) {
+  const MarkerComparison& comparison = *outcome.markers;
+  std::string text = fmt::format("  {} and {} compared", counted(comparison.frames, "frame"),
+                                 counted(comparison.names.size(), "marker"));
+  if (outcome.fit == MarkerFit::rigid) text += ", the reference turned and shifted as a whole";
+  if (outcome.fit == MarkerFit::gain_offset) text += ", each channel with its own gain and offset";
+  if (!comparison.unmatched.empty())
+    text += fmt::format("; without a counterpart: {}", fmt::join(comparison.unmatched, ", "));
+  return text;
+}
+
 }  // namespace
 
 std::string comparison_text(const TakeFacts& take, const CompareOutcome& outcome,
                             const TextOptions& options) {
-  const Comparison& comparison = outcome.comparison;
-  Table table({Align::left, Align::right, Align::left, Align::left});
-  for (const ComparisonFigure& entry : comparison_figure_table()) {
-    const auto value = entry.get(comparison);
-    table.add({std::string(entry.rule.name), value ? exact(*value) : "-",
-               std::string(value ? entry.rule.unit : ""), std::string(entry.rule.label)});
-  }
-  std::string text = fmt::format("  {} compared\n\n", counted(comparison.frames, "frame"));
-  text += table.text();
+  const std::string compared =
+      outcome.markers ? pairing_text(outcome)
+                      : fmt::format("  {} compared", counted(outcome.comparison.frames, "frame"));
+  const std::string text = compared + "\n\n" + figures_text(take, outcome);
   if (!options.all) return text;
-  Table joints({Align::left, Align::right, Align::right, Align::right, Align::right});
-  joints.add({"joint", "rms deg", "max deg", "peak deg/s reference", "other"});
-  for (std::size_t j = 0; j < comparison.joints.size(); ++j) {
-    const JointComparison& joint = comparison.joints[j];
-    joints.add({printable(take.tracks[j]), figure(joint.geodesic_rms_deg),
-                figure(joint.geodesic_max_deg), figure(joint.peak_speed_reference_deg_s),
-                figure(joint.peak_speed_other_deg_s)});
-  }
-  return text + "\n" + joints.text();
+  return text + "\n" +
+         (outcome.markers ? markers_text(take, *outcome.markers)
+                          : joints_text(take, outcome.comparison));
 }
 
 }  // namespace kinemend

@@ -109,14 +109,66 @@ std::span<const ComparisonFigure> comparison_figure_table() {
   return table;
 }
 
+std::span<const MarkerComparisonFigure> marker_comparison_figure_table() {
+  using C = MarkerComparison;
+  static constexpr auto table = std::to_array<MarkerComparisonFigure>(
+      {{{"rms_distance", "distance of positions, root mean square", "", "max_rms_distance"},
+        [](const C& c) -> Value { return c.all.rms_distance; }},
+       {{"p99_distance", "its 99th percentile", "", "max_p99_distance"},
+        [](const C& c) -> Value { return c.p99_distance; }},
+       {{"max_distance", "its largest value", "", "max_distance"},
+        [](const C& c) -> Value { return c.all.max_distance; }},
+       {{"rms_axis", "error along an axis", "", "max_rms_axis"},
+        [](const C& c) -> Value { return c.all.rms; }},
+       {{"velocity_rms", "error of velocity along an axis", "/s", "max_velocity_rms"},
+        [](const C& c) -> Value { return c.all.velocity_rms; }},
+       {{"below_2_hz", "error along an axis, below 2 Hz", "", "max_below_2_hz"},
+        [](const C& c) { return c.all.bands[0]; }},
+       {{"from_2_to_6_hz", "the same, 2 to 6 Hz", "", "max_from_2_to_6_hz"},
+        [](const C& c) { return c.all.bands[1]; }},
+       {{"from_6_to_15_hz", "the same, 6 to 15 Hz", "", "max_from_6_to_15_hz"},
+        [](const C& c) { return c.all.bands[2]; }},
+       {{"above_15_hz", "the same, above 15 Hz", "", "max_above_15_hz"},
+        [](const C& c) { return c.all.bands[3]; }},
+       {{"above_6_hz", "jitter: the same, above 6 Hz", "", "max_above_6_hz"},
+        [](const C& c) { return c.all.above_6_hz; }},
+       {{"lag_s", "by how much OTHER comes later; not applied", "s", "max_lag_s"},
+        [](const C& c) -> Value { return c.lag_s; }}});
+  return table;
+}
+
+std::string unit_of(const FigureRule& rule, const TakeFacts& take) {
+  const bool is_of_markers = take.kind == TakeKind::markers;
+  const std::string own = take.unit.empty() ? "units" : take.unit;
+  if (is_of_markers && rule.unit.empty()) return own;
+  return is_of_markers && rule.unit == "/s" ? own + "/s" : std::string(rule.unit);
+}
+
 std::span<const FigureRule> check_figures() {
   static const std::vector<FigureRule> rules = rules_of(check_figure_table());
   return rules;
 }
 
 std::span<const FigureRule> comparison_figures() {
-  static const std::vector<FigureRule> rules = rules_of(comparison_figure_table());
+  static const std::vector<FigureRule> rules = [] {
+    std::vector<FigureRule> list = rules_of(comparison_figure_table());
+    const std::vector<FigureRule> of_markers = rules_of(marker_comparison_figure_table());
+    list.insert(list.end(), of_markers.begin(), of_markers.end());
+    return list;
+  }();
   return rules;
+}
+
+std::string_view to_string(MarkerFit fit) {
+  switch (fit) {
+    case MarkerFit::none:
+      return "none";
+    case MarkerFit::rigid:
+      return "rigid";
+    case MarkerFit::gain_offset:
+      return "gain-offset";
+  }
+  return "unknown";
 }
 
 }  // namespace kinemend

@@ -179,6 +179,9 @@ void add_own(const TakeFacts& /*take*/, const FillOutcome& /*outcome*/, Depth /*
 void add_own(const TakeFacts& /*take*/, const CompareOutcome& outcome, Depth /*depth*/,
              Json& json) {
   json["reference"] = outcome.reference;
+  if (!outcome.markers) return;
+  json["fit"] = to_string(outcome.fit);
+  json["unmatched"] = outcome.markers->unmatched;
 }
 void add_own(const TakeFacts& take, const FeetReport& report, Depth /*depth*/, Json& json) {
   json["feet"] = feet_json(report, take.first_frame, true);

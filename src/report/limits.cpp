@@ -45,23 +45,36 @@ std::vector<std::string> passed(const TakeFacts& take, const CheckReport& report
   return lines;
 }
 
+// Why a figure of a comparison is not known.
+std::string_view unknown_for(const FigureRule& rule, const CompareOutcome& outcome) {
+  if (outcome.markers) return "the take is too short, or its rate too low";
+  return rule.name.starts_with("foot_slide") ? "no foot was found to stand"
+                                             : "the unit of length is";
+}
+
 std::vector<std::string> passed(const TakeFacts& /*take*/, const CompareOutcome& outcome,
                                 std::span<const FigureLimit> limits) {
   std::vector<std::string> lines;
-  for (const ComparisonFigure& figure : comparison_figure_table()) {
-    const FigureRule& rule = figure.rule;
+  std::size_t known = 0;
+  for_each_figure(outcome, [&](const FigureRule& rule, const std::optional<double>& value) {
     const FigureLimit* const limit = limit_of(rule.name, limits);
-    if (limit == nullptr) continue;
-    const std::optional<double> value = figure.get(outcome.comparison);
+    if (limit == nullptr) return;
+    ++known;
     if (!value) {
-      const bool is_of_feet = rule.name.starts_with("foot_slide");
-      lines.push_back(fmt::format(
-          "{} is unknown, for {}: {} cannot hold", rule.name,
-          is_of_feet ? "no foot was found to stand" : "the unit of length is", option_of(rule)));
+      lines.push_back(fmt::format("{} is unknown, for {}: {} cannot hold", rule.name,
+                                  unknown_for(rule, outcome), option_of(rule)));
     } else if (rule.more_is_better ? !(*value >= limit->value) : !(*value <= limit->value)) {
       lines.push_back(fmt::format("{} {:.4g} is {} the limit {:.4g}", rule.name, *value,
                                   rule.more_is_better ? "below" : "above", limit->value));
     }
+  });
+  if (known == limits.size()) return lines;
+  const std::size_t of_joints = comparison_figure_table().size();
+  const std::span<const FigureRule> all = comparison_figures();
+  for (const FigureRule& rule : outcome.markers ? all.first(of_joints) : all.subspan(of_joints)) {
+    if (limit_of(rule.name, limits) != nullptr)
+      lines.push_back(fmt::format("{} is a figure of {}: {} cannot hold", rule.name,
+                                  outcome.markers ? "joints" : "markers", option_of(rule)));
   }
   return lines;
 }

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <limits>
+
 #include <type_traits>
 #include <utility>
 
@@ -60,14 +62,15 @@ std::vector<ReportFigure> figures(const TakeFacts& /*take*/, const FillOutcome& 
           count_figure("not_within_range", "not within the range", outcome.not_within_range)};
 }
 
-std::vector<ReportFigure> figures(const TakeFacts& /*take*/, const CompareOutcome& outcome) {
-  std::vector<ReportFigure> list = {
-      count_figure("frames_compared", "frames compared", outcome.comparison.frames),
-      {"psnr_peak", "peak of psnr_db", outcome.comparison.psnr_peak, false, "rad"}};
-  for (const ComparisonFigure& figure : comparison_figure_table()) {
-    list.push_back({std::string(figure.rule.name), std::string(figure.rule.label),
-                    figure.get(outcome.comparison), false, std::string(figure.rule.unit)});
-  }
+std::vector<ReportFigure> figures(const TakeFacts& take, const CompareOutcome& outcome) {
+  const std::size_t frames = outcome.markers ? outcome.markers->frames : outcome.comparison.frames;
+  std::vector<ReportFigure> list = {count_figure("frames_compared", "frames compared", frames)};
+  if (!outcome.markers)
+    list.push_back({"psnr_peak", "peak of psnr_db", outcome.comparison.psnr_peak, false, "rad"});
+  for_each_figure(outcome, [&](const FigureRule& rule, const std::optional<double>& value) {
+    list.push_back(
+        {std::string(rule.name), std::string(rule.label), value, false, unit_of(rule, take)});
+  });
   return list;
 }
 
@@ -131,7 +134,25 @@ ReportTracks tracks(const TakeFacts& /*take*/, const CheckReport& report) {
            column("noise", "noise", rows, &Row::noise)}};
 }
 
+ReportTracks tracks_of_markers(const TakeFacts& take, const MarkerComparison& comparison) {
+  using Row = MarkerErrors;
+  const std::vector<Row>& rows = comparison.markers;
+  ReportTracks result{take.unit,
+                      comparison.names,
+                      {column("samples", "samples", rows, &Row::samples),
+                       column("rms_distance", "rms distance", rows, &Row::rms_distance),
+                       column("max_distance", "largest", rows, &Row::max_distance),
+                       column("rms_axis", "rms along an axis", rows, &Row::rms),
+                       column("velocity_rms", "velocity, a second", rows, &Row::velocity_rms),
+                       {"above_6_hz", "above 6 Hz", false, {}}}};
+  for (const Row& row : rows)
+    result.columns.back().values.push_back(
+        row.above_6_hz.value_or(std::numeric_limits<double>::quiet_NaN()));
+  return result;
+}
+
 ReportTracks tracks(const TakeFacts& take, const CompareOutcome& outcome) {
+  if (outcome.markers) return tracks_of_markers(take, *outcome.markers);
   using Row = JointComparison;
   const std::vector<Row>& rows = outcome.comparison.joints;
   return {"deg",

@@ -74,6 +74,7 @@ TEST_F(ReportSchema, HoldsForCompareAndContacts) {
   const Json json = document({"compare", "truth.bvh", "walk.bvh", "--json"});
   EXPECT_EQ(json["takes"][0]["input"], "walk.bvh");
   EXPECT_EQ(json["takes"][0]["reference"], "truth.bvh");
+  document({"compare", "m.trc", "m.trc", "--fit", "rigid", "--json"});
   document({"contacts", "truth.bvh", "--json"});
 }
 

@@ -52,6 +52,30 @@ TEST_F(ReportWords, NoiseHasAColourAndCanBeToldFromAnotherTake) {
   }
 }
 
+TEST_F(ReportWords, MarkersAreComparedToo) {
+  synth("walk.bvh", "walk", "4");
+  ASSERT_EQ(run({"convert", "walk.bvh", "-o", "walk.trc"}).code, 0);
+  ASSERT_EQ(run({"corrupt", "walk.trc", "-o", "noisy.trc", "--damage", "system:kind=optical,strength=20",
+                 "--seed", "1"})
+                .code,
+            0);
+  const Ran ran = run({"compare", "walk.trc", "noisy.trc", "--fit", "gain-offset", "--per-joint"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out,
+              AllOf(HasSubstr("each channel with its own gain and offset"),
+                    HasSubstr("velocity_rms"), HasSubstr("jitter"), HasSubstr("LeftHand")));
+  EXPECT_EQ(run({"compare", "walk.trc", "noisy.trc", "--max-rms-axis", "100"}).code, 0);
+  const Ran passed = run({"compare", "walk.trc", "noisy.trc", "--max-rms-axis", "1"});
+  EXPECT_EQ(passed.code, 1);
+  EXPECT_THAT(passed.err, HasSubstr("rms_axis"));
+  EXPECT_THAT(run({"compare", "walk.trc", "noisy.trc", "--max-rms-deg", "1"}).err,
+              HasSubstr("rms_deg is a figure of joints"));
+  EXPECT_THAT(run({"compare", "walk.bvh", "noisy.trc"}).err,
+              HasSubstr("walk.bvh: holds joints, and the other take markers"));
+  EXPECT_THAT(run({"compare", "walk.bvh", "walk.bvh", "--fit", "rigid"}).err,
+              HasSubstr("--fit is for takes of markers"));
+}
+
 TEST_F(ReportWords, FrozenSpansAreNotNothing) {
   synth("walk.bvh", "walk", "6");
   ASSERT_EQ(run({"corrupt", "walk.bvh", "-o", "frozen.bvh", "--damage",
