@@ -9,6 +9,7 @@
 #include "kinemend/frame_numbers.hpp"
 #include "kinemend/io.hpp"
 #include "method_options.hpp"
+#include "page_report.hpp"
 #include "takes.hpp"
 
 namespace kinemend::cli {
@@ -209,6 +210,8 @@ CleanPlan make_clean_plan(const Arguments& arguments) {
   }
   plan.folder = arguments.text("output_dir");
   plan.report_path = arguments.text("report");
+  check_page(plan.report_path, plan.jobs.size());
+  if (is_page(plan.report_path)) plan.page = page_settings(arguments);
   plan.dry_run = arguments.flag("dry_run");
   plan.json = arguments.flag("json");
   plan.verbose = arguments.flag("verbose");

@@ -9,6 +9,7 @@
 #include "kinemend/io.hpp"
 #include "kinemend/metrics.hpp"
 #include "kinemend/report.hpp"
+#include "page_report.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -34,10 +35,23 @@ TakeFacts take_of(const ReadResult& read, const std::string& name) {
   return facts;
 }
 
+std::string comparison_page(const Report& report, const Clip& reference, const Clip& other,
+                            const Arguments& arguments) {
+  PageSettings settings = page_settings(arguments);
+  settings.before_label = "reference";
+  settings.after_label = "other";
+  return report_page(report, reference, &other, settings);
+}
+
 int run(const Arguments& arguments) {
   const std::string reference_name = arguments.positionals[0];
   const std::string other_name = arguments.positionals[1];
-  check_single_use({reference_name, other_name}, {}, false);
+  const std::string report_path = arguments.text("report");
+  const bool json = arguments.flag("json"), force = arguments.flag("force");
+  check_page(report_path, 1);
+  check_single_use({reference_name, other_name}, {report_path}, json);
+  check_is_no_input("--report", report_path, {reference_name, other_name});
+  if (!report_path.empty()) check_free(report_path, force);
   const ReadResult reference =
       read_clip(std::filesystem::path(reference_name), read_options(arguments));
   const ReadResult other = read_clip(std::filesystem::path(other_name), read_options(arguments));
@@ -49,10 +63,18 @@ int run(const Arguments& arguments) {
                                              comparison_settings(arguments, reference.clip))}};
   // Joints are the same, and the reference says how they are spelled.
   report.take.tracks = reference.clip.skeleton.names;
-  if (arguments.flag("json")) {
-    const std::vector<std::string> takes = {to_json(report)};
-    write_out(report_document("compare", takes));
-  } else {
+  const std::vector<std::string> takes = {to_json(report)};
+  const std::string document = report_document("compare", takes);
+  if (!report_path.empty()) {
+    write_output(report_path,
+                 is_page(report_path)
+                     ? comparison_page(report, reference.clip, other.clip, arguments)
+                     : document,
+                 force);
+  }
+  if (json) {
+    write_out(document);
+  } else if (report_path != "-") {
     TextOptions options;
     options.all = arguments.flag("per_joint");
     write_out(to_text(report, options));
@@ -74,6 +96,9 @@ std::vector<Flag> flags() {
   std::vector<Flag> list = {
       json_flag("print JSON instead of text"),
       switch_flag("per_joint", "Output", "also list every joint"),
+      report_flag("also write the figures, as JSON",
+                  "FILE.html is a page for a browser, with both takes."),
+      force_flag(),
       number_without_default("metres_per_unit", "m", 1e-9, 1e6, "Figures",
                              "length of a file unit; found from the skeleton's height otherwise"),
       number_without_default("psnr_peak", "rad", 1e-9, 1e6, "Figures",
