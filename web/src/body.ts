@@ -98,8 +98,17 @@ class Figure {
   }
 }
 
+/** What draws; null where the browser has no WebGL. */
+export function makeRenderer(): three.WebGLRenderer | null {
+  try {
+    return new three.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
+  } catch {
+    return null;
+  }
+}
+
 export class Body {
-  readonly options: BodyOptions = { before: true, after: true, apart: false, follow: false };
+  readonly options: BodyOptions = { before: true, after: true, apart: false, follow: true };
   readonly figures: Figure[] = [];
   private readonly scene = new three.Scene();
   private readonly camera: three.PerspectiveCamera;
@@ -116,15 +125,14 @@ export class Body {
   private centre = new three.Vector3();
   private waiting = false;
 
-  /** Errors: where the browser has no WebGL. */
-  constructor(private readonly holder: HTMLElement, private readonly take: Take, private readonly player: Player) {
+  constructor(private readonly holder: HTMLElement, private readonly take: Take, private readonly player: Player, renderer: three.WebGLRenderer) {
     const { stage } = take.data;
     this.size = stage.height;
     this.up = axes[stage.up].clone().multiplyScalar(stage.sign);
     // Seen from the front the first of the other axes points to the right.
     this.across = axes[stage.up === 'x' ? 'y' : 'x'].clone();
     this.ahead = this.across.clone().cross(this.up);
-    this.renderer = new three.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
+    this.renderer = renderer;
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
     this.camera = new three.PerspectiveCamera(35, 1, this.size / 50, this.size * 200);
     this.camera.up.copy(this.up);
@@ -177,6 +185,20 @@ export class Body {
     return box;
   }
 
+  /** A ball around the body as it is now; a marker far away from all others does not count. */
+  private ball(): three.Sphere {
+    const box = new three.Box3();
+    const middle = this.main.centre() ?? new three.Vector3();
+    for (let p = 0; p < this.take.points; ++p) {
+      const place = this.take.isShown(p) ? this.main.at(p) : null;
+      if (place !== null && place.distanceTo(middle) < 1.5 * this.size) box.expandByPoint(place);
+    }
+    if (box.isEmpty()) return new three.Sphere(middle, 0.6 * this.size);
+    const ball = box.getBoundingSphere(new three.Sphere());
+    ball.radius = Math.max(ball.radius, 0.3 * this.size);
+    return ball;
+  }
+
   /** Colours, also after a change of the theme. */
   paint(): void {
     for (const figure of this.figures) figure.paint();
@@ -206,10 +228,9 @@ export class Body {
   }
 
   look(view: View): void {
-    const target = this.main.centre() ?? new three.Vector3();
-    const height = this.take.data.stage.floor + 0.5 * this.size;
-    target.addScaledVector(this.up, height - target.dot(this.up));
-    const far = 2.3 * this.size * Math.max(1, 1 / Math.max(0.3, this.camera.aspect));
+    const { center: target, radius } = this.ball();
+    const narrow = Math.min(1, this.camera.aspect);
+    const far = (1.1 * radius) / (Math.sin((this.camera.fov * Math.PI) / 360) * narrow);
     const from = {
       orbit: this.ahead.clone().multiplyScalar(0.8).addScaledVector(this.across, 0.6).addScaledVector(this.up, 0.22),
       front: this.ahead.clone(),
@@ -221,6 +242,14 @@ export class Body {
     this.camera.position.copy(target).addScaledVector(from, far);
     this.centre = this.main.centre() ?? this.centre;
     this.controls.update();
+    this.draw();
+  }
+
+  /** To where the body is now. */
+  recentre(): void {
+    const way = this.ball().center.sub(this.controls.target);
+    this.camera.position.add(way);
+    this.controls.target.add(way);
     this.draw();
   }
 

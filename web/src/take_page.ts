@@ -1,6 +1,6 @@
 // The page of one take.
 
-import { Body, type View } from './body';
+import { Body, makeRenderer, type View } from './body';
 import { Curves, type Kind, type Quantity } from './curves';
 import { button, choice, counted, element, toggle } from './dom';
 import { addFacts } from './facts';
@@ -32,13 +32,12 @@ function addBody(take: Take, player: Player): [HTMLElement, Body | null] {
     view.append(element('p', { class: 'empty' }, take.told === 0 ? 'The take has no frames.' : 'The take holds no positions.'));
     return [made, null];
   }
-  let body: Body;
-  try {
-    body = new Body(view, take, player);
-  } catch {
+  const renderer = makeRenderer();
+  if (renderer === null) {
     view.replaceChildren(element('p', { class: 'empty' }, 'This browser shows no 3D (WebGL is off); everything else is here.'));
     return [made, null];
   }
+  const body = new Body(view, take, player, renderer);
   const views: [View, string, string][] = [['front', 'Front', '1'], ['side', 'Side', '2'], ['top', 'Top', '3'], ['orbit', 'Orbit', '4']];
   for (const [key, label, letter] of views) head.append(button(label, `${label.toLowerCase()} (${letter})`, () => body.look(key)));
   const options: [keyof Body['options'], string, string][] = [['follow', 'Follow', 'the camera goes with the body (F)']];
@@ -50,6 +49,7 @@ function addBody(take: Take, player: Player): [HTMLElement, Body | null] {
     const made_toggle = toggle(label, title, body.options[key], (on) => {
       body.options[key] = on;
       body.refresh();
+      if (key === 'follow' && on) body.recentre();
     });
     made_toggle.dataset.option = key;
     if (key === 'before' || key === 'after') made_toggle.classList.add(key);

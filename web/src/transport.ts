@@ -9,8 +9,10 @@ export function addTransport(holder: HTMLElement, take: Take, player: Player): v
   play.className = 'play';
   const slider = element('input', { type: 'range', min: '0', max: String(Math.max(0, take.told - 1)), step: '1', value: '0', 'aria-label': 'frame' });
   slider.addEventListener('input', () => {
+    // Pausing puts the slider where the time is.
+    const wanted = Number(slider.value);
     player.pause();
-    player.seek(Number(slider.value));
+    player.seek(wanted);
   });
   const number = element('input', { type: 'number', class: 'number', 'aria-label': 'frame number', min: String(take.number(0)), max: String(take.number(Math.max(0, take.told - 1))), step: String(take.data.step) });
   number.addEventListener('change', () => player.jump(take.frameOf(Number(number.value))));

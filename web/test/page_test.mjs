@@ -71,7 +71,8 @@ async function open(name, options = {}) {
   page.on('console', (message) => assert.notEqual(message.type(), 'error', `${name}: ${message.text()}`));
   page.on('request', (request) => assert.ok(/^(file|data|blob):/.test(request.url()), `${name} fetches ${request.url()}`));
   await page.goto(pathToFileURL(join(output, name)).href);
-  await page.waitForSelector('#page[data-ready="true"]');
+  await page.waitForSelector('#page[data-ready]', { timeout: 20000 });
+  assert.equal(await page.getAttribute('#page', 'data-ready'), 'true', await page.textContent('#page'));
   assert.equal(await page.evaluate(() => window.broken), undefined);
   return page;
 }
@@ -110,9 +111,12 @@ step('play, pause, scrub and jump', async () => {
   await page.fill('.transport input[type=range]', '500');
   assert.equal(await frame(page), 500);
   assert.equal(await page.inputValue('.number'), '501');
+  assert.ok((await inView(page)) > 0.99, 'the camera does not follow');
   await page.click('button:has-text("Follow")');
   await page.fill('.transport input[type=range]', '900');
-  assert.ok((await inView(page)) > 0.99, 'the camera does not follow');
+  assert.ok(Math.abs(await page.evaluate(() => window.kinemend.body.seen(0)[1])) > 0.3, 'the camera follows unasked');
+  await page.click('button:has-text("Follow")');
+  assert.ok((await inView(page)) > 0.99, 'the camera does not go to the body');
 
   // The first spike: a click on its bar goes there and shows its track.
   const spike = await page.evaluate(() => {
@@ -141,7 +145,7 @@ step('curves zoom and pan with the time line', async () => {
   assert.ok(Math.abs(view.from - 240) < 8 && Math.abs(view.to - 480) < 8, JSON.stringify(view));
   for (const [min, max] of view.scales) assert.ok(Math.abs(min - view.from - 1) < 1 && Math.abs(max - view.to - 1) < 1, JSON.stringify(view));
   for (const kind of ['Speed', 'Acceleration', 'Spectrum']) await page.click(`.curves button:has-text("${kind}")`);
-  await page.click('tbody tr:nth-child(3) button');
+  await page.click('.tracks tbody tr:nth-child(3) button');
   assert.equal(await page.locator('.panel').count(), 10);
   await shot(page, 'curves');
   await page.keyboard.press('0');
@@ -153,10 +157,10 @@ step('curves zoom and pan with the time line', async () => {
 step('the table is sorted and searched', async () => {
   const page = await open('clean.html');
   await page.click('thead button:has-text("noise")');
-  const column = await page.$$eval('tbody tr td:first-of-type', (cells) => cells.map((cell) => Number(cell.textContent)));
+  const column = await page.$$eval('.tracks tbody td:first-of-type', (cells) => cells.map((cell) => Number(cell.textContent)));
   assert.deepEqual(column, [...column].sort((a, b) => b - a));
   await page.fill('input[type=search]', 'thumb');
-  const thumbs = await page.$$eval('tbody tr', (rows) => rows.filter((row) => !row.hidden).map((row) => row.cells[0].textContent));
+  const thumbs = await page.$$eval('.tracks tbody tr', (rows) => rows.filter((row) => !row.hidden).map((row) => row.cells[0].textContent));
   assert.ok(thumbs.length > 0 && thumbs.every((name) => /thumb/i.test(name)), thumbs.join(' '));
 });
 
@@ -189,11 +193,11 @@ step('the keyboard alone does it all', async () => {
 
 step('strange names are text', async () => {
   const page = await open('arm.html');
-  const names = await page.$$eval('tbody th', (cells) => cells.map((cell) => cell.textContent));
+  const names = await page.$$eval('.tracks tbody th', (cells) => cells.map((cell) => cell.textContent));
   assert.ok(names.includes(strange), names.join(' '));
   await shot(page, 'strange');
   const markers = await open('fill.html');
-  assert.ok((await markers.$$eval('tbody th', (cells) => cells.map((cell) => cell.textContent))).includes('<b>A</b>'));
+  assert.ok((await markers.$$eval('.tracks tbody th', (cells) => cells.map((cell) => cell.textContent))).includes('<b>A</b>'));
   assert.equal(await markers.locator('tbody b').count(), 0);
 });
 
