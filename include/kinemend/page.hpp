@@ -1,7 +1,9 @@
 #pragma once
 
+#include <span>
 #include <string>
 
+#include "kinemend/batch_rows.hpp"
 #include "kinemend/clip.hpp"
 #include "kinemend/marker_clip.hpp"
 #include "kinemend/report.hpp"
@@ -30,5 +32,15 @@ std::string report_page(const Report& report, const Clip& before, const Clip* af
                         const PageSettings& settings);
 std::string report_page(const Report& report, const MarkerClip& before, const MarkerClip* after,
                         const PageSettings& settings);
+
+/// A take of a batch and its own page.
+struct BatchPageRow {
+  BatchRow row;
+  std::string page;  ///< path from the index, with / between its parts; empty where there is none
+};
+/// The index of a batch: a row a take, what failed and what most should be looked at first, with
+/// filters and links to the pages of takes. Errors: as of `report_page`.
+std::string batch_page(std::span<const BatchPageRow> rows, const BatchSums& sums,
+                       const PageSettings& settings);
 
 }  // namespace kinemend

@@ -26,12 +26,12 @@ double quantum_for(double quantum, double largest);
 /// `stride`-th frame, then those between. One part holds all where the stride is 1.
 ///
 /// Of each channel a part holds which take comes first (a byte, 0: after, 1: before: the smoother
-/// one), that take, then the other less it; of one take only that take, of no frames nothing. What is coded is a byte for
-/// the prediction, then the four bytes of each remainder apart, lowest first: remainders are whole
-/// numbers modulo 2^32, folded so that small ones of either sign are small. Predictions of the
-/// first part are 0: zero, 1: the sample before, 2: the line through the two before; of the second
-/// 0: zero, 1: the line between the frames of the first part, rounded down, and behind the last of
-/// them that one.
+/// one), that take, then the other less it; of one take only that take, of no frames nothing. What
+/// is coded is a byte for the prediction, then the four bytes of each remainder apart, lowest
+/// first: remainders are whole numbers modulo 2^32, folded so that small ones of either sign are
+/// small. Predictions of the first part are 0: zero, 1: the sample before, 2: the line through the
+/// two before; of the second 0: zero, 1: the line between the frames of the first part, rounded
+/// down, and behind the last of them that one.
 std::string first_part(std::span<const Quantised> channels, std::size_t stride);
 std::string second_part(std::span<const Quantised> channels, std::size_t stride);
 

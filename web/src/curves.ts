@@ -178,7 +178,7 @@ export class Curves {
       scales: { x: { time: false } },
       cursor: { y: false, sync: { key: 'kinemend' }, drag: { x: true, y: false, setScale: true }, points: { show: false } },
       series: [{ label: 'frame' }, ...lines.map((line) => ({ label: line.label, stroke: colour(line.colour), width: line.width, points: { show: this.take.told < 3 } }))],
-      axes: [{ ...axis, size: 30 }, { ...axis, size: 58 }],
+      axes: [{ ...axis, size: 30 }, { ...axis, size: 68 }],
       hooks: {
         setScale: [(plot, key) => { if (key === 'x') this.takeZoom(plot); }],
         draw: [(plot) => this.cursorIn(plot)],
@@ -236,9 +236,9 @@ export class Curves {
   }
   private drawCursor(): void {
     for (const plot of this.plots) {
-      // The legend tells values where the time is, or where the mouse is.
-      if ((plot.cursor.left ?? -1) < 0) plot.setLegend({ idx: this.player.shown }, false);
       plot.redraw(false, false);
+      // The legend tells values where the time is, or where the mouse is.
+      queueMicrotask(() => { if ((plot.cursor.left ?? -1) < 0) plot.setLegend({ idx: this.player.shown }, false); });
     }
   }
 
@@ -261,7 +261,7 @@ export class Curves {
       scales: { x: { time: false }, y: { distr: 3 } },
       cursor: { y: false, points: { show: false } },
       series: [{ label: 'Hz' }, ...series],
-      axes: [{ ...axis, size: 30, values: (_plot, ticks) => ticks.map((tick) => `${tick} Hz`) }, { ...axis, size: 58, values: (_plot, ticks) => ticks.map((tick) => (tick === null || Math.log10(tick) % 1 ? '' : tick.toExponential(0))) }],
+      axes: [{ ...axis, size: 30, values: (_plot, ticks) => ticks.map((tick) => `${tick} Hz`) }, { ...axis, size: 68, values: (_plot, ticks) => ticks.map((tick) => (tick === null || Math.log10(tick) % 1 ? '' : tick.toExponential(0))) }],
     }, [hertz, ...spectra.map((spectrum) => spectrum.density.map((value) => (value > 0 ? value : null)))] as uPlot.AlignedData, panel);
     panel.dataset.spectrum = 'true';
     this.spectra.push(plot);

@@ -2,6 +2,7 @@
 
 import 'uplot/dist/uPlot.min.css';
 import './style.css';
+import { showBatch, type Batch } from './batch_page';
 import { jsonOf } from './codec';
 import { element } from './dom';
 import type { ReportDocument, TakeData } from './report';
@@ -10,6 +11,8 @@ import { showTake } from './take_page';
 async function start(): Promise<void> {
   const page = document.getElementById('page') as HTMLElement;
   try {
+    const batch = await jsonOf<Batch>('batch');
+    if (batch !== null) return showBatch(page, batch);
     const report = await jsonOf<ReportDocument>('report');
     const take = await jsonOf<TakeData>('take');
     if (report === null || take === null) throw new Error('the page holds no report');

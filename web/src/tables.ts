@@ -2,10 +2,21 @@
 
 import { button, element, figure, words } from './dom';
 import type { Player } from './player';
-import type { TakeEntry } from './report';
+import type { Finding, TakeEntry, TrackRow } from './report';
 import type { Take } from './take';
 
-const withoutUnit = /count|frames|gap|spikes|frozen|bridged|swaps|flips|percent|_s$|_hz$|_deg$|_cm$|missing/;
+const withoutUnit = /filled|refused|count|frames|gap|spikes|frozen|bridged|swaps|flips|percent|_s$|_hz$|_deg$|_cm$|missing/;
+
+/** What findings say of each track, for reports that have no figures of tracks. */
+function countedRows(names: string[], findings: Finding[]): TrackRow[] {
+  return names.map((name) => {
+    const own = findings.filter((finding) => finding.track === name);
+    const frames = (list: Finding[]): number => list.reduce((sum, finding) => sum + finding.last_frame - finding.first_frame + 1, 0);
+    const refused = own.filter((finding) => finding.verdict === 'refused');
+    const done = own.filter((finding) => finding.verdict !== 'refused');
+    return { name, filled: done.length, 'filled frames': frames(done), refused: refused.length, 'refused frames': frames(refused) };
+  });
+}
 
 export class TrackTable {
   private column: string | null = null;
@@ -15,17 +26,18 @@ export class TrackTable {
   private readonly heads = new Map<string, HTMLElement>();
 
   constructor(holder: HTMLElement, private readonly take: Take, private readonly player: Player, entry: TakeEntry) {
-    const given = new Map(entry.tracks.map((row) => [String(row.name), row]));
+    const tracks = entry.tracks.length > 0 || entry.findings.length === 0 ? entry.tracks : countedRows(take.data.names, entry.findings);
+    const given = new Map(tracks.map((row) => [String(row.name), row]));
     // Two markers may bear one name: those are told apart by their place.
-    const inOrder = entry.tracks.length === take.data.names.length;
-    const columns = entry.tracks.length > 0 ? Object.keys(entry.tracks[0]).filter((key) => key !== 'name') : [];
+    const inOrder = tracks.length === take.data.names.length;
+    const columns = tracks.length > 0 ? Object.keys(tracks[0]).filter((key) => key !== 'name') : [];
     const noun = take.isJoints ? 'joint' : 'marker';
     const search = element('input', { type: 'search', placeholder: `find a ${noun}`, 'aria-label': `find a ${noun}` });
     search.addEventListener('input', () => this.filter(search.value));
     const head = element('tr', {}, this.head('name', noun));
     for (const column of columns) head.append(this.head(column, words(column) + (withoutUnit.test(column) || !entry.track_unit ? '' : `, ${this.unit(column, entry)}`)));
     take.data.names.forEach((name, track) => {
-      const figures = (inOrder ? entry.tracks[track] : given.get(name)) ?? {};
+      const figures = (inOrder ? tracks[track] : given.get(name)) ?? {};
       const row = element('tr', {}, element('th', { scope: 'row' }, button(name || `(no name, ${track + 1})`, 'show its curves and trail', () => player.toggleTrack(track))));
       for (const column of columns) row.append(element('td', {}, figure(figures[column] as number | null)));
       this.rows.push({ track, figures: { ...figures, name }, row });
@@ -35,7 +47,7 @@ export class TrackTable {
       return;
     }
     holder.append(search, element('div', { class: 'scroll', tabindex: '0' }, element('table', {}, element('thead', {}, head), this.body)));
-    const first = ['rms_change', 'geodesic_rms_deg', 'noise', 'gaps'].find((name) => columns.includes(name));
+    const first = ['rms_change', 'geodesic_rms_deg', 'noise', 'gaps', 'filled frames'].find((name) => columns.includes(name));
     this.sort(first ?? null);
     player.onChoice(() => this.mark());
     this.mark();

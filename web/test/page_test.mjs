@@ -14,7 +14,7 @@ const [program, executablePath, output, takes] = process.argv.slice(2);
 mkdirSync(output, { recursive: true });
 
 function kinemend(...words) {
-  execFileSync(program, words, { cwd: output, stdio: ['ignore', 'ignore', 'inherit'] });
+  execFileSync(program, words, { cwd: output, stdio: 'ignore' });
 }
 
 const strange = '"\'<script>window.broken=1</script>&\u202e\u00e9\u{1f600}';
@@ -38,6 +38,15 @@ function makePages() {
   kinemend('check', 'one.bvh', '--report', 'one.html', '--force');
   arm('none.bvh', 0);
   kinemend('check', 'none.bvh', '--report', 'none.html', '--force');
+  mkdirSync(join(output, 'raw'), { recursive: true });
+  arm('raw/arm.bvh', 21);
+  arm('raw/one <b>.bvh', 1);
+  writeFileSync(join(output, 'raw', 'bad.bvh'), 'bad');
+  try {
+    kinemend('batch', 'raw', '-o', 'cleaned', '--report', 'index.html', '--quiet', '--force');
+  } catch (error) {
+    assert.equal(error.status, 3);
+  }
   // Markers with a gap that is filled and one that is refused.
   const rows = Array.from({ length: 300 }, (_, f) => {
     const marker = (m) => (m === 1 && f >= 100 && f < 108) || (m === 2 && f >= 40 && f < 260) ? '\t\t' : `${(100 * Math.sin(f / 30 + m)).toFixed(3)}\t${900 + 100 * m}\t${(3 * f).toFixed(3)}`;
@@ -244,6 +253,20 @@ step('a comparison calls its takes by their names', async () => {
   await page.click('button:has-text("Apart")');
   await page.click('button:has-text("Front")');
   await shot(page, 'compare');
+});
+
+step('the index of a batch has the worst first, filters and links', async () => {
+  const page = await open('index.html');
+  const names = await page.$$eval('tbody th', (cells) => cells.map((cell) => cell.textContent));
+  assert.deepEqual(names, ['bad.bvh', 'arm.bvh', 'one <b>.bvh']);
+  await shot(page, 'batch');
+  await page.selectOption('select', 'failed');
+  assert.equal(await page.locator('tbody tr').count(), 1);
+  await page.selectOption('select', 'all');
+  await page.fill('input[type=search]', 'one');
+  await page.click('tbody a');
+  await page.waitForSelector('#page[data-ready="true"]');
+  assert.equal(await page.textContent('h1'), 'one <b>.bvh');
 });
 
 step('a damaged file says so', async () => {
