@@ -23,7 +23,8 @@ struct PageSettings {
 
 /// The page: HTML in one file that needs nothing beside it, no network and no server. It holds the
 /// report as `kinemend.report/1`, and the motion: angles of joints to 0.02 degrees, positions to a
-/// 34,000th of the body's height (0.05 mm of a person). `before` and `after` have the same joints
+/// 34,000th of the body's height (0.05 mm of a person), up to 64 times finer where the page stays
+/// below two megabytes. `before` and `after` have the same joints
 /// and frames; `after` is null where there is one take. Of takes of more than 10 million channel
 /// values (fifteen minutes of 96 channels at 120 Hz) every second frame is told, or every third,
 /// and so on, and the page says so. Whatever characters names have, they are text there. Errors:

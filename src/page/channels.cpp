@@ -77,7 +77,7 @@ PositionAt translation_of(const Clip* clip, std::size_t translated) {
 }
 
 void add_rotation(const Clip& before, const Clip* after, std::size_t joint, RotationOrder order,
-                  Channels& channels) {
+                  double quantum_deg, Channels& channels) {
   std::array<Values, 3> old_angles, new_angles;
   std::array<double, 3> angles{};
   for (std::size_t f = 0; f < before.frame_count(); ++f) {
@@ -90,7 +90,7 @@ void add_rotation(const Clip& before, const Clip* after, std::size_t joint, Rota
       new_angles[a].push_back(other[a] * degrees_per_radian);
   }
   for (std::size_t a = 0; a < order.count; ++a)
-    add(old_angles[a], new_angles[a], rotation_quantum_deg, channels);
+    add(old_angles[a], new_angles[a], quantum_deg, channels);
 }
 
 bool turns(const Clip& clip, std::size_t joint) {
@@ -136,25 +136,27 @@ RotationOrder told_order(const Clip& before, const Clip* after, std::size_t join
   return does_turn ? parse_rotation_order("ZXY") : order;
 }
 
-Channels channels_of(const Clip& before, const Clip* after, double body_height) {
+Channels channels_of(const Clip& before, const Clip* after, double body_height, double share) {
   const std::size_t frames = before.frame_count();
   Channels channels = empty_channels(frames, channel_count(before));
-  const double quantum = position_quantum(body_height);
+  const double quantum = share * position_quantum(body_height);
   add_positions(frames, root_of(&before), root_of(after), quantum, channels);
   for (std::size_t t = 0; t < before.translated_joints.size(); ++t) {
     add_positions(frames, translation_of(&before, t), translation_of(after, t), quantum, channels);
   }
   for (std::size_t j = 0; j < before.joint_count(); ++j)
-    add_rotation(before, after, j, told_order(before, after, j), channels);
+    add_rotation(before, after, j, told_order(before, after, j), share * rotation_quantum_deg,
+                 channels);
   return channels;
 }
 
-Channels channels_of(const MarkerClip& before, const MarkerClip* after, double body_height) {
+Channels channels_of(const MarkerClip& before, const MarkerClip* after, double body_height,
+                     double share) {
   const std::size_t frames = before.frame_count();
   Channels channels = empty_channels(frames, channel_count(before));
   for (std::size_t m = 0; m < before.marker_count(); ++m) {
     add_positions(frames, held_position_of(&before, m), held_position_of(after, m),
-                  position_quantum(body_height), channels);
+                  share * position_quantum(body_height), channels);
   }
   return channels;
 }

@@ -11,7 +11,8 @@
 // A take as the channels that the page holds.
 namespace kinemend::page {
 
-/// Half a quantum is the largest error of a value, unless it is too large for 2^30 quanta.
+/// Half a quantum is the largest error of a value, unless it is too large for 2^30 quanta. These
+/// are the coarsest quanta: speeds and accelerations of short takes deserve finer ones.
 inline constexpr double rotation_quantum_deg = 0.04;
 /// Of positions, file units: a seventeen thousandth of the body, 0.1 mm of a person.
 double position_quantum(double body_height);
@@ -41,9 +42,10 @@ std::size_t channel_count(const MarkerClip& clip);
 RotationOrder told_order(const Clip& before, const Clip* after, std::size_t joint);
 /// x, y, z of joint 0, then of each translated joint; then the angles of each joint about the axes
 /// of `told_order`, degrees, without whole turns between frames, those after nearest to those
-/// before.
-Channels channels_of(const Clip& before, const Clip* after, double body_height);
+/// before. `share`: of the coarsest quanta.
+Channels channels_of(const Clip& before, const Clip* after, double body_height, double share = 1);
 /// x, y, z of each marker; a missing sample repeats the one before.
-Channels channels_of(const MarkerClip& before, const MarkerClip* after, double body_height);
+Channels channels_of(const MarkerClip& before, const MarkerClip* after, double body_height,
+                     double share = 1);
 
 }  // namespace kinemend::page

@@ -43,6 +43,27 @@ Stage stage_for(const Clip& clip, const Report& report) {
 }
 Stage stage_for(const MarkerClip& clip, const Report& /*report*/) { return page::stage_of(clip); }
 
+// The motion in quanta as fine as they may be for a page of about two megabytes at most, of which
+// its program takes a third.
+template <class Take>
+Channels fine_channels(const Take& before, const Take* after, double body_height) {
+  constexpr double most_bytes = 1'000'000, least_share = 1.0 / 64;
+  double share = 1;
+  Channels channels = page::channels_of(before, after, body_height, share);
+  const std::size_t count = channels.samples.size();
+  if (page::part_stride(channels.frames, count) > 1) return channels;
+  const auto samples = static_cast<double>((after != nullptr ? 2 : 1) * count * channels.frames);
+  while (share > least_share) {
+    const auto size =
+        static_cast<double>(page::deflated(page::first_part(channels.samples, 1)).size());
+    // A quarter of the quantum is two bits a sample at most.
+    if (size + samples / 4 > most_bytes) break;
+    share /= 4;
+    channels = page::channels_of(before, after, body_height, share);
+  }
+  return channels;
+}
+
 std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -53,7 +74,7 @@ std::string take_page(const Report& report, const Take& before, const Take* afte
   page::check_is_built();
   if (after != nullptr) check_pair(before, *after);
   const Stage stage = stage_for(after != nullptr ? *after : before, report);
-  const Channels channels = page::channels_of(before, after, stage.height);
+  const Channels channels = fine_channels(before, after, stage.height);
   Json take = page::take_json(before, after, channels, stage);
   take["command_line"] = settings.command_line;
   take["labels"] = {settings.before_label, settings.after_label};

@@ -267,7 +267,7 @@ export class Body {
   refresh(): void {
     for (const figure of this.figures) {
       figure.group.visible = this.isOn(figure);
-      const shift = this.options.apart && figure.which === 'before' && this.take.data.two ? -0.6 * this.size : 0;
+      const shift = this.options.apart && this.take.data.two ? (figure.which === 'before' ? -0.32 : 0.32) * this.size : 0;
       figure.group.position.copy(this.across).multiplyScalar(shift);
       if (this.take.told > 0) figure.show(this.player.shown, this.player.chosen);
     }
@@ -353,7 +353,7 @@ export class Body {
 
   /** Where a point of the body is in the picture, -1 to 1; for tests. */
   seen(point: number): [number, number] | null {
-    const place = this.main.at(point);
+    const place = this.main.at(point)?.add(this.main.group.position) ?? null;
     if (place === null) return null;
     this.camera.updateMatrixWorld();
     const at = place.project(this.camera);

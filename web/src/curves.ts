@@ -1,7 +1,7 @@
 // Curves of the chosen tracks: values, difference, speed, acceleration, spectrum.
 
 import uPlot from 'uplot';
-import { colour, element } from './dom';
+import { colour, element, isolated } from './dom';
 import type { Player } from './player';
 import { accelerationOf, accelerationOfSteps, speedOf, spectrumOf, turningSpeed } from './signal';
 import { turnBetween, type Take, type Which } from './take';
@@ -152,7 +152,7 @@ export class Curves {
       if (!this.kinds.has(kind) || (kind === 'difference' && !this.take.data.two)) continue;
       const what = kind === 'values' ? (this.quantity === 'rotation' ? 'angles' : 'position') : kind;
       const unit = kind === 'spectrum' ? `${signal.unit}${superscript}/Hz` : this.unit(signal, kind);
-      const panel = element('figure', { class: 'panel' }, element('figcaption', {}, element('b', {}, name), ` ${what}, ${unit}`));
+      const panel = element('figure', { class: 'panel' }, element('figcaption', {}, element('b', {}, isolated(name)), ` ${what}, ${unit}`));
       this.holder.append(panel);
       if (kind === 'spectrum') this.addSpectrum(panel, signal);
       else this.addPanel(panel, this.lines(signal, kind));

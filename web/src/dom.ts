@@ -2,6 +2,11 @@
 
 type Attributes = Record<string, string | number | boolean | undefined>;
 
+/** A name among other words: its direction of writing ends where it ends. */
+export function isolated(name: string): string {
+  return `\u2068${name}\u2069`;
+}
+
 export function element<K extends keyof HTMLElementTagNameMap>(
   name: K,
   attributes: Attributes = {},
@@ -49,6 +54,7 @@ export function figure(value: number | null | undefined): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return '\u2013';
   if (Number.isInteger(value)) return grouped(value);
   const size = Math.abs(value);
+  if (size < 1e-4) return value.toExponential(1);
   const digits = size >= 100 ? 0 : Math.min(6, 2 - Math.floor(Math.log10(size || 1)));
   return value.toFixed(digits);
 }

@@ -1,6 +1,6 @@
 // Everything found and done over time, a lane a kind; and the same as a list.
 
-import { button, colour, counted, element, figure, words } from './dom';
+import { button, colour, counted, element, figure, isolated, words } from './dom';
 import type { Player } from './player';
 import type { Finding } from './report';
 import type { Take } from './take';
@@ -18,7 +18,7 @@ function rank(kind: string): number {
 export function textOf(finding: Finding): string {
   const frames = finding.first_frame === finding.last_frame ? `frame ${finding.first_frame}` : `frames ${finding.first_frame} to ${finding.last_frame}`;
   const parts = [`${words(finding.kind)} ${words(finding.verdict)}`];
-  if (finding.track) parts.push(finding.track);
+  if (finding.track) parts.push(isolated(finding.track));
   parts.push(frames);
   if (finding.method) parts.push(`by ${finding.method}`);
   if (finding.amount !== null) parts.push(`${figure(finding.amount)} ${finding.unit ?? ''}`.trim());

@@ -214,8 +214,8 @@ step('filled and refused gaps are told apart', async () => {
   const page = await open('fill.html');
   await page.click('summary');
   const list = await page.textContent('.findings');
-  assert.match(list, /gap filled . B . frames 101 to 108 . by/);
-  assert.match(list, /gap refused . C . frames 41 to 260/);
+  assert.match(list, /gap filled . .B. . frames 101 to 108 . by/);
+  assert.match(list, /gap refused . .C. . frames 41 to 260/);
   await page.click('.findings button >> nth=0');
   await shot(page, 'fill');
 });
@@ -252,6 +252,7 @@ step('a comparison calls its takes by their names', async () => {
   assert.match(await page.textContent('.body .head'), /reference.*other/);
   await page.click('button:has-text("Apart")');
   await page.click('button:has-text("Front")');
+  assert.ok((await inView(page)) > 0.99);
   await shot(page, 'compare');
 });
 
