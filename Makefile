@@ -8,7 +8,7 @@ PRESET ?= release
 KINEMEND := $(BUILD)/$(PRESET)/cli/kinemend
 DEMO := build/demo
 
-.PHONY: help setup build demo test asan lint format bench bench-quick papers papers-quick fuzz install-test clean
+.PHONY: help setup build demo test asan lint format bench bench-quick papers papers-quick pictures fuzz install-test clean
 
 help: ## this list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## (.*)/  make \1\t\2/' | expand -t 22
@@ -68,6 +68,9 @@ papers: setup $(BUILD)/dev/.built ## the papers' own experiments, and the figure
 papers-quick: setup $(BUILD)/dev/.built
 	KINEMEND_DATA= tools/run_papers $(BUILD)/dev --quick
 	tools/check_figures build/papers --quick
+
+pictures: setup $(BUILD)/dev/.built ## the pictures of docs/report-html.md again, from takes that ship
+	tools/make_pictures $(BUILD)/dev
 
 fuzz: setup ## fuzz each reader for a minute (FUZZ_SECONDS=60)
 	tools/run_fuzzers $${FUZZ_SECONDS:-60}

@@ -29,6 +29,7 @@
 #include "kinemend/model.hpp"
 #include "kinemend/version.hpp"
 #include "method_options.hpp"
+#include "page_report.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -42,11 +43,20 @@ namespace fs = std::filesystem;
 struct Batch {
   CleanPlan plan;
   std::string folder;  ///< for the results
+  std::string index;   ///< the page of --report; empty: none
   std::string options_hash;
   Shard shard;
   bool quiet = false;
   bool verbose = false;  ///< says every error and warning
 };
+
+/// Where the page of a take stands, from the folder of the index.
+fs::path page_name(const Batch& batch, const BatchItem& item) {
+  return fs::path(fs::path(batch.index).stem().string() + ".takes") / (item.name + ".html");
+}
+fs::path page_path(const Batch& batch, const BatchItem& item) {
+  return fs::path(batch.index).parent_path() / page_name(batch, item);
+}
 
 /// What came of one file.
 struct Done {
@@ -133,6 +143,10 @@ Done clean_item(const BatchItem& item, const std::string& output, const Batch& b
   done.error = outcome.error;
   done.warnings = outcome.warnings;
   done.row = *outcome.row;
+  if (!batch.index.empty() && outcome.code == 0) {
+    make_folder(page_path(batch, item).parent_path());
+    write_file(page_path(batch, item), outcome.report, true);
+  }
   const std::string result = outcome.code == 0 ? content_hash(read_file(output)) : std::string();
   write_record(batch.folder, item.name, {key, result, done.row});
   return done;
@@ -158,7 +172,11 @@ Done do_item(const BatchItem& item, const Batch& batch) {
   const BatchKey key{input_hash(item), batch.options_hash, std::string(version())};
   const TakeLock lock(batch.folder, item.name);
   const auto record = read_record(batch.folder, item.name);
-  if (record && is_done(*record, key, output)) return {record->row, 0, false, true, {}, {}};
+  // A take that was done without a page has none yet.
+  std::error_code ignored;
+  const bool has_page = batch.index.empty() || fs::is_regular_file(page_path(batch, item), ignored);
+  if (record && has_page && is_done(*record, key, output))
+    return {record->row, 0, false, true, {}, {}};
   if (!record) {
     check_is_ours(item, output, batch);
     write_record(batch.folder, item.name, {key, "", plain_row(item.name, "begun")});
@@ -283,6 +301,47 @@ std::vector<Done> do_all(const std::vector<BatchItem>& items, const Batch& batch
   return done;
 }
 
+// The index of the pages, of the takes that this run was about.
+void write_index(const Batch& batch, const std::vector<BatchItem>& items,
+                 const std::vector<Done>& done, const BatchSums& sums,
+                 const PageSettings& settings) {
+  std::vector<BatchPageRow> rows;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    std::error_code ignored;
+    const bool has_page = !items[i].is_copied && done[i].code == 0 &&
+                          fs::is_regular_file(page_path(batch, items[i]), ignored);
+    rows.push_back({done[i].row, has_page ? page_name(batch, items[i]).generic_string() : ""});
+  }
+  write_file(batch.index, batch_page(rows, sums, settings), true);
+}
+
+// A batch that is taken up again may replace the page of its first run.
+bool is_our_page(const std::string& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored) &&
+         read_file(path).find("<meta name=\"generator\" content=\"kinemend") < 1000;
+}
+
+// The page that --report names. What it would replace must be no take, and no file of somebody
+// else.
+void plan_index(const Arguments& arguments, const std::vector<std::string>& inputs, Batch& batch) {
+  batch.index = arguments.text("report");
+  if (batch.index.empty()) return;
+  if (!is_page(batch.index))
+    throw Error(
+        ErrorKind::usage,
+        "batch: --report FILE.html is a page; rows.jsonl and summary.json are written anyway");
+  check_page(batch.index, 1);
+  check_is_no_input("--report", batch.index, inputs);
+  check_is_no_input("--report", batch.index,
+                    {arguments.text("list"), arguments.text("config"), arguments.text("gaps")});
+  check_free(batch.index, batch.plan.force || is_our_page(batch.index));
+  batch.plan.report_path = batch.index;
+  batch.plan.page = page_settings(arguments);
+  // The pages of takes are those of `clean`.
+  batch.plan.page->command = "clean";
+}
+
 int run(const Arguments& arguments) {
   Batch batch;
   batch.folder = arguments.text("output_dir");
@@ -290,6 +349,7 @@ int run(const Arguments& arguments) {
     throw Error(ErrorKind::usage, "batch: --output-dir is missing (see kinemend batch -h)");
   const std::vector<std::string> inputs = inputs_of(arguments);
   batch.plan = make_cleaning(arguments);
+  plan_index(arguments, inputs, batch);
   batch.quiet = arguments.flag("quiet");
   batch.verbose = arguments.flag("verbose");
   batch.options_hash = content_hash(options_text(arguments) + learned_text(batch.plan));
@@ -323,6 +383,7 @@ int run(const Arguments& arguments) {
   if (!is_refused) {
     write_rows(batch.folder, batch.shard, all, rows);
     write_summary(batch.folder, summary);
+    if (!batch.index.empty()) write_index(batch, mine, done, sums, page_settings(arguments));
   }
   if (arguments.flag("json")) {
     write_out(summary);
@@ -343,6 +404,9 @@ std::vector<Flag> batch_flags() {
   std::vector<Flag> flags = {
       std::move(folder),
       force_flag(),
+      report_flag("also write a page for a browser, FILE.html: the takes, worst first",
+                  "Beside it, below FILE.takes, stands a page for each take. Takes that were done "
+                  "without a page are done again."),
       json_flag("print the merged summary as JSON instead of text"),
       switch_flag("quiet", "Output", "print errors only"),
       switch_flag("verbose", "Output", "print every error and every warning as it comes",

@@ -13,6 +13,7 @@
 #include "kinemend/frame_numbers.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"
+#include "page_report.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -30,45 +31,64 @@ CheckSettings check_settings(const Arguments& arguments) {
   return settings;
 }
 
-Report check_file(const std::string& input, const Arguments& arguments) {
+struct Checked {
+  Take take;
+  Report report;
+};
+
+Checked check_file(const std::string& input, const Arguments& arguments) {
   TakeResult read = read_take(std::filesystem::path(input), read_options(arguments));
   const CheckSettings settings = check_settings(arguments);
   CheckReport report =
       std::visit([&](const auto& take) { return check_take(take, settings); }, read.take);
-  return {facts_of(read.take, input, std::move(read.diagnostics)), std::move(report)};
+  TakeFacts facts = facts_of(read.take, input, std::move(read.diagnostics));
+  return {std::move(read.take), {std::move(facts), std::move(report)}};
+}
+
+void check_outputs(const Arguments& arguments) {
+  const std::vector<std::string>& inputs = arguments.positionals;
+  const std::string gaps_out = arguments.text("gaps_out"), report = arguments.text("report");
+  const bool force = arguments.flag("force");
+  check_page(report, inputs.size());
+  check_single_use(inputs, {gaps_out, report}, arguments.flag("json"));
+  if (!gaps_out.empty() && inputs.size() > 1)
+    throw Error(ErrorKind::usage, "--gaps-out takes the spans of one take, not of several");
+  check_is_no_input("--gaps-out", gaps_out, inputs);
+  check_is_no_input("--gaps-out", gaps_out, {arguments.text("map")});
+  check_is_no_input("--report", report, inputs);
+  check_is_no_input("--report", report, {arguments.text("map"), gaps_out});
+  if (!gaps_out.empty()) check_free(gaps_out, force);
+  if (!report.empty()) check_free(report, force);
 }
 
 int run(const Arguments& arguments) {
   const bool json = arguments.flag("json"), force = arguments.flag("force");
-  const std::string gaps_out = arguments.text("gaps_out");
-  check_single_use(arguments.positionals, {gaps_out}, json);
-  if (!gaps_out.empty()) {
-    if (arguments.positionals.size() > 1)
-      throw Error(ErrorKind::usage, "--gaps-out takes the spans of one take, not of several");
-    check_is_no_input("--gaps-out", gaps_out, arguments.positionals);
-    check_is_no_input("--gaps-out", gaps_out, {arguments.text("map")});
-    check_free(gaps_out, force);
-  }
+  const std::string gaps_out = arguments.text("gaps_out"), report_path = arguments.text("report");
+  check_outputs(arguments);
   TextOptions options;
   options.all = arguments.flag("verbose");
   options.colours = Colours::of_out().on();
   std::vector<std::string> takes;
+  std::string page;
   const auto visit = [&](const std::string& input) {
-    const Report report = check_file(input, arguments);
+    const auto [take, report] = check_file(input, arguments);
     if (!gaps_out.empty()) {
       const auto& stale = std::get<CheckReport>(report.result).stale;
       write_output(gaps_out, gaps_text(stale, report.take.first_frame), force);
     }
-    if (json) {
-      takes.push_back(to_json(report));
-    } else if (gaps_out != "-") {
+    if (is_page(report_path)) page = page_of(report, take, nullptr, page_settings(arguments));
+    if (json || !report_path.empty()) takes.push_back(to_json(report));
+    if (!json && gaps_out != "-" && report_path != "-") {
       write_out(to_text(report, options));
     }
     return say_passed_limits(report, check_figures(), arguments);
   };
   const int code = for_each_input(arguments.positionals, visit,
                                   [&](std::string entry) { takes.push_back(std::move(entry)); });
-  if (json) write_out(report_document("check", takes));
+  const std::string document = report_document("check", takes);
+  if (!report_path.empty() && code < static_cast<int>(ErrorKind::usage))
+    write_output(report_path, page.empty() ? document : page, force);
+  if (json) write_out(document);
   return code;
 }
 
@@ -89,6 +109,8 @@ std::vector<Flag> flags() {
       json_flag("print JSON instead of text"),
       switch_flag("verbose", "Output", "list every finding and every track"),
       gaps_out,
+      report_flag("also write what was found, as JSON",
+                  "FILE.html is a page for a browser, with the motion, of one take."),
       force_flag(),
       up,
       without_default(number_flag("metres_per_unit", "m", 0, 1e-9, 1e6, "Checks",

@@ -60,7 +60,8 @@ class Announcer {
     if (plan_.json) write_out(report_document("clean", files));
     // Bad input leaves nothing behind.
     if (!plan_.report_path.empty() && failed < outcomes_.size()) {
-      write_output(plan_.report_path, report_document("clean", reports), plan_.force);
+      write_output(plan_.report_path,
+                   plan_.page ? reports.front() : report_document("clean", reports), plan_.force);
     }
     if (stdout_is_closed_) throw ClosedPipe();
     return code;

@@ -10,6 +10,7 @@
 #include "kinemend/io.hpp"
 #include "known_noise.hpp"
 #include "method_options.hpp"
+#include "page_report.hpp"
 #include "takes.hpp"
 
 namespace kinemend::cli {
@@ -211,6 +212,8 @@ CleanPlan make_clean_plan(const Arguments& arguments) {
   }
   plan.folder = arguments.text("output_dir");
   plan.report_path = arguments.text("report");
+  check_page(plan.report_path, plan.jobs.size());
+  if (is_page(plan.report_path)) plan.page = page_settings(arguments);
   plan.dry_run = arguments.flag("dry_run");
   plan.json = arguments.flag("json");
   plan.verbose = arguments.flag("verbose");

@@ -11,6 +11,7 @@
 #include "frame_range.hpp"
 #include "kinemend/clean.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/page.hpp"
 
 namespace kinemend::cli {
 
@@ -34,8 +35,9 @@ struct CleanPlan {
   /// Of --gaps and --contacts: bytes and name. Names and frames are those of a take.
   std::optional<std::pair<std::string, std::string>> gaps, contacts;
   bool fix_swaps = false;
-  std::string folder;       ///< --output-dir; made where it does not exist
-  std::string report_path;  ///< empty: none
+  std::string folder;                  ///< --output-dir; made where it does not exist
+  std::string report_path;             ///< empty: none
+  std::optional<PageSettings> page{};  ///< where the report is a page
   bool strict = false;
   bool force = false;
   bool dry_run = false;

@@ -14,6 +14,7 @@
 #include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"
+#include "page_report.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -121,7 +122,7 @@ void tell(const Report& report, const CleanJob& job, const CleanPlan& plan, Outc
   options.colours = Colours::of_out().on();
   if (!plan.quiet) outcome.text = to_text(report, options);
   if (plan.json) outcome.json = to_json(report, false);
-  if (!plan.report_path.empty()) outcome.report = to_json(report);
+  if (!plan.report_path.empty() && !plan.page) outcome.report = to_json(report);
   if (!job.row_name.empty()) outcome.row = cleaned_row(job.row_name, report, outcome.warnings);
 }
 
@@ -136,6 +137,9 @@ void clean_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& 
   });
   for (const Diagnostic& entry : read.diagnostics.entries())
     outcome.warnings.push_back(diagnostic_line(source_of(read.take), entry));
+  // Cleaning takes the take apart.
+  std::optional<Take> before;
+  if (plan.page) before = read.take;
   CleanOutcome cleaned = clean_in_place(read.take, job.input, plan, progress);
   const std::vector<std::string> warnings = cleaned.report.warnings;
   if (plan.strict) refuse_warnings(name, warnings);
@@ -149,6 +153,7 @@ void clean_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& 
   Report report{facts_of(read.take, job.input, std::move(read.diagnostics)), std::move(cleaned)};
   if (!plan.dry_run) report.take.output = job.output;
   tell(report, job, plan, outcome);
+  if (plan.page) outcome.report = page_of(report, *before, &read.take, *plan.page);
 }
 
 }  // namespace

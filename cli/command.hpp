@@ -81,6 +81,7 @@ const Command* find_command(std::string_view name);
 class Arguments {
  public:
   const Command* command = nullptr;
+  std::vector<std::string> words;  ///< as they were given, all of them
   std::vector<std::string> positionals;
   OptionValues values;  ///< given flags with one value
   std::map<std::string, std::vector<std::string>, std::less<>> lists;  ///< given lists

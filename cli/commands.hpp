@@ -12,6 +12,7 @@ Command info_command();
 Command check_command();
 Command contacts_command();
 Command compare_command();
+Command plot_command();
 Command methods_command();
 Command train_command();
 Command models_command();

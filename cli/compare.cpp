@@ -12,6 +12,7 @@
 #include "kinemend/io.hpp"
 #include "kinemend/metrics.hpp"
 #include "kinemend/report.hpp"
+#include "page_report.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -91,21 +92,67 @@ CompareOutcome compare_takes(const TakeResult& reference, const TakeResult& othe
   return outcome;
 }
 
+// The markers of these names, in their order.
+MarkerClip with_markers(const MarkerClip& clip, const std::vector<std::string>& names) {
+  MarkerClip result;
+  result.names = names;
+  result.frame_rate_hz = clip.frame_rate_hz;
+  result.first_frame = clip.first_frame;
+  result.unit = clip.unit;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    for (const std::string& name : names) {
+      const std::size_t sample =
+          f * clip.marker_count() + static_cast<std::size_t>(clip.find(name));
+      result.positions.push_back(clip.positions[sample]);
+      result.observed.push_back(clip.observed[sample]);
+    }
+  }
+  return result;
+}
+
+std::string comparison_page(const Report& report, const TakeResult& reference,
+                            const TakeResult& other, const Arguments& arguments) {
+  PageSettings settings = page_settings(arguments);
+  settings.before_label = "reference";
+  settings.after_label = "other";
+  const auto& markers = std::get<CompareOutcome>(report.result).markers;
+  if (!markers)
+    return report_page(report, std::get<Clip>(reference.take), &std::get<Clip>(other.take),
+                       settings);
+  const MarkerClip shown = with_markers(std::get<MarkerClip>(other.take), markers->names);
+  return report_page(report, with_markers(std::get<MarkerClip>(reference.take), markers->names),
+                     &shown, settings);
+}
+
 int run(const Arguments& arguments) {
   const std::string reference_name = arguments.positionals[0];
   const std::string other_name = arguments.positionals[1];
-  check_single_use({reference_name, other_name}, {}, false);
+  const std::string report_path = arguments.text("report");
+  const bool json = arguments.flag("json"), force = arguments.flag("force");
+  check_page(report_path, 1);
+  check_single_use({reference_name, other_name}, {report_path}, json);
+  check_is_no_input("--report", report_path, {reference_name, other_name});
+  if (!report_path.empty()) check_free(report_path, force);
   const TakeResult reference = read_one(reference_name, arguments);
   const TakeResult other = read_one(other_name, arguments);
-  Report report{take_of(other, other_name), compare_takes(reference, other, arguments)};
-  // Joints are the same, and the reference says how they are spelled; lengths are in its unit.
+  CompareOutcome outcome = compare_takes(reference, other, arguments);
+  // The reference says how joints and markers are spelled; lengths are in its unit.
   const TakeFacts shown = take_of(reference, reference_name);
-  report.take.tracks = shown.tracks;
-  if (!shown.unit.empty()) report.take.unit = shown.unit;
-  if (arguments.flag("json")) {
-    const std::vector<std::string> takes = {to_json(report)};
-    write_out(report_document("compare", takes));
-  } else {
+  TakeFacts facts = take_of(other, other_name);
+  facts.tracks = outcome.markers ? outcome.markers->names : shown.tracks;
+  if (!shown.unit.empty()) facts.unit = shown.unit;
+  const Report report{std::move(facts), std::move(outcome)};
+  const std::vector<std::string> takes = {to_json(report)};
+  const std::string document = report_document("compare", takes);
+  if (!report_path.empty()) {
+    write_output(
+        report_path,
+        is_page(report_path) ? comparison_page(report, reference, other, arguments) : document,
+        force);
+  }
+  if (json) {
+    write_out(document);
+  } else if (report_path != "-") {
     TextOptions options;
     options.all = arguments.flag("per_joint");
     write_out(to_text(report, options));
@@ -146,6 +193,9 @@ std::vector<Flag> flags() {
       number_flag("least_motion", "", 0, 0, 1e12, "Markers",
                   "channels of REFERENCE that move by less do not count, file units",
                   "Standard deviation over the take. Distances count all."),
+      report_flag("also write the figures, as JSON",
+                  "FILE.html is a page for a browser, with both takes."),
+      force_flag(),
       number_without_default("metres_per_unit", "m", 1e-9, 1e6, "Figures",
                              "length of a file unit; found from the skeleton's height otherwise"),
       number_without_default("psnr_peak", "rad", 1e-9, 1e6, "Figures",

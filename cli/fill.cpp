@@ -17,6 +17,7 @@
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"
 #include "kinemend/text.hpp"
+#include "page_report.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -72,6 +73,7 @@ FillPlan plan_of(const Arguments& arguments) {
   plan.strict = arguments.flag("strict");
   plan.quiet = arguments.flag("quiet");
   plan.verbose = arguments.flag("verbose");
+  check_page(plan.report_path, 1);
   check_single_use({plan.input, plan.gap_file},
                    {plan.dry_run ? std::string() : plan.output, plan.report_path}, plan.json);
   check_is_no_input("--report", plan.report_path, {plan.input, plan.gap_file, plan.output});
@@ -83,7 +85,6 @@ FillPlan plan_of(const Arguments& arguments) {
 
 /// Fills the gaps of the take in place.
 FillOutcome fill_take(Take& take, FillSettings settings, const FillPlan& plan) {
-  mark_given_gaps(take, plan.gap_file);
   return std::visit(
       [&](auto& clip) {
         if (plan.range)
@@ -116,6 +117,9 @@ int run(const Arguments& arguments) {
   const std::string name = input_name(plan.input);
   TakeResult read = read_take(std::filesystem::path(plan.input), read_options(arguments));
   warn_of_repairs(source_of(read.take), read.diagnostics);
+  mark_given_gaps(read.take, plan.gap_file);
+  std::optional<Take> before;
+  if (is_page(plan.report_path)) before = read.take;
   FillOutcome filled = fill_take(read.take, settings_of(arguments), plan);
   for (const std::string& warning : filled.report.warnings)
     say_warning(fmt::format("{}: {}", name, warning));
@@ -135,7 +139,9 @@ int run(const Arguments& arguments) {
   const std::vector<std::string> takes = {to_json(report)};
   const std::string document = report_document("fill", takes);
   if (plan.report_path == "-" || (!plan.report_path.empty() && !failed))
-    write_output(plan.report_path, document, plan.force);
+    write_output(plan.report_path,
+                 before ? page_of(report, *before, &read.take, page_settings(arguments)) : document,
+                 plan.force);
   say_outcome(report, plan, document);
   if (!failed) return 0;
   say_error(fmt::format("{}: {} refused, which --strict does not allow; nothing is written", name,
@@ -174,14 +180,13 @@ std::vector<Flag> fill_flags() {
   Flag longest = number_flag("longest_gap", "s", 0, 0, 100000, "Work",
                              "longest gap to fill, in place of the method's own rule");
   longest.has_default = false;
-  Flag report = text_flag("report", "FILE", "Output", "also write what was done, as JSON");
-  report.completion = Completion::file;
   std::vector<Flag> flags = {
       output_flag("where to write (default walk.filled.bvh beside walk.bvh); - is standard output"),
       force_flag(),
       switch_flag("dry_run", "Output", "report, but write no take",
                   "A --report that is asked for is written."),
-      report,
+      report_flag("also write what was done, as JSON",
+                  "FILE.html is a page for a browser, with the motion before and after."),
       json_flag("print what was done as JSON"),
       lettered('v', switch_flag("verbose", "Output", "list every gap")),
       lettered('q', switch_flag("quiet", "Output", "print warnings and errors only")),

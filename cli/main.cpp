@@ -39,7 +39,8 @@ int run_command(const Command& command, const Arguments& arguments) {
 }
 
 int run(const std::vector<std::string>& words) {
-  const Request request = parse_command_line(words);
+  Request request = parse_command_line(words);
+  request.arguments.words = words;
   const Command* command = request.arguments.command;
   const bool is_long = request.kind == Request::Kind::long_help;
   switch (request.kind) {

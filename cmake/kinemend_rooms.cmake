@@ -44,7 +44,7 @@ function(kinemend_embed_models room)
   set(output ${PROJECT_BINARY_DIR}/embedded_models.cpp)
   add_custom_command(OUTPUT ${output}
     COMMAND ${CMAKE_COMMAND} -DFOLDER=${PROJECT_SOURCE_DIR}/models -DOUTPUT=${output} -P ${script}
-    DEPENDS ${script} ${models} COMMENT "Models that ship" VERBATIM)
+    DEPENDS ${script} ${PROJECT_SOURCE_DIR}/cmake/bytes_literal.cmake ${models} COMMENT "Models that ship" VERBATIM)
   target_sources(kinemend_${room} PRIVATE ${output})
 endfunction()
 

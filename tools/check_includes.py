@@ -27,6 +27,7 @@ USES = {
     "check": {"clean"},
     "stream": {"clean"},
     "report": {"check", "metrics"},
+    "page": {"report"},
 }
 
 # The room of every public header.
@@ -37,7 +38,7 @@ PUBLIC = {
     "io": "io", "representation": "representation", "metrics": "metrics", "corrupt": "corrupt",
     "synth": "synth", "signal": "signal", "cleaner": "clean", "methods": "clean", "clean": "clean",
     "stream": "stream", "tensor": "nn", "body": "representation", "model": "priors", "train": "priors",
-    "feet": "feet", "frame_numbers": "motion", "text": "base", "report": "report", "batch_rows": "report", "svg": "report", "curves": "report", "known_names": "motion", "subjects": "motion",
+    "feet": "feet", "frame_numbers": "motion", "text": "base", "report": "report", "batch_rows": "report", "svg": "report", "curves": "report", "pictures": "report", "page": "page", "known_names": "motion", "subjects": "motion",
 }
 
 # Folders of programs: they see include/ (and their own folder) only.

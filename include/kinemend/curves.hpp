@@ -40,6 +40,7 @@ struct CurveStyle {
   double width = 960, panel_height = 120;  ///< pixels
   /// Frames [first, last] to draw, counted from 0; more than the take has are left out.
   std::size_t first_frame = 0, last_frame = SIZE_MAX;
+  bool one_take = false;  ///< only the curve after, without a difference
 };
 /// A panel for each axis with the curve before under the one after, and one of the difference.
 /// Findings of the track and quantity are bands behind them. Where there are more frames than

@@ -9,6 +9,7 @@
 #include "kinemend/frame_numbers.hpp"
 #include "kinemend/svg.hpp"
 #include "kinemend/text.hpp"
+#include "report/inks.hpp"
 
 namespace kinemend {
 
@@ -17,10 +18,6 @@ namespace {
 using Point = Svg::Point;
 
 constexpr double left = 64, right = 12, top = 28, bottom = 22, space = 10;  // pixels
-constexpr std::string_view before_ink = "#d9480f", after_ink = "#0b7285",
-                           difference_ink = "#5f3dc4";
-constexpr std::string_view text_ink = "#343a40", quiet_ink = "#868e96", grid_ink = "#e9ecef";
-
 // What is drawn: frames, and where they are.
 struct Span {
   std::size_t first = 0, count = 0;
@@ -113,10 +110,10 @@ double round_step(double range, double count) {
 // Level lines at round values.
 void draw_levels(Svg& svg, const Panel& panel, const Span& span) {
   const double step = round_step(panel.high - panel.low, 4);
-  svg.open_group(fmt::format("font-size=\"11\" fill=\"{}\" text-anchor=\"end\"", quiet_ink));
+  svg.open_group(fmt::format("font-size=\"11\" fill=\"{}\" text-anchor=\"end\"", inks::quiet));
   for (double k = std::ceil(panel.low / step); k * step <= panel.high; ++k) {
     const double y = panel.y(k * step);
-    svg.line({left, y}, {span.width - right, y}, fmt::format("stroke=\"{}\"", grid_ink));
+    svg.line({left, y}, {span.width - right, y}, fmt::format("stroke=\"{}\"", inks::grid));
     svg.text(left - 5, y + 4, "", fmt::format("{:.4g}", k == 0 ? 0.0 : k * step));
   }
   svg.close_group();
@@ -127,7 +124,7 @@ void draw_frames(Svg& svg, const TrackCurves& curves, const Span& span, double y
   if (span.count == 0) return;
   const auto number = [&](std::size_t frame) { return frame_number(frame, curves.first_frame); };
   const double step = std::max(round_step(static_cast<double>(span.count), 8), 1.0);
-  svg.open_group(fmt::format("font-size=\"11\" fill=\"{}\" text-anchor=\"middle\"", quiet_ink));
+  svg.open_group(fmt::format("font-size=\"11\" fill=\"{}\" text-anchor=\"middle\"", inks::quiet));
   const auto last = static_cast<double>(number(span.first + span.count - 1));
   for (double n = step * std::ceil(static_cast<double>(number(span.first)) / step); n <= last;
        n += step) {
@@ -163,7 +160,7 @@ void draw_curve(Svg& svg, const std::vector<double>& curve, const Span& span, co
 
 void draw_key(Svg& svg, double x, std::string_view ink, std::string_view name) {
   svg.line({x, 14}, {x + 22, 14}, fmt::format("stroke=\"{}\" stroke-width=\"2\"", ink));
-  svg.text(x + 27, 18, fmt::format("fill=\"{}\"", text_ink), name);
+  svg.text(x + 27, 18, fmt::format("fill=\"{}\"", inks::text), name);
 }
 
 }  // namespace
@@ -174,18 +171,18 @@ std::string curves_svg(const TrackCurves& curves, std::span<const ReportFinding>
   const std::size_t first = std::min(style.first_frame, frames);
   const std::size_t last = frames == 0 ? 0 : std::min(style.last_frame, frames - 1);
   const Span span{first, last < first || frames == 0 ? 0 : last - first + 1, style.width};
-  const std::size_t panels = curves.axes.size() + 1;
+  const std::size_t panels = curves.axes.size() + (style.one_take ? 0 : 1);
   const double last_y = top + static_cast<double>(panels) * (style.panel_height + space) - space;
   const std::string name = xml_escaped(printable(curves.name));
   const std::string unit = curves.unit.empty() ? "" : ", " + xml_escaped(printable(curves.unit));
-  Svg svg(style.width, last_y + bottom, name + " before and after");
-  svg.open_group(
-      "font-size=\"13\" font-family=\"system-ui,-apple-system,Segoe "
-      "UI,Helvetica,Arial,sans-serif\"");
-  svg.text(left, 18, fmt::format("font-weight=\"600\" fill=\"{}\"", text_ink), name + unit);
-  draw_key(svg, style.width - 310, before_ink, "before");
-  draw_key(svg, style.width - 215, after_ink, "after");
-  draw_key(svg, style.width - 130, difference_ink, "difference");
+  Svg svg(style.width, last_y + bottom, style.one_take ? name : name + " before and after");
+  svg.open_group(inks::font);
+  svg.text(left, 18, fmt::format("font-weight=\"600\" fill=\"{}\"", inks::text), name + unit);
+  if (!style.one_take) {
+    draw_key(svg, style.width - 310, inks::before, "before");
+    draw_key(svg, style.width - 215, inks::after, "after");
+    draw_key(svg, style.width - 130, inks::difference, "difference");
+  }
   for (std::size_t p = 0; p < panels; ++p) {
     const double y = top + static_cast<double>(p) * (style.panel_height + space);
     svg.rectangle(left, y, style.width - left - right, style.panel_height, "fill=\"#f8f9fa\"");
@@ -202,11 +199,11 @@ std::string curves_svg(const TrackCurves& curves, std::span<const ReportFinding>
                 : panel_of({&curves.difference}, span, y, style.panel_height, least_range);
     draw_levels(svg, panel, span);
     if (is_axis) {
-      draw_curve(svg, curves.before[p], span, panel, before_ink, 1);
-      draw_curve(svg, curves.after[p], span, panel, after_ink, 1.5);
-      svg.text(left + 6, y + 15, fmt::format("fill=\"{}\"", text_ink), curves.axes[p]);
+      if (!style.one_take) draw_curve(svg, curves.before[p], span, panel, inks::before, 1);
+      draw_curve(svg, curves.after[p], span, panel, inks::after, 1.5);
+      svg.text(left + 6, y + 15, fmt::format("fill=\"{}\"", inks::text), curves.axes[p]);
     } else {
-      draw_curve(svg, curves.difference, span, panel, difference_ink, 1);
+      draw_curve(svg, curves.difference, span, panel, inks::difference, 1);
     }
   }
   draw_frames(svg, curves, span, last_y + 15);

@@ -1,0 +1,76 @@
+#include "page_report.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <string_view>
+#include <variant>
+
+#include "kinemend/error.hpp"
+
+namespace kinemend::cli {
+
+namespace {
+
+std::string quoted(const std::string& word) {
+  constexpr std::string_view plain = "%+,-./:=@_";
+  const bool is_plain = !word.empty() && std::all_of(word.begin(), word.end(), [&](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || plain.find(c) != plain.npos;
+  });
+  if (is_plain) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+}  // namespace
+
+bool is_page(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".html" || extension == ".htm";
+}
+
+void check_page(const std::string& path, std::size_t takes) {
+  if (!is_page(path)) return;
+  if (!has_report_page()) {
+    throw Error(ErrorKind::usage,
+                "--report: this kinemend was built without its report page (KINEMEND_WEB=OFF); "
+                "FILE.json is there in any build");
+  }
+  if (takes > 1)
+    throw Error(ErrorKind::usage, "--report: a page is of one take; FILE.json holds several");
+}
+
+std::string command_line_of(const Arguments& arguments) {
+  std::string line = "kinemend";
+  for (const std::string& word : arguments.words) line += " " + quoted(word);
+  return line;
+}
+
+PageSettings page_settings(const Arguments& arguments) {
+  PageSettings settings;
+  settings.command = arguments.command->name;
+  settings.command_line = command_line_of(arguments);
+  return settings;
+}
+
+std::string page_of(const Report& report, const Take& before, const Take* after,
+                    const PageSettings& settings) {
+  return std::visit(
+      [&](const auto& clip) {
+        using Kind = std::decay_t<decltype(clip)>;
+        return report_page(report, clip, after != nullptr ? &std::get<Kind>(*after) : nullptr,
+                           settings);
+      },
+      before);
+}
+
+Flag report_flag(std::string help, std::string details) {
+  Flag flag = text_flag("report", "FILE", "Output", std::move(help), std::move(details));
+  flag.completion = Completion::file;
+  return flag;
+}
+
+}  // namespace kinemend::cli

@@ -1,0 +1,197 @@
+// kinemend plot: pictures of takes, without a browser.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "commands.hpp"
+#include "frame_range.hpp"
+#include "kinemend/curves.hpp"
+#include "kinemend/frame_numbers.hpp"
+#include "kinemend/io.hpp"
+#include "kinemend/pictures.hpp"
+#include "takes.hpp"
+#include "terminal.hpp"
+
+namespace kinemend::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What to draw of which part.
+struct Drawing {
+  std::string what;
+  std::string track;  ///< empty: the one that differs most, or moves most
+  bool is_position = false;
+  std::optional<FrameRange> range;
+  std::size_t poses = 9;
+};
+
+TrackCurves curves_of(const Clip& before, const Clip& after, std::size_t joint, bool is_position) {
+  return is_position ? root_curves(before, after) : rotation_curves(before, after, joint);
+}
+TrackCurves curves_of(const MarkerClip& before, const MarkerClip& after, std::size_t marker,
+                      bool /*is_position*/) {
+  return marker_curves(before, after, marker);
+}
+
+std::optional<std::size_t> track_named(const Clip& clip, const std::string& name) {
+  const auto joint = clip.skeleton.find(name);
+  return joint < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(joint));
+}
+std::optional<std::size_t> track_named(const MarkerClip& clip, const std::string& name) {
+  const auto marker = clip.find(name);
+  return marker < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(marker));
+}
+
+std::size_t track_count(const Clip& clip) { return clip.joint_count(); }
+std::size_t track_count(const MarkerClip& clip) { return clip.marker_count(); }
+
+// How much there is to see in curves: the difference, or how far a single take's curves reach.
+double weight_of(const TrackCurves& curves, bool two) {
+  double sum = 0;
+  if (two) {
+    for (const double value : curves.difference) sum += std::isfinite(value) ? value * value : 0;
+    return sum;
+  }
+  for (const std::vector<double>& axis : curves.after) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const double value : axis) {
+      if (!std::isfinite(value)) continue;
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+    if (low <= high) sum += high - low;
+  }
+  return sum;
+}
+
+template <class Clip>
+TrackCurves chosen_curves(const Clip& before, const Clip& after, bool two, const Drawing& drawing) {
+  if (!drawing.track.empty()) {
+    const auto track = track_named(before, drawing.track);
+    if (!track)
+      throw Error(ErrorKind::usage,
+                  fmt::format("plot: no joint or marker is called {}", drawing.track));
+    return curves_of(before, after, *track, drawing.is_position);
+  }
+  if (track_count(before) == 0) throw Error(ErrorKind::usage, "plot: the take has no tracks");
+  if (drawing.is_position) return curves_of(before, after, 0, true);
+  TrackCurves best = curves_of(before, after, 0, false);
+  for (std::size_t track = 1; track < track_count(before); ++track) {
+    TrackCurves other = curves_of(before, after, track, false);
+    if (weight_of(other, two) > weight_of(best, two)) best = std::move(other);
+  }
+  return best;
+}
+
+template <class Clip>
+std::string picture(const Clip& before, const Clip* other, const Drawing& drawing) {
+  const Clip& after = other != nullptr ? *other : before;
+  const bool two = other != nullptr;
+  std::pair<std::size_t, std::size_t> frames{0, std::numeric_limits<std::size_t>::max()};
+  if (drawing.range)
+    frames = frames_of(*drawing.range, before.frame_count(), before.frame_rate_hz,
+                       first_frame_number(before));
+  if (drawing.what == "strip") return film_strip_svg(before, other, frames, drawing.poses);
+  if (drawing.what == "gaps") return gap_chart_svg(before, other);
+  const TrackCurves curves = chosen_curves(before, after, two, drawing);
+  if (drawing.what == "spectrum") return spectrum_svg(curves, !two);
+  CurveStyle style;
+  style.first_frame = frames.first;
+  style.last_frame = frames.second;
+  style.one_take = !two;
+  return curves_svg(curves, {}, style);
+}
+
+Drawing drawing_of(const Arguments& arguments) {
+  Drawing drawing;
+  drawing.what = arguments.text("what");
+  drawing.track = arguments.text("track");
+  drawing.is_position = arguments.flag("root_position");
+  drawing.poses = static_cast<std::size_t>(arguments.whole("poses"));
+  if (const std::string range = arguments.text("range"); !range.empty())
+    drawing.range = parse_range(range);
+  return drawing;
+}
+
+Take read(const std::string& input, const Arguments& arguments) {
+  TakeResult result = read_take(fs::path(input), read_options(arguments));
+  warn_of_repairs(source_of(result.take), result.diagnostics);
+  return std::move(result.take);
+}
+
+int run(const Arguments& arguments) {
+  const std::vector<std::string>& inputs = arguments.positionals;
+  std::string output = arguments.text("output");
+  if (output.empty())
+    throw Error(ErrorKind::usage, "plot: --output is missing (see kinemend plot -h)");
+  const bool force = arguments.flag("force");
+  check_single_use(inputs, {output}, false);
+  check_is_no_input("--output", output, inputs);
+  check_free(output, force);
+  const Drawing drawing = drawing_of(arguments);
+  const Take before = read(inputs[0], arguments);
+  std::optional<Take> after;
+  if (inputs.size() > 1) after = read(inputs[1], arguments);
+  if (after && after->index() != before.index()) {
+    throw Error(ErrorKind::usage, fmt::format("plot: {} and {} are not both joints or both markers",
+                                              inputs[0], inputs[1]));
+  }
+  write_output(output,
+               std::visit(
+                   [&](const auto& clip) {
+                     using Kind = std::decay_t<decltype(clip)>;
+                     return picture(clip, after ? &std::get<Kind>(*after) : nullptr, drawing);
+                   },
+                   before),
+               force);
+  return 0;
+}
+
+}  // namespace
+
+Command plot_command() {
+  Command command;
+  command.name = "plot";
+  command.summary = "draw a take, or two over each other, as SVG";
+  command.description =
+      "Draws curves of a joint or marker (--what curves), poses along the time (strip), power over "
+      "frequency (spectrum), or when which track is missing (gaps). With OTHER both takes are "
+      "drawn: TAKE as the one before, OTHER as the one after.\n\n"
+      "Where no --track is named it is the one that differs most between the two, or of one take "
+      "the one that moves most.";
+  command.positionals = {{"TAKE", "take to draw; - is standard input", 1, 1, {}},
+                         {"OTHER", "the same take after something was done", 0, 1, {}}};
+  Flag what = text_flag("what", "", "Drawing", "what to draw");
+  what.spec.default_value = std::string("curves");
+  what.spec.choices = {"curves", "strip", "spectrum", "gaps"};
+  what.has_default = true;
+  command.flags = {
+      output_flag("where to write; - is standard output"),
+      force_flag(),
+      what,
+      text_flag("track", "NAME", "Drawing", "joint or marker of curves and spectrum"),
+      switch_flag("root_position", "Drawing", "curves of the root's position, not of a rotation"),
+      text_flag("range", "FIRST:LAST", "Drawing",
+                "draw frames 121:240, as the file numbers them, or seconds 1s:2.5s",
+                "Of curves and strip. Either end may be left out."),
+      whole_flag("poses", 9, 1, 60, "Drawing", "poses of a strip")};
+  append(command.flags, reading_flags("what needs a repair becomes an error"));
+  command.examples = {
+      {"kinemend plot raw.bvh clean.bvh -o curves.svg --track LeftForeArm", "before and after"},
+      {"kinemend plot walk.bvh -o strip.svg --what strip", "the motion on one line"},
+      {"kinemend plot trial.c3d filled.c3d -o gaps.svg --what gaps", "what was filled"}};
+  command.run = run;
+  return command;
+}
+
+}  // namespace kinemend::cli

@@ -1,0 +1,164 @@
+#include "page/channels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace kinemend::page {
+
+namespace {
+
+/// F values, one of each frame of the take.
+using Values = std::vector<double>;
+
+double largest_of(const Values& values) {
+  double largest = 0;
+  for (const double value : values) {
+    if (std::isfinite(value)) largest = std::max(largest, std::fabs(value));
+  }
+  return largest;
+}
+
+Values every(const Values& values, std::size_t step) {
+  if (step == 1) return values;
+  Values result;
+  for (std::size_t f = 0; f < values.size(); f += step) result.push_back(values[f]);
+  return result;
+}
+
+void add(const Values& before, const Values& after, double quantum, Channels& channels) {
+  const double used = quantum_for(quantum, std::max(largest_of(before), largest_of(after)));
+  channels.samples.push_back({quantised(every(before, channels.step), used),
+                              quantised(every(after, channels.step), used)});
+  channels.quanta.push_back(used);
+}
+
+Channels empty_channels(std::size_t frames, std::size_t count) {
+  Channels channels;
+  channels.step = frame_step(frames, count);
+  channels.frames = (frames + channels.step - 1) / channels.step;
+  return channels;
+}
+
+using PositionAt = std::function<Vec3(std::size_t frame)>;
+
+std::array<Values, 3> positions(std::size_t frames, const PositionAt& at) {
+  std::array<Values, 3> axes;
+  for (std::size_t f = 0; f < frames; ++f) {
+    const Vec3 p = at(f);
+    axes[0].push_back(p.x);
+    axes[1].push_back(p.y);
+    axes[2].push_back(p.z);
+  }
+  return axes;
+}
+
+// `after` is empty where there is one take.
+void add_positions(std::size_t frames, const PositionAt& before, const PositionAt& after,
+                   double quantum, Channels& channels) {
+  const auto old_values = positions(frames, before);
+  const auto new_values = after ? positions(frames, after) : std::array<Values, 3>();
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    add(old_values[axis], new_values[axis], quantum, channels);
+}
+
+PositionAt root_of(const Clip* clip) {
+  if (clip == nullptr) return {};
+  return [clip](std::size_t frame) { return clip->root_positions[frame]; };
+}
+
+PositionAt translation_of(const Clip* clip, std::size_t translated) {
+  if (clip == nullptr) return {};
+  return [clip, translated](std::size_t frame) {
+    return clip->joint_translations[frame * clip->translated_joints.size() + translated];
+  };
+}
+
+void add_rotation(const Clip& before, const Clip* after, std::size_t joint, RotationOrder order,
+                  double quantum_deg, Channels& channels) {
+  std::array<Values, 3> old_angles, new_angles;
+  std::array<double, 3> angles{};
+  for (std::size_t f = 0; f < before.frame_count(); ++f) {
+    angles = to_euler_near(before.rotation(f, joint), order, angles);
+    for (std::size_t a = 0; a < order.count; ++a)
+      old_angles[a].push_back(angles[a] * degrees_per_radian);
+    if (after == nullptr) continue;
+    const auto other = to_euler_near(after->rotation(f, joint), order, angles);
+    for (std::size_t a = 0; a < order.count; ++a)
+      new_angles[a].push_back(other[a] * degrees_per_radian);
+  }
+  for (std::size_t a = 0; a < order.count; ++a)
+    add(old_angles[a], new_angles[a], quantum_deg, channels);
+}
+
+bool turns(const Clip& clip, std::size_t joint) {
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    if (angle_between(clip.rotation(f, joint), Quat{}) > 1e-9) return true;
+  }
+  return false;
+}
+
+PositionAt held_position_of(const MarkerClip* clip, std::size_t marker) {
+  if (clip == nullptr) return {};
+  return [clip, marker, last = Vec3()](std::size_t frame) mutable {
+    if (clip->is_observed(frame, marker)) last = clip->position(frame, marker);
+    return last;
+  };
+}
+
+}  // namespace
+
+double position_quantum(double body_height) { return body_height > 0 ? body_height / 17000 : 1e-4; }
+
+std::size_t frame_step(std::size_t frames, std::size_t channels) {
+  return std::max<std::size_t>(1, (frames * channels + most_samples - 1) / most_samples);
+}
+
+std::size_t part_stride(std::size_t frames, std::size_t channels) {
+  return frames * channels > most_samples_at_once ? stride_of_parts : 1;
+}
+
+std::size_t channel_count(const Clip& clip) {
+  std::size_t count = 3 * (1 + clip.translated_joints.size());
+  for (std::size_t j = 0; j < clip.joint_count(); ++j)
+    count += clip.skeleton.rotation_order(j).count;
+  return count;
+}
+
+std::size_t channel_count(const MarkerClip& clip) { return 3 * clip.marker_count(); }
+
+RotationOrder told_order(const Clip& before, const Clip* after, std::size_t joint) {
+  const RotationOrder order = before.skeleton.rotation_order(joint);
+  if (order.count > 0) return order;
+  const bool does_turn = turns(before, joint) || (after != nullptr && turns(*after, joint));
+  return does_turn ? parse_rotation_order("ZXY") : order;
+}
+
+Channels channels_of(const Clip& before, const Clip* after, double body_height, double share) {
+  const std::size_t frames = before.frame_count();
+  Channels channels = empty_channels(frames, channel_count(before));
+  const double quantum = share * position_quantum(body_height);
+  add_positions(frames, root_of(&before), root_of(after), quantum, channels);
+  for (std::size_t t = 0; t < before.translated_joints.size(); ++t) {
+    add_positions(frames, translation_of(&before, t), translation_of(after, t), quantum, channels);
+  }
+  for (std::size_t j = 0; j < before.joint_count(); ++j)
+    add_rotation(before, after, j, told_order(before, after, j), share * rotation_quantum_deg,
+                 channels);
+  return channels;
+}
+
+Channels channels_of(const MarkerClip& before, const MarkerClip* after, double body_height,
+                     double share) {
+  const std::size_t frames = before.frame_count();
+  Channels channels = empty_channels(frames, channel_count(before));
+  for (std::size_t m = 0; m < before.marker_count(); ++m) {
+    add_positions(frames, held_position_of(&before, m), held_position_of(after, m),
+                  share * position_quantum(body_height), channels);
+  }
+  return channels;
+}
+
+}  // namespace kinemend::page

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+// The page as HTML.
+namespace kinemend::page {
+
+/// Data of the page: the name of an element and what it holds, before it is deflated.
+using Parts = std::vector<std::pair<std::string_view, std::string>>;
+
+/// Errors: `ErrorKind::usage` for a build without the page.
+void check_is_built();
+/// `summary` is what a browser without scripts shows.
+std::string document(std::string_view title, std::string_view summary, const Parts& parts);
+
+}  // namespace kinemend::page

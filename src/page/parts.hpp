@@ -1,0 +1,12 @@
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+// What cmake/embed_page.cmake makes of the bundle of web/; empty where there is none.
+namespace kinemend::page {
+
+extern const std::string_view script;
+extern const std::string_view style;
+
+}  // namespace kinemend::page

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "feet/body_points.hpp"
+#include "kinemend/clip.hpp"
+#include "kinemend/feet.hpp"
+#include "kinemend/marker_clip.hpp"
+
+// Where a body moves: up, the floor, when feet stand on it.
+namespace kinemend::page {
+
+/// A time in which a foot stands.
+struct StageContact {
+  std::vector<std::size_t> points;  ///< joints, then end sites, or markers, that touch the floor
+  std::size_t first_frame = 0;
+  std::size_t last_frame = 0;  ///< inclusive
+};
+
+struct Stage {
+  feet::Up up;
+  double floor = 0;   ///< along `up`, file units
+  double height = 0;  ///< of the body, file units; positive
+  std::vector<StageContact> contacts;
+};
+
+Stage stage_of(const Clip& clip);
+Stage stage_of(const MarkerClip& clip);
+/// Those that `clean` worked with.
+std::vector<StageContact> contacts_of(const FeetReport& report, const Clip& clip);
+
+}  // namespace kinemend::page

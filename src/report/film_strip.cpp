@@ -1,0 +1,194 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include "kinemend/convert.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/frame_numbers.hpp"
+#include "kinemend/kinematics.hpp"
+#include "kinemend/pictures.hpp"
+#include "kinemend/svg.hpp"
+#include "report/inks.hpp"
+
+namespace kinemend {
+
+namespace {
+
+using Point = Svg::Point;
+
+constexpr double width = 960, height = 240, ground = 206, tallest = 176;  // pixels
+
+double component(Vec3 v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+/// Points of a pose, none for one that is missing, and which of them are joined.
+struct Poses {
+  std::vector<std::vector<std::optional<Vec3>>> moments;
+  std::vector<std::pair<std::size_t, std::size_t>> bones;
+};
+
+Poses poses_of(const Clip& clip, const std::vector<std::size_t>& frames) {
+  Poses poses;
+  const Skeleton& skeleton = clip.skeleton;
+  for (std::size_t j = 1; j < skeleton.joint_count(); ++j) {
+    if (skeleton.parents[j] >= 0)
+      poses.bones.emplace_back(static_cast<std::size_t>(skeleton.parents[j]), j);
+  }
+  for (std::size_t e = 0; e < skeleton.end_sites.size(); ++e) {
+    poses.bones.emplace_back(static_cast<std::size_t>(skeleton.end_sites[e].parent),
+                             skeleton.joint_count() + e);
+  }
+  for (const std::size_t frame : frames) {
+    const Pose pose = forward_kinematics(clip, frame);
+    auto& points = poses.moments.emplace_back(pose.positions.begin(), pose.positions.end());
+    for (const EndSite& end : skeleton.end_sites) {
+      const auto parent = static_cast<std::size_t>(end.parent);
+      points.emplace_back(pose.positions[parent] + rotate(pose.rotations[parent], end.offset));
+    }
+  }
+  return poses;
+}
+
+Poses poses_of(const MarkerClip& clip, const std::vector<std::size_t>& frames) {
+  Poses poses;
+  for (const std::size_t frame : frames) {
+    auto& points = poses.moments.emplace_back();
+    for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+      const bool is_seen = clip.is_observed(frame, m) && clip.holds_positions(m);
+      points.push_back(is_seen ? std::optional(clip.position(frame, m)) : std::nullopt);
+    }
+  }
+  return poses;
+}
+
+/// The plane that is drawn, and how large.
+struct View {
+  std::size_t across = 0, up = 1;
+  double floor = 0, scale = 1;
+};
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  void add(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  double size() const { return low <= high ? high - low : 0; }
+  double middle() const { return low <= high ? (low + high) / 2 : 0; }
+};
+
+Range range_of(const std::vector<std::optional<Vec3>>& points, std::size_t axis) {
+  Range range;
+  for (const auto& point : points) {
+    if (point) range.add(component(*point, axis));
+  }
+  return range;
+}
+
+View view_of(const Poses& poses, std::size_t up, double slot) {
+  View view;
+  view.up = up;
+  std::array<double, 3> broad{};
+  Range heights;
+  for (const auto& points : poses.moments) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      broad[axis] = std::max(broad[axis], range_of(points, axis).size());
+    const Range own = range_of(points, up);
+    if (own.low > own.high) continue;
+    heights.add(own.low);
+    heights.add(own.high);
+  }
+  const std::size_t one = (up + 1) % 3, other = (up + 2) % 3;
+  view.across = broad[one] >= broad[other] ? one : other;
+  view.floor = heights.low <= heights.high ? heights.low : 0;
+  const double high = std::max(heights.size(), 1e-9);
+  view.scale = std::min(tallest / high, 1.15 * slot / std::max(broad[view.across], 1e-9));
+  return view;
+}
+
+// `middle`: of the pose, across.
+Point drawn(Vec3 p, const View& view, double middle, double x) {
+  return {x + view.scale * (component(p, view.across) - middle),
+          ground - view.scale * (component(p, view.up) - view.floor)};
+}
+
+void draw_pose(Svg& svg, const Poses& poses, const std::vector<std::optional<Vec3>>& points,
+               const View& view, double middle, double x, std::string_view ink) {
+  if (poses.bones.empty()) {
+    for (const auto& point : points) {
+      if (point) svg.circle(drawn(*point, view, middle, x), 2.2, fmt::format("fill=\"{}\"", ink));
+    }
+    return;
+  }
+  std::vector<std::vector<Point>> lines;
+  for (const auto& [from, to] : poses.bones)
+    lines.push_back({drawn(*points[from], view, middle, x), drawn(*points[to], view, middle, x)});
+  svg.path(
+      lines,
+      fmt::format("fill=\"none\" stroke-linecap=\"round\" stroke=\"{}\" stroke-width=\"2\"", ink));
+}
+
+std::vector<std::size_t> moments_of(std::size_t frame_count, FrameSpanToDraw span,
+                                    std::size_t poses) {
+  std::vector<std::size_t> frames;
+  if (frame_count == 0) return frames;
+  const std::size_t last = std::min(span.second, frame_count - 1),
+                    first = std::min(span.first, last);
+  const std::size_t count = std::min(poses, last - first + 1);
+  for (std::size_t i = 0; i < count; ++i)
+    frames.push_back(count == 1 ? first : first + i * (last - first) / (count - 1));
+  return frames;
+}
+
+template <class Take>
+std::string film_strip(const Take& before, const Take* after, FrameSpanToDraw span,
+                       std::size_t count) {
+  if (after != nullptr && before.frame_count() != after->frame_count()) {
+    throw Error(ErrorKind::usage, fmt::format("film strip: {} frames before and {} after",
+                                              before.frame_count(), after->frame_count()));
+  }
+  const std::vector<std::size_t> frames = moments_of(before.frame_count(), span, count);
+  Svg svg(width, height, "poses");
+  svg.open_group(inks::font);
+  svg.line({20, ground + 3}, {width - 20, ground + 3}, "stroke=\"#dee2e6\"");
+  if (frames.empty()) {
+    svg.text(width / 2, height / 2, fmt::format("text-anchor=\"middle\" fill=\"{}\"", inks::quiet),
+             "no frames");
+  } else {
+    const double slot = (width - 40) / static_cast<double>(frames.size());
+    const Take& last = after != nullptr ? *after : before;
+    const Poses poses = poses_of(last, frames);
+    const Poses old_poses = after != nullptr ? poses_of(before, frames) : Poses();
+    const View view = view_of(poses, static_cast<std::size_t>(guess_up_axis(last)), slot);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const double x = 20 + slot * (static_cast<double>(i) + 0.5);
+      const double middle = range_of(poses.moments[i], view.across).middle();
+      if (after != nullptr)
+        draw_pose(svg, old_poses, old_poses.moments[i], view, middle, x, inks::before);
+      draw_pose(svg, poses, poses.moments[i], view, middle, x, inks::after);
+      svg.text(x, height - 12, fmt::format("text-anchor=\"middle\" fill=\"{}\"", inks::quiet),
+               fmt::format("{}", frame_number(frames[i], first_frame_number(before))));
+    }
+  }
+  svg.close_group();
+  return std::move(svg).finish();
+}
+
+}  // namespace
+
+std::string film_strip_svg(const Clip& before, const Clip* after, FrameSpanToDraw frames,
+                           std::size_t poses) {
+  return film_strip(before, after, frames, poses);
+}
+
+std::string film_strip_svg(const MarkerClip& before, const MarkerClip* after,
+                           FrameSpanToDraw frames, std::size_t poses) {
+  return film_strip(before, after, frames, poses);
+}
+
+}  // namespace kinemend

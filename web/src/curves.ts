@@ -1,0 +1,276 @@
+// Curves of the chosen tracks: values, difference, speed, acceleration, spectrum.
+
+import uPlot from 'uplot';
+import { colour, element, isolated } from './dom';
+import type { Player } from './player';
+import { accelerationOf, accelerationOfSteps, speedOf, spectrumOf, turningSpeed } from './signal';
+import { turnBetween, type Take, type Which } from './take';
+
+type Values = (number | null)[];
+export type Kind = 'values' | 'difference' | 'speed' | 'acceleration' | 'spectrum';
+export type Quantity = 'rotation' | 'position';
+
+interface Line {
+  label: string;
+  values: Values;
+  colour: string;
+  width: number;
+  dash?: number[];
+}
+
+const axisColours = ['axis-1', 'axis-2', 'axis-3'];
+const superscript = '\u00b2';
+
+/** One track of one quantity in both takes. */
+class Signal {
+  readonly names: string[];
+  readonly unit: string;
+  private readonly axes = new Map<Which, Values[]>();
+
+  constructor(readonly take: Take, readonly track: number, readonly quantity: Quantity) {
+    const turns = quantity === 'rotation';
+    this.names = turns ? [...take.order(track)] : ['X', 'Y', 'Z'];
+    this.unit = turns ? 'deg' : take.data.unit || 'units';
+    for (const which of take.takes) this.axes.set(which, turns ? take.angles(track, which) : take.path(track, which));
+  }
+
+  of(which: Which): Values[] { return this.axes.get(which) ?? []; }
+
+  private turns(which: Which): (number[] | null)[] {
+    const { take, track } = this;
+    return Array.from({ length: Math.max(0, take.told - 1) }, (_, f) =>
+      take.isMissing(track, f, which) || take.isMissing(track, f + 1, which) ? null : turnBetween(take.rotation(track, f, which), take.rotation(track, f + 1, which)));
+  }
+  speed(which: Which): Values {
+    if (this.quantity === 'position') return speedOf(this.of(which), this.take.rate);
+    return turningSpeed(this.turns(which), this.take.rate, this.take.told);
+  }
+  acceleration(which: Which): Values {
+    if (this.quantity === 'position') return accelerationOf(this.of(which), this.take.rate);
+    return accelerationOfSteps(this.turns(which), this.take.rate, this.take.told);
+  }
+  difference(): Values {
+    const { take, track } = this;
+    const before = this.of('before');
+    const after = this.of('after');
+    return Array.from({ length: take.told }, (_, f) => {
+      if (before.some((axis) => axis[f] === null) || after.some((axis) => axis[f] === null)) return null;
+      if (this.quantity === 'rotation') return Math.hypot(...turnBetween(take.rotation(track, f, 'before'), take.rotation(track, f, 'after')));
+      return Math.hypot(...before.map((axis, a) => (after[a][f] as number) - (axis[f] as number)));
+    });
+  }
+}
+
+export class Curves {
+  quantity: Quantity;
+  kinds = new Set<Kind>(['values', 'difference']);
+  plots: uPlot[] = [];
+  private readonly signals = new Map<string, Signal>();
+  private isZooming = false;
+
+  constructor(private readonly holder: HTMLElement, private readonly take: Take, private readonly player: Player) {
+    this.quantity = take.isJoints ? 'rotation' : 'position';
+    if (!take.data.two) this.kinds = new Set<Kind>(['values']);
+    player.onChoice(() => this.rebuild());
+    player.onZoom(() => this.rescale());
+    player.onMove(() => this.drawCursor());
+    new ResizeObserver(() => this.resize()).observe(holder);
+  }
+
+  /** After the rest of a long take has come. */
+  forget(): void {
+    this.signals.clear();
+    this.rebuild();
+  }
+
+  private signal(track: number): Signal {
+    const key = `${this.quantity} ${track}`;
+    const known = this.signals.get(key);
+    if (known) return known;
+    const made = new Signal(this.take, track, this.quantity);
+    this.signals.set(key, made);
+    return made;
+  }
+
+  private label(which: Which): string { return this.take.data.labels[which === 'before' ? 0 : 1]; }
+
+  private pair(of: (which: Which) => Values): Line[] {
+    return this.take.takes.map((which) => ({
+      label: this.take.data.two ? this.label(which) : 'value',
+      values: of(which),
+      colour: this.take.data.two ? which : 'after',
+      width: which === this.take.last ? 1.5 : 1,
+    }));
+  }
+
+  private lines(signal: Signal, kind: Kind): Line[] {
+    if (kind === 'speed') return this.pair((which) => signal.speed(which));
+    if (kind === 'acceleration') return this.pair((which) => signal.acceleration(which));
+    if (kind === 'difference') return [{ label: 'difference', values: signal.difference(), colour: 'text', width: 1.25 }];
+    const lines: Line[] = [];
+    for (const which of this.take.takes) {
+      const isFaint = which === 'before' && this.take.data.two;
+      signal.of(which).forEach((values, a) => lines.push({
+        label: this.take.data.two ? `${signal.names[a]} ${this.label(which)}` : signal.names[a],
+        values,
+        colour: axisColours[a] + (isFaint ? '-faint' : ''),
+        width: isFaint ? 1 : 1.6,
+      }));
+    }
+    return lines;
+  }
+
+  private unit(signal: Signal, kind: Kind): string {
+    if (kind === 'speed') return `${signal.unit}/s`;
+    if (kind === 'acceleration') return `${signal.unit}/s${superscript}`;
+    return signal.unit;
+  }
+
+  rebuild(): void {
+    for (const plot of this.plots) plot.destroy();
+    this.plots = [];
+    this.holder.replaceChildren();
+    if (this.player.chosen.length === 0) {
+      const noun = this.take.isJoints ? 'joint' : 'marker';
+      this.holder.append(element('p', { class: 'empty' }, `Choose a ${noun} in the table to see its curves.`));
+      return;
+    }
+    for (const track of this.player.chosen) this.addTrack(track);
+    this.rescale();
+    this.drawCursor();
+  }
+
+  private addTrack(track: number): void {
+    const signal = this.signal(track);
+    const name = this.take.data.names[track] || `(no name, ${track + 1})`;
+    if (signal.names.length === 0) {
+      this.holder.append(element('p', { class: 'empty' }, `${name} has no rotation in this take.`));
+      return;
+    }
+    const order: Kind[] = ['values', 'difference', 'speed', 'acceleration', 'spectrum'];
+    for (const kind of order) {
+      if (!this.kinds.has(kind) || (kind === 'difference' && !this.take.data.two)) continue;
+      const what = kind === 'values' ? (this.quantity === 'rotation' ? 'angles' : 'position') : kind;
+      const unit = kind === 'spectrum' ? `${signal.unit}${superscript}/Hz` : this.unit(signal, kind);
+      const panel = element('figure', { class: 'panel' }, element('figcaption', {}, element('b', {}, isolated(name)), ` ${what}, ${unit}`));
+      this.holder.append(panel);
+      if (kind === 'spectrum') this.addSpectrum(panel, signal);
+      else this.addPanel(panel, this.lines(signal, kind));
+    }
+  }
+
+  private common(width: number): Pick<uPlot.Options, 'width' | 'height'> & { axis: Partial<uPlot.Axis> } {
+    return {
+      width,
+      height: 150,
+      axis: { stroke: colour('quiet'), grid: { stroke: colour('grid'), width: 1 }, ticks: { stroke: colour('grid'), width: 1 }, font: '11px system-ui, sans-serif' },
+    };
+  }
+
+  private get width(): number { return Math.max(200, this.holder.clientWidth - 2); }
+
+  private addPanel(panel: HTMLElement, lines: Line[]): void {
+    const { axis, ...size } = this.common(this.width);
+    const x = Array.from({ length: this.take.told }, (_, f) => this.take.number(f));
+    const options: uPlot.Options = {
+      ...size,
+      padding: [6, 10, 0, 0],
+      scales: { x: { time: false } },
+      cursor: { y: false, sync: { key: 'kinemend' }, drag: { x: true, y: false, setScale: true }, points: { show: false } },
+      series: [{ label: 'frame' }, ...lines.map((line) => ({ label: line.label, stroke: colour(line.colour), width: line.width, points: { show: this.take.told < 3 } }))],
+      axes: [{ ...axis, size: 30 }, { ...axis, size: 68 }],
+      hooks: {
+        setScale: [(plot, key) => { if (key === 'x') this.takeZoom(plot); }],
+        draw: [(plot) => this.cursorIn(plot)],
+        ready: [(plot) => this.listen(plot)],
+      },
+    };
+    this.plots.push(new uPlot(options, [x, ...lines.map((line) => line.values)] as uPlot.AlignedData, panel));
+  }
+
+  /** A click sets the time, the wheel zooms, a double click shows all. */
+  private listen(plot: uPlot): void {
+    let from = 0;
+    plot.over.addEventListener('mousedown', (event) => { from = event.clientX; });
+    plot.over.addEventListener('click', (event) => {
+      if (Math.abs(event.clientX - from) < 3) this.player.seek(this.take.frameOf(plot.posToVal(event.offsetX, 'x')));
+    });
+    plot.over.addEventListener('dblclick', () => this.player.zoom(0, this.take.told - 1));
+    plot.over.addEventListener('wheel', (event) => {
+      if (!event.ctrlKey && !event.shiftKey) return;
+      event.preventDefault();
+      const at = this.take.frameOf(plot.posToVal(event.offsetX, 'x'));
+      this.player.zoomBy(event.deltaY + event.deltaX > 0 ? 1.25 : 0.8, at);
+    }, { passive: false });
+  }
+
+  private takeZoom(plot: uPlot): void {
+    const { min, max } = plot.scales.x;
+    if (this.isZooming || min === undefined || max === undefined || min === null || max === null || plot.status !== 1) return;
+    const { step, first_frame } = this.take.data;
+    this.player.zoom((min - first_frame) / step, (max - first_frame) / step);
+  }
+
+  private rescale(): void {
+    this.isZooming = true;
+    const min = this.take.number(this.player.from);
+    const max = this.take.number(this.player.to);
+    for (const plot of this.plots) plot.setScale('x', { min, max });
+    // Scales are set when the plots next draw.
+    queueMicrotask(() => queueMicrotask(() => { this.isZooming = false; }));
+  }
+
+  private cursorIn(plot: uPlot): void {
+    const x = plot.valToPos(this.take.number(this.player.shown), 'x', true);
+    const { left, top, width, height } = plot.bbox;
+    if (x < left || x > left + width) return;
+    const context = plot.ctx;
+    context.save();
+    context.strokeStyle = colour('cursor');
+    context.lineWidth = 1.5 * devicePixelRatio;
+    context.beginPath();
+    context.moveTo(x, top);
+    context.lineTo(x, top + height);
+    context.stroke();
+    context.restore();
+  }
+  private drawCursor(): void {
+    for (const plot of this.plots) {
+      plot.redraw(false, false);
+      // The legend tells values where the time is, or where the mouse is.
+      queueMicrotask(() => { if ((plot.cursor.left ?? -1) < 0) plot.setLegend({ idx: this.player.shown }, false); });
+    }
+  }
+
+  private addSpectrum(panel: HTMLElement, signal: Signal): void {
+    const { axis, ...size } = this.common(this.width);
+    const spectra = this.take.takes.map((which) => spectrumOf(signal.of(which), this.take.rate));
+    if (spectra.every((spectrum) => spectrum.hertz.length === 0)) {
+      panel.append(element('p', { class: 'empty' }, 'Too few samples without a gap for a spectrum.'));
+      return;
+    }
+    const hertz = spectra.find((spectrum) => spectrum.hertz.length > 0)?.hertz ?? [];
+    const series = this.take.takes.map((which) => ({
+      label: this.take.data.two ? this.label(which) : 'density',
+      stroke: colour(this.take.data.two ? which : 'after'),
+      width: 1.5,
+    }));
+    const plot = new uPlot({
+      ...size,
+      padding: [6, 10, 0, 0],
+      scales: { x: { time: false }, y: { distr: 3 } },
+      cursor: { y: false, points: { show: false } },
+      series: [{ label: 'Hz' }, ...series],
+      axes: [{ ...axis, size: 30, values: (_plot, ticks) => ticks.map((tick) => `${tick} Hz`) }, { ...axis, size: 68, values: (_plot, ticks) => ticks.map((tick) => (tick === null || Math.log10(tick) % 1 ? '' : tick.toExponential(0))) }],
+    }, [hertz, ...spectra.map((spectrum) => spectrum.density.map((value) => (value > 0 ? value : null)))] as uPlot.AlignedData, panel);
+    panel.dataset.spectrum = 'true';
+    this.spectra.push(plot);
+  }
+  private spectra: uPlot[] = [];
+
+  private resize(): void {
+    for (const plot of [...this.plots, ...this.spectra]) {
+      if (Math.abs(plot.width - this.width) > 1) plot.setSize({ width: this.width, height: 150 });
+    }
+  }
+}

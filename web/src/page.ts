@@ -1,0 +1,27 @@
+// What the page shows depends on what it holds.
+
+import 'uplot/dist/uPlot.min.css';
+import './style.css';
+import { showBatch, type Batch } from './batch_page';
+import { jsonOf } from './codec';
+import { element } from './dom';
+import type { ReportDocument, TakeData } from './report';
+import { showTake } from './take_page';
+
+async function start(): Promise<void> {
+  const page = document.getElementById('page') as HTMLElement;
+  try {
+    const batch = await jsonOf<Batch>('batch');
+    if (batch !== null) return showBatch(page, batch);
+    const report = await jsonOf<ReportDocument>('report');
+    const take = await jsonOf<TakeData>('take');
+    if (report === null || take === null) throw new Error('the page holds no report');
+    await showTake(page, report, take);
+  } catch (error) {
+    page.replaceChildren(element('h1', {}, 'This report cannot be shown'), element('p', {}, String(error)),
+      element('p', {}, 'A browser of 2023 or later is needed; and the file must be whole.'));
+    page.dataset.ready = 'failed';
+  }
+}
+
+void start();

@@ -1,0 +1,90 @@
+// What the page reads: kinemend.report/1 (docs/report.md), and what src/page/take_json.cpp writes.
+
+export interface Finding {
+  kind: string;
+  verdict: string;
+  track: string | null;
+  first_frame: number;
+  last_frame: number;
+  amount: number | null;
+  unit: string | null;
+  reason: string | null;
+  rms?: number;
+  quantity?: string;
+  method?: string;
+}
+
+export type TrackRow = Record<string, string | number | null>;
+
+export interface TakeEntry {
+  input: string;
+  output: string | null;
+  kind: string;
+  format: string | null;
+  frames: number;
+  first_frame: number;
+  frame_rate_hz: number;
+  calibration_frames: number | null;
+  unit: string | null;
+  metres_per_unit: number | null;
+  track_unit: string | null;
+  verdict: string | null;
+  method?: string;
+  reference?: string;
+  options?: Record<string, unknown>;
+  fall_backs?: { method: string; reason: string; tracks: { name: string; share: number }[] }[];
+  leftovers?: { what: string; mend: string }[];
+  figures: Record<string, number | null>;
+  findings: Finding[];
+  tracks: TrackRow[];
+  warnings: string[];
+  diagnostics: { name: string; message: string; count: number }[];
+}
+
+export interface ReportDocument {
+  schema: string;
+  kinemend: string;
+  command: string;
+  takes: TakeEntry[];
+}
+
+type Gap = [track: number, first: number, last: number];
+export interface Gaps {
+  own: Gap[];
+  positions: Gap[];
+}
+
+export interface Skeleton {
+  parents: number[];
+  offsets: [number, number, number][];
+  rests: [number, number, number, number][];
+  orders: string[];
+  ends: { parent: number; offset: [number, number, number] }[];
+  translated: number[];
+}
+
+export interface TakeData {
+  kind: 'joints' | 'markers';
+  names: string[];
+  frames: number;
+  told: number;
+  step: number;
+  stride: number;
+  first_frame: number;
+  rate: number;
+  unit: string;
+  two: boolean;
+  quanta: number[];
+  stage: {
+    up: 'x' | 'y' | 'z';
+    sign: number;
+    floor: number;
+    height: number;
+    contacts: { points: number[]; first: number; last: number }[];
+  };
+  gaps: { before: Gaps; after: Gaps | null };
+  skeleton?: Skeleton;
+  shown?: boolean[];
+  command_line: string;
+  labels: [string, string];
+}

@@ -1,0 +1,95 @@
+// The table of joints or markers, sorted by any of its figures.
+
+import { button, element, figure, words } from './dom';
+import type { Player } from './player';
+import type { Finding, TakeEntry, TrackRow } from './report';
+import type { Take } from './take';
+
+const withoutUnit = /filled|refused|count|frames|gap|spikes|frozen|bridged|swaps|flips|percent|_s$|_hz$|_deg$|_cm$|missing/;
+
+/** What findings say of each track, for reports that have no figures of tracks. */
+function countedRows(names: string[], findings: Finding[]): TrackRow[] {
+  return names.map((name) => {
+    const own = findings.filter((finding) => finding.track === name);
+    const frames = (list: Finding[]): number => list.reduce((sum, finding) => sum + finding.last_frame - finding.first_frame + 1, 0);
+    const refused = own.filter((finding) => finding.verdict === 'refused');
+    const done = own.filter((finding) => finding.verdict !== 'refused');
+    return { name, filled: done.length, 'filled frames': frames(done), refused: refused.length, 'refused frames': frames(refused) };
+  });
+}
+
+export class TrackTable {
+  private column: string | null = null;
+  private falling = true;
+  private readonly rows: { track: number; figures: Record<string, string | number | null>; row: HTMLTableRowElement }[] = [];
+  private readonly body = element('tbody');
+  private readonly heads = new Map<string, HTMLElement>();
+
+  constructor(holder: HTMLElement, private readonly take: Take, private readonly player: Player, entry: TakeEntry) {
+    const tracks = entry.tracks.length > 0 || entry.findings.length === 0 ? entry.tracks : countedRows(take.data.names, entry.findings);
+    const given = new Map(tracks.map((row) => [String(row.name), row]));
+    // Two markers may bear one name: those are told apart by their place.
+    const inOrder = tracks.length === take.data.names.length;
+    const columns = tracks.length > 0 ? Object.keys(tracks[0]).filter((key) => key !== 'name') : [];
+    const noun = take.isJoints ? 'joint' : 'marker';
+    const search = element('input', { type: 'search', placeholder: `find a ${noun}`, 'aria-label': `find a ${noun}` });
+    search.addEventListener('input', () => this.filter(search.value));
+    const head = element('tr', {}, this.head('name', noun));
+    for (const column of columns) head.append(this.head(column, words(column) + (withoutUnit.test(column) || !entry.track_unit ? '' : `, ${this.unit(column, entry)}`)));
+    take.data.names.forEach((name, track) => {
+      const figures = (inOrder ? tracks[track] : given.get(name)) ?? {};
+      const row = element('tr', {}, element('th', { scope: 'row' }, button(name || `(no name, ${track + 1})`, 'show its curves and trail', () => player.toggleTrack(track))));
+      for (const column of columns) row.append(element('td', {}, figure(figures[column] as number | null)));
+      this.rows.push({ track, figures: { ...figures, name }, row });
+    });
+    if (take.data.names.length === 0) {
+      holder.append(element('p', { class: 'empty' }, `The take holds no ${noun}s.`));
+      return;
+    }
+    holder.append(search, element('div', { class: 'scroll', tabindex: '0' }, element('table', {}, element('thead', {}, head), this.body)));
+    const first = ['rms_change', 'geodesic_rms_deg', 'noise', 'gaps', 'filled frames'].find((name) => columns.includes(name));
+    this.sort(first ?? null);
+    player.onChoice(() => this.mark());
+    this.mark();
+  }
+
+  /** The track that the table begins with. */
+  get worst(): number { return this.rows[0]?.track ?? 0; }
+
+  private unit(column: string, entry: TakeEntry): string {
+    return column.startsWith('peak_speed') ? `${entry.track_unit}/s` : entry.track_unit ?? '';
+  }
+
+  private head(column: string, text: string): HTMLElement {
+    const cell = element('th', { scope: 'col' }, button(text, 'sort by this', () => this.sort(column)));
+    this.heads.set(column, cell);
+    return cell;
+  }
+
+  private sort(column: string | null): void {
+    if (column !== null) {
+      this.falling = this.column === column ? !this.falling : column !== 'name';
+      this.column = column;
+      const sign = this.falling ? -1 : 1;
+      const value = (row: { figures: Record<string, string | number | null> }): number => Number(row.figures[column] ?? -Infinity);
+      this.rows.sort((a, b) => column === 'name'
+        ? sign * String(a.figures.name).localeCompare(String(b.figures.name))
+        : sign * (value(a) - value(b) || 0) || a.track - b.track);
+    }
+    for (const [name, cell] of this.heads) cell.setAttribute('aria-sort', name !== this.column ? 'none' : this.falling ? 'descending' : 'ascending');
+    this.body.replaceChildren(...this.rows.map(({ row }) => row));
+  }
+
+  private filter(text: string): void {
+    const wanted = text.toLowerCase();
+    for (const { track, row } of this.rows) row.hidden = !(this.take.data.names[track] ?? '').toLowerCase().includes(wanted);
+  }
+
+  private mark(): void {
+    for (const { track, row } of this.rows) {
+      const chosen = this.player.chosen.includes(track);
+      row.classList.toggle('chosen', chosen);
+      row.querySelector('button')?.setAttribute('aria-pressed', String(chosen));
+    }
+  }
+}

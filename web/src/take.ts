@@ -1,0 +1,209 @@
+// The motion: angles and positions of tracks at any frame, and poses by forward kinematics.
+
+import { bytesOf, emptySamples, readFirstPart, readSecondPart, type Samples } from './codec';
+import type { Gaps, TakeData } from './report';
+
+export type Which = 'before' | 'after';
+type Quat = [number, number, number, number];
+
+const axisOf: Record<string, number> = { X: 0, Y: 1, Z: 2, x: 0, y: 1, z: 2 };
+const halfDegree = Math.PI / 360;
+
+function multiply(a: Quat, b: Quat): Quat {
+  return [
+    a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+    a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+    a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+    a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
+  ];
+}
+
+/** The vector of the rotation that leads from `a` to `b`, degrees. */
+export function turnBetween(a: Quat, b: Quat): [number, number, number] {
+  const [w, x, y, z] = multiply([a[0], -a[1], -a[2], -a[3]], b);
+  const sine = Math.hypot(x, y, z);
+  if (sine < 1e-12) return [0, 0, 0];
+  const scale = (2 * Math.atan2(sine, Math.abs(w)) * (w < 0 ? -1 : 1) * 180) / Math.PI / sine;
+  return [x * scale, y * scale, z * scale];
+}
+
+/** Puts `p`, turned by `q`, and added to the point at `from`, at `to`. */
+function addTurned(q: Quat, p: ArrayLike<number>, result: Float32Array, from: number, to: number): void {
+  const [w, x, y, z] = q;
+  const tx = 2 * (y * p[2] - z * p[1]);
+  const ty = 2 * (z * p[0] - x * p[2]);
+  const tz = 2 * (x * p[1] - y * p[0]);
+  result[to] = result[from] + p[0] + w * tx + y * tz - z * ty;
+  result[to + 1] = result[from + 1] + p[1] + w * ty + z * tx - x * tz;
+  result[to + 2] = result[from + 2] + p[2] + w * tz + x * ty - y * tx;
+}
+
+/** For each frame whether a track has a sample; null: all have. */
+function masks(gaps: Gap3[], frames: number, step: number): Map<number, Uint8Array> {
+  const result = new Map<number, Uint8Array>();
+  for (const [track, first, last] of gaps) {
+    const mask = result.get(track) ?? new Uint8Array(frames);
+    mask.fill(1, Math.ceil(first / step), Math.floor(last / step) + 1);
+    result.set(track, mask);
+  }
+  return result;
+}
+type Gap3 = Gaps['own'][number];
+
+export class Take {
+  /** Frames that are told; frame i of them is frame i * step of the take. */
+  readonly told: number;
+  readonly points: number;
+  whole: boolean;
+  private readonly samples: Samples[];
+  private readonly rotationChannels: number[] = [];
+  private readonly translatedChannels = new Map<number, number>();
+  private readonly missing = new Map<string, Map<number, Uint8Array>>();
+
+  private constructor(readonly data: TakeData) {
+    this.told = data.told;
+    this.samples = emptySamples(data.quanta.length, data.told, data.two);
+    this.points = data.names.length + (data.skeleton?.ends.length ?? 0);
+    this.whole = data.stride === 1;
+    const skeleton = data.skeleton;
+    if (skeleton) {
+      let next = 3;
+      for (const joint of skeleton.translated) {
+        this.translatedChannels.set(joint, next);
+        next += 3;
+      }
+      for (const order of skeleton.orders) {
+        this.rotationChannels.push(next);
+        next += order.length;
+      }
+    }
+    for (const which of ['before', 'after'] as const) {
+      const gaps = data.gaps[which];
+      if (gaps === null) continue;
+      this.missing.set(`${which} own`, masks(gaps.own, data.told, data.step));
+      this.missing.set(`${which} positions`, masks(gaps.positions, data.told, data.step));
+    }
+  }
+
+  static async load(data: TakeData): Promise<Take> {
+    const take = new Take(data);
+    const bytes = await bytesOf('first');
+    if (bytes !== null) readFirstPart(bytes, take.samples, data.stride);
+    return take;
+  }
+
+  /** The frames between, of a long take. */
+  async loadRest(): Promise<void> {
+    const bytes = this.whole ? null : await bytesOf('second');
+    if (bytes !== null) readSecondPart(bytes, this.samples, this.data.stride);
+    this.whole = true;
+  }
+
+  get isJoints(): boolean {
+    return this.data.skeleton !== undefined;
+  }
+  get takes(): Which[] {
+    return this.data.two ? ['before', 'after'] : ['before'];
+  }
+  /** Which of the two is shown where there is one. */
+  get last(): Which {
+    return this.data.two ? 'after' : 'before';
+  }
+  get rate(): number {
+    return this.data.rate / this.data.step;
+  }
+  /** The number that the file gives to a frame that is told. */
+  number(frame: number): number {
+    return frame * this.data.step + this.data.first_frame;
+  }
+  /** The frame that is told and nearest to a number of the file. */
+  frameOf(number: number): number {
+    const frame = Math.round((number - this.data.first_frame) / this.data.step);
+    return Math.max(0, Math.min(this.told - 1, frame));
+  }
+
+  private value(channel: number, frame: number, which: Which): number {
+    const samples = this.samples[channel];
+    const source = which === 'after' && samples.after !== null ? samples.after : samples.before;
+    return source[frame] * this.data.quanta[channel];
+  }
+
+  isShown(point: number): boolean {
+    return this.data.shown?.[point] ?? true;
+  }
+  isMissing(track: number, frame: number, which: Which): boolean {
+    return this.missing.get(`${which} own`)?.get(track)?.[frame] === 1;
+  }
+  private isPositionMissing(track: number, frame: number, which: Which): boolean {
+    return this.missing.get(`${which} positions`)?.get(track)?.[frame] === 1;
+  }
+
+  /** The axes a joint is turned about; empty for one that never turns. */
+  order(joint: number): string {
+    return this.data.skeleton?.orders[joint] ?? '';
+  }
+  angle(joint: number, axis: number, frame: number, which: Which): number | null {
+    if (this.isMissing(joint, frame, which)) return null;
+    return this.value(this.rotationChannels[joint] + axis, frame, which);
+  }
+  rotation(joint: number, frame: number, which: Which): Quat {
+    let result: Quat = [1, 0, 0, 0];
+    const order = this.order(joint);
+    for (let a = 0; a < order.length; ++a) {
+      const half = this.value(this.rotationChannels[joint] + a, frame, which) * halfDegree;
+      const turn: Quat = [Math.cos(half), 0, 0, 0];
+      turn[1 + axisOf[order[a]]] = Math.sin(half);
+      result = multiply(result, turn);
+    }
+    return result;
+  }
+
+  private vector(channel: number, frame: number, which: Which): [number, number, number] {
+    return [this.value(channel, frame, which), this.value(channel + 1, frame, which), this.value(channel + 2, frame, which)];
+  }
+
+  /** Positions of all joints and end sites, or of all markers; x of one that is missing is NaN. */
+  pose(frame: number, which: Which, result = new Float32Array(3 * this.points)): Float32Array {
+    const skeleton = this.data.skeleton;
+    if (this.told === 0) return result.fill(NaN);
+    if (!skeleton) {
+      for (let m = 0; m < this.points; ++m) {
+        result.set(this.vector(3 * m, frame, which), 3 * m);
+        if (this.isMissing(m, frame, which)) result[3 * m] = NaN;
+      }
+      return result;
+    }
+    const turns: Quat[] = [];
+    skeleton.parents.forEach((parent, joint) => {
+      const local = multiply(skeleton.rests[joint], this.rotation(joint, frame, which));
+      const channel = joint === 0 ? 0 : this.translatedChannels.get(joint);
+      const offset = channel === undefined ? skeleton.offsets[joint] : this.vector(channel, frame, which);
+      if (parent < 0) {
+        turns.push(local);
+        result.set(offset, 3 * joint);
+      } else {
+        turns.push(multiply(turns[parent], local));
+        addTurned(turns[parent], offset, result, 3 * parent, 3 * joint);
+      }
+    });
+    skeleton.ends.forEach((end, i) => addTurned(turns[end.parent], end.offset, result, 3 * end.parent, 3 * (skeleton.parents.length + i)));
+    return result;
+  }
+
+  /** Where a track is in each frame: x, y and z, null where it is missing. */
+  path(track: number, which: Which): (number | null)[][] {
+    const axes: (number | null)[][] = [[], [], []];
+    const isRoot = this.isJoints && track === 0;
+    const pose = new Float32Array(3 * this.points);
+    for (let f = 0; f < this.told; ++f) {
+      const own = !this.isJoints || isRoot;
+      const at = own ? this.vector(3 * (isRoot ? 0 : track), f, which) : this.pose(f, which, pose).subarray(3 * track, 3 * track + 3);
+      const gone = isRoot ? this.isPositionMissing(0, f, which) : this.isMissing(track, f, which);
+      for (let a = 0; a < 3; ++a) axes[a].push(gone ? null : at[a]);
+    }
+    return axes;
+  }
+  angles(joint: number, which: Which): (number | null)[][] {
+    return [...this.order(joint)].map((_, a) => Array.from({ length: this.told }, (_unused, f) => this.angle(joint, a, f, which)));
+  }
+}

@@ -1,0 +1,170 @@
+// The page of one take.
+
+import { Body, makeRenderer, type View } from './body';
+import { Curves, type Kind, type Quantity } from './curves';
+import { button, choice, counted, element, toggle } from './dom';
+import { addFacts } from './facts';
+import { Player } from './player';
+import type { ReportDocument, TakeData } from './report';
+import { TrackTable } from './tables';
+import { Take } from './take';
+import { themeButton } from './theme';
+import { Timeline } from './timeline';
+import { addTransport } from './transport';
+
+const help = 'space: play \u00b7 arrows: a frame, with shift ten \u00b7 Home, End \u00b7 comma, full stop: previous, next finding \u00b7 plus, minus, 0: zoom \u00b7 1 front, 2 side, 3 top, 4 orbit \u00b7 F: follow \u00b7 L: loop';
+
+function nameOf(path: string): string {
+  return path === '-' ? 'standard input' : path.split(/[\\/]/).pop() || path;
+}
+
+function section(title: string, className: string): [HTMLElement, HTMLElement] {
+  const head = element('div', { class: 'head' }, element('h2', {}, title));
+  const made = element('section', { class: className, 'aria-label': title }, head);
+  return [made, head];
+}
+
+function addBody(take: Take, player: Player): [HTMLElement, Body | null] {
+  const [made, head] = section('Motion', 'body');
+  const view = element('div', { class: 'view' });
+  made.append(view);
+  if (take.told === 0 || take.points === 0) {
+    view.append(element('p', { class: 'empty' }, take.told === 0 ? 'The take has no frames.' : 'The take holds no positions.'));
+    return [made, null];
+  }
+  const renderer = makeRenderer();
+  if (renderer === null) {
+    view.replaceChildren(element('p', { class: 'empty' }, 'This browser shows no 3D (WebGL is off); everything else is here.'));
+    return [made, null];
+  }
+  const body = new Body(view, take, player, renderer);
+  const views: [View, string, string][] = [['front', 'Front', '1'], ['side', 'Side', '2'], ['top', 'Top', '3'], ['orbit', 'Orbit', '4']];
+  for (const [key, label, letter] of views) head.append(button(label, `${label.toLowerCase()} (${letter})`, () => body.look(key)));
+  const options: [keyof Body['options'], string, string][] = [['follow', 'Follow', 'the camera goes with the body (F)']];
+  if (take.data.two) {
+    options.push(['apart', 'Apart', 'the two side by side']);
+    options.push(['before', take.data.labels[0], `show ${take.data.labels[0]}`], ['after', take.data.labels[1], `show ${take.data.labels[1]}`]);
+  }
+  for (const [key, label, title] of options) {
+    const made_toggle = toggle(label, title, body.options[key], (on) => {
+      body.options[key] = on;
+      body.refresh();
+      if (key === 'follow' && on) body.recentre();
+    });
+    made_toggle.dataset.option = key;
+    if (key === 'before' || key === 'after') made_toggle.classList.add(key);
+    head.append(made_toggle);
+  }
+  return [made, body];
+}
+
+function addCurves(take: Take, player: Player): [HTMLElement, Curves] {
+  const [made, head] = section('Curves', 'curves');
+  const holder = element('div', { class: 'panels' });
+  const curves = new Curves(holder, take, player);
+  if (take.isJoints) {
+    const quantities: [Quantity, string][] = [['rotation', 'angles'], ['position', 'position']];
+    head.append(choice('what to draw', quantities, 'rotation', (value) => {
+      curves.quantity = value as Quantity;
+      curves.rebuild();
+    }));
+  }
+  const kinds: [Kind, string][] = [['values', 'Values'], ['difference', 'Difference'], ['speed', 'Speed'], ['acceleration', 'Acceleration'], ['spectrum', 'Spectrum']];
+  for (const [kind, label] of kinds) {
+    if (kind === 'difference' && !take.data.two) continue;
+    head.append(toggle(label, `${label.toLowerCase()} of the chosen`, curves.kinds.has(kind), (on) => {
+      if (on) curves.kinds.add(kind);
+      else curves.kinds.delete(kind);
+      curves.rebuild();
+    }));
+  }
+  head.append(element('span', { class: 'gap' }),
+    button('\u2212', 'zoom out (-)', () => player.zoomBy(1.6)), button('+', 'zoom in (+)', () => player.zoomBy(0.625)),
+    button('\u2039', 'pan to the left', () => player.zoom(player.from - (player.to - player.from) / 2, (player.from + player.to) / 2)),
+    button('\u203a', 'pan to the right', () => player.zoom((player.from + player.to) / 2, player.to + (player.to - player.from) / 2)),
+    button('All', 'show all of the take (0)', () => player.zoom(0, take.told - 1)));
+  made.append(holder);
+  return [made, curves];
+}
+
+function listenToKeys(player: Player, take: Take, timeline: Timeline, body: Body | null): void {
+  const press = (option: string): void => document.querySelector<HTMLButtonElement>(`[data-option="${option}"]`)?.click();
+  const keys: Record<string, (event: KeyboardEvent) => void> = {
+    ' ': () => (player.playing ? player.pause() : player.play()),
+    ArrowLeft: (event) => player.step(event.shiftKey ? -10 : -1),
+    ArrowRight: (event) => player.step(event.shiftKey ? 10 : 1),
+    Home: () => player.jump(0),
+    End: () => player.jump(take.told - 1),
+    ',': () => timeline.go(-1),
+    '.': () => timeline.go(1),
+    '+': () => player.zoomBy(0.625),
+    '=': () => player.zoomBy(0.625),
+    '-': () => player.zoomBy(1.6),
+    '0': () => player.zoom(0, take.told - 1),
+    '1': () => body?.look('front'),
+    '2': () => body?.look('side'),
+    '3': () => body?.look('top'),
+    '4': () => body?.look('orbit'),
+    f: () => press('follow'),
+    l: () => [...document.querySelectorAll('button')].find((one) => one.textContent === 'Loop')?.click(),
+  };
+  document.addEventListener('keydown', (event) => {
+    const target = event.target as HTMLElement;
+    if (event.ctrlKey || event.altKey || event.metaKey || /^(INPUT|SELECT|TEXTAREA)$/.test(target.tagName)) return;
+    // A button that has the focus is pressed by the space bar.
+    if (event.key === ' ' && /^(BUTTON|SUMMARY)$/.test(target.tagName)) return;
+    const act = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    if (!act) return;
+    event.preventDefault();
+    act(event);
+  });
+}
+
+export async function showTake(page: HTMLElement, document_: ReportDocument, data: TakeData): Promise<void> {
+  const entry = document_.takes[0];
+  const take = await Take.load(data);
+  const player = new Player(take.told, take.rate || 1);
+  const loading = element('span', { class: 'loading' }, take.whole ? '' : 'loading the frames between\u2026');
+  const title = element('h1', {}, nameOf(entry.input));
+  const verdict = element('p', { class: 'verdict' }, entry.verdict ?? '');
+  const [bodySection, body] = addBody(take, player);
+  const transport = element('div', { class: 'transport' });
+  addTransport(transport, take, player);
+  bodySection.append(transport);
+  const [tableSection] = section(take.isJoints ? 'Joints' : 'Markers', 'tracks');
+  const table = new TrackTable(tableSection, take, player, entry);
+  const [timelineSection] = section('Found and done', 'found');
+  const timeline = new Timeline(timelineSection, take, player, entry.findings, (finding) => {
+    const tracks = (finding.track ?? '').split(', ').map((name) => data.names.indexOf(name)).filter((track) => track >= 0);
+    const whole = data.names.indexOf(finding.track ?? '');
+    if (whole >= 0) player.choose([whole]);
+    else if (tracks.length > 0) player.choose(tracks.slice(0, 4));
+  });
+  const [curvesSection, curves] = addCurves(take, player);
+  const facts = element('div', { class: 'facts' });
+  addFacts(facts, take, document_, entry);
+  const theme = themeButton(() => {
+    body?.paint();
+    timeline.draw();
+    curves.rebuild();
+  });
+  page.replaceChildren(
+    element('header', {}, element('div', {}, title, verdict), loading, theme),
+    element('div', { class: 'top' }, bodySection, tableSection),
+    timelineSection, curvesSection, facts,
+    element('footer', {}, element('p', {}, help)));
+  if (data.step > 1) page.querySelector('header')?.after(element('p', { class: 'note' }, `A long take: 1 frame in ${data.step} is shown here. What was found is told of all ${counted(data.frames, 'frame')}.`));
+  if (take.told > 0 && data.names.length > 0) player.choose([table.worst]);
+  else player.choose([]);
+  body?.resize();
+  body?.look('orbit');
+  listenToKeys(player, take, timeline, body);
+  Object.assign(window, { kinemend: { take, player, body, curves, timeline } });
+  await take.loadRest();
+  loading.remove();
+  if (data.stride > 1) {
+    curves.forget();
+    player.refresh();
+  }
+  page.dataset.ready = 'true';
+}

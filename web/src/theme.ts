@@ -1,0 +1,25 @@
+// Light and dark: as the system has it, until somebody chooses.
+
+import { button } from './dom';
+
+const dark = matchMedia('(prefers-color-scheme: dark)');
+
+export function isDark(): boolean {
+  const chosen = document.documentElement.dataset.theme;
+  return chosen === undefined ? dark.matches : chosen === 'dark';
+}
+
+export function themeButton(onChange: () => void): HTMLButtonElement {
+  const made: HTMLButtonElement = button('', 'light or dark', () => {
+    document.documentElement.dataset.theme = isDark() ? 'light' : 'dark';
+    update();
+    onChange();
+  });
+  const update = (): void => { made.textContent = isDark() ? 'Light' : 'Dark'; };
+  dark.addEventListener('change', () => {
+    update();
+    onChange();
+  });
+  update();
+  return made;
+}

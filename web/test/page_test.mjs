@@ -1,0 +1,296 @@
+// The report page in a browser: opened, played, scrubbed, searched, zoomed, as a person would. Screenshots of every state are left in
+// the output folder, to be looked at.
+//
+//   node page_test.mjs PROGRAM CHROMIUM OUTPUT TAKES       (NODE_PATH or the working folder holds playwright-core)
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
+
+const { chromium } = createRequire(join(process.cwd(), 'package.json'))('playwright-core');
+const [program, executablePath, output, takes] = process.argv.slice(2);
+mkdirSync(output, { recursive: true });
+
+function kinemend(...words) {
+  execFileSync(program, words, { cwd: output, stdio: 'ignore' });
+}
+
+const strange = '"\'<script>window.broken=1</script>&\u202e\u00e9\u{1f600}';
+
+/** Two joints in closed form: a forearm that turns about Z by 9 degrees a frame at the end of an arm of 30. */
+function arm(name, frames) {
+  const rows = Array.from({ length: frames }, (_, f) => `1 2 3 0 0 0 ${9 * f} 0 0`);
+  writeFileSync(join(output, name), `HIERARCHY\nROOT ${strange}\n{\n  OFFSET 0 0 0\n  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n`
+    + '  JOINT Elbow\n  {\n    OFFSET 30 0 0\n    CHANNELS 3 Zrotation Xrotation Yrotation\n    End Site\n    {\n      OFFSET 20 0 0\n    }\n  }\n}\n'
+    + `MOTION\nFrames: ${frames}\nFrame Time: 0.01\n${rows.join('\n')}\n`);
+}
+
+function makePages() {
+  const walk = join(takes, 'walk.bvh');
+  const noisy = join(takes, 'noisy_walk.bvh');
+  kinemend('clean', noisy, '-o', 'clean.bvh', '--feet', 'auto', '--report', 'clean.html', '--force');
+  kinemend('compare', walk, noisy, '--report', 'compare.html', '--force');
+  arm('arm.bvh', 21);
+  kinemend('check', 'arm.bvh', '--report', 'arm.html', '--force');
+  arm('one.bvh', 1);
+  kinemend('check', 'one.bvh', '--report', 'one.html', '--force');
+  arm('none.bvh', 0);
+  kinemend('check', 'none.bvh', '--report', 'none.html', '--force');
+  mkdirSync(join(output, 'raw'), { recursive: true });
+  arm('raw/arm.bvh', 21);
+  arm('raw/one <b>.bvh', 1);
+  writeFileSync(join(output, 'raw', 'bad.bvh'), 'bad');
+  try {
+    kinemend('batch', 'raw', '-o', 'cleaned', '--report', 'index.html', '--quiet', '--force');
+  } catch (error) {
+    assert.equal(error.status, 3);
+  }
+  // Markers with a gap that is filled and one that is refused.
+  const rows = Array.from({ length: 300 }, (_, f) => {
+    const marker = (m) => (m === 1 && f >= 100 && f < 108) || (m === 2 && f >= 40 && f < 260) ? '\t\t' : `${(100 * Math.sin(f / 30 + m)).toFixed(3)}\t${900 + 100 * m}\t${(3 * f).toFixed(3)}`;
+    return `${f + 1}\t${(f / 100).toFixed(3)}\t${[0, 1, 2, 3].map(marker).join('\t')}`;
+  });
+  writeFileSync(join(output, 'markers.trc'), `PathFileType\t4\t(X/Y/Z)\tmarkers.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames\n`
+    + `100\t100\t300\t4\tmm\t100\t1\t300\nFrame#\tTime\t<b>A</b>\t\t\tB\t\t\tC\t\t\tD\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\tX3\tY3\tZ3\tX4\tY4\tZ4\n\n${rows.join('\n')}\n`);
+  kinemend('fill', 'markers.trc', '-o', 'filled.trc', '--report', 'fill.html', '--force');
+}
+
+/** Contrast of text and what is behind it, after WCAG 2. */
+function contrast(a, b) {
+  const light = (text) => {
+    const parts = text.match(/[\d.]+/g).slice(0, 3).map((part) => Number(part) / 255).map((c) => (c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
+    return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2];
+  };
+  const [x, y] = [light(a), light(b)].sort((p, q) => q - p);
+  return (x + 0.05) / (y + 0.05);
+}
+
+makePages();
+const browser = await chromium.launch({ executablePath, args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'] });
+const steps = [];
+const pages = [];
+const step = (name, run) => steps.push([name, run]);
+
+async function open(name, options = {}) {
+  const page = await browser.newPage({ viewport: { width: 1100, height: 800 }, ...options });
+  pages.push(page);
+  page.on('pageerror', (error) => assert.fail(`${name}: ${error}`));
+  page.on('console', (message) => assert.notEqual(message.type(), 'error', `${name}: ${message.text()}`));
+  page.on('request', (request) => assert.ok(/^(file|data|blob):/.test(request.url()), `${name} fetches ${request.url()}`));
+  await page.goto(pathToFileURL(join(output, name)).href);
+  await page.waitForSelector('#page[data-ready]', { timeout: 20000 });
+  assert.equal(await page.getAttribute('#page', 'data-ready'), 'true', await page.textContent('#page'));
+  assert.equal(await page.evaluate(() => window.broken), undefined);
+  return page;
+}
+const shot = async (page, name) => {
+  await page.waitForTimeout(150);
+  await page.screenshot({ path: join(output, `${name}.png`), fullPage: true });
+};
+const frame = (page) => page.evaluate(() => window.kinemend.player.shown);
+const wide = (page) => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+const inView = (page) => page.evaluate(() => {
+  const { take, body } = window.kinemend;
+  const all = Array.from({ length: take.points }, (_, p) => body.seen(p)).filter((at) => at !== null);
+  return all.filter(([x, y]) => Math.abs(x) < 1 && Math.abs(y) < 1).length / all.length;
+});
+
+step('the motion is what the closed form says', async () => {
+  const page = await open('arm.html');
+  for (const f of [0, 5, 20]) {
+    const pose = await page.evaluate((at) => [...window.kinemend.take.pose(at, 'before')], f);
+    const angle = (9 * f * Math.PI) / 180;
+    const expected = [1, 2, 3, 31, 2, 3, 31 + 20 * Math.cos(angle), 2 + 20 * Math.sin(angle), 3];
+    pose.forEach((value, i) => assert.ok(Math.abs(value - expected[i]) < 0.02, `frame ${f}, ${i}: ${value} and ${expected[i]}`));
+  }
+});
+
+step('play, pause, scrub and jump', async () => {
+  const page = await open('clean.html');
+  await shot(page, 'clean');
+  assert.ok((await inView(page)) > 0.99, 'the body is out of view');
+  await page.click('text=Play');
+  while ((await frame(page)) <= 20) await page.waitForTimeout(20);
+  await page.click('text=Pause');
+  const stopped = await frame(page);
+  await page.waitForTimeout(80);
+  assert.equal(await frame(page), stopped);
+  await page.fill('.transport input[type=range]', '500');
+  assert.equal(await frame(page), 500);
+  assert.equal(await page.inputValue('.number'), '501');
+  assert.ok((await inView(page)) > 0.99, 'the camera does not follow');
+  await page.click('button:has-text("Follow")');
+  await page.fill('.transport input[type=range]', '900');
+  assert.ok(Math.abs(await page.evaluate(() => window.kinemend.body.seen(0)[1])) > 0.3, 'the camera follows unasked');
+  await page.click('button:has-text("Follow")');
+  assert.ok((await inView(page)) > 0.99, 'the camera does not go to the body');
+
+  // The first spike: a click on its bar goes there and shows its track.
+  const spike = await page.evaluate(() => {
+    const { timeline, player, take } = window.kinemend;
+    player.zoom(0, take.told - 1);
+    const at = timeline.shown.find((one) => one.kind === 'spike');
+    return { first: at.first_frame, track: at.track, frames: take.told };
+  });
+  const box = await page.locator('.timeline canvas').boundingBox();
+  await page.mouse.click(box.x + (box.width * (spike.first - 1 + 0.2)) / (spike.frames - 1), box.y + 9);
+  assert.equal(await frame(page), spike.first - 1);
+  assert.ok((await page.textContent('.selected')).includes(spike.track));
+  assert.equal(await page.textContent('tr.chosen th'), spike.track);
+});
+
+step('curves zoom and pan with the time line', async () => {
+  const page = await open('clean.html');
+  await page.locator('.u-over').first().scrollIntoViewIfNeeded();
+  const over = await page.locator('.u-over').first().boundingBox();
+  await page.mouse.move(over.x + over.width * 0.25, over.y + 40);
+  await page.mouse.down();
+  await page.mouse.move(over.x + over.width * 0.5, over.y + 40, { steps: 4 });
+  await page.mouse.up();
+  await page.waitForTimeout(60);
+  const view = await page.evaluate(() => ({ from: window.kinemend.player.from, to: window.kinemend.player.to, scales: window.kinemend.curves.plots.map((plot) => [plot.scales.x.min, plot.scales.x.max]) }));
+  assert.ok(Math.abs(view.from - 240) < 8 && Math.abs(view.to - 480) < 8, JSON.stringify(view));
+  for (const [min, max] of view.scales) assert.ok(Math.abs(min - view.from - 1) < 1 && Math.abs(max - view.to - 1) < 1, JSON.stringify(view));
+  for (const kind of ['Speed', 'Acceleration', 'Spectrum']) await page.click(`.curves button:has-text("${kind}")`);
+  await page.click('.tracks tbody tr:nth-child(3) button');
+  assert.equal(await page.locator('.panel').count(), 10);
+  await shot(page, 'curves');
+  await page.keyboard.press('0');
+  assert.equal(await page.evaluate(() => window.kinemend.player.to), 959);
+  await page.selectOption('.curves select', 'position');
+  await shot(page, 'positions');
+});
+
+step('the table is sorted and searched', async () => {
+  const page = await open('clean.html');
+  await page.click('thead button:has-text("noise")');
+  const column = await page.$$eval('.tracks tbody td:first-of-type', (cells) => cells.map((cell) => Number(cell.textContent)));
+  assert.deepEqual(column, [...column].sort((a, b) => b - a));
+  await page.fill('input[type=search]', 'thumb');
+  const thumbs = await page.$$eval('.tracks tbody tr', (rows) => rows.filter((row) => !row.hidden).map((row) => row.cells[0].textContent));
+  assert.ok(thumbs.length > 0 && thumbs.every((name) => /thumb/i.test(name)), thumbs.join(' '));
+});
+
+step('the keyboard alone does it all', async () => {
+  const page = await open('clean.html');
+  await page.keyboard.press('ArrowRight');
+  await page.keyboard.press('Shift+ArrowRight');
+  assert.equal(await frame(page), 11);
+  await page.keyboard.press('End');
+  assert.equal(await frame(page), 959);
+  await page.keyboard.press('Home');
+  await page.keyboard.press('.');
+  const first = await page.textContent('.selected');
+  await page.keyboard.press('.');
+  assert.notEqual(await page.textContent('.selected'), first);
+  await page.keyboard.press(' ');
+  assert.equal(await page.evaluate(() => window.kinemend.player.playing), true);
+  await page.keyboard.press(' ');
+  await page.keyboard.press('3');
+  assert.ok((await inView(page)) > 0.99, 'the top view shows no body');
+  // Everything that can be pressed is reached by the tabulator, and shows where the focus is.
+  await page.evaluate(() => document.activeElement?.blur());
+  const reached = new Set();
+  for (let i = 0; i < 25; ++i) {
+    await page.keyboard.press('Tab');
+    reached.add(await page.evaluate(() => document.activeElement.textContent.trim() || document.activeElement.getAttribute('aria-label')));
+  }
+  for (const name of ['Front', 'Follow', 'Play', 'frame', 'speed']) assert.ok([...reached].some((one) => one.includes(name)), `${name} is not reached`);
+});
+
+step('strange names are text', async () => {
+  const page = await open('arm.html');
+  const names = await page.$$eval('.tracks tbody th', (cells) => cells.map((cell) => cell.textContent));
+  assert.ok(names.includes(strange), names.join(' '));
+  await shot(page, 'strange');
+  const markers = await open('fill.html');
+  assert.ok((await markers.$$eval('.tracks tbody th', (cells) => cells.map((cell) => cell.textContent))).includes('<b>A</b>'));
+  assert.equal(await markers.locator('tbody b').count(), 0);
+});
+
+step('filled and refused gaps are told apart', async () => {
+  const page = await open('fill.html');
+  await page.click('summary');
+  const list = await page.textContent('.findings');
+  assert.match(list, /gap filled . .B. . frames 101 to 108 . by/);
+  assert.match(list, /gap refused . .C. . frames 41 to 260/);
+  await page.click('.findings button >> nth=0');
+  await shot(page, 'fill');
+});
+
+step('dark, narrow, and with enough contrast', async () => {
+  for (const scheme of ['light', 'dark']) {
+    const page = await open('clean.html', { colorScheme: scheme });
+    const texts = await page.evaluate(() => ['h1', '.verdict', '.lanes button', 'dt', 'thead button', 'button[aria-pressed="true"]', '.time', 'figcaption'].map((selector) => {
+      const node = document.querySelector(selector);
+      let behind = node;
+      while (/rgba\(.*, 0\)|transparent/.test(getComputedStyle(behind).backgroundColor)) behind = behind.parentElement;
+      return [selector, getComputedStyle(node).color, getComputedStyle(behind).backgroundColor];
+    }));
+    for (const [selector, text, behind] of texts) assert.ok(contrast(text, behind) >= 4.5, `${scheme} ${selector}: ${text} on ${behind}`);
+    if (scheme === 'dark') await shot(page, 'dark');
+  }
+  const page = await open('clean.html', { viewport: { width: 360, height: 740 } });
+  assert.ok((await wide(page)) <= 0, `${await wide(page)} pixels too wide`);
+  assert.ok((await inView(page)) > 0.99, 'the body is out of view');
+  await shot(page, 'narrow');
+});
+
+step('empty takes say so', async () => {
+  const none = await open('none.html');
+  assert.match(await none.textContent('.view'), /no frames/);
+  await shot(none, 'no_frames');
+  const one = await open('one.html');
+  assert.ok((await inView(one)) > 0.99);
+  await shot(one, 'one_frame');
+});
+
+step('a comparison calls its takes by their names', async () => {
+  const page = await open('compare.html');
+  assert.match(await page.textContent('.body .head'), /reference.*other/);
+  await page.click('button:has-text("Apart")');
+  await page.click('button:has-text("Front")');
+  assert.ok((await inView(page)) > 0.99);
+  await shot(page, 'compare');
+});
+
+step('the index of a batch has the worst first, filters and links', async () => {
+  const page = await open('index.html');
+  const names = await page.$$eval('tbody th', (cells) => cells.map((cell) => cell.textContent));
+  assert.deepEqual(names, ['bad.bvh', 'arm.bvh', 'one <b>.bvh']);
+  await shot(page, 'batch');
+  await page.selectOption('select', 'failed');
+  assert.equal(await page.locator('tbody tr').count(), 1);
+  await page.selectOption('select', 'all');
+  await page.fill('input[type=search]', 'one');
+  await page.click('tbody a');
+  await page.waitForSelector('#page[data-ready="true"]');
+  assert.equal(await page.textContent('h1'), 'one <b>.bvh');
+});
+
+step('a damaged file says so', async () => {
+  const whole = readFileSync(join(output, 'arm.html'), 'utf8');
+  writeFileSync(join(output, 'damaged.html'), whole.replace(/(id="data-take">.{20})./, '$1!'));
+  const page = await browser.newPage();
+  pages.push(page);
+  await page.goto(pathToFileURL(join(output, 'damaged.html')).href);
+  await page.waitForSelector('#page[data-ready="failed"]');
+  assert.match(await page.textContent('h1'), /cannot be shown/);
+});
+
+let failed = 0;
+for (const [name, run] of steps) {
+  const begun = Date.now();
+  try {
+    await run();
+    console.log(`passed: ${name} (${Date.now() - begun} ms)`);
+  } catch (error) {
+    failed += 1;
+    console.error(`FAILED: ${name}\n${error.stack}`);
+  }
+  for (const page of pages.splice(0)) await page.close();
+}
+await browser.close();
+process.exit(failed > 0 ? 1 : 0);

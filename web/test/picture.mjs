@@ -1,0 +1,17 @@
+// A screenshot of a page.
+//
+//   node picture.mjs CHROMIUM PAGE.html PICTURE.png [light|dark] [KEY...]       (the working folder holds playwright-core)
+import { createRequire } from 'node:module';
+import { join, resolve } from 'node:path';
+import { pathToFileURL } from 'node:url';
+
+const { chromium } = createRequire(join(process.cwd(), 'package.json'))('playwright-core');
+const [executablePath, html, picture, colorScheme = 'light', ...keys] = process.argv.slice(2);
+const browser = await chromium.launch({ executablePath, args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'] });
+const page = await browser.newPage({ viewport: { width: 1080, height: 830 }, colorScheme });
+await page.goto(pathToFileURL(resolve(html)).href);
+await page.waitForSelector('#page[data-ready="true"]');
+for (const key of keys) await page.keyboard.press(key);
+await page.waitForTimeout(300);
+await page.screenshot({ path: picture });
+await browser.close();
