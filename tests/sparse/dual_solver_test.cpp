@@ -167,8 +167,8 @@ TEST(DualSolver, BoundsHowFarAnObjectiveIsAboveItsMinimum) {
   for (const Loss loss : {Loss::squares, Loss::absolute}) {
     const SparseSolution best =
         solve_sparse(problems.dictionary, problems.as(loss), loss == Loss::squares ? exact : near);
-    const SparseSolution rough =
-        solve_sparse(problems.dictionary, problems.as(loss), {.tolerance = 1e-2});
+    const SparseSolution rough = solve_sparse(problems.dictionary, problems.as(loss),
+                                              {.tolerance = 1e-2, .iterations = 10000});
     for (std::size_t s = 0; s < problems.count(); ++s) {
       const double found = objective(problems, s, loss, code_of(rough, problems, s));
       const double least = objective(problems, s, loss, code_of(best, problems, s));
