@@ -32,8 +32,8 @@ const OptionTable<SparseOptions>& table() {
           .number(&SparseOptions::lambda, "lambda", "", 0, 1000,
                   "weight of sparsity, in correlations of noise with the atoms")
           .integer(&SparseOptions::hops, "hops", "", 1, 1000, "windows over a frame")
-          .flag(&SparseOptions::rest, "rest",
-                "keeps smooth motion that no atoms express; off: the paper's method alone")
+          .choice(&SparseOptions::solver, "solver", {"quick", "paper"},
+                  "paper: the dual augmented Lagrangian method, and nothing after it")
           .flag(&SparseOptions::fill, "fill_gaps", "fills gaps of what the model knows");
   return options;
 }
@@ -84,12 +84,13 @@ void filter(PriorWork& work, const SparseOptions& options, const SparsePrior& pr
   settings.loss = loss_of(options);
   settings.lambda = options.lambda;
   settings.hops = static_cast<std::size_t>(options.hops);
+  settings.exact = options.solver == "paper";
   PoseMatrix cleaned = channels_of(
       prior.points, layout,
       sparse_filter(prior, {positions, guide, observed, levels, work.channels.frame_rate_hz},
                     settings),
       work.fallback);
-  if (!options.rest) {
+  if (settings.exact) {
     std::fill(work.needs.begin(), work.needs.end(), 1.0);
     work.channels.poses = std::move(cleaned);
     return;

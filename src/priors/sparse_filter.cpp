@@ -6,6 +6,7 @@
 
 #include "base/quantiles.hpp"
 #include "priors/window_cosines.hpp"
+#include "sparse/descent_solver.hpp"
 #include "sparse/dual_solver.hpp"
 
 namespace kinemend {
@@ -87,9 +88,15 @@ class PoseletFilter {
     const double largest = std::sqrt(2 * std::log(std::max(atoms, 2.0)));
     const double lambda = settings_.lambda * largest * (loss == sparse::Loss::squares ? 2 : 1);
     const std::vector<double> lambdas(windows.count, lambda);
-    sparse::DualSettings dual;
-    dual.tolerance = settings_.tolerance;
-    return sparse::solve_sparse(dictionary_, {loss, windows.signals, weights, lambdas, {}}, dual);
+    const sparse::SparseProblem problem{loss, windows.signals, weights, lambdas, {}};
+    if (settings_.exact) {
+      sparse::DualSettings dual;
+      dual.tolerance = settings_.tolerance;
+      return sparse::solve_sparse(dictionary_, problem, dual);
+    }
+    sparse::DescentSettings descent;
+    descent.tolerance = settings_.tolerance;
+    return sparse::descend_sparse(dictionary_, problem, descent);
   }
 
   std::vector<double> solve(Windows& windows) const {

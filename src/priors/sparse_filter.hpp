@@ -21,8 +21,9 @@ struct SparseSettings {
   /// Weight of sparsity, relative to the largest correlation of noise with the atoms.
   double lambda = 0.25;
   double outlier_deviations = 4.5;
-  std::size_t hops = 4;  ///< windows over a frame
-  double tolerance = 1e-2;
+  std::size_t hops = 4;     ///< windows over a frame
+  double tolerance = 1e-2;  ///< of the solvers
+  bool exact = false;       ///< the paper's solver, of both problems to the gap that it proves
 };
 
 struct SparseTake {

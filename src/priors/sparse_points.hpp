@@ -57,6 +57,6 @@ std::vector<std::uint8_t> observed_points(const SparsePoints& points, const Body
 /// change. Channels without points below them, the place among them, are those of the guide.
 PoseMatrix channels_of(const SparsePoints& points, const BodyLayout& layout,
                        const PoseMatrix& positions, const PoseMatrix& guide,
-                       double stiffness = 0.01);
+                       double stiffness = 0.2);
 
 }  // namespace kinemend

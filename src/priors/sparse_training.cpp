@@ -31,6 +31,8 @@ struct SparseTraining {
 };
 
 constexpr std::size_t largest_window_values = 16'384;
+// An atom stands for what several windows share.
+constexpr std::size_t least_windows_per_atom = 4;
 
 const OptionTable<SparseTraining>& table() {
   static const auto options =
@@ -39,7 +41,8 @@ const OptionTable<SparseTraining>& table() {
                   "rate of the model; takes at other rates are brought to it")
           .integer(&SparseTraining::window_frames, "window_frames", "", 2, 500,
                    "M: frames of a window, at the model's rate")
-          .integer(&SparseTraining::atoms, "atoms", "", 1, 10'000, "K: atoms of each dictionary")
+          .integer(&SparseTraining::atoms, "atoms", "", 1, 10'000,
+                   "K: atoms of each dictionary, at most one for four windows")
           .integer(&SparseTraining::sparsity, "sparsity", "", 1, 200,
                    "T: atoms of a window in training")
           .integer(&SparseTraining::iterations, "iterations", "", 1, 1000,
@@ -146,13 +149,14 @@ std::size_t window_count(const TrainingSequences& sequences, std::size_t window)
   return count;
 }
 
-void learn_dictionaries(const SparseTraining& options, std::uint64_t seed, WindowSample& sample,
-                        SparsePrior& prior) {
+void learn_dictionaries(const SparseTraining& options, std::size_t windows, std::uint64_t seed,
+                        WindowSample& sample, SparsePrior& prior) {
+  const std::size_t most_atoms = std::max<std::size_t>(1, windows / least_windows_per_atom);
   for_each_parallel(prior.poselets.size(), sample.values(0).size(), [&](std::size_t i) {
     SparsePoselet& poselet = prior.poselets[i];
     poselet.mean = sample.take_mean(i);
     sparse::KsvdSettings learning;
-    learning.atoms = static_cast<std::size_t>(options.atoms);
+    learning.atoms = std::min(static_cast<std::size_t>(options.atoms), most_atoms);
     learning.sparsity = static_cast<std::size_t>(options.sparsity);
     learning.iterations = static_cast<std::size_t>(options.iterations);
     learning.seed = seed + i;
@@ -187,11 +191,13 @@ Model train(const TrainingTakes& takes, const OptionValues& values, const TrainS
                                         " has more than " + std::to_string(largest_window_values) +
                                         " values; take a shorter window");
   }
-  WindowSample sample(prior, drawn(all, static_cast<std::size_t>(options.windows), settings.seed));
+  const std::vector<std::size_t> numbers =
+      drawn(all, static_cast<std::size_t>(options.windows), settings.seed);
+  WindowSample sample(prior, numbers);
   model.seconds = for_each_sequence(
       sequences, window, settings,
       [&](const TrainingSequence& sequence) { sample.add(sequence.poses, model.layout); });
-  learn_dictionaries(options, settings.seed, sample, prior);
+  learn_dictionaries(options, numbers.size(), settings.seed, sample, prior);
   for (const SparsePoselet& poselet : prior.poselets) {
     if (poselet.dictionary.atoms == 0)
       throw Error(ErrorKind::usage, "nothing moves in these takes");
