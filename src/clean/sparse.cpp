@@ -18,7 +18,8 @@ namespace kinemend {
 namespace {
 
 constexpr double outlier_deviations = 5;  // of the noise of a channel
-constexpr double least_noise = 2e-4;      // body heights
+constexpr double many_outliers = 0.02;
+constexpr double least_noise = 2e-4;  // body heights
 
 const OptionTable<SparseOptions>& table() {
   static const auto options =
@@ -72,24 +73,47 @@ std::vector<double> point_noise(const PoseMatrix& positions, const PoseMatrix& g
   return noise;
 }
 
+double share_beyond(const PoseMatrix& positions, const PoseMatrix& guide,
+                    const std::vector<double>& noise, double deviations) {
+  double count = 0;
+  for (std::size_t i = 0; i < positions.values.size(); ++i) {
+    const double distance = std::abs(positions.values[i] - guide.values[i]);
+    count += distance > deviations * noise[i % positions.channels] ? 1 : 0;
+  }
+  return count / std::max(1.0, static_cast<double>(positions.values.size()));
+}
+
+// What the dictionaries make of the points. Where many are outliers, what `auto` makes of them is
+// no good guide, and the result is the guide of another turn.
+PoseMatrix filtered_points(const PriorWork& work, const PoseMatrix& positions,
+                           const SparsePrior& prior, const BodyLayout& layout,
+                           const SparseSettings& settings) {
+  PoseMatrix guide = points_of(prior.points, layout, work.fallback);
+  const std::vector<std::uint8_t> observed =
+      observed_points(prior.points, layout, work.channels.observed);
+  const double rate_hz = work.channels.frame_rate_hz;
+  const std::size_t turns = settings.loss == SparseLoss::squares ? 1 : 2;
+  for (std::size_t turn = 0; turn < turns; ++turn) {
+    const std::vector<double> noise = point_noise(positions, guide, observed);
+    if (turn > 0 &&
+        share_beyond(positions, guide, noise, settings.outlier_deviations) < many_outliers)
+      break;
+    guide = sparse_filter(prior, {positions, guide, observed, noise, rate_hz}, settings);
+  }
+  return guide;
+}
+
 void filter(PriorWork& work, const SparseOptions& options, const SparsePrior& prior,
             const BodyLayout& layout) {
   if (work.channels.poses.frames == 0) return;
-  const PoseMatrix positions = points_of(prior.points, layout, guess_of(work, prior.points.kind));
-  const PoseMatrix guide = points_of(prior.points, layout, work.fallback);
-  const std::vector<std::uint8_t> observed =
-      observed_points(prior.points, layout, work.channels.observed);
-  const std::vector<double> levels = point_noise(positions, guide, observed);
   SparseSettings settings;
   settings.loss = loss_of(options);
   settings.lambda = options.lambda;
   settings.hops = static_cast<std::size_t>(options.hops);
   settings.exact = options.solver == "paper";
-  PoseMatrix cleaned = channels_of(
-      prior.points, layout,
-      sparse_filter(prior, {positions, guide, observed, levels, work.channels.frame_rate_hz},
-                    settings),
-      work.fallback);
+  const PoseMatrix positions = points_of(prior.points, layout, guess_of(work, prior.points.kind));
+  PoseMatrix found = filtered_points(work, positions, prior, layout, settings);
+  PoseMatrix cleaned = channels_of(prior.points, layout, found, work.fallback);
   if (settings.exact) {
     std::fill(work.needs.begin(), work.needs.end(), 1.0);
     work.channels.poses = std::move(cleaned);
