@@ -15,7 +15,8 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::size_t chunk_windows = 256;
+// Windows that are in memory at once, and the values of theirs.
+constexpr std::size_t least_windows = 16, most_windows = 256, chunk_values = std::size_t{1} << 20;
 constexpr double least_noise = 1e-5;  // body heights
 
 // The windows of one poselet, a chunk of them at a time.
@@ -201,8 +202,10 @@ PoseMatrix sparse_filter(const SparsePrior& prior, const SparseTake& take,
   PoseMatrix sums(local.frames, local.channels), counts(local.frames, local.channels);
   for (const SparsePoselet& poselet : prior.poselets) {
     const PoseletFilter filter(prior, poselet, own, settings, frames, unit);
-    for (std::size_t first = 0; first < starts.size(); first += chunk_windows)
-      filter.filter(starts, first, std::min(starts.size(), first + chunk_windows), sums, counts);
+    const std::size_t together =
+        std::clamp(chunk_values / (frames * poselet.channels()), least_windows, most_windows);
+    for (std::size_t first = 0; first < starts.size(); first += together)
+      filter.filter(starts, first, std::min(starts.size(), first + together), sums, counts);
   }
   for (std::size_t i = 0; i < sums.values.size(); ++i) {
     if (counts.values[i] > 0) local.values[i] = sums.values[i] / counts.values[i];
