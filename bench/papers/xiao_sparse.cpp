@@ -23,7 +23,7 @@ std::vector<std::string> joined(std::vector<std::string> names,
 XiaoGroup group_of(const Arguments& arguments, const std::string& name, const std::string& motion,
                    const std::vector<std::string>& training,
                    const std::vector<std::string>& tests) {
-  const std::size_t most = arguments.quick ? 150 : 600;
+  const std::size_t most = arguments.quick ? 150 : 300;
   XiaoGroup group{name, xiao_takes(arguments, training, motion, 1, arguments.quick ? 360 : 3000),
                   xiao_takes(arguments, tests, motion, 101, most)};
   return group;
@@ -48,7 +48,7 @@ std::vector<XiaoGroup> groups_of(const Arguments& arguments) {
 }
 
 OptionValues training_options(const Arguments& arguments) {
-  if (!arguments.quick) return {};
+  if (!arguments.quick) return {{"windows", std::int64_t{10'000}}};
   return {{"atoms", std::int64_t{60}}, {"iterations", std::int64_t{4}}};
 }
 
@@ -79,7 +79,7 @@ std::vector<XiaoMethod> methods_of(const Arguments& arguments, const XiaoGroup& 
   methods.push_back(std::move(kalman));
   methods.push_back(std::move(example));
   methods.push_back(sparse_method(xiao_model("sparse", group.training, training_options(arguments)),
-                                  {0.1, 0.25, 0.6}));
+                                  {0.02, 0.1, 0.3}));
   methods.push_back(std::move(automatic));
   return methods;
 }
@@ -134,7 +134,7 @@ double error_on(const XiaoGroup& group, const Cleaner& cleaner, const XiaoNoise&
   return sum / static_cast<double>(group.tests.size());
 }
 
-SparseOptions plain_options(double lambda = 0.25) {
+SparseOptions plain_options(double lambda = 0.1) {
   SparseOptions options;
   options.loss = "l2";
   options.lambda = lambda;
@@ -160,7 +160,7 @@ void variants(const Arguments& arguments, const std::vector<XiaoGroup>& groups) 
       std::fflush(stdout);
     };
     const auto add_trained = [&](const std::string& what, const std::string& value,
-                                 const OptionValues& extra, double lambda = 0.25) {
+                                 const OptionValues& extra, double lambda = 0.1) {
       OptionValues options = training_options(arguments);
       for (const auto& [name, setting] : extra) options[name] = setting;
       add(what, value,
@@ -168,10 +168,12 @@ void variants(const Arguments& arguments, const std::vector<XiaoGroup>& groups) 
     };
     add_trained("representation", "poselets", {});
     add_trained("representation", "whole", {{"whole", true}});
+    add_trained("coordinates", "local", {{"local", true}});
     if (groups.size() > 1 && &group != &groups.front()) continue;
     if (groups.size() > 1) {
       add("training sparse", "one",
-          *make_sparse(plain_options(), xiao_model("sparse", group.training)));
+          *make_sparse(plain_options(),
+                       xiao_model("sparse", group.training, training_options(arguments))));
       add("training sparse", "all", *make_sparse(plain_options(), xiao_model("sparse", all)));
       add("training example", "one", *make_example({}, xiao_model("example", group.training)));
       add("training example", "all", *make_example({}, xiao_model("example", all)));

@@ -159,7 +159,7 @@ struct SparseOptions {
   std::string map;
   std::string loss = "mixed";  ///< mixed, l2 (eq. 4) or l1 (eq. 5)
   /// Of eq. 4 and 5, relative to the largest correlation that noise alone has with the atoms.
-  double lambda = 0.25;
+  double lambda = 0.1;
   std::int64_t hops = 4;  ///< windows over a frame, whose results are averaged
   /// quick: adds what the atoms do not express of the measurements, smoothed, and leaves to `auto`
   /// what they are wrong about; or paper: its solver, and nothing after it.

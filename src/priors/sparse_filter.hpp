@@ -19,7 +19,7 @@ enum class SparseLoss : std::uint8_t {
 struct SparseSettings {
   SparseLoss loss = SparseLoss::mixed;
   /// Weight of sparsity, relative to the largest correlation of noise with the atoms.
-  double lambda = 0.25;
+  double lambda = 0.1;
   double outlier_deviations = 4.5;
   std::size_t hops = 4;     ///< windows over a frame
   double tolerance = 1e-2;  ///< of the solvers

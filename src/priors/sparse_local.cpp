@@ -53,6 +53,7 @@ void change_all(const std::vector<LocalFrame>& frames, PoseMatrix& positions,
 
 std::vector<LocalFrame> local_frames(const PoseMatrix& positions, const LocalPoints& points) {
   std::vector<LocalFrame> frames(positions.frames);
+  if (points.root < 0) return frames;
   std::optional<std::size_t> known;  // last frame whose turn could be told
   for (std::size_t f = 0; f < frames.size(); ++f) {
     frames[f].origin = point(positions, f, points.root);

@@ -9,9 +9,10 @@
 // The local coordinates of Xiao et al. 2015, section 3.1.1.
 namespace kinemend {
 
-/// The points that a pose's frame is taken from; -1: the body has none, and poses are only moved.
+/// The points that a pose's frame is taken from; -1: the body has none. Without a root poses stay
+/// in the frame of the body, without one of the others they are only moved.
 struct LocalPoints {
-  std::int32_t root = 0;
+  std::int32_t root = -1;
   std::int32_t left_hip = -1, right_hip = -1, neck = -1;
 };
 

@@ -173,6 +173,7 @@ LocalPoints find_local_points(const BodyLayout& layout) {
   points.right_hip = found(Bone::thigh, Side::right, {"rasi", "rfwt"});
   points.neck = found(Bone::neck, Side::none, {"c7", "clav", "t10"});
   if (points.neck < 0) points.neck = track_of_bone(bones, Bone::head, Side::none);
+  points.root = 0;
   if (layout.kind == BodyKind::joints) return points;
   const std::int32_t pelvis = track_of_bone(bones, Bone::pelvis, Side::none);
   points.root = pelvis >= 0 ? pelvis : std::max(points.left_hip, std::int32_t{0});

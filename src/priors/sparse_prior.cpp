@@ -113,7 +113,7 @@ SparsePrior sparse_prior_of(const Model& model) {
   prior.window_frames = static_cast<std::size_t>(window);
   const std::vector<std::int32_t> local =
       integers_of(model, "local_points", -1, prior.points.count());
-  if (local.size() != 4 || local[0] < 0) fail("local_points");
+  if (local.size() != 4) fail("local_points");
   prior.local = {local[0], local[1], local[2], local[3]};
   for (std::size_t i = 0; i < static_cast<std::size_t>(poselets); ++i)
     prior.poselets.push_back(poselet_of_model(model, i, prior.points.count(), prior.window_frames));

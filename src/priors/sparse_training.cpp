@@ -28,6 +28,7 @@ struct SparseTraining {
   std::int64_t iterations = 10;
   std::int64_t windows = 20'000;
   bool whole = false;
+  bool local = false;
 };
 
 constexpr std::size_t largest_window_values = 16'384;
@@ -50,7 +51,10 @@ const OptionTable<SparseTraining>& table() {
           .integer(&SparseTraining::windows, "windows", "", 1, 1e6,
                    "windows that the atoms are learned from, drawn from all")
           .flag(&SparseTraining::whole, "whole",
-                "one dictionary of the whole body instead of one a poselet");
+                "one dictionary of the whole body instead of one a poselet")
+          .flag(&SparseTraining::local, "local",
+                "the paper's local coordinates, by hips and neck of each frame; off: the smooth "
+                "frame of the body");
   return options;
 }
 
@@ -178,7 +182,7 @@ Model train(const TrainingTakes& takes, const OptionValues& values, const TrainS
   prior.rate_hz = options.rate_hz;
   prior.window_frames = static_cast<std::size_t>(options.window_frames);
   prior.points = points_for(model.layout, frames);
-  prior.local = find_local_points(model.layout);
+  if (options.local) prior.local = find_local_points(model.layout);
   prior.poselets = find_poselets(model.layout, prior.points, options.whole);
   const std::size_t window = prior.window_frames, all = window_count(sequences, window);
   if (all == 0) {

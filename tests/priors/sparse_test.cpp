@@ -150,6 +150,14 @@ TEST(Poselets, AreTorsoArmsAndLegsWithSharedJoints) {
   EXPECT_EQ(find_poselets(model.layout, prior.points, true).size(), 1u);
 }
 
+TEST(SparseTraining, KnowsThePapersLocalCoordinatesWhereAskedFor) {
+  EXPECT_LT(sparse_prior_of(joint_model()).local.root, 0);
+  const LocalPoints local =
+      sparse_prior_of(trained(std::vector<Clip>{walk(1, 1)}, {{"local", true}})).local;
+  EXPECT_EQ(local.root, 0);
+  EXPECT_GE(std::min({local.left_hip, local.right_hip, local.neck}), 1);
+}
+
 TEST(Poselets, OfMarkersGoByNamesOrByWhereTheyAre) {
   BodyLayout layout;
   layout.kind = BodyKind::markers;
