@@ -228,12 +228,12 @@ struct NoisyTake {
     return rms(sparse_filter(prior, {noisy, clean, observed, noise, 60}, settings), clean);
   }
 };
-NoisyTake noisy_take(double noise, double outliers) {
+NoisyTake noisy_take(double noise, double outliers, double duration_s = 1.5) {
   static const Model model =
       trained(std::vector<MarkerClip>{joint_markers(walk(1)), joint_markers(walk(2))});
   NoisyTake take;
   take.prior = sparse_prior_of(model);
-  const MarkerClip clip = joint_markers(walk(6, 1.5));
+  const MarkerClip clip = joint_markers(walk(6, duration_s));
   take.clean = points_of(take.prior.points, model.layout,
                          encode_body(clip, model.layout, match_body(model.layout, clip)).poses);
   take.noisy = take.clean;
@@ -255,7 +255,7 @@ TEST(SparseFilter, TakesNoiseAwayByEitherSolver) {
 }
 
 TEST(SparseFilter, ResistsOutliersByTheAbsoluteLoss) {
-  const NoisyTake take = noisy_take(0.005, 0.1);
+  const NoisyTake take = noisy_take(0.005, 0.1, 0.4);
   SparseSettings squares, absolute;
   squares.loss = SparseLoss::squares;
   absolute.loss = SparseLoss::absolute;
