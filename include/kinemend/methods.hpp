@@ -152,6 +152,23 @@ struct WienerOptions {
 std::unique_ptr<Cleaner> make_wiener(const WienerOptions& options = {},
                                      std::shared_ptr<const Model> model = nullptr);
 
+/// Sparse selection of motion bases (Xiao et al. 2015): windows of five parts of the body, in local
+/// coordinates, as sums of few atoms of learned dictionaries (eq. 4 and 5).
+struct SparseOptions {
+  std::string model;
+  std::string map;
+  std::string loss = "mixed";  ///< mixed, l2 (eq. 4) or l1 (eq. 5)
+  /// Of eq. 4 and 5, relative to the largest correlation that noise alone has with the atoms.
+  double lambda = 0.1;
+  std::int64_t hops = 4;  ///< windows over a frame, whose results are averaged
+  /// quick: adds what the atoms do not express of the measurements, smoothed, and leaves to `auto`
+  /// what they are wrong about; or paper: its solver, and nothing after it.
+  std::string solver = "quick";
+  bool fill = true;
+};
+std::unique_ptr<Cleaner> make_sparse(const SparseOptions& options = {},
+                                     std::shared_ptr<const Model> model = nullptr);
+
 /// Kalman filter or smoother with system matrices learned from clips (Lou & Chai 2010, section
 /// 4.2). No model ships.
 struct KalmanLearnedOptions {

@@ -7,6 +7,7 @@
 #define KINEMEND_LEARNED_METHODS(METHOD) \
   METHOD(example)                        \
   METHOD(wiener)                         \
+  METHOD(sparse)                         \
   METHOD(kalman_learned)
 
 namespace kinemend {

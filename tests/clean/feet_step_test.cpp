@@ -85,6 +85,7 @@ std::unique_ptr<Cleaner> made(const Method& method) {
                     }}));
   return method.name == "example"  ? make_example({}, model)
          : method.name == "wiener" ? make_wiener({}, model)
+         : method.name == "sparse" ? make_sparse({}, model)
                                    : make_kalman_learned({}, model);
 }
 

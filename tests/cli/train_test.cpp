@@ -26,7 +26,7 @@ class Train : public Program {
 
 TEST_F(Train, EveryMethodWritesAModelAndSaysWhatItLearned) {
   walks();
-  for (const std::string method : {"example", "wiener", "kalman-learned"}) {
+  for (const std::string method : {"example", "wiener", "sparse", "kalman-learned"}) {
     const Ran ran = run({"train", method, "a.bvh", "b.bvh", "-o", method + ".kmodel"});
     ASSERT_EQ(ran.code, 0) << ran.err;
     EXPECT_EQ(ran.err, "");
@@ -39,7 +39,7 @@ TEST_F(Train, EveryMethodWritesAModelAndSaysWhatItLearned) {
 
 TEST_F(Train, TheSameTakesGiveTheSameBytesWhateverTheThreads) {
   walks();
-  for (const std::string method : {"example", "wiener"}) {
+  for (const std::string method : {"example", "wiener", "sparse"}) {
     ASSERT_EQ(
         run({"train", method, "a.bvh", "b.bvh", "-o", "one", "--jobs", "1", "-q", "--force"}).code,
         0);
@@ -302,7 +302,7 @@ TEST_F(Train, AModelWithAFlippedByteIsRefusedByItsChecksum) {
 }
 
 TEST_F(Train, ShippedModelsBearChecksums) {
-  for (const char* method : {"example", "wiener"}) {
+  for (const char* method : {"example", "wiener", "sparse"}) {
     const std::string name = std::string(method) + ".kmodel";
     ASSERT_EQ(run({"models", "--export", method, "-o", name}).code, 0);
     std::string bytes = contents(folder / name);

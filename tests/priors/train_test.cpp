@@ -42,13 +42,13 @@ TEST(LearnedMethods, AreCleaningMethodsWithOptionsOfTheirOwn) {
     EXPECT_FALSE(method.summary.empty()) << method.name;
     for (const OptionSpec& option : method.options) EXPECT_FALSE(option.help.empty());
   }
-  EXPECT_THAT(names, ::testing::ElementsAre("example", "wiener", "kalman-learned"));
+  EXPECT_THAT(names, ::testing::ElementsAre("example", "wiener", "sparse", "kalman-learned"));
 }
 
 TEST(LearnedMethods, AnswersAnUnknownNameWithTheOneMeant) {
   EXPECT_EQ(usage_error_of([] { find_learned_method("exampel"); }),
             "no model is trained for \"exampel\"; did you mean example? (there are example, "
-            "wiener, kalman-learned)");
+            "wiener, sparse, kalman-learned)");
   EXPECT_EQ(find_learned_method("wiener").name, "wiener");
 }
 

@@ -134,7 +134,7 @@ class EveryRate : public testing::TestWithParam<std::string> {
  protected:
   std::unique_ptr<Cleaner> cleaner_ = made(GetParam());
   bool is_learned() const {
-    return GetParam() == "example" || GetParam() == "wiener" || GetParam() == "kalman-learned";
+    return find_method(GetParam()).learned;
   }
 };
 

@@ -1,0 +1,133 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiment.hpp"
+#include "kinemend/convert.hpp"
+#include "kinemend/methods.hpp"
+#include "kinemend/metrics.hpp"
+#include "kinemend/model.hpp"
+#include "kinemend/random.hpp"
+#include "kinemend/train.hpp"
+
+// What the experiments of Xiao et al. 2015 share: joints as markers, noise, methods and errors.
+namespace kinemend::papers {
+
+/// Clips of one action as the markers of their joints: learned from, and tried.
+struct XiaoGroup {
+  std::string name;
+  std::vector<MarkerClip> training, tests;
+};
+
+struct XiaoNoise {
+  std::string name;
+  double snr_db = 0;  ///< of Gaussian noise; 0: none
+  double share = 0;   ///< of outliers
+};
+
+inline std::vector<XiaoNoise> xiao_noises() {
+  return {{"40 dB", 40, 0},  {"30 dB", 30, 0},  {"20 dB", 20, 0},
+          {"10 dB", 10, 0},  {"10 %", 0, 0.10}, {"15 %", 0, 0.15},
+          {"20 %", 0, 0.20}, {"25 %", 0, 0.25}, {"mixed", 20, 0.10}};
+}
+
+/// The middle `frames` of a clip, in metres, as markers.
+inline MarkerClip xiao_markers(const Clip& clip, std::size_t frames) {
+  const std::size_t count = std::min(frames, clip.frame_count());
+  const std::size_t first = (clip.frame_count() - count) / 2;
+  const auto unit = guess_length_unit(clip.skeleton);
+  return joint_markers(scale_lengths(slice(clip, first, first + count), unit ? unit->metres : 1));
+}
+
+inline std::vector<MarkerClip> xiao_takes(const Arguments& arguments,
+                                          const std::vector<std::string>& names,
+                                          const std::string& motion, std::uint64_t first_seed,
+                                          std::size_t frames) {
+  std::vector<MarkerClip> clips;
+  for (const std::string& name : names) {
+    SynthOptions otherwise{.motion = motion, .duration_s = 3, .frame_rate_hz = 120};
+    otherwise.seed = first_seed + clips.size();
+    clips.push_back(xiao_markers(load_take(arguments, name + ".bvh", otherwise).clip, frames));
+  }
+  return clips;
+}
+
+/// The data matrix is taken to be that of positions from the root, which do not depend on where the
+/// laboratory has its origin: the power of the signal is theirs, and an outlier is 1.4 times an
+/// entry of it.
+inline MarkerClip xiao_noise(MarkerClip clip, const XiaoNoise& noise, std::uint64_t seed) {
+  const std::size_t markers = clip.marker_count();
+  const MarkerClip truth = clip;
+  const auto from_root = [&](std::size_t i) {
+    return truth.positions[i] - truth.positions[i - i % markers];
+  };
+  double power = 0;
+  for (std::size_t i = 0; i < clip.positions.size(); ++i) power += dot(from_root(i), from_root(i));
+  power /= 3 * static_cast<double>(clip.positions.size());
+  const double deviation =
+      noise.snr_db > 0 ? std::sqrt(power / std::pow(10, noise.snr_db / 10)) : 0;
+  Random random(seed);
+  for (std::size_t i = 0; i < clip.positions.size(); ++i) {
+    const Vec3 local = from_root(i);
+    const auto outlier = [&] { return random.chance(noise.share) ? 0.4 : 0.0; };
+    clip.positions[i] += Vec3{outlier() * local.x, outlier() * local.y, outlier() * local.z};
+    clip.positions[i] += deviation * Vec3{random.normal(), random.normal(), random.normal()};
+  }
+  return clip;
+}
+
+inline std::shared_ptr<const Model> xiao_model(const std::string& method,
+                                               const std::vector<MarkerClip>& clips,
+                                               const OptionValues& options = {}) {
+  TrainingTakes takes;
+  takes.count = clips.size();
+  takes.take = [&clips](std::size_t i) { return std::variant<Clip, MarkerClip>(clips[i]); };
+  return std::make_shared<const Model>(train_model(method, takes, options));
+}
+
+/// Mean and deviation over frames of eq. 6, metres.
+inline MeanAndDeviation xiao_error(const Cleaner& cleaner, const MarkerClip& truth,
+                                   MarkerClip noisy) {
+  clean_in_place(cleaner, noisy);
+  return rmse_per_marker(truth.positions, noisy.positions, truth.marker_count());
+}
+
+/// A method with the settings that it is tuned over.
+struct XiaoMethod {
+  std::string name;
+  std::vector<std::unique_ptr<Cleaner>> cleaners;
+
+  /// The one with the least mean error on clips with that noise.
+  const Cleaner& tuned(const std::vector<MarkerClip>& clips, const XiaoNoise& noise) const {
+    std::size_t best = 0;
+    double least = 1e300;
+    for (std::size_t i = 0; i < cleaners.size() && cleaners.size() > 1; ++i) {
+      double sum = 0;
+      for (std::size_t c = 0; c < clips.size(); ++c)
+        sum += xiao_error(*cleaners[i], clips[c], xiao_noise(clips[c], noise, 1000 + c)).mean;
+      if (sum < least) least = sum, best = i;
+    }
+    return *cleaners[best];
+  }
+};
+
+inline XiaoMethod sparse_method(const std::shared_ptr<const Model>& model,
+                                const std::vector<double>& lambdas) {
+  XiaoMethod sparse{"sparse", {}};
+  for (const char* loss : {"l2", "l1", "mixed"}) {
+    for (const double lambda : lambdas) {
+      SparseOptions options;
+      options.loss = loss;
+      options.lambda = lambda;
+      sparse.cleaners.push_back(make_sparse(options, model));
+    }
+  }
+  return sparse;
+}
+
+}  // namespace kinemend::papers

@@ -1,0 +1,46 @@
+"""The jobs of sparse_bench.cpp as scikit-learn does them: 800 atoms, windows of 360 values.
+
+Run with Debian's interpreter: /usr/bin/python3 bench/sklearn_sparse.py [--quick]
+"""
+
+import sys
+import time
+
+import numpy as np
+from sklearn.decomposition import MiniBatchDictionaryLearning, sparse_encode
+
+ROWS, DIRECTIONS, ATOMS, NOISE = 360, 40, 800, 0.01
+QUICK = "--quick" in sys.argv
+
+random = np.random.default_rng(1)
+basis = np.cos(0.01 * np.outer(np.arange(1, DIRECTIONS + 1), np.arange(1, ROWS + 1))) / np.sqrt(0.5 * ROWS)
+
+
+def windows(count, noise):
+    weights = random.standard_normal((count, DIRECTIONS)) * 0.9 ** np.arange(DIRECTIONS)
+    return weights @ basis + noise * random.standard_normal((count, ROWS))
+
+
+def timed(name, job):
+    start = time.perf_counter()
+    result = job()
+    print(f"{name:<44}{1e3 * (time.perf_counter() - start):12.1f} ms", flush=True)
+    return result
+
+
+training = windows(2000 if QUICK else 20000, 0)
+atoms = training[random.choice(len(training), ATOMS, replace=False)]
+atoms /= np.linalg.norm(atoms, axis=1, keepdims=True)
+# As many passes over the windows as K-SVD has, with the same pursuit.
+learning = MiniBatchDictionaryLearning(ATOMS, batch_size=256, n_iter=10 * len(training) // 256, dict_init=atoms,
+                                       transform_algorithm="omp", fit_algorithm="cd", alpha=0.05, n_jobs=2,
+                                       random_state=1)
+if not QUICK:
+    timed("MiniBatchDictionaryLearning, 20,000 windows", lambda: learning.fit(training))
+noisy = windows(2000, NOISE)
+timed("sparse_encode omp, 2,000 windows", lambda: sparse_encode(noisy, atoms, algorithm="omp", n_nonzero_coefs=10, n_jobs=2))
+# Its lasso has half the squares.
+penalty = 0.25 * NOISE * np.sqrt(2 * np.log(ATOMS))
+for algorithm in ("lasso_cd", "lasso_lars"):
+    timed(f"sparse_encode {algorithm}, 256 windows",
+          lambda algorithm=algorithm: sparse_encode(noisy[:256], atoms, algorithm=algorithm, alpha=penalty, n_jobs=2))

@@ -1,0 +1,160 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "base/quantiles.hpp"
+#include "clean/example_rest.hpp"
+#include "clean/method_list.hpp"
+#include "clean/prior_cleaning.hpp"
+#include "kinemend/methods.hpp"
+#include "kinemend/model.hpp"
+#include "priors/sparse_filter.hpp"
+#include "priors/sparse_prior.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr double outlier_deviations = 5;  // of the noise of a channel
+constexpr double many_outliers = 0.02;
+constexpr double least_noise = 2e-4;  // body heights
+
+const OptionTable<SparseOptions>& table() {
+  static const auto options =
+      OptionTable<SparseOptions>()
+          .text(&SparseOptions::model, "model",
+                "model file, made by kinemend train sparse; empty: the one that ships")
+          .text(&SparseOptions::map, "map", "file of names in the take for the model's")
+          .choice(&SparseOptions::loss, "loss", {"mixed", "l2", "l1"},
+                  "l2: eq. 4, for noise; l1: eq. 5, for outliers; mixed: l1 finds outliers, l2 "
+                  "does the rest")
+          .number(&SparseOptions::lambda, "lambda", "", 0, 1000,
+                  "weight of sparsity, in correlations of noise with the atoms")
+          .integer(&SparseOptions::hops, "hops", "", 1, 1000, "windows over a frame")
+          .choice(&SparseOptions::solver, "solver", {"quick", "paper"},
+                  "paper: the dual augmented Lagrangian method, and nothing after it")
+          .flag(&SparseOptions::fill, "fill_gaps", "fills gaps of what the model knows");
+  return options;
+}
+
+SparseLoss loss_of(const SparseOptions& options) {
+  if (options.loss == "l2") return SparseLoss::squares;
+  return options.loss == "l1" ? SparseLoss::absolute : SparseLoss::mixed;
+}
+
+// What was measured; `auto`'s opinion of gaps and, of joints, of spikes, which would throw all
+// points below them.
+PoseMatrix guess_of(const PriorWork& work, BodyKind kind) {
+  PoseMatrix guess = work.channels.poses;
+  for (std::size_t i = 0; i < guess.values.size(); ++i) {
+    const bool is_spike = kind == BodyKind::joints && work.suspect[i] != 0;
+    if (work.channels.observed[i] == 0 || is_spike) guess.values[i] = work.fallback.values[i];
+  }
+  return guess;
+}
+
+// Standard deviation of each point's noise, the same for its axes: median distance from the guide.
+std::vector<double> point_noise(const PoseMatrix& positions, const PoseMatrix& guide,
+                                const std::vector<std::uint8_t>& observed) {
+  std::vector<double> noise(positions.channels, least_noise);
+  for (std::size_t first = 0; first + 2 < positions.channels; first += 3) {
+    std::vector<double> sizes;
+    for (std::size_t f = 0; f < positions.frames; ++f) {
+      for (std::size_t c = first; c < first + 3; ++c) {
+        const std::size_t i = f * positions.channels + c;
+        if (observed[i] != 0) sizes.push_back(std::abs(positions.values[i] - guide.values[i]));
+      }
+    }
+    const double level = std::max(least_noise, deviations_per_median * median_of(sizes));
+    std::fill_n(noise.begin() + static_cast<std::ptrdiff_t>(first), 3, level);
+  }
+  return noise;
+}
+
+double share_beyond(const PoseMatrix& positions, const PoseMatrix& guide,
+                    const std::vector<double>& noise, double deviations) {
+  double count = 0;
+  for (std::size_t i = 0; i < positions.values.size(); ++i) {
+    const double distance = std::abs(positions.values[i] - guide.values[i]);
+    count += distance > deviations * noise[i % positions.channels] ? 1 : 0;
+  }
+  return count / std::max(1.0, static_cast<double>(positions.values.size()));
+}
+
+// What the dictionaries make of the points. Where many are outliers, what `auto` makes of them is
+// no good guide, and the result is the guide of another turn.
+PoseMatrix filtered_points(const PriorWork& work, const PoseMatrix& positions,
+                           const SparsePrior& prior, const BodyLayout& layout,
+                           const SparseSettings& settings) {
+  PoseMatrix guide = points_of(prior.points, layout, work.fallback);
+  const std::vector<std::uint8_t> observed =
+      observed_points(prior.points, layout, work.channels.observed);
+  const double rate_hz = work.channels.frame_rate_hz;
+  const std::size_t turns = settings.loss == SparseLoss::squares ? 1 : 2;
+  for (std::size_t turn = 0; turn < turns; ++turn) {
+    const std::vector<double> noise = point_noise(positions, guide, observed);
+    if (turn > 0 &&
+        share_beyond(positions, guide, noise, settings.outlier_deviations) < many_outliers)
+      break;
+    guide = sparse_filter(prior, {positions, guide, observed, noise, rate_hz}, settings);
+  }
+  return guide;
+}
+
+void filter(PriorWork& work, const SparseOptions& options, const SparsePrior& prior,
+            const BodyLayout& layout) {
+  if (work.channels.poses.frames == 0) return;
+  SparseSettings settings;
+  settings.loss = loss_of(options);
+  settings.lambda = options.lambda;
+  settings.hops = static_cast<std::size_t>(options.hops);
+  settings.exact = options.solver == "paper";
+  const PoseMatrix positions = points_of(prior.points, layout, guess_of(work, prior.points.kind));
+  PoseMatrix found = filtered_points(work, positions, prior, layout, settings);
+  PoseMatrix cleaned = channels_of(prior.points, layout, found, work.fallback);
+  if (settings.exact) {
+    std::fill(work.needs.begin(), work.needs.end(), 1.0);
+    work.channels.poses = std::move(cleaned);
+    return;
+  }
+  const std::vector<double> noise = example_noise(work);
+  PoseMatrix counts(cleaned.frames, cleaned.channels);
+  work.rejected.assign(counts.values.size(), 0);
+  for (std::size_t i = 0; i < counts.values.size(); ++i) {
+    if (work.channels.observed[i] == 0) continue;
+    const double distance = std::abs(work.channels.poses.values[i] - cleaned.values[i]);
+    const bool counted =
+        work.suspect[i] == 0 && distance <= outlier_deviations * noise[i % counts.channels];
+    counts.values[i] = counted ? 1 : 0;
+    work.rejected[i] = counted ? 0 : 1;
+  }
+  const PoseMatrix expressed = cleaned;
+  smooth_rest(work, counts, expressed, noise, cleaned);
+  fall_back_where_biased(work, noise, cleaned);
+  work.channels.poses = std::move(cleaned);
+}
+
+}  // namespace
+
+std::unique_ptr<Cleaner> make_sparse(const SparseOptions& options,
+                                     std::shared_ptr<const Model> model) {
+  table().validate(options);
+  model = model_for("sparse", options.model, std::move(model));
+  return make_prior_cleaner(model, options.map, options.fill,
+                            [options, model, prior = sparse_prior_of(*model)](PriorWork& work) {
+                              filter(work, options, prior, model->layout);
+                            });
+}
+
+Method sparse_method() {
+  return {"sparse",
+          "parts of the body as sums of few learned pieces of motion",
+          "Xiao et al. 2015, Sparse motion bases selection for human motion denoising",
+          table().specs(),
+          [](const OptionValues& values) { return make_sparse(table().parse(values)); },
+          true};
+}
+
+}  // namespace kinemend

@@ -1,0 +1,220 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "base/parallel.hpp"
+#include "kinemend/convert.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/random.hpp"
+#include "kinemend/train.hpp"
+#include "priors/learned_list.hpp"
+#include "priors/sparse_prior.hpp"
+#include "priors/training_sequences.hpp"
+#include "sparse/ksvd.hpp"
+
+namespace kinemend {
+
+namespace {
+
+struct SparseTraining {
+  double rate_hz = 60;
+  std::int64_t window_frames = 15;
+  std::int64_t atoms = 500;
+  std::int64_t sparsity = 10;
+  std::int64_t iterations = 10;
+  std::int64_t windows = 20'000;
+  bool whole = false;
+  bool local = false;
+};
+
+constexpr std::size_t largest_window_values = 16'384;
+// An atom stands for what several windows share.
+constexpr std::size_t least_windows_per_atom = 4;
+
+const OptionTable<SparseTraining>& table() {
+  static const auto options =
+      OptionTable<SparseTraining>()
+          .number(&SparseTraining::rate_hz, "rate_hz", "Hz", 5, 500,
+                  "rate of the model; takes at other rates are brought to it")
+          .integer(&SparseTraining::window_frames, "window_frames", "", 2, 500,
+                   "M: frames of a window, at the model's rate")
+          .integer(&SparseTraining::atoms, "atoms", "", 1, 10'000,
+                   "K: atoms of each dictionary, at most one for four windows")
+          .integer(&SparseTraining::sparsity, "sparsity", "", 1, 200,
+                   "T: atoms of a window in training")
+          .integer(&SparseTraining::iterations, "iterations", "", 1, 1000,
+                   "of coding and updating the atoms")
+          .integer(&SparseTraining::windows, "windows", "", 1, 1e6,
+                   "windows that the atoms are learned from, drawn from all")
+          .flag(&SparseTraining::whole, "whole",
+                "one dictionary of the whole body instead of one a poselet")
+          .flag(&SparseTraining::local, "local",
+                "the paper's local coordinates, by hips and neck of each frame; off: the smooth "
+                "frame of the body");
+  return options;
+}
+
+// Takes as they are asked for, of which one frame each is kept.
+TrainingTakes keeping_frames(const TrainingTakes& takes, std::vector<Clip>& frames) {
+  return {takes.count, [&takes, &frames](std::size_t index) {
+            auto take = takes.take(index);
+            if (take && std::holds_alternative<Clip>(*take)) {
+              const Clip& clip = std::get<Clip>(*take);
+              const std::size_t middle = clip.frame_count() / 2;
+              if (clip.frame_count() > 0) frames.push_back(slice(clip, middle, middle + 1));
+            }
+            return take;
+          }};
+}
+
+SparsePoints points_for(const BodyLayout& layout, const std::vector<Clip>& frames) {
+  if (layout.kind == BodyKind::markers) return marker_points(layout);
+  SparsePointsBuilder builder(layout);
+  for (const Clip& clip : frames) builder.add(clip);
+  return builder.finish();
+}
+
+// The numbers of `count` windows, at most, of all, in their order: one from each stretch of them.
+std::vector<std::size_t> drawn(std::size_t all, std::size_t count, std::uint64_t seed) {
+  count = std::min(all, count);
+  Random random(seed);
+  std::vector<std::size_t> numbers(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t first = i * all / count, last = (i + 1) * all / count;
+    numbers[i] = first + random.below(last - first);
+  }
+  return numbers;
+}
+
+// Windows of every poselet: W x M x 3 n each.
+class WindowSample {
+ public:
+  WindowSample(const SparsePrior& prior, std::vector<std::size_t> numbers)
+      : prior_(prior), numbers_(std::move(numbers)), values_(prior.poselets.size()) {}
+
+  void add(const PoseMatrix& channels, const BodyLayout& layout) {
+    const std::size_t window = prior_.window_frames;
+    if (channels.frames < window) return;
+    const std::size_t end = seen_ + channels.frames - window + 1;
+    PoseMatrix positions;
+    for (; next_ < numbers_.size() && numbers_[next_] < end; ++next_) {
+      if (positions.frames == 0) {
+        positions = points_of(prior_.points, layout, channels);
+        to_local(local_frames(positions, prior_.local), positions);
+      }
+      for (std::size_t i = 0; i < values_.size(); ++i)
+        append(positions, numbers_[next_] - seen_, prior_.poselets[i], values_[i]);
+    }
+    seen_ = end;
+  }
+
+  // Takes the mean of poselet `i` off its windows.
+  std::vector<float> take_mean(std::size_t i) {
+    const std::size_t channels = prior_.poselets[i].channels();
+    std::vector<double> sums(channels, 0);
+    for (std::size_t v = 0; v < values_[i].size(); ++v)
+      sums[v % channels] += static_cast<double>(values_[i][v]);
+    std::vector<float> mean(channels);
+    const double count = static_cast<double>(values_[i].size() / channels);
+    for (std::size_t c = 0; c < channels; ++c)
+      mean[c] = static_cast<float>(sums[c] / std::max(count, 1.0));
+    for (std::size_t v = 0; v < values_[i].size(); ++v) values_[i][v] -= mean[v % channels];
+    return mean;
+  }
+
+  const std::vector<float>& values(std::size_t i) const { return values_[i]; }
+
+ private:
+  void append(const PoseMatrix& positions, std::size_t first, const SparsePoselet& poselet,
+              std::vector<float>& values) const {
+    for (std::size_t f = first; f < first + prior_.window_frames; ++f) {
+      for (const std::int32_t point : poselet.points) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          values.push_back(
+              static_cast<float>(positions(f, 3 * static_cast<std::size_t>(point) + axis)));
+      }
+    }
+  }
+
+  const SparsePrior& prior_;
+  std::vector<std::size_t> numbers_;
+  std::vector<std::vector<float>> values_;
+  std::size_t seen_ = 0, next_ = 0;  // windows gone by, and numbers
+};
+
+std::size_t window_count(const TrainingSequences& sequences, std::size_t window) {
+  std::size_t count = 0;
+  for (const TrainingSequences::Entry& entry : sequences.entries)
+    count += entry.frames < window ? 0 : entry.frames - window + 1;
+  return count;
+}
+
+void learn_dictionaries(const SparseTraining& options, std::size_t windows, std::uint64_t seed,
+                        WindowSample& sample, SparsePrior& prior) {
+  const std::size_t most_atoms = std::max<std::size_t>(1, windows / least_windows_per_atom);
+  for_each_parallel(prior.poselets.size(), sample.values(0).size(), [&](std::size_t i) {
+    SparsePoselet& poselet = prior.poselets[i];
+    poselet.mean = sample.take_mean(i);
+    sparse::KsvdSettings learning;
+    learning.atoms = std::min(static_cast<std::size_t>(options.atoms), most_atoms);
+    learning.sparsity = static_cast<std::size_t>(options.sparsity);
+    learning.iterations = static_cast<std::size_t>(options.iterations);
+    learning.seed = seed + i;
+    poselet.dictionary =
+        sparse::ksvd(sample.values(i), prior.window_frames * poselet.channels(), learning)
+            .dictionary;
+  });
+}
+
+Model train(const TrainingTakes& takes, const OptionValues& values, const TrainSettings& settings) {
+  const SparseTraining options = table().parse(values);
+  std::vector<Clip> frames;
+  const TrainingSequences sequences =
+      encode_takes(keeping_frames(takes, frames), settings, options.rate_hz);
+  Model model;
+  model.layout = sequences.layout;
+  model.takes = sequences.takes;
+  SparsePrior prior;
+  prior.rate_hz = options.rate_hz;
+  prior.window_frames = static_cast<std::size_t>(options.window_frames);
+  prior.points = points_for(model.layout, frames);
+  if (options.local) prior.local = find_local_points(model.layout);
+  prior.poselets = find_poselets(model.layout, prior.points, options.whole);
+  const std::size_t window = prior.window_frames, all = window_count(sequences, window);
+  if (all == 0) {
+    throw Error(ErrorKind::usage, "no take has a stretch without gaps of " +
+                                      std::to_string(window) + " frames, which is a window");
+  }
+  for (const SparsePoselet& poselet : prior.poselets) {
+    if (window * poselet.channels() > largest_window_values)
+      throw Error(ErrorKind::usage, "window_frames: a window of the " + poselet.name +
+                                        " has more than " + std::to_string(largest_window_values) +
+                                        " values; take a shorter window");
+  }
+  const std::vector<std::size_t> numbers =
+      drawn(all, static_cast<std::size_t>(options.windows), settings.seed);
+  WindowSample sample(prior, numbers);
+  model.seconds = for_each_sequence(
+      sequences, window, settings,
+      [&](const TrainingSequence& sequence) { sample.add(sequence.poses, model.layout); });
+  learn_dictionaries(options, numbers.size(), settings.seed, sample, prior);
+  for (const SparsePoselet& poselet : prior.poselets) {
+    if (poselet.dictionary.atoms == 0)
+      throw Error(ErrorKind::usage, "nothing moves in these takes");
+  }
+  store_sparse_prior(prior, model);
+  return model;
+}
+
+}  // namespace
+
+LearnedMethod sparse_learned() {
+  return {"sparse", 1, "dictionaries of poselets by K-SVD (Xiao et al. 2015, section 3.2)",
+          table().specs(), train};
+}
+
+}  // namespace kinemend

@@ -1,0 +1,110 @@
+// What the method `sparse` promises on takes, with models learned from synthetic walks.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "kinemend/clean.hpp"
+#include "kinemend/convert.hpp"
+#include "kinemend/corrupt.hpp"
+#include "kinemend/methods.hpp"
+#include "kinemend/metrics.hpp"
+#include "kinemend/synth.hpp"
+#include "kinemend/train.hpp"
+
+namespace kinemend::test {
+namespace {
+
+Clip walk(std::uint64_t seed) {
+  SynthOptions options{.motion = "walk", .duration_s = 3, .frame_rate_hz = 60};
+  options.seed = seed;
+  return synthesize(options);
+}
+
+template <class AnyClip>
+std::shared_ptr<const Model> learned(const std::vector<AnyClip>& clips) {
+  return std::make_shared<const Model>(train_model(
+      "sparse",
+      {clips.size(), [&](std::size_t i) { return std::variant<Clip, MarkerClip>(clips[i]); }},
+      {{"atoms", std::int64_t{60}}, {"iterations", std::int64_t{4}}}));
+}
+
+std::shared_ptr<const Model> joints() {
+  static const auto model = learned(std::vector<Clip>{walk(1), walk(2)});
+  return model;
+}
+std::shared_ptr<const Model> markers() {
+  static const auto model =
+      learned(std::vector<MarkerClip>{joint_markers(walk(1)), joint_markers(walk(2))});
+  return model;
+}
+
+double distance(const MarkerClip& a, const MarkerClip& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.positions.size(); ++i) {
+    const Vec3 d = a.positions[i] - b.positions[i];
+    sum += dot(d, d);
+  }
+  return std::sqrt(sum / static_cast<double>(a.positions.size()));
+}
+
+MarkerClip shaken(MarkerClip clip, double size, double outliers) {
+  Random random(3);
+  for (Vec3& position : clip.positions) {
+    position += size * Vec3{random.normal(), random.normal(), random.normal()};
+    if (random.chance(outliers)) position += Vec3{10 * size, 0, 0};
+  }
+  return clip;
+}
+
+TEST(Sparse, TakesStrongNoiseAndOutliersOffMarkers) {
+  const MarkerClip truth = joint_markers(walk(4));
+  for (const double outliers : {0.0, 0.1}) {
+    const MarkerClip noisy = shaken(truth, 2, outliers);  // cm
+    for (const char* solver : {"quick", "paper"}) {
+      SparseOptions options;
+      options.solver = solver;
+      if (options.solver == "paper") options.hops = 2;
+      MarkerClip cleaned = noisy;
+      clean_in_place(*make_sparse(options, markers()), cleaned);
+      EXPECT_LT(distance(cleaned, truth), 0.5 * distance(noisy, truth)) << solver << outliers;
+    }
+  }
+}
+
+TEST(Sparse, BringsNoisyRotationsNearerToTheTruth) {
+  const Clip truth = walk(5);
+  Clip noisy = truth;
+  Random random(6);
+  apply_damage(noisy, "gaussian", {{"std_deg", 4.0}}, random);
+  Clip cleaned = noisy;
+  clean_in_place(*make_sparse({}, joints()), cleaned);
+  EXPECT_LT(rms_deg(truth, cleaned), 0.6 * rms_deg(truth, noisy));
+  EXPECT_EQ(cleaned.skeleton.offsets, truth.skeleton.offsets);
+}
+
+TEST(Sparse, LeavesACleanWalkNearlyAlone) {
+  const Clip truth = walk(7);
+  EXPECT_LT(geodesic_rms_deg(truth, clean_clip(truth, *make_sparse({}, joints())).clip), 0.05);
+}
+
+TEST(Sparse, FillsAMarkerFromTheOthersOfItsPoselet) {
+  const MarkerClip truth = joint_markers(walk(8));
+  MarkerClip gapped = truth;
+  const std::size_t marker = 5, first = 60, last = 110;
+  for (std::size_t f = first; f < last; ++f) {
+    gapped.observed[f * truth.marker_count() + marker] = 0;
+    gapped.position(f, marker) = {};
+  }
+  const MarkerClip cleaned = clean_markers(gapped, *make_sparse({}, markers())).clip;
+  double sum = 0;
+  for (std::size_t f = first; f < last; ++f)
+    sum += norm(cleaned.position(f, marker) - truth.position(f, marker));
+  EXPECT_LT(sum / static_cast<double>(last - first), 5);  // cm
+}
+
+}  // namespace
+}  // namespace kinemend::test
