@@ -83,10 +83,14 @@ int run(const Arguments& arguments) {
     }
     return say_passed_limits(report, check_figures(), arguments);
   };
-  const int code = for_each_input(arguments.positionals, visit,
-                                  [&](std::string entry) { takes.push_back(std::move(entry)); });
+  std::size_t failed = 0;
+  const int code = for_each_input(arguments.positionals, visit, [&](std::string entry) {
+    takes.push_back(std::move(entry));
+    ++failed;
+  });
   const std::string document = report_document("check", takes);
-  if (!report_path.empty() && code < static_cast<int>(ErrorKind::usage))
+  // Bad input leaves nothing behind.
+  if (!report_path.empty() && failed < arguments.positionals.size())
     write_output(report_path, page.empty() ? document : page, force);
   if (json) write_out(document);
   return code;

@@ -66,7 +66,7 @@ function(kinemend_embed_page room)
         --charset=ascii --legal-comments=inline --log-level=warning --outfile=${folder}/page.js
       DEPENDS ${sources} ${folder}/installed.txt COMMENT "Report page" VERBATIM)
     add_custom_command(OUTPUT ${output}
-      COMMAND ${embed} -DSCRIPT=${folder}/page.js -DSTYLE=${folder}/page.css -P ${script}
+      COMMAND ${embed} -DSCRIPT=${folder}/page.js -DSTYLE=${folder}/page.css -DPACKAGES=${folder}/node_modules -P ${script}
       DEPENDS ${needed} ${folder}/page.js ${folder}/page.css VERBATIM)
   endif()
   target_sources(kinemend_${room} PRIVATE ${output})

@@ -95,6 +95,16 @@ TEST_F(PageReport, OfBadInputIsNone) {
   }
 }
 
+TEST_F(PageReport, AsJsonHoldsWhatCouldNotBeReadBesideWhatCould) {
+  synth("walk.bvh");
+  put(folder / "bad.bvh", "bad");
+  EXPECT_EQ(run({"check", "walk.bvh", "bad.bvh", "--report", "both.json"}).code, 3);
+  const Json takes = Json::parse(contents(folder / "both.json"))["takes"];
+  ASSERT_EQ(takes.size(), 2u);
+  EXPECT_EQ(takes[0]["input"], "walk.bvh");
+  EXPECT_EQ(takes[1]["exit_code"], 3);
+}
+
 TEST_F(PageReport, AsJsonIsWhatCheckAndComparePrint) {
   noisy("noisy.bvh", "1");
   EXPECT_EQ(run({"check", "noisy.bvh", "--report", "check.json"}).code, 0);

@@ -178,6 +178,12 @@ TEST_F(Page, FetchesNothing) {
   EXPECT_THAT(page, Not(HasSubstr(" src=\"http")));
 }
 
+TEST_F(Page, TellsTheLicencesOfWhatItIsMadeOf) {
+  const std::string page = page_of(walk(), static_cast<const Clip*>(nullptr));
+  EXPECT_THAT(page, HasSubstr("three.js authors"));
+  EXPECT_THAT(page, HasSubstr("Leon Sorokin"));
+}
+
 TEST_F(Page, IsMadeOfTakesWithNothingInThem) {
   const Clip empty = slice(walk(), 0, 0);
   EXPECT_EQ(json_part(page_of(empty, &empty), "take")["told"], 0);

@@ -2,7 +2,7 @@
 
 import * as three from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import { colour } from './dom';
+import { colour, element } from './dom';
 import type { Player } from './player';
 import type { Take, Which } from './take';
 
@@ -123,6 +123,7 @@ export class Body {
   private readonly trails = new three.Group();
   private readonly gizmo: SVGSVGElement;
   private centre = new three.Vector3();
+  private readonly unseen = element('p', { class: 'unseen', hidden: true }, 'Nothing is seen in this frame.');
   private waiting = false;
 
   constructor(private readonly holder: HTMLElement, private readonly take: Take, private readonly player: Player, renderer: three.WebGLRenderer) {
@@ -141,7 +142,7 @@ export class Body {
     this.gizmo.setAttribute('class', 'axes');
     this.gizmo.setAttribute('viewBox', '-30 -30 60 60');
     this.gizmo.setAttribute('aria-hidden', 'true');
-    holder.append(this.gizmo);
+    holder.append(this.gizmo, this.unseen);
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.controls.addEventListener('change', () => this.draw());
 
@@ -271,6 +272,7 @@ export class Body {
       figure.group.position.copy(this.across).multiplyScalar(shift);
       if (this.take.told > 0) figure.show(this.player.shown, this.player.chosen);
     }
+    this.unseen.hidden = this.main.centre() !== null;
     this.stand();
     this.follow();
     this.trace();

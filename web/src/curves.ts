@@ -21,6 +21,12 @@ interface Line {
 const axisColours = ['axis-1', 'axis-2', 'axis-3'];
 const superscript = '\u00b2';
 
+/** Short enough for its place beside the panel. */
+function tickText(tick: number): string {
+  const rounded = Number(tick.toPrecision(10));
+  return Math.abs(rounded) >= 1e5 ? `${(rounded / 1000).toLocaleString('en-US')}k` : rounded.toLocaleString('en-US', { maximumFractionDigits: 6 });
+}
+
 /** One track of one quantity in both takes. */
 class Signal {
   readonly names: string[];
@@ -178,7 +184,7 @@ export class Curves {
       scales: { x: { time: false } },
       cursor: { y: false, sync: { key: 'kinemend' }, drag: { x: true, y: false, setScale: true }, points: { show: false } },
       series: [{ label: 'frame' }, ...lines.map((line) => ({ label: line.label, stroke: colour(line.colour), width: line.width, points: { show: this.take.told < 3 } }))],
-      axes: [{ ...axis, size: 30 }, { ...axis, size: 68 }],
+      axes: [{ ...axis, size: 30 }, { ...axis, size: 68, values: (_plot, ticks) => ticks.map(tickText) }],
       hooks: {
         setScale: [(plot, key) => { if (key === 'x') this.takeZoom(plot); }],
         draw: [(plot) => this.cursorIn(plot)],

@@ -138,6 +138,17 @@ export class Take {
     return this.missing.get(`${which} positions`)?.get(track)?.[frame] === 1;
   }
 
+  /** The first frame in which a point is seen; the first of all where none ever is. */
+  firstSeen(): number {
+    if (this.isJoints) return 0;
+    for (let f = 0; f < this.told; ++f) {
+      for (let m = 0; m < this.points; ++m) {
+        if (this.isShown(m) && !this.isMissing(m, f, this.last)) return f;
+      }
+    }
+    return 0;
+  }
+
   /** The axes a joint is turned about; empty for one that never turns. */
   order(joint: number): string {
     return this.data.skeleton?.orders[joint] ?? '';

@@ -156,6 +156,7 @@ export async function showTake(page: HTMLElement, document_: ReportDocument, dat
   if (data.step > 1) page.querySelector('header')?.after(element('p', { class: 'note' }, `A long take: 1 frame in ${data.step} is shown here. What was found is told of all ${counted(data.frames, 'frame')}.`));
   if (take.told > 0 && data.names.length > 0) player.choose([table.worst]);
   else player.choose([]);
+  player.seek(take.firstSeen());
   body?.resize();
   body?.look('orbit');
   listenToKeys(player, take, timeline, body);

@@ -54,6 +54,10 @@ function makePages() {
   });
   writeFileSync(join(output, 'markers.trc'), `PathFileType\t4\t(X/Y/Z)\tmarkers.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames\n`
     + `100\t100\t300\t4\tmm\t100\t1\t300\nFrame#\tTime\t<b>A</b>\t\t\tB\t\t\tC\t\t\tD\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\tX3\tY3\tZ3\tX4\tY4\tZ4\n\n${rows.join('\n')}\n`);
+  // Nothing is seen in the first five frames.
+  writeFileSync(join(output, 'late.trc'), readFileSync(join(output, 'markers.trc'), 'utf8').split('\n')
+    .map((line) => (/^[1-5]\t/.test(line) ? line.split('\t').map((cell, i) => (i < 2 ? cell : '')).join('\t') : line)).join('\n'));
+  kinemend('check', 'late.trc', '--report', 'late.html', '--force');
   kinemend('fill', 'markers.trc', '-o', 'filled.trc', '--report', 'fill.html', '--force');
 }
 
@@ -218,6 +222,15 @@ step('filled and refused gaps are told apart', async () => {
   assert.match(list, /gap refused . .C. . frames 41 to 260/);
   await page.click('.findings button >> nth=0');
   await shot(page, 'fill');
+});
+
+step('a frame in which nothing is seen says so', async () => {
+  const page = await open('late.html');
+  assert.equal(await frame(page), 5);
+  assert.ok((await inView(page)) > 0.99);
+  assert.equal(await page.isVisible('.unseen'), false);
+  await page.keyboard.press('Home');
+  assert.equal(await page.isVisible('.unseen'), true);
 });
 
 step('dark, narrow, and with enough contrast', async () => {
