@@ -19,6 +19,7 @@ namespace {
 
 constexpr double outlier_deviations = 5;  // of the noise of a channel
 constexpr double many_outliers = 0.02;
+constexpr double least_noise_deg = 0.05;
 constexpr double least_noise = 2e-4;  // body heights
 
 const OptionTable<SparseOptions>& table() {
@@ -83,6 +84,17 @@ double share_beyond(const PoseMatrix& positions, const PoseMatrix& guide,
   return count / std::max(1.0, static_cast<double>(positions.values.size()));
 }
 
+// Of each channel: as `auto` measures it, but no more than what is measured scatters about what the
+// atoms express. Where many samples are outliers `auto` takes them for noise.
+std::vector<double> noise_about(const PriorWork& work, const PoseMatrix& cleaned) {
+  std::vector<double> noise = example_noise(work);
+  const std::vector<double> scatter =
+      point_noise(work.channels.poses, cleaned, work.channels.observed);
+  for (std::size_t c = 0; c < noise.size(); ++c)
+    noise[c] = std::min(noise[c], std::max(scatter[c], least_noise_deg));
+  return noise;
+}
+
 // What the dictionaries make of the points. Where many are outliers, what `auto` makes of them is
 // no good guide, and the result is the guide of another turn.
 PoseMatrix filtered_points(const PriorWork& work, const PoseMatrix& positions,
@@ -119,7 +131,7 @@ void filter(PriorWork& work, const SparseOptions& options, const SparsePrior& pr
     work.channels.poses = std::move(cleaned);
     return;
   }
-  const std::vector<double> noise = example_noise(work);
+  const std::vector<double> noise = noise_about(work, cleaned);
   PoseMatrix counts(cleaned.frames, cleaned.channels);
   work.rejected.assign(counts.values.size(), 0);
   for (std::size_t i = 0; i < counts.values.size(); ++i) {

@@ -24,7 +24,7 @@ constexpr float least_rest = 0.1F;
 // One signal: the atoms it uses, with their products under the weights of its rows.
 class Descent {
  public:
-  Descent(const Dictionary& dictionary, Map signal, const DescentSettings& settings)
+  Descent(const Dictionary& dictionary, const Map& signal, const DescentSettings& settings)
       : dictionary_(dictionary), signal_(signal), settings_(settings) {}
 
   void start(std::size_t atom, float code) {
