@@ -156,6 +156,8 @@ void run(const Arguments& arguments) {
     std::fflush(stdout);
     save(arguments, trainer, sequences);
   }
+  // A training that was done already: the model once more, with the card as it is said now.
+  if (trainer.batch() == first) save(arguments, trainer, sequences);
 }
 
 int start(int count, char** values) {
@@ -177,6 +179,10 @@ int start(int count, char** values) {
   app.add_option("--uses", training.uses, "of a damaged sample")->capture_default_str();
   app.add_option("--hidden", training.hidden, "units")->capture_default_str();
   app.add_option("--dilations", training.dilations, "of the blocks")->delimiter(',');
+  app.add_option("--offset-deg", training.offset_deg,
+                 "of the bodies that samples are made to be of")
+      ->capture_default_str();
+  app.add_option("--most-scale", training.most_scale, "of their motion")->capture_default_str();
   app.add_option("--rate", training.rate, "of learning, at its highest")->capture_default_str();
   app.add_option("--dropout", training.descent.dropout)->capture_default_str();
   app.add_option("--weight-decay", training.descent.weight_decay)->capture_default_str();

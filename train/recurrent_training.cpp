@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
-#include "base/parallel.hpp"
 #include "kinemend/error.hpp"
 
 namespace kinemend::train {
@@ -95,15 +95,16 @@ RecurrentTrainer::RecurrentTrainer(const TrainingSequences& sequences,
     : sequences_(sequences),
       settings_(settings),
       statistics_(recurrent_statistics(sequences)),
+      mirror_(mirror_of(sequences.layout)),
       network_(shape_of(sequences, settings), settings.descent, settings.seed) {}
 
 void RecurrentTrainer::fill_pool(std::size_t round) {
   if (pool_round_ == round + 1) return;
   pool_.assign(settings_.pool, {});
   const Random random = Random(settings_.seed).fork(1 + round);
-  for_each_parallel(settings_.pool, settings_.pool << 16, [&](std::size_t i) {
+  // One after another: `auto` has threads of its own, and memory for each sample at work.
+  for (std::size_t i = 0; i < settings_.pool; ++i)
     pool_[i] = random_recurrent_sample(sequences_, settings_.frames, random.fork(i));
-  });
   pool_round_ = round + 1;
 }
 
@@ -120,9 +121,11 @@ double RecurrentTrainer::step() {
   for (std::size_t i = 0; i < settings_.batch; ++i) {
     const std::size_t at = (batch_ % batches_a_round) * settings_.batch + i;
     const std::size_t form = order[at] / settings_.pool;
-    RecurrentSample chosen = pool_[order[at] % settings_.pool];
-    if (form % 2 == 1) chosen = mirrored(chosen, sequences_.layout);
-    if (form / 2 % 2 == 1) chosen = reversed(chosen);
+    RecurrentSample chosen =
+        in_form(pool_[order[at] % settings_.pool], {form % 2 == 1, form / 2 % 2 == 1}, mirror_);
+    if (settings_.offset_deg > 0 || settings_.most_scale > 1)
+      chosen = of_another_body(std::move(chosen), settings_.offset_deg, settings_.most_scale,
+                               Random(settings_.seed ^ 0xb0d1e5).fork(number_of(batch_, i)));
     const RecurrentInput input = recurrent_input(chosen.take, statistics_);
     const std::vector<float> outputs = network_.forward(input.features, number_of(batch_, i));
     std::vector<float> correction(chosen.truth.size()), derivative;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 
 #include "kinemend/model.hpp"
@@ -20,13 +19,10 @@ struct RecurrentTraining {
   std::size_t uses = 4;          ///< of a damaged sample: as it is, mirrored, backwards, both
   std::size_t hidden = 192;
   std::vector<std::size_t> dilations{1, 2, 4, 8};
-  double rate = 1.5e-3;  ///< of learning, at its highest
+  double offset_deg = 5;    ///< of the bodies that samples are made to be of, a channel
+  double most_scale = 1.2;  ///< of their motion
+  double rate = 1.5e-3;     ///< of learning, at its highest
   DescentSettings descent;
-};
-
-struct RecurrentProgress {
-  std::size_t batch = 0;
-  double loss = 0;  ///< running mean of the share of the error of `auto` that is left, squared
 };
 
 class RecurrentTrainer {
@@ -36,6 +32,10 @@ class RecurrentTrainer {
   std::size_t batch() const noexcept { return batch_; }
   /// One step of the descent; its loss.
   double step();
+  /// What the network makes of features now (T x outputs).
+  std::vector<float> outputs(std::span<const float> features) const {
+    return network_.run(features);
+  }
   /// Share of the error of `auto` that is left on a sample: root of mean squares.
   double share_left(const RecurrentSample& sample) const;
   /// The model as it is now. Card, takes and seconds are the caller's.
@@ -46,11 +46,11 @@ class RecurrentTrainer {
 
  private:
   void fill_pool(std::size_t round);
-  const RecurrentSample& sample(std::size_t number) const { return pool_[number]; }
 
   const TrainingSequences& sequences_;
   RecurrentTraining settings_;
   RecurrentStatistics statistics_;
+  BodyMirror mirror_;
   SequenceNetwork network_;
   std::vector<RecurrentSample> pool_;
   std::size_t pool_round_ = 0;  // of the pool at hand, plus 1

@@ -4,7 +4,6 @@
 #include <torch/torch.h>
 
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include "kinemend/error.hpp"
@@ -48,33 +47,6 @@ torch::Tensor forward_of(const ConvolutionalShape& shape, const Call& call, torc
   return call.dense(torch::relu(x), "output");
 }
 
-torch::Tensor forward_of(const RecurrentShape& shape, const Call& call, torch::Tensor x) {
-  for (std::size_t i = 0; i < shape.encoder.size(); ++i)
-    x = torch::relu(call.dense(x, fmt::format("encoder{}", i)));
-  if (shape.layers > 0) {
-    x = call.drop(x);
-    std::vector<torch::Tensor> weights;
-    for (std::size_t layer = 0; layer < shape.layers; ++layer) {
-      for (const char* way : {"forward", "backward"}) {
-        const std::string name = fmt::format("lstm{}.{}", layer, way);
-        for (const char* part : {"input.weight", "state.weight", "input.bias", "state.bias"})
-          weights.push_back(call.weights.at(name + "." + part));
-      }
-    }
-    const auto units = static_cast<std::int64_t>(shape.units);
-    const torch::Tensor zero =
-        torch::zeros({2 * static_cast<std::int64_t>(shape.layers), 1, units});
-    x = std::get<0>(torch::lstm(x.unsqueeze(1), {zero, zero}, weights, true,
-                                static_cast<std::int64_t>(shape.layers), call.dropout,
-                                call.dropout > 0, true, false))
-            .squeeze(1);
-    x = call.drop(x);
-  }
-  for (std::size_t i = 0; i < shape.decoder.size(); ++i)
-    x = torch::relu(call.dense(x, fmt::format("decoder{}", i)));
-  return call.dense(x, "output");
-}
-
 // Draws weights, uniform as is usual for ReLU, in the order of their making.
 class Maker {
  public:
@@ -110,31 +82,6 @@ void make(const ConvolutionalShape& shape, Maker& maker) {
   maker.add_dense("output", hidden, shape.outputs, 0);
 }
 
-void make(const RecurrentShape& shape, Maker& maker) {
-  std::size_t width = shape.inputs;
-  for (std::size_t i = 0; i < shape.encoder.size(); ++i) {
-    maker.add_dense(fmt::format("encoder{}", i), width, shape.encoder[i], std::sqrt(2.0));
-    width = shape.encoder[i];
-  }
-  const auto units = static_cast<std::int64_t>(shape.units);
-  const double bound = 1 / std::sqrt(static_cast<double>(shape.units));
-  for (std::size_t layer = 0; layer < shape.layers; ++layer) {
-    for (const char* way : {"forward", "backward"}) {
-      const std::string name = fmt::format("lstm{}.{}", layer, way);
-      maker.add(name + ".input.weight", {4 * units, static_cast<std::int64_t>(width)}, bound);
-      maker.add(name + ".state.weight", {4 * units, units}, bound);
-      maker.add(name + ".input.bias", {4 * units}, bound);
-      maker.add(name + ".state.bias", {4 * units}, bound);
-    }
-    width = 2 * shape.units;
-  }
-  for (std::size_t i = 0; i < shape.decoder.size(); ++i) {
-    maker.add_dense(fmt::format("decoder{}", i), width, shape.decoder[i], std::sqrt(2.0));
-    width = shape.decoder[i];
-  }
-  maker.add_dense("output", width, shape.outputs, 0);
-}
-
 std::vector<float> floats_of(const torch::Tensor& tensor) {
   const torch::Tensor flat = tensor.detach().contiguous();
   const float* values = flat.data_ptr<float>();
@@ -163,21 +110,14 @@ void take_values(const Tensor& from, torch::Tensor& target, const std::string& n
 }  // namespace
 
 struct SequenceNetwork::Body {
-  std::size_t inputs, outputs;
+  ConvolutionalShape shape;
   DescentSettings settings;
-  std::function<torch::Tensor(const Call&, const torch::Tensor&)> function;
   Parameters weights, means, first, second;  // moments of the gradient
   std::int64_t steps = 0;
   torch::Tensor last;  // outputs of the last forward
 
-  template <class Shape>
-  Body(const Shape& shape, const DescentSettings& given, std::uint64_t seed)
-      : inputs(shape.inputs),
-        outputs(shape.outputs),
-        settings(given),
-        function([shape](const Call& call, const torch::Tensor& x) {
-          return forward_of(shape, call, x);
-        }) {
+  Body(const ConvolutionalShape& made, const DescentSettings& given, std::uint64_t seed)
+      : shape(made), settings(given) {
     Maker maker(weights, seed);
     make(shape, maker);
     for (const auto& [name, values] : weights) {
@@ -200,20 +140,17 @@ struct SequenceNetwork::Body {
 SequenceNetwork::SequenceNetwork(const ConvolutionalShape& shape, const DescentSettings& settings,
                                  std::uint64_t seed)
     : body_(std::make_unique<Body>(shape, settings, seed)) {}
-SequenceNetwork::SequenceNetwork(const RecurrentShape& shape, const DescentSettings& settings,
-                                 std::uint64_t seed)
-    : body_(std::make_unique<Body>(shape, settings, seed)) {}
 SequenceNetwork::~SequenceNetwork() = default;
 
 std::vector<float> SequenceNetwork::forward(std::span<const float> inputs, std::uint64_t seed) {
   torch::manual_seed(seed);
-  body_->last = body_->function({body_->weights, body_->settings.dropout},
-                                body_->matrix_of(inputs, body_->inputs).clone());
+  body_->last = forward_of(body_->shape, {body_->weights, body_->settings.dropout},
+                           body_->matrix_of(inputs, body_->shape.inputs).clone());
   return floats_of(body_->last);
 }
 
 void SequenceNetwork::add_gradient(std::span<const float> derivative) {
-  body_->last.backward(body_->matrix_of(derivative, body_->outputs));
+  body_->last.backward(body_->matrix_of(derivative, body_->shape.outputs));
   body_->last = torch::Tensor();
 }
 
@@ -246,7 +183,8 @@ double SequenceNetwork::step(double rate) {
 
 std::vector<float> SequenceNetwork::run(std::span<const float> inputs) const {
   const torch::NoGradGuard guard;
-  return floats_of(body_->function({body_->means, 0}, body_->matrix_of(inputs, body_->inputs)));
+  return floats_of(
+      forward_of(body_->shape, {body_->means, 0}, body_->matrix_of(inputs, body_->shape.inputs)));
 }
 
 Weights SequenceNetwork::averages() const {

@@ -31,21 +31,11 @@ struct ConvolutionalShape {
   std::vector<std::size_t> dilations{1, 2, 4, 8};
 };
 
-/// The network of the paper: `encoder` dense layers with ReLU, LSTM layers in both directions, then
-/// `decoder` dense layers, the last of them linear. No encoder: the ablation BF.
-struct RecurrentShape {
-  std::size_t inputs = 0, outputs = 0;
-  std::vector<std::size_t> encoder{64, 64, 64, 64};
-  std::size_t units = 126, layers = 2;
-  std::vector<std::size_t> decoder{126, 126, 126};
-};
-
 class SequenceNetwork {
  public:
   /// Weights are drawn from the seed; those of the last layer are zero.
   SequenceNetwork(const ConvolutionalShape& shape, const DescentSettings& settings,
                   std::uint64_t seed);
-  SequenceNetwork(const RecurrentShape& shape, const DescentSettings& settings, std::uint64_t seed);
   ~SequenceNetwork();
 
   /// T x inputs to T x outputs, with dropout drawn from `seed`; kept for `add_gradient`.

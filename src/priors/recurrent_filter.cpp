@@ -121,10 +121,7 @@ std::vector<float> correction_of(const RecurrentNetwork& network, const Reader& 
     const std::size_t end = is_last ? frames : begin + hop;
     const std::size_t first = begin - std::min(begin, margin);
     const std::size_t last = std::min(end + margin, frames);
-    const RecurrentInput input = recurrent_input(reader.read(first, last), network.statistics);
-    const std::vector<float> outputs = run(network, input.features);
-    std::vector<float> part((last - first) * channels);
-    recurrent_correction(input, outputs, part);
+    const std::vector<float> part = ensemble_correction(network, reader.read(first, last));
     for (std::size_t f = first; f < last; ++f) {
       const float weight = weight_of(f, begin, end, frames);
       for (std::size_t c = 0; c < channels; ++c)

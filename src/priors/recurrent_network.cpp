@@ -48,6 +48,7 @@ RecurrentNetwork recurrent_network_of(const Model& model) {
   network.rate_hz = model.rate_hz;
   network.statistics = {per_channel(model, "mean", false), per_channel(model, "deviation", true),
                         per_channel(model, "speed", true)};
+  network.mirror = mirror_of(model.layout);
   network.input = nn::read_dense(model.tensors, "input");
   check_width("input", network.input.inputs(), recurrent_feature_count(channels));
   const std::size_t hidden = network.input.outputs();
@@ -91,6 +92,22 @@ std::vector<float> run(const RecurrentNetwork& network, std::span<const float> f
   std::vector<float> outputs(steps * network.output.outputs());
   nn::run(network.output, view(h, hidden), rows(outputs, network.output.outputs()));
   return outputs;
+}
+
+std::vector<float> ensemble_correction(const RecurrentNetwork& network, const RecurrentTake& take) {
+  constexpr float share = 0.25F;
+  std::vector<float> mean(take.measured.size(), 0.0F), correction(mean.size());
+  for (const bool is_mirrored : {false, true}) {
+    for (const bool is_reversed : {false, true}) {
+      const RecurrentForm form{is_mirrored, is_reversed};
+      const RecurrentInput input =
+          recurrent_input(in_form(take, form, network.mirror), network.statistics);
+      recurrent_correction(input, run(network, input.features), correction);
+      const std::vector<float> back = in_form(correction, form, network.mirror);
+      for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += share * back[i];
+    }
+  }
+  return mean;
 }
 
 }  // namespace kinemend

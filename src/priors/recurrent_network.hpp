@@ -6,6 +6,7 @@
 
 #include "kinemend/model.hpp"
 #include "nn/layers.hpp"
+#include "priors/recurrent_forms.hpp"
 #include "priors/recurrent_input.hpp"
 
 // The network of the method `recurrent`, for inference.
@@ -20,6 +21,7 @@ struct RecurrentNetwork {
   };
 
   RecurrentStatistics statistics;
+  BodyMirror mirror;
   nn::Dense input;
   std::vector<Block> blocks;
   nn::Dense output;
@@ -34,5 +36,9 @@ RecurrentNetwork recurrent_network_of(const Model& model);
 
 /// T x features to T x outputs.
 std::vector<float> run(const RecurrentNetwork& network, std::span<const float> features);
+
+/// What is to be added to what `auto` made of a take (F x D): the mean over the take as it is, in a
+/// mirror, backwards, and both.
+std::vector<float> ensemble_correction(const RecurrentNetwork& network, const RecurrentTake& take);
 
 }  // namespace kinemend

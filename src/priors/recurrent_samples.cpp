@@ -124,72 +124,26 @@ PoseMatrix warped(const PoseMatrix& poses, double speed, std::size_t frames) {
   return result;
 }
 
-std::string mirrored_name(const std::string& name) {
-  const auto swapped = [&](std::string_view from, std::string_view to) {
-    return std::string(to) + name.substr(from.size());
-  };
-  const auto begins = [&](std::string_view text) { return name.rfind(text, 0) == 0; };
-  if (begins("Left")) return swapped("Left", "Right");
-  if (begins("Right")) return swapped("Right", "Left");
-  if (begins("L")) return swapped("L", "R");
-  if (begins("R")) return swapped("R", "L");
-  return name;
-}
-
 }  // namespace
 
-std::vector<std::size_t> mirrored_tracks(const BodyLayout& layout) {
-  std::vector<std::size_t> tracks(layout.channel_count() / 3);
-  for (std::size_t n = 0; n < tracks.size(); ++n) {
-    tracks[n] = n;
-    if (n >= layout.track_count()) continue;
-    const auto found =
-        std::find(layout.names.begin(), layout.names.end(), mirrored_name(layout.names[n]));
-    if (found != layout.names.end())
-      tracks[n] = static_cast<std::size_t>(found - layout.names.begin());
-  }
-  return tracks;
+RecurrentSample in_form(const RecurrentSample& sample, RecurrentForm form,
+                        const BodyMirror& mirror) {
+  return {in_form(sample.take, form, mirror), in_form(sample.truth, form, mirror)};
 }
 
-RecurrentSample mirrored(const RecurrentSample& sample, const BodyLayout& layout) {
-  const std::vector<std::size_t> partner = mirrored_tracks(layout);
-  const std::size_t channels = sample.take.channels, tracks = partner.size();
-  RecurrentSample result = sample;
-  const auto mirror = [&](const std::vector<float>& from, std::vector<float>& to) {
-    for (std::size_t f = 0; f < sample.take.frames; ++f) {
-      for (std::size_t n = 0; n < tracks; ++n) {
-        // Left is x: a position changes that, an axis of rotation the two others.
-        const float sign = n < layout.track_count() ? 1.0F : -1.0F;
-        const float* v = from.data() + f * channels + 3 * partner[n];
-        float* w = to.data() + f * channels + 3 * n;
-        w[0] = sign * v[0], w[1] = -sign * v[1], w[2] = -sign * v[2];
-      }
-    }
-  };
-  mirror(sample.take.measured, result.take.measured);
-  mirror(sample.take.automatic, result.take.automatic);
-  mirror(sample.truth, result.truth);
-  for (std::size_t f = 0; f < sample.take.frames; ++f) {
-    for (std::size_t n = 0; n < tracks; ++n)
-      result.take.marks[f * tracks + n] = sample.take.marks[f * tracks + partner[n]];
+RecurrentSample of_another_body(RecurrentSample sample, double offset_deg, double most_scale,
+                                Random random) {
+  const double most = std::log(most_scale);
+  const auto scale = static_cast<float>(std::exp(random.uniform(-most, most)));
+  std::vector<float> offsets;
+  for (std::size_t c = 0; c < sample.take.channels; ++c)
+    offsets.push_back(static_cast<float>(offset_deg * random.normal()));
+  for (std::vector<float>* values :
+       {&sample.take.measured, &sample.take.automatic, &sample.truth}) {
+    for (std::size_t i = 0; i < values->size(); ++i)
+      (*values)[i] = scale * (*values)[i] + offsets[i % offsets.size()];
   }
-  return result;
-}
-
-RecurrentSample reversed(const RecurrentSample& sample) {
-  RecurrentSample result = sample;
-  const std::size_t frames = sample.take.frames;
-  const auto reverse = [&](const auto& from, auto& to) {
-    const std::size_t width = from.size() / std::max<std::size_t>(frames, 1);
-    for (std::size_t f = 0; f < frames; ++f)
-      std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(f * width), width,
-                  to.begin() + static_cast<std::ptrdiff_t>((frames - 1 - f) * width));
-  };
-  reverse(sample.take.measured, result.take.measured);
-  reverse(sample.take.automatic, result.take.automatic);
-  reverse(sample.take.marks, result.take.marks);
-  reverse(sample.truth, result.truth);
-  return result;
+  return sample;
 }
 
 RecurrentSample recurrent_sample(const BodyLayout& layout, double rate_hz, const PoseMatrix& truth,

@@ -5,6 +5,7 @@
 
 #include "kinemend/body.hpp"
 #include "kinemend/random.hpp"
+#include "priors/recurrent_forms.hpp"
 #include "priors/recurrent_input.hpp"
 #include "priors/training_sequences.hpp"
 
@@ -17,14 +18,13 @@ struct RecurrentSample {
   std::vector<float> truth;  ///< F x D
 };
 
-/// Of each track which one it is in a mirror (by Left and Right, or L and R, in the names; itself
-/// where there is none); the place is its own.
-std::vector<std::size_t> mirrored_tracks(const BodyLayout& layout);
+RecurrentSample in_form(const RecurrentSample& sample, RecurrentForm form,
+                        const BodyMirror& mirror);
 
-/// The sample in a mirror: exact where the references of the layout are symmetrical. In time: the
-/// take run backwards.
-RecurrentSample mirrored(const RecurrentSample& sample, const BodyLayout& layout);
-RecurrentSample reversed(const RecurrentSample& sample);
+/// The sample of another body: each channel moved by a constant (normal, `offset_deg`), and all
+/// scaled by one factor of up to `most_scale` or its inverse.
+RecurrentSample of_another_body(RecurrentSample sample, double offset_deg, double most_scale,
+                                Random random);
 
 /// Mixed damage of a stretch of up to `frames` frames of a sequence, which is drawn in proportion
 /// to its length and weight; its speed is changed by up to a third. A fifth are clean. The same

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
 #include <vector>
 
 #include "kinemend/synth.hpp"
@@ -74,41 +73,64 @@ TEST(RecurrentSamples, AFifthIsCleanAndTheOthersAreNot) {
   EXPECT_LE(clean, 24u);
 }
 
-TEST(RecurrentSamples, AMirroredWalkIsAWalkAndTwiceMirroredItself) {
+TEST(RecurrentForms, AMirroredWalkHasTheOtherKneesBendAndTwiceMirroredIsItself) {
   const BodyLayout& layout = walks().layout;
-  const std::vector<std::size_t> partner = mirrored_tracks(layout);
-  for (std::size_t n = 0; n < partner.size(); ++n) EXPECT_EQ(partner[partner[n]], n);
-  EXPECT_EQ(std::set<std::size_t>(partner.begin(), partner.end()).size(), partner.size());
+  const BodyMirror mirror = mirror_of(layout);
+  for (std::size_t n = 0; n < mirror.partners.size(); ++n)
+    EXPECT_EQ(mirror.partners[mirror.partners[n]], n);
   const RecurrentSample sample =
       recurrent_sample(layout, 120, sequence_at(walks(), 0).poses, Random(4));
-  const RecurrentSample once = mirrored(sample, layout), twice = mirrored(once, layout);
+  const RecurrentSample once = in_form(sample, {true, false}, mirror);
+  const RecurrentSample twice = in_form(once, {true, false}, mirror);
   EXPECT_NE(once.truth, sample.truth);
   EXPECT_EQ(twice.truth, sample.truth);
   EXPECT_EQ(twice.take.measured, sample.take.measured);
   EXPECT_EQ(twice.take.marks, sample.take.marks);
-  // The left knee's bend becomes the right one's: a walk has both, half a cycle apart.
   const auto track = [&](const char* name) {
     return static_cast<std::size_t>(std::find(layout.names.begin(), layout.names.end(), name) -
                                     layout.names.begin());
   };
   const std::size_t left = 3 * track("LeftLeg"), right = 3 * track("RightLeg");
+  const std::size_t place = sample.take.channels - 3;
   for (std::size_t f = 0; f < sample.take.frames; ++f) {
     const std::size_t row = f * sample.take.channels;
     EXPECT_EQ(once.truth[row + right], sample.truth[row + left]);
     EXPECT_EQ(once.truth[row + right + 1], -sample.truth[row + left + 1]);
+    EXPECT_EQ(once.truth[row + place], -sample.truth[row + place]);
+    EXPECT_EQ(once.truth[row + place + 1], sample.truth[row + place + 1]);
   }
 }
 
-TEST(RecurrentSamples, ReversedTwiceAreThemselves) {
+TEST(RecurrentForms, BackwardsTheLastFrameIsTheFirst) {
+  const BodyMirror mirror = mirror_of(walks().layout);
   const RecurrentSample sample =
       recurrent_sample(walks().layout, 120, sequence_at(walks(), 0).poses, Random(4));
-  const RecurrentSample once = reversed(sample);
-  EXPECT_EQ(std::vector<float>(once.truth.begin(), once.truth.begin() + 3),
-            std::vector<float>(
-                sample.truth.end() - static_cast<std::ptrdiff_t>(sample.take.channels),
-                sample.truth.end() - static_cast<std::ptrdiff_t>(sample.take.channels - 3)));
-  EXPECT_EQ(reversed(once).take.measured, sample.take.measured);
-  EXPECT_EQ(reversed(once).take.marks, sample.take.marks);
+  const RecurrentSample once = in_form(sample, {false, true}, mirror);
+  const std::size_t width = sample.take.channels, last = (sample.take.frames - 1) * width;
+  for (std::size_t c = 0; c < width; ++c) EXPECT_EQ(once.truth[c], sample.truth[last + c]);
+  EXPECT_EQ(in_form(once, {false, true}, mirror).take.measured, sample.take.measured);
+  EXPECT_EQ(in_form(once, {false, true}, mirror).take.marks, sample.take.marks);
+}
+
+TEST(RecurrentSamples, OfAnotherBodyKeepTheirErrorsButForTheScale) {
+  const RecurrentSample sample =
+      recurrent_sample(walks().layout, 120, sequence_at(walks(), 0).poses, Random(4));
+  const RecurrentSample other = of_another_body(sample, 5, 1.5, Random(2));
+  const double before = error(sample.take.measured, sample.truth);
+  const double after = error(other.take.measured, other.truth);
+  ASSERT_GT(before, 0);
+  EXPECT_NE(before, after);
+  EXPECT_LT(std::abs(std::log(after / before)), std::log(1.5) + 1e-4);
+  EXPECT_NEAR(error(other.take.automatic, other.truth) / error(sample.take.automatic, sample.truth),
+              after / before, 1e-3);
+}
+
+TEST(RecurrentForms, ATrackWhosePartnerHasAnotherIsItsOwn) {
+  BodyLayout layout;
+  layout.names = {"LeftArm", "RArm", "RightArm", "LArm", "Lamp"};
+  layout.parents = {-1, 0, 0, 0, 0};
+  layout.with_place = false;
+  EXPECT_EQ(mirror_of(layout).partners, (std::vector<std::size_t>{2, 3, 0, 1, 4}));
 }
 
 TEST(RecurrentStatistics, AreMeansAndDeviationsOfTheChannels) {
