@@ -5,6 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "priors/auto_channels.hpp"
+#include "tracks/held_samples.hpp"
+#include "tracks/vector_tracks.hpp"
+
 namespace kinemend {
 
 namespace {
@@ -12,6 +16,9 @@ namespace {
 // Frames at the network's rate: of a stretch, and by which it reaches into its neighbours, where
 // the weights of both cross over. The network sees 0.5 s about a frame, its kernels 0.4 s.
 constexpr std::size_t hop = 4096, margin = 256;
+// Below it the network sees next to nothing of how a motion goes on, and each frame stands for many
+// of its own.
+constexpr double least_rate_hz = 20;
 
 // Frames of the network's time; where each lies in the take.
 struct Timing {
@@ -132,15 +139,15 @@ std::vector<float> correction_of(const RecurrentNetwork& network, const Reader& 
   return correction;
 }
 
-}  // namespace
-
-PoseMatrix recurrent_filter(const RecurrentNetwork& network, const RecurrentFacts& facts) {
-  PoseMatrix result = facts.automatic;
+// F x D at the take's rate.
+PoseMatrix correction_at_take(const RecurrentNetwork& network, const RecurrentFacts& facts) {
+  const std::size_t channels = facts.automatic.channels;
+  PoseMatrix result(facts.automatic.frames, channels);
   if (result.frames == 0) return result;
   const Timing timing = timing_of(result.frames, facts.rate_hz, network.rate_hz);
   const std::vector<float> correction =
       correction_of(network, Reader(facts, timing), timing.frames);
-  const std::size_t channels = result.channels, end = timing.frames - 1;
+  const std::size_t end = timing.frames - 1;
   for (std::size_t f = 0; f < result.frames; ++f) {
     const double place = static_cast<double>(f) / timing.take_frames_a_frame;
     const std::size_t before = std::min(static_cast<std::size_t>(place + 1e-9), end);
@@ -149,9 +156,94 @@ PoseMatrix recurrent_filter(const RecurrentNetwork& network, const RecurrentFact
     for (std::size_t c = 0; c < channels; ++c) {
       const double from = static_cast<double>(correction[before * channels + c]);
       const double to = static_cast<double>(correction[next * channels + c]);
-      result(f, c) += from + share * (to - from);
+      result(f, c) = from + share * (to - from);
     }
   }
+  return result;
+}
+
+// A take whose truth is known: what `auto` made of this one, with what it took away backwards.
+struct Trial {
+  PoseMatrix measured;
+  std::vector<std::uint8_t> observed;  // F x D / 3
+};
+
+Trial trial_of(const RecurrentFacts& facts) {
+  const PoseMatrix &y = facts.measured, &a = facts.automatic;
+  Trial trial{a, std::vector<std::uint8_t>(y.frames * (y.channels / 3), 1)};
+  for (std::size_t f = 0; f < y.frames; ++f) {
+    for (std::size_t c = 0; c < y.channels; ++c) {
+      const std::size_t from = (y.frames - 1 - f) * y.channels + c;
+      if (facts.missing[from] == 0) trial.measured(f, c) += y.values[from] - a.values[from];
+      if (facts.missing[f * y.channels + c] != 0) trial.observed[f * (y.channels / 3) + c / 3] = 0;
+    }
+  }
+  return trial;
+}
+
+// `auto` knows frames that repeat or join samples of a lower rate; the network would take them for
+// measurements.
+bool has_lower_rate(const RecurrentFacts& facts) {
+  const PoseMatrix& y = facts.measured;
+  VectorTracks tracks(y.frames, y.channels / 3);
+  SampleMarks missing(y.frames, tracks.tracks());
+  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
+    for (std::size_t f = 0; f < y.frames; ++f) {
+      tracks.set(f, n, {y(f, 3 * n), y(f, 3 * n + 1), y(f, 3 * n + 2)});
+      missing(f, n) = facts.missing[f * y.channels + 3 * n];
+    }
+  }
+  return find_sample_pattern(tracks, missing).join != SampleJoin::none;
+}
+
+// How much of the correction brings a trial nearest to its truth, for each track.
+std::vector<double> shares_in_trial(const RecurrentNetwork& network, const BodyLayout& layout,
+                                    const RecurrentFacts& facts) {
+  const Trial trial = trial_of(facts);
+  const AutoChannels cleaned =
+      auto_of_channels(layout, facts.rate_hz, trial.measured, trial.observed);
+  std::vector<std::uint8_t> missing = cleaned.suspect;
+  for (std::size_t i = 0; i < missing.size(); ++i) {
+    if (facts.missing[i] != 0) missing[i] = 1;
+  }
+  const PoseMatrix correction =
+      correction_at_take(network, {trial.measured, cleaned.poses, missing, facts.rate_hz});
+  const std::size_t tracks = correction.channels / 3;
+  std::vector<double> product(tracks), square(tracks), shares;
+  for (std::size_t i = 0; i < correction.values.size(); ++i) {
+    if (missing[i] != 0) continue;
+    const double step = correction.values[i];
+    const std::size_t track = i % correction.channels / 3;
+    product[track] += step * (facts.automatic.values[i] - cleaned.poses.values[i]);
+    square[track] += step * step;
+  }
+  for (std::size_t n = 0; n < tracks; ++n)
+    shares.push_back(square[n] > 0 ? std::clamp(product[n] / square[n], 0.0, 1.0) : 1);
+  return shares;
+}
+
+}  // namespace
+
+PoseMatrix recurrent_filter(const RecurrentNetwork& network, const RecurrentFacts& facts) {
+  PoseMatrix result = correction_at_take(network, facts);
+  for (std::size_t i = 0; i < result.values.size(); ++i)
+    result.values[i] += facts.automatic.values[i];
+  return result;
+}
+
+PoseMatrix guarded_recurrent_filter(const RecurrentNetwork& network, const BodyLayout& layout,
+                                    const RecurrentFacts& facts, std::vector<double>* shares) {
+  PoseMatrix result = facts.automatic;
+  std::vector<double> helpful(result.channels / 3, 0.0);
+  if (facts.rate_hz >= least_rate_hz && !has_lower_rate(facts)) {
+    helpful = shares_in_trial(network, layout, facts);
+    std::fill(helpful.begin() + static_cast<std::ptrdiff_t>(layout.track_count()), helpful.end(),
+              0.0);
+    const PoseMatrix correction = correction_at_take(network, facts);
+    for (std::size_t i = 0; i < result.values.size(); ++i)
+      result.values[i] += helpful[i % result.channels / 3] * correction.values[i];
+  }
+  if (shares != nullptr) *shares = std::move(helpful);
   return result;
 }
 

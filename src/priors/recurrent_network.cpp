@@ -27,8 +27,7 @@ std::size_t whole_number(const Model& model, const std::string& name, std::size_
 }
 
 std::vector<float> per_channel(const Model& model, const char* name, bool is_positive) {
-  const std::vector<float> values =
-      nn::floats_of(model.tensor(name, {model.layout.channel_count()}));
+  std::vector<float> values = nn::floats_of(model.tensor(name, {model.layout.channel_count()}));
   if (is_positive && std::any_of(values.begin(), values.end(), [](float v) { return !(v > 0); }))
     refuse(fmt::format("the model's {} is not positive everywhere", name));
   return values;

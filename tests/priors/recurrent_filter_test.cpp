@@ -77,6 +77,31 @@ TEST(RecurrentFilter, ReadsNothingWhereSamplesAreMissing) {
   EXPECT_EQ(recurrent_filter(network, take.facts()).values, before.values);
 }
 
+TEST(GuardedRecurrentFilter, TakesNothingFromANetworkThatBringsTheNoiseBack) {
+  const Model model = constant_network_model(6, 1);
+  const RecurrentNetwork network = recurrent_network_of(model);
+  const Take take = noisy_take(600, 120);
+  std::vector<double> shares;
+  const PoseMatrix result = guarded_recurrent_filter(network, model.layout, take.facts(), &shares);
+  for (const double share : shares) EXPECT_LT(share, 0.05);
+  for (std::size_t i = 0; i < result.values.size(); ++i)
+    ASSERT_NEAR(result.values[i], take.automatic.values[i], 0.2);
+}
+
+TEST(GuardedRecurrentFilter, AddsTheShareOfTheCorrectionThatItFinds) {
+  const Model model = constant_network_model(1, 0.02);
+  const RecurrentNetwork network = recurrent_network_of(model);
+  Take take = noisy_take(600, 120);
+  std::vector<double> shares;
+  const PoseMatrix result = guarded_recurrent_filter(network, model.layout, take.facts(), &shares);
+  const PoseMatrix whole = recurrent_filter(network, take.facts());
+  for (std::size_t i = 0; i < result.values.size(); ++i) {
+    const double a = take.automatic.values[i];
+    ASSERT_NEAR(result.values[i] - a, shares[i % channels / 3] * (whole.values[i] - a), 1e-9);
+  }
+  for (const double share : shares) EXPECT_TRUE(share >= 0 && share <= 1);
+}
+
 TEST(RecurrentFilter, TakesAnyNumberOfFrames) {
   const RecurrentNetwork network = recurrent_network_of(test::small_network_model());
   for (const std::size_t frames : {0UL, 1UL, 2UL, 3UL, 4UL, 5UL, 4351UL, 4352UL, 4353UL}) {
@@ -84,6 +109,10 @@ TEST(RecurrentFilter, TakesAnyNumberOfFrames) {
       const PoseMatrix result = recurrent_filter(network, noisy_take(frames, rate_hz).facts());
       ASSERT_EQ(result.frames, frames);
       for (const double value : result.values) ASSERT_TRUE(std::isfinite(value));
+      if (frames > 5) continue;
+      const PoseMatrix guarded = guarded_recurrent_filter(
+          network, test::small_network_model().layout, noisy_take(frames, rate_hz).facts());
+      for (const double value : guarded.values) ASSERT_TRUE(std::isfinite(value));
     }
   }
 }

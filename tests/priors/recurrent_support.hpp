@@ -11,7 +11,7 @@
 namespace kinemend::test {
 
 /// Of a body of one joint and its place: the random network of
-/// tools/reference/recurrent_network.cpp, and beside its tensors some features and what LibTorch
+/// train/reference_recurrent_network.cpp, and beside its tensors some features and what LibTorch
 /// makes of them.
 inline Model small_network_model() {
   const std::string path = KINEMEND_TEST_FIXTURES "/nn/recurrent.safetensors";

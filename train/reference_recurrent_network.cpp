@@ -43,6 +43,6 @@ int main(int count, char** values) {
       TensorType::f32, {steps, shape.inputs}, {features.begin(), features.end()}};
   file.tensors["outputs"] = {
       TensorType::f32, {steps, shape.outputs}, {outputs.begin(), outputs.end()}};
-  file.metadata["made by"] = "tools/reference/recurrent_network.cpp";
+  file.metadata["made by"] = "train/reference_recurrent_network.cpp";
   std::ofstream(values[1], std::ios::binary) << write_tensors(file);
 }
