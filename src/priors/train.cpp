@@ -47,6 +47,11 @@ std::span<const LearnedMethod> methods_with_models() {
 }
 
 const LearnedMethod& find_learned_method(std::string_view name) {
+  for (const LearnedMethod& method : methods_with_models()) {
+    if (method.name == name && method.train == nullptr)
+      throw Error(ErrorKind::usage,
+                  fmt::format("the network of {} is trained by kinemend-train", name));
+  }
   return find_named(learned_methods(), name, "no model is trained for");
 }
 
