@@ -25,7 +25,7 @@ PoseMatrix recurrent_filter(const RecurrentNetwork& network, const RecurrentFact
 /// The same with only so much of the correction of each track (0 to 1) as helps in a trial: what
 /// `auto` made of the take is taken for the truth, what it took away is added again, backwards in
 /// time, and `auto` and the network clean that. A body or a motion that is unlike all that was
-/// learned from keeps what `auto` made of it; so do the place of the body, takes below 20 Hz, and
+/// learned from keeps what `auto` made of it; so do the place of the body, takes below 45 Hz, and
 /// frames that are samples of a lower rate. `shares`, if any, receives these (D / 3).
 PoseMatrix guarded_recurrent_filter(const RecurrentNetwork& network, const BodyLayout& layout,
                                     const RecurrentFacts& facts,

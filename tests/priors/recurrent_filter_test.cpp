@@ -102,6 +102,25 @@ TEST(GuardedRecurrentFilter, AddsTheShareOfTheCorrectionThatItFinds) {
   for (const double share : shares) EXPECT_TRUE(share >= 0 && share <= 1);
 }
 
+TEST(GuardedRecurrentFilter, LeavesToAutoLowRatesHeldSamplesAndThePlace) {
+  const Model model = constant_network_model(1, 0.5);
+  const RecurrentNetwork network = recurrent_network_of(model);
+  Take held = noisy_take(600, 120);
+  for (std::size_t i = 0; i < held.measured.values.size(); ++i) {
+    if (i / channels % 2 == 1) held.measured.values[i] = held.measured.values[i - channels];
+  }
+  for (const Take& take : {noisy_take(200, 30), held}) {
+    std::vector<double> shares;
+    const PoseMatrix result =
+        guarded_recurrent_filter(network, model.layout, take.facts(), &shares);
+    EXPECT_EQ(shares, (std::vector<double>{0, 0}));
+    EXPECT_EQ(result.values, take.automatic.values);
+  }
+  std::vector<double> shares;
+  guarded_recurrent_filter(network, model.layout, noisy_take(600, 120).facts(), &shares);
+  EXPECT_EQ(shares.back(), 0);
+}
+
 TEST(RecurrentFilter, TakesAnyNumberOfFrames) {
   const RecurrentNetwork network = recurrent_network_of(test::small_network_model());
   for (const std::size_t frames : {0UL, 1UL, 2UL, 3UL, 4UL, 5UL, 4351UL, 4352UL, 4353UL}) {
