@@ -169,6 +169,17 @@ struct SparseOptions {
 std::unique_ptr<Cleaner> make_sparse(const SparseOptions& options = {},
                                      std::shared_ptr<const Model> model = nullptr);
 
+/// A network corrects what `auto` makes of a take of joints: for each joint and frame which bands
+/// of motion to keep, and a residual (after Mall et al. 2017). It knows nothing of the noise
+/// beforehand. Errors of `clean`, beside those above: a take of markers.
+struct RecurrentOptions {
+  std::string model;
+  std::string map;
+  bool fill = true;
+};
+std::unique_ptr<Cleaner> make_recurrent(const RecurrentOptions& options = {},
+                                        std::shared_ptr<const Model> model = nullptr);
+
 /// Kalman filter or smoother with system matrices learned from clips (Lou & Chai 2010, section
 /// 4.2). No model ships.
 struct KalmanLearnedOptions {

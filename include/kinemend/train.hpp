@@ -44,11 +44,15 @@ struct LearnedMethod {
   int version = 1;      ///< of the model's tensors and numbers: the newest that is read, as written
   std::string summary;  ///< what is fitted, one line
   std::vector<OptionSpec> options;  ///< of the training
+  /// nullptr for a network, which `kinemend-train` fits.
   Model (*train)(const TrainingTakes& takes, const OptionValues& values,
                  const TrainSettings& settings);
 };
 
+/// Those that `train_model` fits.
 std::span<const LearnedMethod> learned_methods();
+/// These, and the networks: all methods whose models are read.
+std::span<const LearnedMethod> methods_with_models();
 /// Errors: `ErrorKind::usage`, with the names there are.
 const LearnedMethod& find_learned_method(std::string_view name);
 /// Calibration frames are left out. Errors: `ErrorKind::usage` for an unknown method or option, a

@@ -21,6 +21,7 @@ Method weighted_mean_method();
 
 #define KINEMEND_DECLARE(name) Method name##_method();
 KINEMEND_LEARNED_METHODS(KINEMEND_DECLARE)
+KINEMEND_NETWORK_METHODS(KINEMEND_DECLARE)
 #undef KINEMEND_DECLARE
 
 }  // namespace kinemend

@@ -25,6 +25,7 @@ std::span<const Method> methods() {
     list.push_back(kalman_method());
 #define KINEMEND_LIST(name) list.push_back(name##_method());
     KINEMEND_LEARNED_METHODS(KINEMEND_LIST)
+    KINEMEND_NETWORK_METHODS(KINEMEND_LIST)
 #undef KINEMEND_LIST
     list.push_back(one_euro_method());
     return list;

@@ -112,7 +112,7 @@ class ModelReader {
 
   void check_version(const std::string& method, int version) const {
     std::vector<std::string_view> known;
-    for (const LearnedMethod& entry : learned_methods()) {
+    for (const LearnedMethod& entry : methods_with_models()) {
       known.push_back(entry.name);
       if (entry.name != method) continue;
       if (version <= entry.version) return;

@@ -34,7 +34,24 @@ std::span<const LearnedMethod> learned_methods() {
   return table;
 }
 
+std::span<const LearnedMethod> methods_with_models() {
+  static const std::vector<LearnedMethod> table = [] {
+    const std::span<const LearnedMethod> fitted = learned_methods();
+    std::vector<LearnedMethod> list(fitted.begin(), fitted.end());
+#define KINEMEND_LIST(name) list.push_back(name##_learned());
+    KINEMEND_NETWORK_METHODS(KINEMEND_LIST)
+#undef KINEMEND_LIST
+    return list;
+  }();
+  return table;
+}
+
 const LearnedMethod& find_learned_method(std::string_view name) {
+  for (const LearnedMethod& method : methods_with_models()) {
+    if (method.name == name && method.train == nullptr)
+      throw Error(ErrorKind::usage,
+                  fmt::format("the network of {} is trained by kinemend-train", name));
+  }
   return find_named(learned_methods(), name, "no model is trained for");
 }
 

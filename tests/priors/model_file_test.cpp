@@ -186,6 +186,7 @@ TEST(ModelFile, RefusesNewerVersionsWithBothNumbers) {
             "walk.kmodel: the model is version 99 of wiener, and this program reads up to 1");
   EXPECT_EQ(message_with("method", "oracle"),
             "walk.kmodel: metadata \"method\": expected one of example, wiener, kalman-learned, "
+            "recurrent, "
             "found \"oracle\"");
 }
 

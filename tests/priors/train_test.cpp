@@ -50,6 +50,8 @@ TEST(LearnedMethods, AnswersAnUnknownNameWithTheOneMeant) {
             "no model is trained for \"exampel\"; did you mean example? (there are example, "
             "wiener, sparse, kalman-learned)");
   EXPECT_EQ(find_learned_method("wiener").name, "wiener");
+  EXPECT_EQ(usage_error_of([] { find_learned_method("recurrent"); }),
+            "the network of recurrent is trained by kinemend-train");
 }
 
 TEST(TrainModel, RefusesWhatMakesNoSenseBeforeATakeIsRead) {

@@ -1,0 +1,110 @@
+#include "nn/recurrent_layers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "kinemend/error.hpp"
+#include "nn/activation_kernel.hpp"
+
+namespace kinemend::nn {
+
+namespace {
+
+constexpr std::size_t lstm_gate_count = 4, gru_gate_count = 3;
+
+MatrixViewF row_of(std::span<const float> values) {
+  return {values.data(), 1, values.size(), values.size()};
+}
+MutableMatrixViewF mutable_row(std::vector<float>& values) {
+  return {values.data(), 1, values.size(), values.size()};
+}
+
+void check_gates(const std::string& name, const Dense& input, const Dense& state,
+                 std::size_t gates) {
+  if (input.outputs() == gates * state.inputs() && state.outputs() == input.outputs()) return;
+  throw Error(ErrorKind::unreadable_input,
+              fmt::format("layer {}: its {} and {} gates do not fit {} units", name,
+                          input.outputs(), state.outputs(), state.inputs()));
+}
+
+// The rest of a step, from what the input brings to the gates.
+void step_from_gates(const Lstm& layer, RecurrentState& state) {
+  multiply(row_of(state.hidden), layer.state, mutable_row(state.gates), Product::add);
+  lstm_gates(state.gates.data(), layer.units(), state.cell.data(), state.hidden.data());
+}
+void step_from_gates(const Gru& layer, RecurrentState& state) {
+  run(layer.state, row_of(state.hidden), mutable_row(state.more_gates));
+  gru_gates(state.gates.data(), state.more_gates.data(), layer.units(), state.hidden.data());
+}
+
+template <class Layer>
+void step_layer(const Layer& layer, std::span<const float> x, RecurrentState& state) {
+  run(layer.input, row_of(x), mutable_row(state.gates));
+  step_from_gates(layer, state);
+}
+
+// The products with the inputs of all frames are made together.
+template <class Layer>
+void run_layer(const Layer& layer, Direction direction, const MatrixViewF& x,
+               const MutableMatrixViewF& y) {
+  assert(x.columns == layer.inputs() && y.columns == layer.units() && x.rows == y.rows);
+  const std::size_t width = layer.input.outputs();
+  std::vector<float> gates(x.rows * width);
+  run(layer.input, x, {gates.data(), x.rows, width, width});
+  RecurrentState state = start(layer);
+  for (std::size_t i = 0; i < x.rows; ++i) {
+    const std::size_t t = direction == Direction::forward ? i : x.rows - 1 - i;
+    std::copy_n(gates.data() + t * width, width, state.gates.data());
+    step_from_gates(layer, state);
+    std::copy(state.hidden.begin(), state.hidden.end(), y.values + t * y.row_stride);
+  }
+}
+
+}  // namespace
+
+Lstm read_lstm(const NamedTensors& tensors, const std::string& name) {
+  Lstm layer;
+  layer.input = read_dense(tensors, name + ".input");
+  Dense state = read_dense(tensors, name + ".state");
+  check_gates(name, layer.input, state, lstm_gate_count);
+  for (std::size_t i = 0; i < state.bias.size(); ++i) layer.input.bias[i] += state.bias[i];
+  layer.state = std::move(state.weight);
+  return layer;
+}
+
+Gru read_gru(const NamedTensors& tensors, const std::string& name) {
+  Gru layer{read_dense(tensors, name + ".input"), read_dense(tensors, name + ".state")};
+  check_gates(name, layer.input, layer.state, gru_gate_count);
+  return layer;
+}
+
+RecurrentState start(const Lstm& layer) {
+  const std::size_t units = layer.units();
+  return {std::vector<float>(units),
+          std::vector<float>(units),
+          std::vector<float>(lstm_gate_count * units),
+          {}};
+}
+RecurrentState start(const Gru& layer) {
+  const std::vector<float> gates(gru_gate_count * layer.units());
+  return {std::vector<float>(layer.units()), {}, gates, gates};
+}
+
+void step(const Lstm& layer, std::span<const float> x, RecurrentState& state) {
+  step_layer(layer, x, state);
+}
+void step(const Gru& layer, std::span<const float> x, RecurrentState& state) {
+  step_layer(layer, x, state);
+}
+
+void run(const Lstm& layer, Direction direction, const MatrixViewF& x,
+         const MutableMatrixViewF& y) {
+  run_layer(layer, direction, x, y);
+}
+void run(const Gru& layer, Direction direction, const MatrixViewF& x, const MutableMatrixViewF& y) {
+  run_layer(layer, direction, x, y);
+}
+
+}  // namespace kinemend::nn

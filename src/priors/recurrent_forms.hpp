@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "kinemend/body.hpp"
+#include "priors/recurrent_input.hpp"
+
+// The same motion in a mirror and backwards: more to learn from, and an ensemble to clean with.
+namespace kinemend {
+
+/// How tracks look in a mirror.
+struct BodyMirror {
+  std::vector<std::size_t> partners;  ///< of each track (with the place) which one it is there
+  std::size_t turns = 0;              ///< tracks that turn; behind them are positions
+};
+
+/// By Left and Right, or L and R, before the names; a track without a partner, or whose partner has
+/// another, is its own.
+BodyMirror mirror_of(const BodyLayout& layout);
+
+struct RecurrentForm {
+  bool is_mirrored = false;
+  bool is_reversed = false;
+};
+
+/// Values (F x D) in that form; once more, and they are themselves. In the mirror exact where the
+/// references of the layout are symmetrical.
+std::vector<float> in_form(const std::vector<float>& values, RecurrentForm form,
+                           const BodyMirror& mirror);
+RecurrentTake in_form(const RecurrentTake& take, RecurrentForm form, const BodyMirror& mirror);
+
+}  // namespace kinemend

@@ -1,0 +1,10 @@
+#include "kinemend/train.hpp"
+#include "priors/learned_list.hpp"
+
+namespace kinemend {
+
+LearnedMethod recurrent_learned() {
+  return {"recurrent", 1, "network that corrects auto (by kinemend-train)", {}, nullptr};
+}
+
+}  // namespace kinemend

@@ -1,0 +1,107 @@
+// What the method `recurrent` promises on takes, with the model that ships.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+#include "clean/takes.hpp"
+#include "kinemend/clean.hpp"
+#include "kinemend/convert.hpp"
+#include "kinemend/corrupt.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/methods.hpp"
+#include "kinemend/metrics.hpp"
+#include "kinemend/model.hpp"
+#include "kinemend/synth.hpp"
+
+namespace kinemend::test {
+namespace {
+
+using testing::HasSubstr;
+
+Clip walk(double rate_hz, double duration_s = 1.5) {
+  SynthOptions options{.motion = "walk", .duration_s = duration_s, .frame_rate_hz = rate_hz};
+  return synthesize(options);
+}
+
+Clip damaged(Clip clip, const std::string& damage, const OptionValues& options) {
+  Random random(5);
+  apply_damage(clip, damage, options, random);
+  return clip;
+}
+
+const Cleaner& cleaner() {
+  static const std::unique_ptr<Cleaner> made = make_recurrent();
+  return *made;
+}
+
+TEST(Recurrent, TakesNoiseAwayAtAnyRate) {
+  for (const double rate_hz : {30.0, 120.0, 240.0}) {
+    const Clip truth = walk(rate_hz);
+    const Clip noisy = damaged(truth, "gaussian", {{"std_deg", 3.0}});
+    const Clip cleaned = clean_clip(noisy, cleaner()).clip;
+    EXPECT_LT(rms_deg(truth, cleaned), 0.7 * rms_deg(truth, noisy)) << rate_hz << " Hz";
+  }
+}
+
+TEST(Recurrent, ChangesWhatAutoMakesOfNoise) {
+  const Clip noisy = damaged(walk(120), "gaussian", {{"std_deg", 3.0}});
+  EXPECT_GT(rms_deg(clean_clip(noisy, *make_auto()).clip, clean_clip(noisy, cleaner()).clip), 0.02);
+}
+
+// Without the trial the network doubles the error of this walk, which is like none that it has
+// seen.
+TEST(Recurrent, IsNoWorseThanAutoOnABodyThatTheNetworkDoesNotKnow) {
+  const Clip truth = walk(120, 3);
+  for (const double noise_deg : {1.0, 3.0}) {
+    const Clip noisy = damaged(truth, "gaussian", {{"std_deg", noise_deg}});
+    const double automatic = rms_deg(truth, clean_clip(noisy, *make_auto()).clip);
+    EXPECT_LT(rms_deg(truth, clean_clip(noisy, cleaner()).clip), 1.03 * automatic) << noise_deg;
+  }
+}
+
+TEST(Recurrent, LeavesACleanTakeAsItIs) {
+  for (const double rate_hz : {60.0, 120.0}) {
+    const Clip truth = walk(rate_hz);
+    EXPECT_EQ(clean_clip(truth, cleaner()).clip.local_rotations, truth.local_rotations);
+  }
+}
+
+TEST(Recurrent, RefusesATakeOfMarkersAndSaysWhy) {
+  const MarkerClip markers = joint_markers(walk(120));
+  try {
+    clean_markers(markers, cleaner());
+    FAIL() << "was cleaned";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_THAT(error.what(), HasSubstr("joints"));
+  }
+}
+
+TEST(Recurrent, RefusesAModelOfAnotherMethodAndOneThatLacksALayer) {
+  EXPECT_THROW(make_recurrent({}, shipped_model("wiener")), Error);
+  Model model = *shipped_model("recurrent");
+  model.tensors.erase("output.weight");
+  EXPECT_THROW(make_recurrent({}, std::make_shared<const Model>(model)), Error);
+}
+
+TEST(Recurrent, FillsGapsOrLeavesThemBridged) {
+  Clip clip = damaged(walk(120), "gaussian", {{"std_deg", 2.0}});
+  const auto knee = static_cast<std::size_t>(clip.skeleton.find("LeftLeg"));
+  clip.observed.assign(clip.frame_count() * clip.joint_count(), 1);
+  for (std::size_t f = 60; f < 90; ++f) clip.observed[f * clip.joint_count() + knee] = 0;
+  const Clip filled = clean_clip(clip, cleaner()).clip;
+  const Clip truth = walk(120);
+  for (std::size_t f = 60; f < 90; ++f)
+    EXPECT_LT(angle_between(filled.rotation(f, knee), truth.rotation(f, knee)), 0.8) << f;
+}
+
+TEST(Recurrent, IsTheSameForAnyNumberOfRuns) {
+  const Clip noisy = damaged(walk(120), "gaussian", {{"std_deg", 2.0}});
+  EXPECT_EQ(clean_clip(noisy, cleaner()).clip.local_rotations,
+            clean_clip(noisy, *make_recurrent()).clip.local_rotations);
+}
+
+}  // namespace
+}  // namespace kinemend::test

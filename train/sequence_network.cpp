@@ -1,0 +1,221 @@
+#include "sequence_network.hpp"
+
+#include <fmt/format.h>
+#include <torch/torch.h>
+
+#include <cmath>
+#include <utility>
+
+#include "kinemend/error.hpp"
+
+namespace kinemend::train {
+
+namespace {
+
+using Parameters = std::map<std::string, torch::Tensor, std::less<>>;
+
+struct Call {
+  const Parameters& weights;
+  double dropout = 0;  // 0: none
+
+  torch::Tensor dense(const torch::Tensor& x, const std::string& layer) const {
+    return torch::addmm(weights.at(layer + ".bias"), x, weights.at(layer + ".weight").t());
+  }
+  torch::Tensor drop(const torch::Tensor& x) const {
+    return dropout > 0 ? torch::dropout(x, dropout, true) : x;
+  }
+};
+
+// Frames t - d, t and t + d of each frame side by side, zeros beyond the ends.
+torch::Tensor with_neighbours(const torch::Tensor& x, std::int64_t dilation) {
+  const std::int64_t frames = x.size(0);
+  const torch::Tensor pad = torch::zeros({dilation, x.size(1)});
+  const torch::Tensor padded = torch::cat({pad, x, pad}, 0);
+  return torch::cat({padded.narrow(0, 0, frames), x, padded.narrow(0, 2 * dilation, frames)}, 1);
+}
+
+torch::Tensor forward_of(const ConvolutionalShape& shape, const Call& call, torch::Tensor x) {
+  x = call.dense(x, "input");
+  for (std::size_t i = 0; i < shape.dilations.size(); ++i) {
+    const std::string block = fmt::format("block{}", i);
+    const torch::Tensor taps = with_neighbours(x, static_cast<std::int64_t>(shape.dilations[i]));
+    const torch::Tensor weight = call.weights.at(block + ".convolution.weight").flatten(1);
+    const torch::Tensor sum =
+        torch::addmm(call.weights.at(block + ".convolution.bias"), taps, weight.t());
+    x = x + call.dense(call.drop(torch::relu(sum)), block + ".dense");
+  }
+  return call.dense(torch::relu(x), "output");
+}
+
+// Draws weights, uniform as is usual for ReLU, in the order of their making.
+class Maker {
+ public:
+  Maker(Parameters& weights, std::uint64_t seed) : weights_(weights) { torch::manual_seed(seed); }
+
+  void add(const std::string& name, std::vector<std::int64_t> shape, double bound) {
+    torch::Tensor values = torch::zeros(shape);
+    if (bound > 0) values.uniform_(-bound, bound);
+    weights_[name] = values.requires_grad_(true);
+  }
+  void add_dense(const std::string& name, std::size_t inputs, std::size_t outputs,
+                 double gain = 1) {
+    const auto in = static_cast<std::int64_t>(inputs), out = static_cast<std::int64_t>(outputs);
+    add(name + ".weight", {out, in}, gain * std::sqrt(3.0 / static_cast<double>(inputs)));
+    add(name + ".bias", {out}, 0);
+  }
+
+ private:
+  Parameters& weights_;
+};
+
+void make(const ConvolutionalShape& shape, Maker& maker) {
+  const std::size_t hidden = shape.hidden;
+  const auto width = static_cast<std::int64_t>(hidden);
+  maker.add_dense("input", shape.inputs, hidden);
+  for (std::size_t i = 0; i < shape.dilations.size(); ++i) {
+    const std::string block = fmt::format("block{}", i);
+    maker.add(block + ".convolution.weight", {width, 3, width},
+              std::sqrt(3.0 / static_cast<double>(3 * hidden)));
+    maker.add(block + ".convolution.bias", {width}, 0);
+    maker.add_dense(block + ".dense", hidden, hidden, 0.5);
+  }
+  maker.add_dense("output", hidden, shape.outputs, 0);
+}
+
+std::vector<float> floats_of(const torch::Tensor& tensor) {
+  const torch::Tensor flat = tensor.detach().contiguous();
+  const float* values = flat.data_ptr<float>();
+  return {values, values + flat.numel()};
+}
+
+Tensor tensor_of(const torch::Tensor& values) {
+  Tensor tensor;
+  for (const std::int64_t size : values.sizes())
+    tensor.shape.push_back(static_cast<std::size_t>(size));
+  const std::vector<float> floats = floats_of(values);
+  tensor.values.assign(floats.begin(), floats.end());
+  return tensor;
+}
+
+// Brings the values of a tensor of the same shape into `target`.
+void take_values(const Tensor& from, torch::Tensor& target, const std::string& name) {
+  if (from.values.size() != static_cast<std::size_t>(target.numel()))
+    throw Error(ErrorKind::unreadable_input, fmt::format("{}: expected {} numbers, found {}", name,
+                                                         target.numel(), from.values.size()));
+  const torch::NoGradGuard guard;
+  const std::vector<float> floats(from.values.begin(), from.values.end());
+  target.copy_(torch::from_blob(const_cast<float*>(floats.data()), target.sizes()));
+}
+
+}  // namespace
+
+struct SequenceNetwork::Body {
+  ConvolutionalShape shape;
+  DescentSettings settings;
+  Parameters weights, means, first, second;  // moments of the gradient
+  std::int64_t steps = 0;
+  torch::Tensor last;  // outputs of the last forward
+
+  Body(const ConvolutionalShape& made, const DescentSettings& given, std::uint64_t seed)
+      : shape(made), settings(given) {
+    Maker maker(weights, seed);
+    make(shape, maker);
+    for (const auto& [name, values] : weights) {
+      means[name] = values.detach().clone();
+      first[name] = torch::zeros_like(values);
+      second[name] = torch::zeros_like(values);
+    }
+  }
+
+  torch::Tensor matrix_of(std::span<const float> values, std::size_t width) const {
+    const auto rows = static_cast<std::int64_t>(values.size() / width);
+    return torch::from_blob(const_cast<float*>(values.data()),
+                            {rows, static_cast<std::int64_t>(width)});
+  }
+  std::vector<std::pair<std::string, Parameters*>> parts() {
+    return {{"weights", &weights}, {"means", &means}, {"first", &first}, {"second", &second}};
+  }
+};
+
+SequenceNetwork::SequenceNetwork(const ConvolutionalShape& shape, const DescentSettings& settings,
+                                 std::uint64_t seed)
+    : body_(std::make_unique<Body>(shape, settings, seed)) {}
+SequenceNetwork::~SequenceNetwork() = default;
+
+std::vector<float> SequenceNetwork::forward(std::span<const float> inputs, std::uint64_t seed) {
+  torch::manual_seed(seed);
+  body_->last = forward_of(body_->shape, {body_->weights, body_->settings.dropout},
+                           body_->matrix_of(inputs, body_->shape.inputs).clone());
+  return floats_of(body_->last);
+}
+
+void SequenceNetwork::add_gradient(std::span<const float> derivative) {
+  body_->last.backward(body_->matrix_of(derivative, body_->shape.outputs));
+  body_->last = torch::Tensor();
+}
+
+double SequenceNetwork::step(double rate) {
+  const torch::NoGradGuard guard;
+  constexpr double first_decay = 0.9, second_decay = 0.99, least = 1e-8;
+  Body& body = *body_;
+  ++body.steps;
+  double square = 0;
+  for (const auto& [name, values] : body.weights)
+    square += values.grad().pow(2).sum().item<double>();
+  const double size = std::sqrt(square);
+  const double cut = std::min(1.0, body.settings.most_gradient / (size + 1e-12));
+  const auto steps = static_cast<double>(body.steps);
+  const double first_share = 1 - std::pow(first_decay, steps);
+  const double second_share = 1 - std::pow(second_decay, steps);
+  const double decay = std::min(body.settings.average_decay, steps / (steps + 10));
+  for (auto& [name, values] : body.weights) {
+    torch::Tensor gradient = values.grad().mul(cut);
+    torch::Tensor &first = body.first[name], &second = body.second[name];
+    first.mul_(first_decay).add_(gradient, 1 - first_decay);
+    second.mul_(second_decay).addcmul_(gradient, gradient, 1 - second_decay);
+    if (values.dim() > 1) values.mul_(1 - rate * body.settings.weight_decay);
+    values.addcdiv_(first, second.div(second_share).sqrt_().add_(least), -rate / first_share);
+    values.mutable_grad().zero_();
+    body.means[name].mul_(decay).add_(values, 1 - decay);
+  }
+  return size;
+}
+
+std::vector<float> SequenceNetwork::run(std::span<const float> inputs) const {
+  const torch::NoGradGuard guard;
+  return floats_of(
+      forward_of(body_->shape, {body_->means, 0}, body_->matrix_of(inputs, body_->shape.inputs)));
+}
+
+Weights SequenceNetwork::averages() const {
+  Weights result;
+  for (const auto& [name, values] : body_->means) result[name] = tensor_of(values);
+  return result;
+}
+
+TensorFile SequenceNetwork::state() const {
+  TensorFile file;
+  file.metadata["steps"] = fmt::format("{}", body_->steps);
+  for (const auto& [part, values] : body_->parts()) {
+    for (const auto& [name, tensor] : *values) file.tensors[part + "." + name] = tensor_of(tensor);
+  }
+  return file;
+}
+
+void SequenceNetwork::set_state(const TensorFile& state) {
+  const auto steps = state.metadata.find("steps");
+  if (steps == state.metadata.end())
+    throw Error(ErrorKind::unreadable_input, "this is no checkpoint: it does not say its steps");
+  body_->steps = std::stoll(steps->second);
+  for (const auto& [part, values] : body_->parts()) {
+    for (auto& [name, tensor] : *values) {
+      const auto found = state.tensors.find(part + "." + name);
+      if (found == state.tensors.end())
+        throw Error(ErrorKind::unreadable_input,
+                    fmt::format("the checkpoint lacks {}.{}", part, name));
+      take_values(found->second, tensor, part + "." + name);
+    }
+  }
+}
+
+}  // namespace kinemend::train

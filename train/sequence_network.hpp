@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kinemend/tensor.hpp"
+
+// Networks from sequences to sequences, and the steps of their training. LibTorch is behind this
+// header and in no other: its own headers define CHECK and LOG.
+namespace kinemend::train {
+
+/// Layers by name with their weights, [out, in] or [out, tap, in]; biases [out].
+using Weights = std::map<std::string, Tensor, std::less<>>;
+
+struct DescentSettings {
+  double weight_decay = 0.01;
+  double most_gradient = 1;      ///< norm to which gradients are cut
+  double average_decay = 0.999;  ///< of the running mean of the weights
+  double dropout = 0.1;
+};
+
+/// A dilated convolutional network: dense to `hidden`, then for each dilation
+/// h += dense(ReLU(convolution of 3 taps(h))), then dense to `outputs`.
+struct ConvolutionalShape {
+  std::size_t inputs = 0, hidden = 192, outputs = 0;
+  std::vector<std::size_t> dilations{1, 2, 4, 8};
+};
+
+class SequenceNetwork {
+ public:
+  /// Weights are drawn from the seed; those of the last layer are zero.
+  SequenceNetwork(const ConvolutionalShape& shape, const DescentSettings& settings,
+                  std::uint64_t seed);
+  ~SequenceNetwork();
+
+  /// T x inputs to T x outputs, with dropout drawn from `seed`; kept for `add_gradient`.
+  std::vector<float> forward(std::span<const float> inputs, std::uint64_t seed);
+  /// Adds the gradient of the weights, by the derivative by the outputs of the last `forward`.
+  void add_gradient(std::span<const float> derivative);
+  /// A step of Adam with decoupled weight decay; the gradient is zero again. Returns the norm that
+  /// it had.
+  double step(double rate);
+
+  /// With the running means of the weights, without dropout.
+  std::vector<float> run(std::span<const float> inputs) const;
+  Weights averages() const;
+  /// All that training goes on from, and back. Errors: `ErrorKind::unreadable_input` for the state
+  /// of another network.
+  TensorFile state() const;
+  void set_state(const TensorFile& state);
+
+ private:
+  struct Body;
+  std::unique_ptr<Body> body_;
+};
+
+}  // namespace kinemend::train
