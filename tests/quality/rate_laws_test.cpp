@@ -133,9 +133,7 @@ std::vector<std::string> all_methods() {
 class EveryRate : public testing::TestWithParam<std::string> {
  protected:
   std::unique_ptr<Cleaner> cleaner_ = made(GetParam());
-  bool is_learned() const {
-    return find_method(GetParam()).learned;
-  }
+  bool is_learned() const { return find_method(GetParam()).learned; }
 };
 
 TEST_P(EveryRate, CleansJointsAtACostThatGoesByFrames) {
