@@ -34,17 +34,16 @@ XiaoGroup group_of(const Arguments& arguments, const std::string& name, const st
 std::vector<XiaoGroup> groups_of(const Arguments& arguments) {
   if (arguments.quick)
     return {group_of(arguments, "run", "run", {"quick_1", "quick_2"}, {"quick_3"})};
-  return {
-      group_of(arguments, "run", "run",
-               joined(joined(numbered("09", 5, 9), numbered("35", 17, 21)),
-                      {"16_35", "16_36", "16_45", "16_46", "38_03", "49_04"}),
-               {"09_04", "35_24"}),
-      group_of(arguments, "dance", "walk",
-               joined(joined(numbered("05", 2, 8), numbered("60", 1, 5)),
-                      {"05_10", "05_11", "05_12", "49_09"}),
-               {"05_16", "60_08"}),
-      group_of(arguments, "basketball", "walk",
-               joined(numbered("06", 3, 7), numbered("06", 10, 12)), {"06_13", "06_14"})};
+  return {group_of(arguments, "run", "run",
+                   joined(joined(numbered("09", 5, 9), numbered("35", 17, 21)),
+                          {"16_35", "16_36", "16_45", "16_46", "38_03", "49_04"}),
+                   {"09_04", "35_24"}),
+          group_of(arguments, "dance", "walk",
+                   joined(joined(numbered("05", 2, 8), numbered("60", 1, 5)),
+                          {"05_10", "05_11", "05_12", "49_09"}),
+                   {"05_16", "60_08"}),
+          group_of(arguments, "basketball", "walk",
+                   joined(numbered("06", 3, 7), numbered("06", 10, 12)), {"06_13", "06_14"})};
 }
 
 OptionValues training_options(const Arguments& arguments) {
@@ -181,8 +180,7 @@ void variants(const Arguments& arguments, const std::vector<XiaoGroup>& groups) 
     for (const int frames :
          arguments.quick ? std::vector<int>{9, 21} : std::vector<int>{5, 9, 15, 27})
       add_trained("M", std::to_string(frames), {{"window_frames", std::int64_t{frames}}});
-    for (const int atoms :
-         arguments.quick ? std::vector<int>{30} : std::vector<int>{125, 250, 500})
+    for (const int atoms : arguments.quick ? std::vector<int>{30} : std::vector<int>{125, 250, 500})
       add_trained("K", std::to_string(atoms), {{"atoms", std::int64_t{atoms}}});
     const auto model = xiao_model("sparse", group.training, training_options(arguments));
     for (const double lambda : {0.03, 0.1, 0.3, 1.0, 3.0})

@@ -119,7 +119,8 @@ class WindowSample {
     for (std::size_t v = 0; v < values_[i].size(); ++v)
       sums[v % channels] += static_cast<double>(values_[i][v]);
     std::vector<float> mean(channels);
-    const double count = static_cast<double>(values_[i].size() / channels);
+    const std::size_t frames = values_[i].size() / channels;
+    const auto count = static_cast<double>(frames);
     for (std::size_t c = 0; c < channels; ++c)
       mean[c] = static_cast<float>(sums[c] / std::max(count, 1.0));
     for (std::size_t v = 0; v < values_[i].size(); ++v) values_[i][v] -= mean[v % channels];
