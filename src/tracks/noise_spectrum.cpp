@@ -21,6 +21,10 @@ constexpr std::size_t strengths = 80;
 constexpr double least_deviation = 0.02, largest_deviation = 60;  // degrees
 constexpr signal::CutoffGrid model_cutoffs{0.003, 50, 16};
 constexpr double least_motion = 1e-3;  // degrees
+// Noise is of the system and of one colour for all tracks: where it is in proportion to the motion
+// and white, quiet tracks ask for a colour and the others do not (0.48 of them at most; 0.95 at
+// least of coloured noise, made and real).
+constexpr double least_agreement = 0.75;
 constexpr std::size_t few_windows = 4,
                       most_lanes = 2400;  // windows of single channels whose evidence is summed
 // Of positions under slow noise: the take is looked at in two parts of that length, and noise is
@@ -135,18 +139,23 @@ std::vector<Curve> misfit_curves(const SeenTracks& seen, const Windows& windows,
 struct Estimate {
   double correlation = 0;
   std::vector<double> deviations;  // 3 N
+  std::vector<double> misfits;     // N
   double misfit = std::numeric_limits<double>::infinity();
+  double agreement = 1;  // share of the tracks that are likelier under it than under white noise
 };
 
-void take_better(Estimate& best, const SeenTracks& seen, const Windows& windows,
-                 std::span<const signal::SmoothingModel> models, double correlation) {
-  Estimate found{correlation, {}, 0};
+Estimate estimate_of_colour(const SeenTracks& seen, const Windows& windows,
+                            std::span<const signal::SmoothingModel> models, double correlation) {
+  Estimate found;
+  found.correlation = correlation;
+  found.misfits.assign(seen.tracks.tracks(), 0);
   for (const Curve& curve : misfit_curves(seen, windows, models, correlation)) {
     const auto least = std::min_element(curve.begin(), curve.end());
-    found.misfit += *least;
+    found.misfits[found.deviations.size() / 3] += *least;
     found.deviations.push_back(deviation_of(static_cast<std::size_t>(least - curve.begin())));
   }
-  if (found.misfit < best.misfit) best = std::move(found);
+  found.misfit = std::accumulate(found.misfits.begin(), found.misfits.end(), 0.0);
+  return found;
 }
 
 // Of the colour among these that is likeliest.
@@ -155,8 +164,17 @@ Estimate estimate(const SeenTracks& seen, const Windows& windows,
                   double frame_rate_hz) {
   const auto models =
       signal::models_of_orders(orders, model_cutoffs, windows.frames, frame_rate_hz);
-  Estimate best;
-  for (const double correlation : colours) take_better(best, seen, windows, models, correlation);
+  Estimate best, white;
+  for (const double correlation : colours) {
+    Estimate found = estimate_of_colour(seen, windows, models, correlation);
+    if (correlation == 0) white = found;
+    if (found.misfit < best.misfit) best = std::move(found);
+  }
+  if (white.misfits.empty()) return best;
+  std::size_t agreeing = 0;
+  for (std::size_t n = 0; n < white.misfits.size(); ++n)
+    agreeing += best.misfits[n] < white.misfits[n];
+  best.agreement = static_cast<double>(agreeing) / static_cast<double>(white.misfits.size());
   return best;
 }
 
@@ -274,7 +292,7 @@ NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& m
     return spectrum;
   Estimate found = estimate(seen, windows_of(tracks.frames(), window, most_windows), all_orders,
                             colours, frame_rate_hz);
-  if (found.correlation == 0) return spectrum;
+  if (found.correlation == 0 || found.agreement < least_agreement) return spectrum;
 
   const double share = fast_share_of(found.correlation);
   std::vector<double> levels, times;

@@ -42,7 +42,8 @@ std::vector<double> coloured_shares(const NoiseSpectrum& spectrum, double scale,
 /// what goes on while motion comes and goes. Of positions under noise that is slow, the strength is
 /// then estimated from two stretches of 30 s, as the rest of a motion whose third differences are
 /// white, up to four times what the windows show. Takes under 24 frames (positions: 4 s) and of
-/// fewer than four tracks that move are not looked at. Where the `correlation` is known (above 0),
+/// fewer than four tracks that move are not looked at. A colour that more than a quarter of the
+/// tracks find less likely than white is none. Where the `correlation` is known (above 0),
 /// the strength alone is estimated, and is clear.
 NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& marked,
                                 double frame_rate_hz, TrackKind kind,

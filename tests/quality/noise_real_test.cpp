@@ -63,6 +63,19 @@ TEST(CleanMarkersAtLowRates, AreLeftAlone) {
   }
 }
 
+// White, but in proportion to the motion of each channel: quiet joints have next to none.
+TEST(NoiseOfEachChannel, IsNotTakenForSlow) {
+  const std::filesystem::path folder = KINEMEND_DATA_FOLDER;
+  for (const char* take : {"07_11", "08_02", "09_03"}) {
+    const Clip truth =
+        std::get<Clip>(read_take(folder / "cmu" / "bvh" / (take + std::string(".bvh"))).take);
+    Clip noisy = truth;
+    Random random(1);
+    apply_damage(noisy, "gaussian-channels", {{"k", 0.1}}, random);
+    EXPECT_LT(figures(truth, cleaned(noisy, "auto")).rms, 0.8 * figures(truth, noisy).rms) << take;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Systems, RealPairs,
                          testing::Values("video-regular_FULL", "video-60fps_01_HEAVY", "depth-CTK",
                                          "depth-RTK"),

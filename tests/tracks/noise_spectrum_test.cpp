@@ -90,6 +90,18 @@ TEST(NoiseSpectrum, IsWhiteWhereTheNoiseIsWhite) {
   }
 }
 
+// White noise of some tracks, and the roughness of the motion of others.
+TEST(NoiseSpectrum, IsWhiteWhereTracksDoNotAgree) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    VectorTracks tracks = noisy_curves(720, 1.5, 0, seed);
+    const VectorTracks rough = noisy_curves(720, 4, 0.98, seed + 10);
+    for (std::size_t t = 0; t < tracks.frames(); ++t) {
+      for (std::size_t n = 4; n < tracks_count; ++n) tracks.set(t, n, rough.at(t, n));
+    }
+    EXPECT_EQ(spectrum_of(tracks).correlation, 0);
+  }
+}
+
 TEST(NoiseSpectrum, SaysWhatShareOfTheNoiseIsSlow) {
   NoiseSpectrum spectrum;
   EXPECT_NEAR(spectrum.share_below(15, 120), 0.25, 1e-12);
