@@ -152,9 +152,8 @@ Clip cleaned_with(const Tuning& tuning, Clip clip) {
       if (track_of[other] < joints.size()) nearby[n].push_back(track_of[other]);
     }
   }
-  const CleanedTracks cleaned =
-      clean_tracks(tracks, candidates, missing, nearby, clip.frame_rate_hz,
-                   {1, true, TrackKind::rotations, tuning.tracks});
+  const CleanedTracks cleaned = clean_tracks(tracks, candidates, missing, nearby,
+                                             clip.frame_rate_hz, {.tuning = tuning.tracks});
   for (std::size_t n = 0; n < joints.size(); ++n) {
     for (std::size_t t = 0; t < frames; ++t) {
       if (cleaned.shares[n] == 0 && cleaned.marked(t, n) == 0) continue;
