@@ -161,8 +161,8 @@ struct SparseOptions {
   /// Of eq. 4 and 5, relative to the largest correlation that noise alone has with the atoms.
   double lambda = 0.1;
   std::int64_t hops = 4;  ///< windows over a frame, whose results are averaged
-  /// quick: adds what the atoms do not express of the measurements, smoothed, and leaves to `auto`
-  /// what they are wrong about; or paper: its solver, and nothing after it.
+  /// quick: adds what the atoms do not express of markers, smoothed, and leaves to `auto` what they
+  /// are wrong about; or paper: its solver, and nothing after it.
   std::string solver = "quick";
   bool fill = true;
 };

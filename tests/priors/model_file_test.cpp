@@ -184,10 +184,11 @@ TEST(ModelFile, RefusesNewerVersionsWithBothNumbers) {
             "walk.kmodel: the model is of format 3, and this program reads up to 2");
   EXPECT_EQ(message_with("version", "99"),
             "walk.kmodel: the model is version 99 of wiener, and this program reads up to 1");
-  EXPECT_EQ(message_with("method", "oracle"),
-            "walk.kmodel: metadata \"method\": expected one of example, wiener, kalman-learned, "
-            "recurrent, "
-            "found \"oracle\"");
+  EXPECT_EQ(
+      message_with("method", "oracle"),
+      "walk.kmodel: metadata \"method\": expected one of example, wiener, sparse, kalman-learned, "
+      "recurrent, "
+      "found \"oracle\"");
 }
 
 TEST(ModelFile, NamesTheMetadataThatIsMissingOrNoNumber) {
