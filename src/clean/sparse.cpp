@@ -20,7 +20,6 @@ namespace {
 constexpr double outlier_deviations = 5;  // of the noise of a channel
 constexpr double many_outliers = 0.02;
 constexpr double least_noise_deg = 0.05;
-constexpr double far_more = 1.5;
 constexpr double least_noise = 2e-4;  // body heights
 
 const OptionTable<SparseOptions>& table() {
@@ -85,16 +84,14 @@ double share_beyond(const PoseMatrix& positions, const PoseMatrix& guide,
   return count / std::max(1.0, static_cast<double>(positions.values.size()));
 }
 
-// Of each channel: as `auto` measures it. Where many samples are outliers it takes them for noise,
-// and this is far more than what is measured scatters about what the atoms express.
+// Of each channel: as `auto` measures it, but no more than what is measured scatters about what the
+// atoms express. Where many samples are outliers `auto` takes them for noise.
 std::vector<double> noise_about(const PriorWork& work, const PoseMatrix& cleaned) {
   std::vector<double> noise = example_noise(work);
   const std::vector<double> scatter =
       point_noise(work.channels.poses, cleaned, work.channels.observed);
-  for (std::size_t c = 0; c < noise.size(); ++c) {
-    const double most = std::max(scatter[c], least_noise_deg);
-    if (noise[c] > far_more * most) noise[c] = most;
-  }
+  for (std::size_t c = 0; c < noise.size(); ++c)
+    noise[c] = std::min(noise[c], std::max(scatter[c], least_noise_deg));
   return noise;
 }
 
