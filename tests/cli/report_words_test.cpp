@@ -55,8 +55,8 @@ TEST_F(ReportWords, NoiseHasAColourAndCanBeToldFromAnotherTake) {
 TEST_F(ReportWords, MarkersAreComparedToo) {
   synth("walk.bvh", "walk", "4");
   ASSERT_EQ(run({"convert", "walk.bvh", "-o", "walk.trc"}).code, 0);
-  ASSERT_EQ(run({"corrupt", "walk.trc", "-o", "noisy.trc", "--damage", "system:kind=optical,strength=20",
-                 "--seed", "1"})
+  ASSERT_EQ(run({"corrupt", "walk.trc", "-o", "noisy.trc", "--damage",
+                 "system:kind=optical,strength=20", "--seed", "1"})
                 .code,
             0);
   const Ran ran = run({"compare", "walk.trc", "noisy.trc", "--fit", "gain-offset", "--per-joint"});
