@@ -70,7 +70,7 @@ std::string comparison_text(const TakeFacts& take, const CompareOutcome& outcome
   const std::string compared =
       outcome.markers ? pairing_text(outcome)
                       : fmt::format("  {} compared", counted(outcome.comparison.frames, "frame"));
-  const std::string text = compared + "\n\n" + figures_text(take, outcome);
+  std::string text = compared + "\n\n" + figures_text(take, outcome);
   if (!options.all) return text;
   return text + "\n" +
          (outcome.markers ? markers_text(take, *outcome.markers)

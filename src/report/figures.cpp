@@ -139,7 +139,7 @@ std::span<const MarkerComparisonFigure> marker_comparison_figure_table() {
 
 std::string unit_of(const FigureRule& rule, const TakeFacts& take) {
   const bool is_of_markers = take.kind == TakeKind::markers;
-  const std::string own = take.unit.empty() ? "units" : take.unit;
+  std::string own = take.unit.empty() ? "units" : take.unit;
   if (is_of_markers && rule.unit.empty()) return own;
   return is_of_markers && rule.unit == "/s" ? own + "/s" : std::string(rule.unit);
 }
