@@ -99,10 +99,13 @@ MarkerClip with_markers(const MarkerClip& clip, const std::vector<std::string>& 
   result.frame_rate_hz = clip.frame_rate_hz;
   result.first_frame = clip.first_frame;
   result.unit = clip.unit;
+  std::vector<std::size_t> markers;
+  markers.reserve(names.size());
+  for (const std::string& name : names)
+    markers.push_back(static_cast<std::size_t>(clip.find(name)));
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-    for (const std::string& name : names) {
-      const std::size_t sample =
-          f * clip.marker_count() + static_cast<std::size_t>(clip.find(name));
+    for (const std::size_t marker : markers) {
+      const std::size_t sample = f * clip.marker_count() + marker;
       result.positions.push_back(clip.positions[sample]);
       result.observed.push_back(clip.observed[sample]);
     }

@@ -5,6 +5,7 @@
 #include "json.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/report.hpp"
 
 namespace kinemend::cli {
 
@@ -24,7 +25,7 @@ const Json& noise_of_tracks(const Json& take, const std::string& path) {
 }
 
 KnownNoise noise_of_report(const Json& report, const std::string& path) {
-  if (!report.is_object() || report.value("schema", "") != "kinemend.report/1")
+  if (!report.is_object() || report.value("schema", "") != report_schema)
     fail(path, "is not white, auto, or a report of clean or check");
   const Json& takes = report.at("takes");
   if (takes.empty() || !takes.front().contains("noise"))

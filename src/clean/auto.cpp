@@ -108,7 +108,7 @@ std::optional<NoiseCharacter> character_of(const TakeView& take, Space space,
     if (verdicts.shares[n] > 0) strengths.push_back(verdicts.noise[n]);
   }
   if (strengths.empty()) return std::nullopt;
-  const double unit = space == Space::rotation ? 1 : 1 / degrees_per_unit(take);
+  const double unit = 1 / degrees_per_unit(take, space);
   return NoiseCharacter{space, unit * median_of(strengths),
                         verdicts.spectrum.is_clear ? verdicts.spectrum.correlation : 0,
                         verdicts.pattern.step, verdicts.pattern.join == SampleJoin::linear};
@@ -161,9 +161,7 @@ class Auto final : public Cleaner {
     progress.begin_part(1, count);
     for_each_parallel(count, frames * count, [&](std::size_t n) {
       const Track& track = take.tracks[numbers[n]];
-      trace.noise[numbers[n]] = track.space == Space::rotation
-                                    ? verdicts.noise[n]
-                                    : verdicts.noise[n] / degrees_per_unit(take);
+      trace.noise[numbers[n]] = verdicts.noise[n] / degrees_per_unit(take, track.space);
       const auto spikes = verdicts.marked.track(n);
       const bool smoothed = verdicts.shares[n] != 0;
       const bool spiked = std::find(spikes.begin(), spikes.end(), 1) != spikes.end();
@@ -184,8 +182,7 @@ class Auto final : public Cleaner {
     settings.correlation = take.noise_correlation;
     for (const std::size_t n : numbers) {
       const Track& track = take.tracks[n];
-      const double unit = track.space == Space::rotation ? 1 : degrees_per_unit(take);
-      settings.noise.push_back(unit * track.noise);
+      settings.noise.push_back(degrees_per_unit(take, track.space) * track.noise);
     }
     return settings;
   }

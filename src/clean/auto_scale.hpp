@@ -12,5 +12,9 @@ inline double degrees_per_unit(const TakeView& take) {
   return take.markers ? degrees_per_height / take.body_height
                       : degrees_per_radian / radian_of_positions(take);
 }
+/// The same of a track of this space: rotations are in degrees.
+inline double degrees_per_unit(const TakeView& take, Space space) {
+  return space == Space::rotation ? 1 : degrees_per_unit(take);
+}
 
 }  // namespace kinemend

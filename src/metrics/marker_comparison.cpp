@@ -8,6 +8,7 @@
 #include "kinemend/signal.hpp"
 #include "metrics/marker_fit.hpp"
 #include "metrics/pairing.hpp"
+#include "rotation/component.hpp"
 
 namespace kinemend {
 
@@ -21,8 +22,6 @@ constexpr std::size_t jitter_cut = 1;  // 6 Hz
 constexpr int filter_order = 4;
 constexpr std::size_t fewest_filtered_frames = 16;
 constexpr double longest_lag_s = 0.5;
-
-double component(Vec3 v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
 // The error of each channel (frames x 3 markers); of samples that are missing on the line between
 // those beside them.

@@ -14,6 +14,7 @@
 #include "kinemend/pictures.hpp"
 #include "kinemend/svg.hpp"
 #include "report/inks.hpp"
+#include "rotation/component.hpp"
 
 namespace kinemend {
 
@@ -22,8 +23,6 @@ namespace {
 using Point = Svg::Point;
 
 constexpr double width = 960, height = 240, ground = 206, tallest = 176;  // pixels
-
-double component(Vec3 v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
 /// Points of a pose, none for one that is missing, and which of them are joined.
 struct Poses {

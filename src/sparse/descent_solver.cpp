@@ -243,10 +243,7 @@ class Batch {
 SparseSolution descend_sparse(const Dictionary& dictionary, const SparseProblem& problem,
                               const DescentSettings& settings) {
   const std::size_t count = problem.lambdas.size();
-  SparseSolution solution;
-  solution.codes.assign(count * dictionary.atoms, 0);
-  solution.reconstructed.assign(count * dictionary.rows, 0);
-  solution.objectives.assign(count, 0);
+  SparseSolution solution(dictionary, count);
   if (count == 0 || dictionary.atoms == 0) return solution;
   const nn::PackedMatrixF by_row(
       nn::MatrixViewF{dictionary.values.data(), dictionary.atoms, dictionary.rows, dictionary.rows}

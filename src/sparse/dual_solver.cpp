@@ -158,11 +158,8 @@ void solve_batch(const Batch& batch, const DualSettings& settings, SparseSolutio
 SparseSolution solve_sparse(const Dictionary& dictionary, const SparseProblem& problem,
                             const DualSettings& settings) {
   const std::size_t count = problem.lambdas.size();
-  SparseSolution solution;
-  solution.codes.assign(count * dictionary.atoms, 0);
-  solution.reconstructed.assign(count * dictionary.rows, 0);
+  SparseSolution solution(dictionary, count);
   solution.gaps.assign(count, 0);
-  solution.objectives.assign(count, 0);
   if (count == 0 || dictionary.atoms == 0) return solution;
   const Atoms atoms(dictionary);
   std::vector<double> ones;

@@ -42,6 +42,12 @@ struct SparseSolution {
   std::vector<double> reconstructed;  ///< S x n: D theta
   std::vector<double> gaps;           ///< S: a bound on how far an objective is above its minimum
   std::vector<double> objectives;     ///< S
+
+  /// Zeros; no gaps.
+  SparseSolution(const Dictionary& dictionary, std::size_t signals)
+      : codes(signals * dictionary.atoms),
+        reconstructed(signals * dictionary.rows),
+        objectives(signals) {}
 };
 
 /// Solves them by a dual augmented Lagrangian method (Yang & Zhang 2011, "Alternating direction

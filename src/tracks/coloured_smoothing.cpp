@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "rotation/component.hpp"
 #include "signal/coloured_noise.hpp"
 
 namespace kinemend {
@@ -12,8 +13,6 @@ namespace kinemend {
 namespace {
 
 constexpr signal::CutoffGrid model_cutoffs{0.003, 50, 24};
-
-double& component(Vec3& v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
 class ColouredSmoothing {
  public:
@@ -28,7 +27,7 @@ class ColouredSmoothing {
     for (std::size_t n = 0; n < tracks.tracks(); ++n) {
       Vec3 deviations = scale * spectrum.deviations[n];
       for (std::size_t axis = 0; axis < 3 && shares[n] > 0; ++axis) {
-        const double deviation = std::max(component(deviations, axis), least_noise);
+        const double deviation = std::max(component_of(deviations, axis), least_noise);
         channels_.push_back(3 * n + axis);
         variance_.push_back(deviation * deviation);
       }
@@ -67,7 +66,8 @@ class ColouredSmoothing {
     for (std::size_t k = 0; k < members.size(); ++k) {
       const std::size_t channel = channels_[members[k]];
       const std::span<Vec3> values = tracks_.track(channel / 3);
-      for (std::size_t t = 0; t < values.size(); ++t) y(t, k) = component(values[t], channel % 3);
+      for (std::size_t t = 0; t < values.size(); ++t)
+        y(t, k) = component_of(values[t], channel % 3);
       precision.set_channel(k, correlation_, missing_.track(channel / 3));
     }
   }
@@ -118,7 +118,7 @@ class ColouredSmoothing {
       const double share = shares_[channel / 3];
       const std::span<Vec3> values = tracks_.track(channel / 3);
       for (std::size_t t = 0; t < frames; ++t)
-        component(values[t], channel % 3) = y(t, k) + share * (x(t, k) - y(t, k));
+        component_of(values[t], channel % 3) = y(t, k) + share * (x(t, k) - y(t, k));
     }
   }
 

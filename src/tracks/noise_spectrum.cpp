@@ -10,6 +10,7 @@
 #include "base/parallel.hpp"
 #include "base/quantiles.hpp"
 #include "kinemend/frame_rate.hpp"
+#include "rotation/component.hpp"
 #include "signal/coloured_noise.hpp"
 
 namespace kinemend {
@@ -57,8 +58,6 @@ Windows windows_of(std::size_t frames, std::size_t length, std::size_t most) {
   }
   return windows;
 }
-
-double component(Vec3 v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
 using Curve = std::array<double, strengths>;  // -2 log likelihood of each strength
 

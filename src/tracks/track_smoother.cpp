@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "rotation/component.hpp"
 #include "signal/evidence.hpp"
 
 namespace kinemend {
@@ -55,8 +56,6 @@ Vec3 turned(const Eigen::Matrix3d& axes, Vec3 v) {
 Vec3 lane_vector(const signal::ChannelBlock& block, std::size_t frame, std::size_t lane) {
   return {block(frame, 3 * lane), block(frame, 3 * lane + 1), block(frame, 3 * lane + 2)};
 }
-
-double& component(Vec3& v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
 // Smooths some tracks in place, a block of channels at a time.
 class Smoothing {
@@ -145,7 +144,7 @@ class Smoothing {
       variance.push_back(variance_[c]);
       models.push_back(models_[c]);
       for (std::size_t t = 0; t < frames; ++t) {
-        y(t, k) = component(values[t], c % 3);
+        y(t, k) = component_of(values[t], c % 3);
         weight(t, k) = missing[t] != 0 ? 0 : 1 / variance_[c];
       }
     }
@@ -156,7 +155,7 @@ class Smoothing {
       const double share = shares[chosen_[c / 3]];
       const std::span<Vec3> values = track(c / 3);
       for (std::size_t t = 0; t < frames; ++t)
-        component(values[t], c % 3) = y(t, k) + share * (x(t, k) - y(t, k));
+        component_of(values[t], c % 3) = y(t, k) + share * (x(t, k) - y(t, k));
     }
   }
 
