@@ -5,9 +5,9 @@
 #include <cmath>
 #include <functional>
 
-#include "kinemend/convert.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/model.hpp"
 #include "papers/page.hpp"
 
 namespace kinemend::papers {

@@ -1,8 +1,8 @@
 #include <benchmark/benchmark.h>
 
-#include "kinemend/body.hpp"
-#include "kinemend/convert.hpp"
-#include "kinemend/synth.hpp"
+#include "kinemend/experimental/body.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/synth.hpp"
 
 // Takes of 31 joints (38 markers) as channels of a body and back. Arguments: rate in hertz,
 // seconds.

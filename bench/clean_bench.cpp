@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/random.hpp"
 
 namespace {
 

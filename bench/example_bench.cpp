@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "kinemend/clean.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/random.hpp"
 #include "nn/gemm.hpp"
 #include "noisy_walk.hpp"
 #include "priors/example_filter.hpp"

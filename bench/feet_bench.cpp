@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "kinemend/experimental/synth.hpp"
 #include "kinemend/feet.hpp"
-#include "kinemend/synth.hpp"
 
 // Feet of a take of 31 joints at 120 Hz whose root wanders: ms is the figure, 5,000 frames the
 // take.

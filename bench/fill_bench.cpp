@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/gaps.hpp"
-#include "kinemend/kinematics.hpp"
-#include "kinemend/random.hpp"
-#include "kinemend/synth.hpp"
 
 // Filling all gaps of a take of 41 markers at 120 Hz: 60 gaps of 10 to 200 frames in a take of
 // 4,500 frames, and as many a second in longer ones. ms is the figure.

@@ -8,8 +8,8 @@
 #include "io/motion/half_angles.hpp"
 #include "io/motion/motion_columns.hpp"
 #include "io/motion/motion_rows.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/random.hpp"
 
 namespace {
 

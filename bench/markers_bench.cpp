@@ -2,9 +2,9 @@
 #include <benchmark/benchmark.h>
 
 #include "kinemend/clean.hpp"
-#include "kinemend/convert.hpp"
-#include "kinemend/corrupt.hpp"
-#include "kinemend/synth.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/experimental/synth.hpp"
 
 namespace kinemend {
 namespace {

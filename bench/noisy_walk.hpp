@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
-#include "kinemend/corrupt.hpp"
-#include "kinemend/random.hpp"
-#include "kinemend/synth.hpp"
+#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/experimental/synth.hpp"
 
 // Takes for the benchmarks of learned methods.
 namespace kinemend::bench {

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "kinemend/clean.hpp"
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/experimental/representation.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/random.hpp"
-#include "kinemend/representation.hpp"
 #include "kinemend/stream.hpp"
 
 // A take of 31 joints and 10,000 frames at 120 Hz with one degree of noise, cleaned as a whole; and

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "kinemend/cleaner.hpp"
+#include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/model.hpp"
 #include "noisy_walk.hpp"
 #include "priors/recurrent_filter.hpp"
 

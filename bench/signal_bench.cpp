@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "kinemend/random.hpp"
-#include "kinemend/signal.hpp"
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/experimental/signal.hpp"
 
 // Filters on takes of 96 channels and 10,000 frames at 120 Hz; frames/s is the figure.
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "kinemend/cleaner.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/random.hpp"
 #include "noisy_walk.hpp"
 #include "sparse/batch_omp.hpp"
 #include "sparse/descent_solver.hpp"

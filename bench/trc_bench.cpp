@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "io/text/cell_rows.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/random.hpp"
 
 namespace {
 

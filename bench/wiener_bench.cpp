@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "kinemend/cleaner.hpp"
+#include "kinemend/experimental/model.hpp"
+#include "kinemend/experimental/train.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/model.hpp"
-#include "kinemend/train.hpp"
 #include "noisy_walk.hpp"
 
 // The method `wiener`: takes cleaned with the model that ships, as a whole and without what `auto`

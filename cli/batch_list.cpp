@@ -9,8 +9,8 @@
 #include <fstream>
 #include <map>
 
-#include "kinemend/content_hash.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/content_hash.hpp"
 #include "kinemend/io.hpp"
 
 namespace kinemend::cli {

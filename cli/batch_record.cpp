@@ -14,8 +14,8 @@
 #include <system_error>
 
 #include "json.hpp"
-#include "kinemend/content_hash.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/content_hash.hpp"
 #include "kinemend/io.hpp"
 
 namespace kinemend::cli {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/batch_rows.hpp"
+#include "kinemend/experimental/batch_rows.hpp"
 
 // What a batch remembers of each take, so that it can be taken up again: one small file a take
 // below

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "batch_list.hpp"
-#include "kinemend/batch_rows.hpp"
+#include "kinemend/experimental/batch_rows.hpp"
 
 namespace kinemend::cli {
 

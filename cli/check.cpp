@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "kinemend/frame_numbers.hpp"
+#include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"
 #include "page_report.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <initializer_list>
 
-#include "kinemend/text.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <map>
 
-#include "kinemend/frame_numbers.hpp"
+#include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/io.hpp"
 #include "known_noise.hpp"
 #include "method_options.hpp"

@@ -10,8 +10,8 @@
 #include "config.hpp"
 #include "frame_range.hpp"
 #include "kinemend/clean.hpp"
+#include "kinemend/experimental/page.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/page.hpp"
 
 namespace kinemend::cli {
 

@@ -10,7 +10,7 @@
 
 #include "clean_leftovers.hpp"
 #include "kinemend/check.hpp"
-#include "kinemend/frame_numbers.hpp"
+#include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"

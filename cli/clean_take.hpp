@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "clean_plan.hpp"
-#include "kinemend/batch_rows.hpp"
+#include "kinemend/experimental/batch_rows.hpp"
 
 namespace kinemend::cli {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "kinemend/cleaner.hpp"
-#include "kinemend/text.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "method_options.hpp"
 
 namespace kinemend::cli {

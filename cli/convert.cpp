@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "kinemend/convert.hpp"
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/io.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"

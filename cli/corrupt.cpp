@@ -1,6 +1,6 @@
 // kinemend corrupt: seeded damage, for tests and comparisons.
 
-#include "kinemend/corrupt.hpp"
+#include "kinemend/experimental/corrupt.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "json.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/text.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 

@@ -12,11 +12,11 @@
 
 #include "commands.hpp"
 #include "frame_range.hpp"
-#include "kinemend/frame_numbers.hpp"
+#include "kinemend/experimental/frame_numbers.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"
-#include "kinemend/text.hpp"
 #include "page_report.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "kinemend/text.hpp"
-#include "kinemend/version.hpp"
+#include "kinemend/experimental/text.hpp"
+#include "kinemend/experimental/version.hpp"
 #include "terminal.hpp"
 #include "topics.hpp"
 

@@ -13,7 +13,7 @@
 
 #include "command_line.hpp"
 #include "help.hpp"
-#include "kinemend/version.hpp"
+#include "kinemend/experimental/version.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "json.hpp"
-#include "kinemend/text.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 

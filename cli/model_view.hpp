@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "kinemend/model.hpp"
+#include "kinemend/experimental/model.hpp"
 
 // What commands say of a learned model.
 namespace kinemend::cli {

@@ -7,9 +7,9 @@
 
 #include "commands.hpp"
 #include "json.hpp"
+#include "kinemend/experimental/model.hpp"
+#include "kinemend/experimental/version.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/model.hpp"
-#include "kinemend/version.hpp"
 #include "model_view.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"

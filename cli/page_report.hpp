@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "command.hpp"
+#include "kinemend/experimental/page.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/page.hpp"
 #include "kinemend/report.hpp"
 
 // Reports that are pages for a browser: --report FILE.html.

@@ -13,10 +13,10 @@
 
 #include "commands.hpp"
 #include "frame_range.hpp"
-#include "kinemend/curves.hpp"
-#include "kinemend/frame_numbers.hpp"
+#include "kinemend/experimental/curves.hpp"
+#include "kinemend/experimental/frame_numbers.hpp"
+#include "kinemend/experimental/pictures.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/pictures.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 

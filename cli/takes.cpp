@@ -7,11 +7,11 @@
 #include <iterator>
 #include <limits>
 
-#include "kinemend/body.hpp"
-#include "kinemend/frame_numbers.hpp"
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/body.hpp"
+#include "kinemend/experimental/frame_numbers.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "kinemend/report.hpp"
-#include "kinemend/text.hpp"
 #include "terminal.hpp"
 
 namespace kinemend::cli {

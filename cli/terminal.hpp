@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "kinemend/error.hpp"
-#include "kinemend/text.hpp"
+#include "kinemend/experimental/text.hpp"
 
 namespace kinemend::cli {
 

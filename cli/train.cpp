@@ -1,6 +1,6 @@
 // kinemend train: learns a model from clean takes.
 
-#include "kinemend/train.hpp"
+#include "kinemend/experimental/train.hpp"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -16,10 +16,10 @@
 #include "clean_flags.hpp"
 #include "commands.hpp"
 #include "json.hpp"
+#include "kinemend/experimental/text.hpp"
+#include "kinemend/experimental/version.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/text.hpp"
-#include "kinemend/version.hpp"
 #include "method_options.hpp"
 #include "model_view.hpp"
 #include "takes.hpp"

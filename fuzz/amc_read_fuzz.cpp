@@ -8,8 +8,8 @@
 
 #include "io/acclaim/amc.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/random.hpp"
 
 namespace {
 

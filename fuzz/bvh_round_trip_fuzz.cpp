@@ -8,8 +8,8 @@
 #include <string>
 
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/random.hpp"
 
 namespace {
 

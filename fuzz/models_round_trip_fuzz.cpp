@@ -5,7 +5,7 @@
 #include <string>
 
 #include "kinemend/error.hpp"
-#include "kinemend/model.hpp"
+#include "kinemend/experimental/model.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "kinemend/error.hpp"
-#include "kinemend/tensor.hpp"
+#include "kinemend/experimental/tensor.hpp"
 
 namespace {
 

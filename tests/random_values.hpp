@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 
 namespace kinemend::test {
 

@@ -77,11 +77,13 @@ def check(root):
     for header in sources(root / "include"):
         if header.stem not in PUBLIC:
             problems.append(f"{header.relative_to(root)}: no room is named for this public header")
+        if header.parent.name != "experimental" and "experimental/" in "".join(INCLUDE.findall(header.read_text())):
+            problems.append(f"{header.relative_to(root)}: what stays may not include what is experimental")
     for room in USES:
         allowed = closure(room)
         files = sources(root / "src" / room)
-        files += [root / "include" / "kinemend" / f"{h}.hpp" for h, r in PUBLIC.items() if r == room]
-        for path in (p for p in files if p.exists()):
+        files += [header for header in sources(root / "include") if PUBLIC.get(header.stem) == room]
+        for path in files:
             for name in INCLUDE.findall(path.read_text()):
                 other = room_of_include(name)
                 if other is not None and other not in allowed:

@@ -11,9 +11,9 @@
 #include <string>
 #include <string_view>
 
-#include "kinemend/corrupt.hpp"
+#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/synth.hpp"
 
 namespace {
 

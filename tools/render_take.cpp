@@ -16,10 +16,10 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/experimental/svg.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/kinematics.hpp"
 #include "kinemend/metrics.hpp"
-#include "kinemend/svg.hpp"
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "kinemend/model.hpp"
+#include "kinemend/experimental/model.hpp"
 #include "priors/recurrent_samples.hpp"
 #include "sequence_network.hpp"
 

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <iostream>
 
-#include "kinemend/random.hpp"
-#include "kinemend/tensor.hpp"
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/experimental/tensor.hpp"
 #include "priors/recurrent_input.hpp"
 #include "sequence_network.hpp"
 

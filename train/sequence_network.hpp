@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/tensor.hpp"
+#include "kinemend/experimental/tensor.hpp"
 
 // Networks from sequences to sequences, and the steps of their training. LibTorch is behind this
 // header and in no other: its own headers define CHECK and LOG.

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "kinemend/convert.hpp"
+#include "kinemend/experimental/convert.hpp"
 #include "page.hpp"
 #include "tracks/smooth_chart.hpp"
 #include "tracks/spikes.hpp"

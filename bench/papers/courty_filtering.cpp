@@ -6,8 +6,8 @@
 
 #include "experiment.hpp"
 #include "kinemend/cleaner.hpp"
-#include "kinemend/corrupt.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "experiment.hpp"
 #include "kinemend/cleaner.hpp"
-#include "kinemend/corrupt.hpp"
+#include "kinemend/experimental/corrupt.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
 

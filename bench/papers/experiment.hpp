@@ -12,8 +12,8 @@
 
 #include "kinemend/clip.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/synth.hpp"
 
 // What the programs that repeat a paper's experiment share: arguments, takes and tables.
 namespace kinemend::papers {

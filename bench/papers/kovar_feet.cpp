@@ -5,7 +5,7 @@
 
 #include "experiment.hpp"
 #include "kinemend/clean.hpp"
-#include "kinemend/corrupt.hpp"
+#include "kinemend/experimental/corrupt.hpp"
 #include "kinemend/feet.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"

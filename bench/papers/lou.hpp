@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "experiment.hpp"
-#include "kinemend/convert.hpp"
-#include "kinemend/corrupt.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/experimental/model.hpp"
+#include "kinemend/experimental/train.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
-#include "kinemend/model.hpp"
-#include "kinemend/train.hpp"
 
 // What the experiments of Lou & Chai 2010 share: takes at 30 Hz, models of them, noise and errors.
 namespace kinemend::papers {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 #include "lou.hpp"
 
 namespace kinemend::papers {

@@ -5,7 +5,7 @@
 
 #include "experiment.hpp"
 #include "kinemend/clean.hpp"
-#include "kinemend/corrupt.hpp"
+#include "kinemend/experimental/corrupt.hpp"
 #include "kinemend/metrics.hpp"
 
 // What the programs that measure the figures of pages share.

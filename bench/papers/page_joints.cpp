@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/methods.hpp"
 #include "page.hpp"
 

@@ -5,8 +5,8 @@
 
 #include "corrupt/system_noise.hpp"
 #include "experiment.hpp"
-#include "kinemend/corrupt.hpp"
-#include "kinemend/signal.hpp"
+#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/experimental/signal.hpp"
 #include "noise_measures.hpp"
 
 namespace kinemend::papers {

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "experiment.hpp"
-#include "kinemend/convert.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/model.hpp"
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/experimental/train.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
-#include "kinemend/model.hpp"
-#include "kinemend/random.hpp"
-#include "kinemend/train.hpp"
 
 // What the experiments of Xiao et al. 2015 share: joints as markers, noise, methods and errors.
 namespace kinemend::papers {

@@ -1,4 +1,4 @@
-#include "kinemend/content_hash.hpp"
+#include "kinemend/experimental/content_hash.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 
 #include <bit>
 #include <cmath>

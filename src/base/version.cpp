@@ -1,4 +1,4 @@
-#include "kinemend/version.hpp"
+#include "kinemend/experimental/version.hpp"
 
 namespace kinemend {
 

@@ -6,7 +6,7 @@
 
 #include "check/feet.hpp"
 #include "feet/legs.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/metrics.hpp"
 
 namespace kinemend::check {

@@ -5,7 +5,7 @@
 
 #include "check/findings.hpp"
 #include "kinemend/check.hpp"
-#include "kinemend/subjects.hpp"
+#include "kinemend/experimental/subjects.hpp"
 
 // One function per check. Each adds to a report whose `tracks` are named already; frames count from
 // the first frame of the clip it is given.

@@ -2,7 +2,7 @@
 
 #include "clean/lanes.hpp"
 #include "clean/method_list.hpp"
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
 #include "tracks/bilateral_filter.hpp"

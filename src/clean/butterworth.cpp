@@ -6,9 +6,9 @@
 #include "clean/causal.hpp"
 #include "clean/filter_channels.hpp"
 #include "clean/method_list.hpp"
+#include "kinemend/experimental/representation.hpp"
+#include "kinemend/experimental/signal.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/representation.hpp"
-#include "kinemend/signal.hpp"
 
 namespace kinemend {
 

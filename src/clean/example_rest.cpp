@@ -7,7 +7,7 @@
 
 #include "base/quantiles.hpp"
 #include "clean/prior_fall_backs.hpp"
-#include "kinemend/signal.hpp"
+#include "kinemend/experimental/signal.hpp"
 #include "signal/evidence.hpp"
 
 namespace kinemend {

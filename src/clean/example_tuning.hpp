@@ -2,8 +2,8 @@
 
 #include <memory>
 
+#include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/model.hpp"
 
 // What `example` is made of, so that each part can be left out and each constant moved, to see what
 // it brings. Nobody but the bench that does so (`bench/papers/example_ablation.cpp`) sets these.

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "kinemend/cleaner.hpp"
-#include "kinemend/pose_matrix.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
 
 namespace kinemend {
 

@@ -4,7 +4,7 @@
 
 #include "clean/lanes.hpp"
 #include "clean/method_list.hpp"
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/methods.hpp"
 #include "tracks/orientation_filter.hpp"
 

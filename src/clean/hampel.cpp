@@ -5,7 +5,7 @@
 #include "base/quantiles.hpp"
 #include "clean/method_list.hpp"
 #include "clean/pieces.hpp"
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/methods.hpp"
 #include "tracks/medians.hpp"
 

@@ -6,8 +6,8 @@
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
 #include "clean/prior_hold.hpp"
+#include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/model.hpp"
 #include "priors/linear_dynamics.hpp"
 #include "priors/linear_smoother.hpp"
 

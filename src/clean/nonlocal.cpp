@@ -8,7 +8,7 @@
 #include "clean/lanes.hpp"
 #include "clean/method_list.hpp"
 #include "clean/nonlocal_causal.hpp"
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/methods.hpp"
 #include "metrics/track_noise.hpp"
 #include "tracks/nonlocal_filter.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend {
 

@@ -14,9 +14,9 @@
 #include "clean/pieces.hpp"
 #include "clean/prior_fall_backs.hpp"
 #include "clean/prior_hold.hpp"
+#include "kinemend/experimental/representation.hpp"
+#include "kinemend/experimental/signal.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/representation.hpp"
-#include "kinemend/signal.hpp"
 #include "tracks/vector_tracks.hpp"
 
 namespace kinemend {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/body.hpp"
 #include "kinemend/cleaner.hpp"
-#include "kinemend/model.hpp"
+#include "kinemend/experimental/body.hpp"
+#include "kinemend/experimental/model.hpp"
 
 // What the methods with a learned model share: a take becomes channels, the method filters them,
 // and they go back into the take.

@@ -6,8 +6,8 @@
 #include "clean/prior_cleaning.hpp"
 #include "clean/prior_fall_backs.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/model.hpp"
 #include "priors/recurrent_filter.hpp"
 
 namespace kinemend {

@@ -8,8 +8,8 @@
 #include "clean/example_rest.hpp"
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
+#include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/model.hpp"
 #include "priors/sparse_filter.hpp"
 #include "priors/sparse_prior.hpp"
 

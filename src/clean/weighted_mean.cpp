@@ -1,7 +1,7 @@
 #include "clean/filter_channels.hpp"
 #include "clean/method_list.hpp"
+#include "kinemend/experimental/signal.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/signal.hpp"
 
 namespace kinemend {
 

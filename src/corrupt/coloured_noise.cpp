@@ -5,7 +5,7 @@
 #include <cmath>
 #include <complex>
 
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend::corrupt {
 

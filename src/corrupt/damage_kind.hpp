@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "kinemend/corrupt.hpp"
+#include "kinemend/experimental/corrupt.hpp"
 
 namespace kinemend::corrupt {
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/rotation.hpp"
 
 namespace kinemend::corrupt {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 
 namespace kinemend::corrupt {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/rotation.hpp"
 
 namespace kinemend::corrupt {

@@ -2,7 +2,7 @@
 #include "corrupt/normal_vector.hpp"
 #include "corrupt/position_targets.hpp"
 #include "corrupt/targets.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 
 namespace kinemend::corrupt {
 

@@ -7,7 +7,7 @@
 #include "corrupt/damage_kind.hpp"
 #include "corrupt/position_targets.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 
 namespace kinemend::corrupt {
 

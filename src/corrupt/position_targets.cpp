@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "corrupt/refit.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 
 namespace kinemend::corrupt {
 

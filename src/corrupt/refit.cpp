@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "corrupt/targets.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 #include "rotation/leading_eigenvector.hpp"
 
 namespace kinemend::corrupt {

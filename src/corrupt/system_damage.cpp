@@ -10,8 +10,8 @@
 #include "corrupt/system_noise.hpp"
 #include "corrupt/targets.hpp"
 #include "corrupt/track_errors.hpp"
-#include "kinemend/convert.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 
 namespace kinemend::corrupt {
 

@@ -5,9 +5,9 @@
 
 #include "corrupt/damage_kind.hpp"
 #include "corrupt/targets.hpp"
-#include "kinemend/convert.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 #include "motion/calibration.hpp"
 
 namespace kinemend {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kinemend/clip.hpp"
-#include "kinemend/corrupt.hpp"
+#include "kinemend/experimental/corrupt.hpp"
 #include "kinemend/options.hpp"
 
 namespace kinemend::corrupt {

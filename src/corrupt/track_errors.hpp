@@ -7,7 +7,7 @@
 
 #include "corrupt/noise_events.hpp"
 #include "corrupt/system_noise.hpp"
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/rotation.hpp"
 
 namespace kinemend::corrupt {

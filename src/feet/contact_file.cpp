@@ -9,8 +9,8 @@
 
 #include "base/quote.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/feet.hpp"
-#include "kinemend/frame_numbers.hpp"
 #include "motion/name_pattern.hpp"
 
 namespace kinemend {

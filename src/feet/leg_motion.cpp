@@ -8,7 +8,7 @@
 
 #include "feet/blocks.hpp"
 #include "feet/sole_point.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 
 namespace kinemend::feet {
 

@@ -13,9 +13,9 @@
 #include "io/table/trc.hpp"
 #include "io/table/tsv.hpp"
 #include "io/text/text.hpp"
-#include "kinemend/convert.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/io.hpp"
 
 namespace kinemend {

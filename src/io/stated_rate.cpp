@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend {
 

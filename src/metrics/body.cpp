@@ -7,7 +7,7 @@
 #include <string>
 
 #include "kinemend/error.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/metrics.hpp"
 #include "metrics/pairing.hpp"
 

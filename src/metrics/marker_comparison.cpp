@@ -3,9 +3,9 @@
 #include <limits>
 
 #include "kinemend/error.hpp"
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/experimental/signal.hpp"
 #include "kinemend/metrics.hpp"
-#include "kinemend/signal.hpp"
 #include "metrics/marker_fit.hpp"
 #include "metrics/pairing.hpp"
 #include "rotation/component.hpp"

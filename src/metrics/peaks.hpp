@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/rotation.hpp"
 #include "metrics/track_noise.hpp"
 

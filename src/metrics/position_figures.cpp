@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "kinemend/error.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/metrics.hpp"
 #include "metrics/pairing.hpp"
 

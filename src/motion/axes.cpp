@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "kinemend/convert.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 #include "motion/take_change.hpp"
 
 namespace kinemend {

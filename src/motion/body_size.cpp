@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/quantiles.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/marker_clip.hpp"
 #include "kinemend/skeleton.hpp"
 

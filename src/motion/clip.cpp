@@ -8,7 +8,7 @@
 
 #include "base/quantiles.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend {
 

@@ -1,4 +1,4 @@
-#include "kinemend/frame_numbers.hpp"
+#include "kinemend/experimental/frame_numbers.hpp"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "kinemend/error.hpp"
-#include "kinemend/frame_numbers.hpp"
+#include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/gaps.hpp"
 
 namespace kinemend {

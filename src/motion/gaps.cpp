@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "kinemend/error.hpp"
-#include "kinemend/frame_numbers.hpp"
+#include "kinemend/experimental/frame_numbers.hpp"
 #include "motion/name_pattern.hpp"
 
 namespace kinemend {

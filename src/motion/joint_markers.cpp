@@ -2,8 +2,8 @@
 #include <cmath>
 #include <string>
 
-#include "kinemend/convert.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 #include "motion/take_change.hpp"
 
 namespace kinemend {

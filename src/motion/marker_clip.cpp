@@ -8,9 +8,9 @@
 #include <cmath>
 #include <utility>
 
-#include "kinemend/convert.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend {
 

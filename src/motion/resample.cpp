@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "kinemend/convert.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 #include "motion/take_change.hpp"
 
 namespace kinemend {

@@ -1,4 +1,4 @@
-#include "kinemend/subjects.hpp"
+#include "kinemend/experimental/subjects.hpp"
 
 #include <algorithm>
 

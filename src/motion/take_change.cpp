@@ -1,6 +1,6 @@
 #include "motion/take_change.hpp"
 
-#include "kinemend/convert.hpp"
+#include "kinemend/experimental/convert.hpp"
 
 namespace kinemend {
 

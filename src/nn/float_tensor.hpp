@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "kinemend/tensor.hpp"
+#include "kinemend/experimental/tensor.hpp"
 #include "nn/gemm.hpp"
 
 namespace kinemend::nn {

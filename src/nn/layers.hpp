@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/tensor.hpp"
+#include "kinemend/experimental/tensor.hpp"
 #include "nn/activation.hpp"
 #include "nn/gemm.hpp"
 

@@ -1,4 +1,4 @@
-#include "kinemend/tensor.hpp"
+#include "kinemend/experimental/tensor.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/tensor.hpp"
+#include "kinemend/experimental/tensor.hpp"
 
 // The header of a safetensors file: JSON that says where each tensor lies.
 namespace kinemend {

@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "kinemend/page.hpp"
-#include "kinemend/text.hpp"
+#include "kinemend/experimental/page.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "page/document.hpp"
 
 namespace kinemend {

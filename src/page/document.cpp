@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "kinemend/error.hpp"
-#include "kinemend/page.hpp"
-#include "kinemend/svg.hpp"
-#include "kinemend/version.hpp"
+#include "kinemend/experimental/page.hpp"
+#include "kinemend/experimental/svg.hpp"
+#include "kinemend/experimental/version.hpp"
 #include "page/codec.hpp"
 #include "page/parts.hpp"
 

@@ -5,8 +5,8 @@
 
 #include "base/quantiles.hpp"
 #include "check/feet.hpp"
-#include "kinemend/convert.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 
 namespace kinemend::page {
 

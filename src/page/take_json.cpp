@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "kinemend/frame_numbers.hpp"
+#include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/gaps.hpp"
 #include "kinemend/report.hpp"
 

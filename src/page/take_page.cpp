@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "kinemend/error.hpp"
-#include "kinemend/page.hpp"
+#include "kinemend/experimental/page.hpp"
 #include "page/channels.hpp"
 #include "page/document.hpp"
 #include "page/stage.hpp"

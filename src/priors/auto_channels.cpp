@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "kinemend/representation.hpp"
+#include "kinemend/experimental/representation.hpp"
 #include "kinemend/rotation.hpp"
 #include "tracks/smooth_chart.hpp"
 #include "tracks/spikes.hpp"

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "kinemend/body.hpp"
-#include "kinemend/pose_matrix.hpp"
+#include "kinemend/experimental/body.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
 
 namespace kinemend {
 

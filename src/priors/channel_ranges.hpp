@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "kinemend/pose_matrix.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
 
 namespace kinemend {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-#include "kinemend/pose_matrix.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
 
 namespace kinemend {
 

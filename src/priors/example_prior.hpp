@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/model.hpp"
+#include "kinemend/experimental/model.hpp"
 #include "priors/example_filter.hpp"
 #include "priors/mssa.hpp"
 #include "priors/window_bases.hpp"

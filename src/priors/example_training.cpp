@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "kinemend/error.hpp"
-#include "kinemend/train.hpp"
+#include "kinemend/experimental/train.hpp"
 #include "priors/channel_ranges.hpp"
 #include "priors/example_prior.hpp"
 #include "priors/learned_list.hpp"

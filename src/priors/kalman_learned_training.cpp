@@ -1,7 +1,7 @@
 #include <cstdint>
 
 #include "kinemend/error.hpp"
-#include "kinemend/train.hpp"
+#include "kinemend/experimental/train.hpp"
 #include "priors/learned_list.hpp"
 #include "priors/linear_dynamics.hpp"
 #include "priors/training_sequences.hpp"

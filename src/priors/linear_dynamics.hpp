@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "kinemend/model.hpp"
-#include "kinemend/pose_matrix.hpp"
+#include "kinemend/experimental/model.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
 
 // Motion as a linear dynamical system that is learned from clips (Lou & Chai 2010, section 4.2).
 namespace kinemend {

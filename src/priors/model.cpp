@@ -1,4 +1,4 @@
-#include "kinemend/model.hpp"
+#include "kinemend/experimental/model.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

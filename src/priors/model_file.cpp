@@ -11,10 +11,10 @@
 
 #include "base/file_bytes.hpp"
 #include "base/quote.hpp"
-#include "kinemend/content_hash.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/model.hpp"
-#include "kinemend/train.hpp"
+#include "kinemend/experimental/content_hash.hpp"
+#include "kinemend/experimental/model.hpp"
+#include "kinemend/experimental/train.hpp"
 
 // Models as files. docs/models.md describes the layout.
 namespace kinemend {

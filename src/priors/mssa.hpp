@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/pose_matrix.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
 
 // Multi-channel singular spectrum analysis (Lou & Chai 2010, section 3.1).
 //

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/pose_matrix.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
 #include "nn/gemm.hpp"
 #include "priors/pattern_convolution.hpp"
 #include "priors/window_bases.hpp"

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "kinemend/body.hpp"
+#include "kinemend/experimental/body.hpp"
 #include "priors/recurrent_input.hpp"
 
 // The same motion in a mirror and backwards: more to learn from, and an ensemble to clean with.

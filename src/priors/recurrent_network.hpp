@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/model.hpp"
+#include "kinemend/experimental/model.hpp"
 #include "nn/layers.hpp"
 #include "priors/recurrent_forms.hpp"
 #include "priors/recurrent_input.hpp"

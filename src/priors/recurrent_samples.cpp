@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "kinemend/signal.hpp"
+#include "kinemend/experimental/signal.hpp"
 #include "priors/auto_channels.hpp"
 #include "priors/sequence_damage.hpp"
 

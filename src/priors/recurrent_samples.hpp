@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "kinemend/body.hpp"
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/body.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "priors/recurrent_forms.hpp"
 #include "priors/recurrent_input.hpp"
 #include "priors/training_sequences.hpp"

@@ -1,4 +1,4 @@
-#include "kinemend/train.hpp"
+#include "kinemend/experimental/train.hpp"
 #include "priors/learned_list.hpp"
 
 namespace kinemend {

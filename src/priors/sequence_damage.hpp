@@ -4,9 +4,9 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/body.hpp"
-#include "kinemend/corrupt.hpp"
-#include "kinemend/pose_matrix.hpp"
+#include "kinemend/experimental/body.hpp"
+#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
 
 namespace kinemend {
 

@@ -5,7 +5,7 @@
 #include <mutex>
 
 #include "kinemend/error.hpp"
-#include "kinemend/model.hpp"
+#include "kinemend/experimental/model.hpp"
 #include "priors/shipped_list.hpp"
 
 namespace kinemend {

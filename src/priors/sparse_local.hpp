@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kinemend/pose_matrix.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
 #include "kinemend/rotation.hpp"
 
 // The local coordinates of Xiao et al. 2015, section 3.1.1.

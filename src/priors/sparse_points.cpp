@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
-#include "kinemend/kinematics.hpp"
-#include "kinemend/representation.hpp"
+#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/experimental/representation.hpp"
 
 namespace kinemend {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "kinemend/body.hpp"
-#include "kinemend/pose_matrix.hpp"
+#include "kinemend/experimental/body.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
 #include "kinemend/rotation.hpp"
 
 // The points of a body that the method `sparse` knows, from a body's channels and back.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/model.hpp"
+#include "kinemend/experimental/model.hpp"
 #include "priors/sparse_local.hpp"
 #include "priors/sparse_points.hpp"
 #include "sparse/dictionary.hpp"

@@ -7,10 +7,10 @@
 #include <variant>
 
 #include "base/parallel.hpp"
-#include "kinemend/convert.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/random.hpp"
-#include "kinemend/train.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/experimental/train.hpp"
 #include "priors/learned_list.hpp"
 #include "priors/sparse_prior.hpp"
 #include "priors/training_sequences.hpp"

@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
-#include "kinemend/convert.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/convert.hpp"
 #include "priors/take_store.hpp"
 
 namespace kinemend {

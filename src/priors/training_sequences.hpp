@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/spool.hpp"
-#include "kinemend/body.hpp"
-#include "kinemend/pose_matrix.hpp"
-#include "kinemend/train.hpp"
+#include "kinemend/experimental/body.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
+#include "kinemend/experimental/train.hpp"
 
 // Input of every fit of a model: takes as stretches of channels at the model's rate, read and
 // encoded once.

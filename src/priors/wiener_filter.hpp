@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/pose_matrix.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
 #include "priors/wiener_prior.hpp"
 
 namespace kinemend {

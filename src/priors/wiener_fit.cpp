@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "kinemend/error.hpp"
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "priors/mixture_fit.hpp"
 #include "priors/window_cosines.hpp"
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kinemend/pose_matrix.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
 #include "priors/wiener_prior.hpp"
 #include "priors/window_moments.hpp"
 

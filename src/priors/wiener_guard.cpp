@@ -10,8 +10,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "kinemend/random.hpp"
-#include "kinemend/signal.hpp"
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/experimental/signal.hpp"
 #include "signal/fourth_difference.hpp"
 
 namespace kinemend {

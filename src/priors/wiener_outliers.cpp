@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/quantiles.hpp"
-#include "kinemend/signal.hpp"
+#include "kinemend/experimental/signal.hpp"
 #include "signal/fourth_difference.hpp"
 
 namespace kinemend {

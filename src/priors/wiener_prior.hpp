@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/model.hpp"
+#include "kinemend/experimental/model.hpp"
 
 // Prior of the method `wiener`: the distribution of short windows of motion.
 namespace kinemend {

@@ -1,6 +1,6 @@
 #include <cstdint>
 
-#include "kinemend/train.hpp"
+#include "kinemend/experimental/train.hpp"
 #include "priors/learned_list.hpp"
 #include "priors/training_sequences.hpp"
 #include "priors/wiener_fit.hpp"

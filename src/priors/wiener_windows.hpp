@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/pose_matrix.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
 #include "priors/wiener_prior.hpp"
 
 // Likelihood of the coefficients of a take's windows, with missing samples.

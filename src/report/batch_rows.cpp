@@ -1,12 +1,12 @@
-#include "kinemend/batch_rows.hpp"
+#include "kinemend/experimental/batch_rows.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
 
-#include "kinemend/text.hpp"
-#include "kinemend/version.hpp"
+#include "kinemend/experimental/text.hpp"
+#include "kinemend/experimental/version.hpp"
 #include "report/json.hpp"
 
 namespace kinemend {

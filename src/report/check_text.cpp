@@ -5,8 +5,8 @@
 #include <map>
 #include <optional>
 
-#include "kinemend/frame_numbers.hpp"
-#include "kinemend/text.hpp"
+#include "kinemend/experimental/frame_numbers.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "report/figures.hpp"
 #include "report/texts.hpp"
 #include "report/words.hpp"

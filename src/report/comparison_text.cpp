@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "kinemend/text.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "report/figures.hpp"
 #include "report/texts.hpp"
 

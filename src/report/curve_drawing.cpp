@@ -5,10 +5,10 @@
 #include <limits>
 #include <string_view>
 
-#include "kinemend/curves.hpp"
-#include "kinemend/frame_numbers.hpp"
-#include "kinemend/svg.hpp"
-#include "kinemend/text.hpp"
+#include "kinemend/experimental/curves.hpp"
+#include "kinemend/experimental/frame_numbers.hpp"
+#include "kinemend/experimental/svg.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "report/inks.hpp"
 
 namespace kinemend {

@@ -1,4 +1,4 @@
-#include "kinemend/curves.hpp"
+#include "kinemend/experimental/curves.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "kinemend/error.hpp"
-#include "kinemend/frame_numbers.hpp"
+#include "kinemend/experimental/frame_numbers.hpp"
 
 namespace kinemend {
 

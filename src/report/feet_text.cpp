@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "kinemend/frame_numbers.hpp"
-#include "kinemend/text.hpp"
+#include "kinemend/experimental/frame_numbers.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "report/clean_counts.hpp"
 #include "report/texts.hpp"
 

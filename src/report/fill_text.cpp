@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <map>
 
-#include "kinemend/frame_numbers.hpp"
-#include "kinemend/text.hpp"
+#include "kinemend/experimental/frame_numbers.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "report/findings.hpp"
 #include "report/texts.hpp"
 #include "report/words.hpp"

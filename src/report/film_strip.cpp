@@ -7,12 +7,12 @@
 #include <limits>
 #include <optional>
 
-#include "kinemend/convert.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/frame_numbers.hpp"
-#include "kinemend/kinematics.hpp"
-#include "kinemend/pictures.hpp"
-#include "kinemend/svg.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/frame_numbers.hpp"
+#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/experimental/pictures.hpp"
+#include "kinemend/experimental/svg.hpp"
 #include "report/inks.hpp"
 #include "rotation/component.hpp"
 

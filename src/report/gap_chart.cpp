@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <vector>
 
-#include "kinemend/frame_numbers.hpp"
+#include "kinemend/experimental/frame_numbers.hpp"
+#include "kinemend/experimental/pictures.hpp"
+#include "kinemend/experimental/svg.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "kinemend/gaps.hpp"
-#include "kinemend/pictures.hpp"
 #include "kinemend/report.hpp"
-#include "kinemend/svg.hpp"
-#include "kinemend/text.hpp"
 #include "report/inks.hpp"
 
 namespace kinemend {

@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "kinemend/frame_numbers.hpp"
+#include "kinemend/experimental/frame_numbers.hpp"
+#include "kinemend/experimental/version.hpp"
 #include "kinemend/report.hpp"
-#include "kinemend/version.hpp"
 #include "report/clean_counts.hpp"
 
 namespace kinemend {

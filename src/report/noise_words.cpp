@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "kinemend/text.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "report/words.hpp"
 
 namespace kinemend {

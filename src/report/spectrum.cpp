@@ -5,10 +5,10 @@
 #include <complex>
 #include <limits>
 
-#include "kinemend/pictures.hpp"
+#include "kinemend/experimental/pictures.hpp"
+#include "kinemend/experimental/svg.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "kinemend/rotation.hpp"
-#include "kinemend/svg.hpp"
-#include "kinemend/text.hpp"
 #include "report/inks.hpp"
 
 namespace kinemend {

@@ -1,4 +1,4 @@
-#include "kinemend/svg.hpp"
+#include "kinemend/experimental/svg.hpp"
 
 #include <fmt/format.h>
 

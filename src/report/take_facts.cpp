@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string>
 
-#include "kinemend/frame_numbers.hpp"
+#include "kinemend/experimental/frame_numbers.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "kinemend/report.hpp"
-#include "kinemend/text.hpp"
 #include "report/words.hpp"
 
 namespace kinemend {

@@ -5,8 +5,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "kinemend/experimental/text.hpp"
 #include "kinemend/report.hpp"
-#include "kinemend/text.hpp"
 #include "report/clean_counts.hpp"
 #include "report/figures.hpp"
 #include "report/texts.hpp"

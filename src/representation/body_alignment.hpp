@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kinemend/body.hpp"
+#include "kinemend/experimental/body.hpp"
 #include "representation/body_rest.hpp"
 
 namespace kinemend::representation {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/body.hpp"
+#include "kinemend/experimental/body.hpp"
 
 // The frame of a body of markers: where its steady markers stand.
 namespace kinemend::representation {

@@ -5,8 +5,8 @@
 #include <utility>
 #include <variant>
 
-#include "kinemend/body.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/body.hpp"
 #include "representation/body_learning.hpp"
 
 namespace kinemend {

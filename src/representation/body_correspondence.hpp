@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/body.hpp"
+#include "kinemend/experimental/body.hpp"
 
 namespace kinemend::representation {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/body.hpp"
+#include "kinemend/experimental/body.hpp"
 
 // The frame of the body, from one frame of a take to the next.
 namespace kinemend::representation {

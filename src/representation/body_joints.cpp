@@ -1,9 +1,9 @@
 #include <cmath>
 #include <vector>
 
-#include "kinemend/body.hpp"
-#include "kinemend/frame_rate.hpp"
-#include "kinemend/representation.hpp"
+#include "kinemend/experimental/body.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/experimental/representation.hpp"
 #include "representation/body_frame.hpp"
 #include "representation/body_rotations.hpp"
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "kinemend/body.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/body.hpp"
 
 namespace kinemend {
 

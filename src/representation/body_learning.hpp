@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/body.hpp"
+#include "kinemend/experimental/body.hpp"
 #include "rotation/leading_eigenvector.hpp"
 
 // What is summed up of a set of takes on the way to a layout.

@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "kinemend/convert.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/convert.hpp"
 #include "motion/name_pattern.hpp"
 #include "representation/body_anchors.hpp"
 #include "representation/body_frame.hpp"

@@ -1,7 +1,7 @@
 #include <vector>
 
-#include "kinemend/body.hpp"
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/body.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 #include "representation/body_anchors.hpp"
 #include "representation/body_frame.hpp"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
-#include "kinemend/convert.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 
 namespace kinemend::representation {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "kinemend/frame_rate.hpp"
-#include "kinemend/representation.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/experimental/representation.hpp"
 
 namespace kinemend::representation {
 

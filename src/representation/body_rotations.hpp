@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/body.hpp"
+#include "kinemend/experimental/body.hpp"
 #include "representation/body_frame.hpp"
 
 namespace kinemend::representation {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/quantiles.hpp"
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend::representation {
 

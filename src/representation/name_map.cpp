@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "kinemend/body.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/body.hpp"
 #include "representation/body_correspondence.hpp"
 
 namespace kinemend {

@@ -1,4 +1,4 @@
-#include "kinemend/representation.hpp"
+#include "kinemend/experimental/representation.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <span>
 
-#include "kinemend/representation.hpp"
+#include "kinemend/experimental/representation.hpp"
 
 // One track of rotations as channels, and back.
 namespace kinemend {

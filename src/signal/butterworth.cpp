@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kinemend/signal.hpp"
+#include "kinemend/experimental/signal.hpp"
 #include "signal/checks.hpp"
 
 namespace kinemend {

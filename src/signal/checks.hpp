@@ -6,7 +6,7 @@
 #include <string>
 
 #include "kinemend/error.hpp"
-#include "kinemend/pose_matrix.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
 
 namespace kinemend::signal {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/pose_matrix.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
 #include "signal/whittaker.hpp"
 
 /// Whittaker smoothing with order and strength of largest marginal likelihood for each channel,

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <vector>
 
-#include "kinemend/pose_matrix.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
 
 namespace kinemend::signal {
 

@@ -1,6 +1,6 @@
 #include <vector>
 
-#include "kinemend/signal.hpp"
+#include "kinemend/experimental/signal.hpp"
 #include "signal/checks.hpp"
 
 namespace kinemend {

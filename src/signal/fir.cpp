@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "kinemend/signal.hpp"
+#include "kinemend/experimental/signal.hpp"
 #include "signal/checks.hpp"
 #include "signal/extension.hpp"
 #include "signal/kernels.hpp"

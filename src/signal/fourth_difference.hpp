@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "kinemend/pose_matrix.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
 
 namespace kinemend::signal {
 

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "kinemend/signal.hpp"
+#include "kinemend/experimental/signal.hpp"
 #include "signal/checks.hpp"
 #include "signal/extension.hpp"
 #include "signal/kernels.hpp"

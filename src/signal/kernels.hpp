@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "kinemend/signal.hpp"
+#include "kinemend/experimental/signal.hpp"
 
 /// The hot loops, compiled for each instruction set and chosen at run time. They run along the rows
 /// of a frame-major matrix: one vector holds neighbouring channels of a frame. Products and sums

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/quantiles.hpp"
-#include "kinemend/signal.hpp"
+#include "kinemend/experimental/signal.hpp"
 #include "signal/checks.hpp"
 #include "signal/order_statistics.hpp"
 #include "signal/wavelet_transform.hpp"

@@ -5,7 +5,7 @@
 #include <complex>
 #include <numbers>
 
-#include "kinemend/signal.hpp"
+#include "kinemend/experimental/signal.hpp"
 #include "signal/checks.hpp"
 
 namespace kinemend {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "sparse/batch_omp.hpp"
 
 namespace kinemend::sparse {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string_view>
 
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "synth/body.hpp"
 
 namespace kinemend::synth {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 
 namespace kinemend::synth {
 

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "kinemend/synth.hpp"
+#include "kinemend/experimental/synth.hpp"
 
 namespace kinemend::synth {
 

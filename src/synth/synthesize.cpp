@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "kinemend/error.hpp"
-#include "kinemend/random.hpp"
-#include "kinemend/synth.hpp"
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "synth/motions.hpp"
 #include "synth/spin.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "base/parallel.hpp"
 #include "base/quantiles.hpp"
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 #include "rotation/component.hpp"
 #include "signal/coloured_noise.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend {
 

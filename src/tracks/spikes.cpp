@@ -7,7 +7,7 @@
 
 #include "base/parallel.hpp"
 #include "base/quantiles.hpp"
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 #include "signal/leave_one_out.hpp"
 #include "tracks/spike_classification.hpp"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kinemend/diagnostics.hpp"
-#include "kinemend/version.hpp"
+#include "kinemend/experimental/version.hpp"
 
 namespace kinemend {
 namespace {

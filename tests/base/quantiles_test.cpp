@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 
 namespace kinemend {
 namespace {

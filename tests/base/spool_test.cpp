@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 
 namespace kinemend {
 namespace {

@@ -1,4 +1,4 @@
-#include "kinemend/text.hpp"
+#include "kinemend/experimental/text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "kinemend/check.hpp"
-#include "kinemend/kinematics.hpp"
-#include "kinemend/random.hpp"
-#include "kinemend/synth.hpp"
+#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/experimental/synth.hpp"
 
 namespace kinemend::test {
 

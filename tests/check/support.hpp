@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "kinemend/check.hpp"
-#include "kinemend/corrupt.hpp"
-#include "kinemend/random.hpp"
-#include "kinemend/synth.hpp"
+#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/experimental/synth.hpp"
 
 namespace kinemend::test {
 

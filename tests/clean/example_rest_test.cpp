@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 
 namespace kinemend::test {
 namespace {

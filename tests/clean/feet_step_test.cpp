@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "kinemend/clean.hpp"
-#include "kinemend/convert.hpp"
-#include "kinemend/corrupt.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/experimental/synth.hpp"
+#include "kinemend/experimental/train.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/synth.hpp"
-#include "kinemend/train.hpp"
 
 // Feet as the last step of the pipeline.
 namespace kinemend::test {

@@ -8,7 +8,7 @@
 #include "clean/takes.hpp"
 #include "kinemend/cleaner.hpp"
 #include "kinemend/clip.hpp"
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/rotation.hpp"
 
 // What the tests of the orientation filters share.

@@ -4,8 +4,8 @@
 
 #include "clean/takes.hpp"
 #include "kinemend/clean.hpp"
+#include "kinemend/experimental/signal.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/signal.hpp"
 #include "tracks/track_kalman.hpp"
 
 namespace kinemend::test {

@@ -7,8 +7,8 @@
 #include "clean/marker_takes.hpp"
 #include "clean/takes.hpp"
 #include "kinemend/clean.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "kinemend/gaps.hpp"
-#include "kinemend/synth.hpp"
 
 namespace kinemend::test {
 namespace {

@@ -4,12 +4,12 @@
 #include <variant>
 #include <vector>
 
-#include "kinemend/corrupt.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/experimental/synth.hpp"
+#include "kinemend/experimental/train.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
-#include "kinemend/synth.hpp"
-#include "kinemend/train.hpp"
 
 namespace kinemend::test {
 namespace {

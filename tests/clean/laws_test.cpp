@@ -6,8 +6,8 @@
 
 #include "clean/takes.hpp"
 #include "kinemend/clean.hpp"
-#include "kinemend/corrupt.hpp"
-#include "kinemend/synth.hpp"
+#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/experimental/synth.hpp"
 
 namespace kinemend::test {
 namespace {

@@ -13,13 +13,13 @@
 #include "clean/repair_checks.hpp"
 #include "clean/takes.hpp"
 #include "kinemend/clean.hpp"
-#include "kinemend/convert.hpp"
-#include "kinemend/corrupt.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/experimental/synth.hpp"
+#include "kinemend/experimental/train.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
-#include "kinemend/synth.hpp"
-#include "kinemend/train.hpp"
 
 namespace kinemend::test {
 namespace {

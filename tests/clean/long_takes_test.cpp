@@ -10,9 +10,9 @@
 #include "clean/takes.hpp"
 #include "counting_allocation.hpp"
 #include "kinemend/clean.hpp"
-#include "kinemend/corrupt.hpp"
+#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/synth.hpp"
 
 namespace kinemend::test {
 namespace {

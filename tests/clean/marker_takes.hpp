@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "kinemend/marker_clip.hpp"
-#include "kinemend/random.hpp"
-#include "kinemend/synth.hpp"
 
 // Marker takes whose truth is known.
 namespace kinemend::test {

@@ -7,7 +7,7 @@
 
 #include "clean/takes.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/train.hpp"
+#include "kinemend/experimental/train.hpp"
 
 namespace kinemend::test {
 namespace {

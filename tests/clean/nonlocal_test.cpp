@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "clean/filter_checks.hpp"
-#include "kinemend/corrupt.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
-#include "kinemend/synth.hpp"
 
 namespace kinemend::test {
 namespace {

@@ -11,11 +11,11 @@
 #include "clean/prior_hold.hpp"
 #include "clean/takes.hpp"
 #include "kinemend/clean.hpp"
-#include "kinemend/corrupt.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
-#include "kinemend/synth.hpp"
 
 // The way of a take through the methods with a learned model, with filters whose effect is known.
 namespace kinemend::test {

@@ -7,13 +7,13 @@
 
 #include "clean/takes.hpp"
 #include "kinemend/clean.hpp"
-#include "kinemend/convert.hpp"
-#include "kinemend/corrupt.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/experimental/model.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
-#include "kinemend/model.hpp"
-#include "kinemend/synth.hpp"
 
 namespace kinemend::test {
 namespace {

@@ -8,7 +8,7 @@
 #include "kinemend/clean.hpp"
 #include "kinemend/cleaner.hpp"
 #include "kinemend/clip.hpp"
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/rotation.hpp"
 
 // The law that a repair is not blended with what it repaired.

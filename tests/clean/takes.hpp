@@ -7,7 +7,7 @@
 
 #include "kinemend/cleaner.hpp"
 #include "kinemend/clip.hpp"
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 
 // Small takes with every kind of joint, known in closed form at any time.
 namespace kinemend::test {

@@ -1,5 +1,5 @@
 #include "cli/program.hpp"
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 
 // Bad input: one line with file and line, exit code 3, little memory, nothing written.
 namespace kinemend::test {

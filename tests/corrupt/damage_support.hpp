@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/corrupt.hpp"
+#include "kinemend/experimental/corrupt.hpp"
 #include "motion/clips.hpp"
 
 namespace kinemend::testing {

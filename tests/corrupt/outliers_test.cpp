@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "corrupt/damage_support.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 
 namespace kinemend {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "corrupt/damage_support.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 
 namespace kinemend {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "corrupt/damage_support.hpp"
 #include "corrupt/targets.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 
 namespace kinemend {
 namespace {

@@ -5,7 +5,7 @@
 #include "corrupt/damage_support.hpp"
 #include "corrupt/system_noise.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 #include "noise_measures.hpp"
 
 namespace kinemend {

@@ -8,7 +8,7 @@
 
 #include "corrupt/damage_support.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 
 namespace kinemend {
 namespace {

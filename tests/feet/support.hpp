@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "kinemend/feet.hpp"
-#include "kinemend/kinematics.hpp"
-#include "kinemend/random.hpp"
-#include "kinemend/synth.hpp"
 
 namespace kinemend::test {
 

@@ -9,7 +9,7 @@
 
 #include "base/csv.hpp"
 #include "fill/natural_spline.hpp"
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 
 namespace kinemend::fill {
 namespace {

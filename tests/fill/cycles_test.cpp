@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 
 namespace kinemend::fill {
 namespace {

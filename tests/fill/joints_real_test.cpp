@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/random.hpp"
 
 // Gaps made in real takes, and how far what fills them is from what was there.
 namespace kinemend {

@@ -10,7 +10,7 @@
 #include "fill/made_gaps.hpp"
 #include "fill/marker_takes.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/synth.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "motion/clips.hpp"
 
 // What holds for every method of filling gaps, of joints and of markers.

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/gaps.hpp"
-#include "kinemend/random.hpp"
 
 // Gaps made in takes that have none, and what becomes of what is promised of them.
 namespace kinemend::fill {

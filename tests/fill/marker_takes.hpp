@@ -7,9 +7,9 @@
 
 #include "fill/made_gaps.hpp"
 #include "kinemend/clip.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "kinemend/marker_clip.hpp"
-#include "kinemend/synth.hpp"
 
 namespace kinemend::fill {
 

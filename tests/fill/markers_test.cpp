@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "fill/marker_takes.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/fill.hpp"
-#include "kinemend/random.hpp"
 
 namespace kinemend::fill {
 namespace {

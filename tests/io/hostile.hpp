@@ -12,8 +12,8 @@
 
 #include "counted_memory.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/random.hpp"
 
 /// Laws that hold for any bytes, whatever the format. A new fixture is cut and patched everywhere.
 namespace kinemend::test {

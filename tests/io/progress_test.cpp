@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "kinemend/experimental/synth.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/synth.hpp"
 
 namespace kinemend::test {
 namespace {

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include "io/acclaim/acclaim.hpp"
-#include "kinemend/convert.hpp"
-#include "kinemend/frame_rate.hpp"
-#include "kinemend/synth.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "support.hpp"
 
 namespace kinemend {

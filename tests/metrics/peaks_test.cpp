@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/metrics.hpp"
-#include "kinemend/random.hpp"
 #include "motion/clips.hpp"
 
 namespace kinemend {

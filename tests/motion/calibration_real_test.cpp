@@ -5,8 +5,8 @@
 #include <map>
 #include <set>
 
-#include "kinemend/corrupt.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/corrupt.hpp"
 #include "kinemend/io.hpp"
 
 namespace kinemend {

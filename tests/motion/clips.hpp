@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kinemend/clip.hpp"
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 
 namespace kinemend::testing {
 

@@ -1,4 +1,4 @@
-#include "kinemend/convert.hpp"
+#include "kinemend/experimental/convert.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "kinemend/error.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 #include "motion/clips.hpp"
 
 namespace kinemend {

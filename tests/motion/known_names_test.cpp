@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "kinemend/error.hpp"
-#include "kinemend/frame_numbers.hpp"
-#include "kinemend/subjects.hpp"
+#include "kinemend/experimental/frame_numbers.hpp"
+#include "kinemend/experimental/subjects.hpp"
 #include "motion/name_pattern.hpp"
 
 namespace kinemend {

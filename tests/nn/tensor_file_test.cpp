@@ -10,8 +10,8 @@
 
 #include "base/file_bytes.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/random.hpp"
-#include "kinemend/tensor.hpp"
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/experimental/tensor.hpp"
 
 namespace kinemend {
 namespace {

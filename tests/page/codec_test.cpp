@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "page/channels.hpp"
 #include "page/page_parts.hpp"
 

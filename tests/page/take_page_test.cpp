@@ -3,11 +3,11 @@
 
 #include <string>
 
-#include "kinemend/corrupt.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/frame_numbers.hpp"
-#include "kinemend/page.hpp"
-#include "kinemend/synth.hpp"
+#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/experimental/frame_numbers.hpp"
+#include "kinemend/experimental/page.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "page/page_parts.hpp"
 
 namespace kinemend::test {

@@ -5,8 +5,8 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "kinemend/pose_matrix.hpp"
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "priors/linear_dynamics.hpp"
 
 namespace kinemend::test {

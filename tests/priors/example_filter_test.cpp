@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "priors/pattern_penalty.hpp"
 #include "priors/stretches.hpp"
 #include "priors/window_support.hpp"

@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "kinemend/error.hpp"
-#include "kinemend/train.hpp"
+#include "kinemend/experimental/train.hpp"
 #include "priors/dynamics_support.hpp"
 
 namespace kinemend::test {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "base/file_bytes.hpp"
-#include "kinemend/content_hash.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/model.hpp"
+#include "kinemend/experimental/content_hash.hpp"
+#include "kinemend/experimental/model.hpp"
 
 namespace kinemend {
 namespace {

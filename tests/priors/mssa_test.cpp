@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 
 namespace kinemend {
 namespace {

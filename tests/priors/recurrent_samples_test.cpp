@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "kinemend/synth.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "priors/auto_channels.hpp"
 #include "priors/sequence_damage.hpp"
 

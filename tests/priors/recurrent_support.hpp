@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/model.hpp"
+#include "kinemend/experimental/model.hpp"
 #include "priors/recurrent_input.hpp"
 
 namespace kinemend::test {

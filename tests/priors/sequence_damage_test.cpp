@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
-#include "kinemend/synth.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "priors/training_sequences.hpp"
 
 namespace kinemend {

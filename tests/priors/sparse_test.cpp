@@ -6,12 +6,12 @@
 #include <cmath>
 #include <set>
 
-#include "kinemend/convert.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/kinematics.hpp"
-#include "kinemend/random.hpp"
-#include "kinemend/synth.hpp"
-#include "kinemend/train.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/experimental/synth.hpp"
+#include "kinemend/experimental/train.hpp"
 #include "priors/sparse_filter.hpp"
 #include "priors/sparse_prior.hpp"
 

@@ -1,4 +1,4 @@
-#include "kinemend/train.hpp"
+#include "kinemend/experimental/train.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
-#include "kinemend/synth.hpp"
+#include "kinemend/experimental/synth.hpp"
 
 namespace kinemend {
 namespace {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "kinemend/gaps.hpp"
-#include "kinemend/kinematics.hpp"
-#include "kinemend/synth.hpp"
 #include "priors/take_store.hpp"
 
 namespace kinemend {

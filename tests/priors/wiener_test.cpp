@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "kinemend/error.hpp"
-#include "kinemend/random.hpp"
-#include "kinemend/signal.hpp"
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/experimental/signal.hpp"
 #include "priors/mixture_fit.hpp"
 #include "priors/wiener_filter.hpp"
 #include "priors/wiener_fit.hpp"

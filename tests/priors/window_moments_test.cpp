@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "priors/training_sequences.hpp"
 
 namespace kinemend::test {

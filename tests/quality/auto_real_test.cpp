@@ -6,8 +6,8 @@
 #include <memory>
 #include <variant>
 
+#include "kinemend/experimental/train.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/train.hpp"
 #include "quality/quality.hpp"
 #include "quality/real_takes.hpp"
 

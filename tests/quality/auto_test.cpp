@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/kinematics.hpp"
-#include "kinemend/synth.hpp"
 #include "quality/quality.hpp"
 
 namespace kinemend::quality {

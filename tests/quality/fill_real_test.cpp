@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "fill/made_gaps.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/random.hpp"
 #include "quality/gapped_markers.hpp"
 
 // Gaps made in takes that have none, filled again.

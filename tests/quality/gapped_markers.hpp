@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/random.hpp"
 
 namespace kinemend::quality {
 

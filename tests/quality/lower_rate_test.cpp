@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "kinemend/synth.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "quality/quality.hpp"
 
 namespace kinemend::quality {

@@ -6,7 +6,7 @@
 #include <string>
 #include <variant>
 
-#include "kinemend/convert.hpp"
+#include "kinemend/experimental/convert.hpp"
 #include "kinemend/io.hpp"
 #include "quality/marker_quality.hpp"
 

@@ -8,9 +8,9 @@
 #include "kinemend/clean.hpp"
 #include "kinemend/cleaner.hpp"
 #include "kinemend/clip.hpp"
-#include "kinemend/corrupt.hpp"
+#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/metrics.hpp"
-#include "kinemend/random.hpp"
 
 namespace kinemend::quality {
 

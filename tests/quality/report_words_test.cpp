@@ -4,8 +4,8 @@
 
 #include <map>
 
+#include "kinemend/experimental/synth.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/synth.hpp"
 #include "quality/quality.hpp"
 
 namespace kinemend::quality {

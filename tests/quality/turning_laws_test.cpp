@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "kinemend/convert.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/synth.hpp"
 #include "quality/quality.hpp"
 
 namespace kinemend::quality {

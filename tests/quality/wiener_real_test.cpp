@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/model.hpp"
 #include "quality/quality.hpp"
 #include "quality/real_takes.hpp"
 

@@ -1,4 +1,4 @@
-#include "kinemend/batch_rows.hpp"
+#include "kinemend/experimental/batch_rows.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

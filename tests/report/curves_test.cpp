@@ -1,4 +1,4 @@
-#include "kinemend/curves.hpp"
+#include "kinemend/experimental/curves.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <string>
 
 #include "kinemend/error.hpp"
-#include "kinemend/svg.hpp"
-#include "kinemend/synth.hpp"
+#include "kinemend/experimental/svg.hpp"
+#include "kinemend/experimental/synth.hpp"
 
 namespace kinemend::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "kinemend/pictures.hpp"
+#include "kinemend/experimental/pictures.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "kinemend/error.hpp"
-#include "kinemend/synth.hpp"
+#include "kinemend/experimental/synth.hpp"
 
 namespace kinemend::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kinemend/synth.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "report/json_schema.hpp"
 
 namespace kinemend::test {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "kinemend/error.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 #include "representation/body_takes.hpp"
 
 namespace kinemend {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "kinemend/error.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 #include "representation/body_takes.hpp"
 
 namespace kinemend {

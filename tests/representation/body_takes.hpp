@@ -5,10 +5,10 @@
 #include <map>
 #include <string>
 
-#include "kinemend/body.hpp"
-#include "kinemend/convert.hpp"
-#include "kinemend/random.hpp"
-#include "kinemend/synth.hpp"
+#include "kinemend/experimental/body.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/experimental/synth.hpp"
 
 // Takes and comparisons for the tests of bodies.
 namespace kinemend::body_test {

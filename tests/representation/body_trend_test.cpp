@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/rotation.hpp"
 
 namespace kinemend::representation {

@@ -1,11 +1,11 @@
-#include "kinemend/representation.hpp"
+#include "kinemend/experimental/representation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "kinemend/error.hpp"
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 
 namespace kinemend {
 namespace {

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/random.hpp"
-#include "kinemend/signal.hpp"
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/experimental/signal.hpp"
 
 namespace kinemend::test {
 

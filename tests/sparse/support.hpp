@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "sparse/dictionary.hpp"
 
 namespace kinemend::sparse {

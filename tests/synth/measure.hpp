@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/kinematics.hpp"
-#include "kinemend/synth.hpp"
+#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/experimental/synth.hpp"
 
 namespace kinemend::measure {
 

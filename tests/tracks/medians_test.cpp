@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 
 namespace kinemend::test {
 namespace {

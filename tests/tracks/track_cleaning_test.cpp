@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "tracks/smooth_chart.hpp"
 #include "tracks/spikes.hpp"
 #include "tracks/track_smoother.hpp"

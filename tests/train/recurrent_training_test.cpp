@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
-#include "kinemend/synth.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "priors/recurrent_network.hpp"
 #include "random_values.hpp"
 

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "kinemend/tensor.hpp"
+#include "kinemend/experimental/tensor.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend {
 

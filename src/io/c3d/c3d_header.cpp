@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "io/c3d/c3d_layout.hpp"
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/stated_rate.hpp"
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend {
 

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "io/c3d/c3d_source_frames.hpp"
-#include "kinemend/frame_rate.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend {
 

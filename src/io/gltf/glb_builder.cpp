@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "kinemend/error.hpp"
-#include "kinemend/version.hpp"
+#include "kinemend/experimental/version.hpp"
 
 namespace kinemend {
 

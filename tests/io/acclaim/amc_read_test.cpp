@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "acclaim.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 
 namespace kinemend {
 namespace {

@@ -1,6 +1,6 @@
 
 #include "acclaim.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 
 namespace kinemend {
 namespace {

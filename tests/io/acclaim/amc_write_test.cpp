@@ -3,8 +3,8 @@
 #include <map>
 
 #include "acclaim.hpp"
-#include "kinemend/kinematics.hpp"
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/experimental/random.hpp"
 
 namespace kinemend {
 namespace {

@@ -1,5 +1,5 @@
 #include "acclaim.hpp"
-#include "kinemend/kinematics.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 
 namespace kinemend {
 namespace {

@@ -2,7 +2,7 @@
 #include <set>
 
 #include "io/support.hpp"
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 
 namespace kinemend {
 namespace {

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "io/support.hpp"
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 
 namespace kinemend {
 namespace {

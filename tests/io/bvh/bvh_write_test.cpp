@@ -4,8 +4,8 @@
 #include "io/bvh/bvh_hierarchy.hpp"
 #include "io/bvh/bvh_text.hpp"
 #include "io/support.hpp"
-#include "kinemend/kinematics.hpp"
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/experimental/random.hpp"
 
 namespace kinemend {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "c3d_support.hpp"
-#include "kinemend/convert.hpp"
+#include "kinemend/experimental/convert.hpp"
 
 /// What every conversion of a C3D file owes to all that is in it.
 namespace kinemend::test {

@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 
 #include "io/support.hpp"
-#include "kinemend/kinematics.hpp"
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/experimental/random.hpp"
 
 namespace kinemend {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/motion/motion_columns.hpp"
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 
 namespace kinemend {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "io/hostile.hpp"
 #include "io/support.hpp"
-#include "kinemend/convert.hpp"
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/random.hpp"
 
 namespace kinemend {
 namespace {

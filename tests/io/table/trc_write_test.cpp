@@ -2,7 +2,7 @@
 
 #include "io/hostile.hpp"
 #include "io/support.hpp"
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 
 namespace kinemend {
 namespace {

@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-#include "kinemend/random.hpp"
+#include "kinemend/experimental/random.hpp"
 
 namespace kinemend {
 namespace {

@@ -3,8 +3,8 @@
 #include <span>
 #include <string>
 
-#include "kinemend/batch_rows.hpp"
 #include "kinemend/clip.hpp"
+#include "kinemend/experimental/batch_rows.hpp"
 #include "kinemend/marker_clip.hpp"
 #include "kinemend/report.hpp"
 

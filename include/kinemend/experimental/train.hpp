@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "kinemend/clip.hpp"
+#include "kinemend/experimental/model.hpp"
 #include "kinemend/marker_clip.hpp"
-#include "kinemend/model.hpp"
 #include "kinemend/options.hpp"
 
 // Fitting models to clean takes.

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/body.hpp"
-#include "kinemend/tensor.hpp"
+#include "kinemend/experimental/body.hpp"
+#include "kinemend/experimental/tensor.hpp"
 
 // Learned models: what a method knows of human motion, in a file (`walk.kmodel`, safetensors).
 namespace kinemend {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "kinemend/clip.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
 #include "kinemend/marker_clip.hpp"
-#include "kinemend/pose_matrix.hpp"
 
 // Bodies as learned models see them: channels that do not depend on where a person stands, which
 // way the person faces, which way the file's axes point and how its joints' frames are turned.

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "kinemend/clip.hpp"
-#include "kinemend/pose_matrix.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
 
 namespace kinemend {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kinemend/clip.hpp"
-#include "kinemend/curves.hpp"
+#include "kinemend/experimental/curves.hpp"
 #include "kinemend/marker_clip.hpp"
 
 // Drawings of whole takes as SVG. Names may hold any characters.

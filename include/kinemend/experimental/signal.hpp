@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "kinemend/pose_matrix.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
 
 /// Filters on F x D matrices of equally spaced samples, in place, each channel by itself. They know
 /// nothing of skeletons: widths are frames, and only `butterworth_lowpass` speaks of hertz.

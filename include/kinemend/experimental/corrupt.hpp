@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "kinemend/clip.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/marker_clip.hpp"
 #include "kinemend/options.hpp"
-#include "kinemend/pose_matrix.hpp"
-#include "kinemend/random.hpp"
 
 namespace kinemend {
 
