@@ -2,10 +2,12 @@
 // clean-up, in takes that were damaged and smoothed, takes as recorded, and pairs that somebody
 // else cleaned.
 #include <algorithm>
+#include <cmath>
 
 #include "experiment.hpp"
 #include "kinemend/clean.hpp"
 #include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/feet.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
@@ -62,9 +64,40 @@ struct NamedPops {
   Pops pops;
 };
 
+// RMS angle to the truth over hips, knees and ankles.
+double legs_deg(const Clip& truth, const Clip& result) {
+  const std::vector<double> joints = geodesic_rms_deg_per_joint(truth, result);
+  double sum = 0, count = 0;
+  for (const Leg& leg : find_legs(truth.skeleton)) {
+    for (const std::int32_t joint : {leg.hip, leg.knee, leg.ankle}) {
+      const double angle = joints[static_cast<std::size_t>(joint)];
+      sum += angle * angle;
+      ++count;
+    }
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
+// Mean distance of knees, ankles and toes to the truth.
+double legs_distance(const Clip& truth, const Clip& result) {
+  double sum = 0, count = 0;
+  for (std::size_t f = 0; f < truth.frame_count(); ++f) {
+    const Pose right = forward_kinematics(truth, f), pose = forward_kinematics(result, f);
+    for (const Leg& leg : find_legs(truth.skeleton)) {
+      for (const std::int32_t joint : {leg.knee, leg.ankle, leg.toe}) {
+        if (joint < 0) continue;
+        const auto j = static_cast<std::size_t>(joint);
+        sum += norm(pose.positions[j] - right.positions[j]);
+        ++count;
+      }
+    }
+  }
+  return count > 0 ? sum / count : 0;
+}
+
 // Sums over takes.
 struct Row {
-  double takes = 0, slide = 0, most_slide = 0, position = 0, knee_pop = 0;
+  double takes = 0, slide = 0, most_slide = 0, position = 0, knee_pop = 0, legs = 0, legs_cm = 0;
 
   void add(const Clip& truth, const Clip& result, const std::vector<FootContact>& contacts) {
     const double cm = 100 * guess_length_unit(truth.skeleton)->metres;
@@ -74,13 +107,17 @@ struct Row {
     most_slide += cm * figures.most_slide;
     position += mpjpe(truth, result, 0, cm);
     knee_pop += figures.knee_pop_deg;
+    legs += legs_deg(truth, result);
+    legs_cm += cm * legs_distance(truth, result);
   }
   void print(const std::string& group, const std::string& method, const char* feet,
              Table& table) const {
-    fmt::print("| {} | {} | {} | {:.3f} | {:.2f} | {:.2f} | {:.2f} |\n", group, method, feet,
-               slide / takes, most_slide / takes, position / takes, knee_pop / takes);
+    fmt::print("| {} | {} | {} | {:.3f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", group,
+               method, feet, slide / takes, most_slide / takes, legs / takes, legs_cm / takes,
+               position / takes, knee_pop / takes);
     table.add({quoted(fmt::format("{} {} {}", group, method, feet)),
                fmt::format("{:.5g}", slide / takes), fmt::format("{:.5g}", most_slide / takes),
+               fmt::format("{:.5g}", legs / takes), fmt::format("{:.5g}", legs_cm / takes),
                fmt::format("{:.5g}", position / takes), fmt::format("{:.5g}", knee_pop / takes)});
   }
 };
@@ -203,12 +240,14 @@ void pairs(const Arguments& arguments, std::vector<NamedPops>& all_pops) {
 void experiment(const Arguments& arguments) {
   fmt::print(
       "Feet, noise of 1 degree on all axes. Slide: mean travel a frame at the contacts of the\n"
-      "take as recorded; most: farthest within one; position: mean error of joint positions;\n"
-      "knee pop: largest second difference of a knee's angle.\n\n"
-      "| takes | method | feet | slide cm | most cm | position cm | knee pop deg |\n"
-      "|---|---|---|---|---|---|---|\n");
+      "take as recorded; most: farthest within one; legs: RMS angle to the truth of hips, knees\n"
+      "and ankles, and mean error of the positions of knees, ankles and toes; position: that of\n"
+      "all joints; knee pop: largest second difference of a knee's angle.\n\n"
+      "| takes | method | feet | slide cm | most cm | legs deg | legs cm | position cm "
+      "| knee pop deg |\n|---|---|---|---|---|---|---|---|---|\n");
   std::vector<NamedPops> pops;
-  Table table(arguments, "feet_noise.csv", "takes,slide_cm,most_cm,position_cm,knee_pop_deg");
+  Table table(arguments, "feet_noise.csv",
+              "takes,slide_cm,most_cm,legs_deg,legs_cm,position_cm,knee_pop_deg");
   after_cleaning(arguments, "walks", walks(), table, pops);
   after_cleaning(arguments, "runs", runs(), table, pops);
   after_cleaning(arguments, "dances", dances(), table, pops);

@@ -1,5 +1,6 @@
 #include "clean/feet_step.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "feet/clean_legs.hpp"
@@ -25,7 +26,11 @@ FeetReport feet_step(Clip& motion, const Selection& selection, const FeetSetting
                      std::size_t first, InPlaceTrace& trace) {
   FeetSettings own = settings;
   if (own.contacts) feet::shift_contacts(*own.contacts, first, 0);
-  const feet::FeetLimits limits{selection.owners, selection.root_position, selection.translations};
+  const bool is_noisy =
+      std::any_of(trace.characters.begin(), trace.characters.end(),
+                  [](const NoiseCharacter& noise) { return noise.space == Space::rotation; });
+  const feet::FeetLimits limits{selection.owners, selection.root_position, selection.translations,
+                                is_noisy};
   FeetReport report = feet::clean_legs(motion, own, limits);
   const std::size_t joints = motion.joint_count();
   for (std::size_t j = 0; j < joints; ++j)

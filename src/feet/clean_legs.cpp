@@ -14,6 +14,7 @@
 #include "feet/knees.hpp"
 #include "feet/leg_solver.hpp"
 #include "feet/placement.hpp"
+#include "feet/pose_update.hpp"
 #include "feet/root.hpp"
 #include "kinemend/error.hpp"
 #include "motion/calibration.hpp"
@@ -27,6 +28,8 @@ namespace {
 // In body heights: smaller changes are rounding; larger remaining slides are reported.
 constexpr double least_shift = 1e-9, noticeable_rest = 0.002;
 constexpr double least_turn_rad = 1e-11;
+// Body heights that the root's place is off for a radian that joints are.
+constexpr double root_share = 0.05;
 
 void check_settings(const FeetSettings& settings) {
   feet::check_settings(settings.contact);
@@ -69,10 +72,10 @@ class FeetCleaning {
       report_.after = report_.before;
       return std::move(report_);
     }
-    std::vector<FootTarget> targets = find_targets(soles);
-    move(targets);
-    update_poses(clip_, found_, legs_);
-    warn_of_rest(targets);
+    if (is_noisy_)
+      believe(soles);
+    else
+      hold(soles);
     report_.after = figures_of(legs_, report_.contacts, up_, offsets);
     return std::move(report_);
   }
@@ -113,11 +116,91 @@ class FeetCleaning {
       report_.held = std::move(verdicts.held);
       report_.still = std::move(verdicts.still);
       report_.reasons = std::move(verdicts.reasons);
+      is_noisy_ = verdicts.jitters || limits_.is_noisy;
+      if (limits_.is_noisy) believe_still_feet();
     }
     for (std::size_t i = 0; i < count; ++i) {
       if (may_turn(legs_.models[report_.contacts[i].leg], limits_)) continue;
       report_.held[i] = report_.still[i] = 0;
       report_.reasons[i] = "hip, knee and ankle may not all turn";
+    }
+  }
+
+  // In a noisy take a foot that hardly moves is as good a measurement as any.
+  void believe_still_feet() {
+    for (std::size_t i = 0; i < report_.contacts.size(); ++i) {
+      if (report_.still[i] == 0) continue;
+      report_.still[i] = 0;
+      report_.held[i] = 1;
+      report_.reasons[i].clear();
+    }
+  }
+
+  // Parts stand at their places.
+  void hold(const Soles& soles) {
+    std::vector<FootTarget> targets = find_targets(soles);
+    move(targets);
+    update_poses(clip_, found_, legs_);
+    warn_of_rest(targets);
+  }
+
+  // Feet that stand are measurements of the whole body.
+  void believe(const Soles& soles) {
+    const std::vector<PartCorrection> parts =
+        place_contacts(soles, legs_, report_.contacts, report_.held, settings_.blend_s);
+    const PoseUncertainty uncertainty = this->uncertainty(parts);
+    for_blocks(0, legs_.frames, [&](std::size_t first, std::size_t end) {
+      for (std::size_t f = first; f < end; ++f)
+        apply(f, update_by_contacts(legs_, f, parts, uncertainty));
+    });
+    update_poses(clip_, found_, legs_);
+  }
+
+  PoseUncertainty uncertainty(const std::vector<PartCorrection>& parts) const {
+    PoseUncertainty result;
+    const double deviation = joint_deviation(parts, legs_.height);
+    result.joint_rotation = deviation;
+    bool all = true;
+    for (const LegModel& model : legs_.models) {
+      result.legs.push_back(may_turn(model, limits_) ? 1 : 0);
+      all = all && result.legs.back() != 0;
+    }
+    const Carrier& carrier = legs_.carrier;
+    if (!all || !carrier.found || carrier.track != 0) return result;
+    if (!limits_.joints.empty() && limits_.joints[carrier.joint] == 0) return result;
+    if (clip_.skeleton.rotation_order(carrier.joint).count == 3) result.root_rotation = deviation;
+    if (limits_.root_position && clip_.skeleton.channels[carrier.joint].size() >= 6)
+      result.root_position = root_share * legs_.height * deviation;
+    return result;
+  }
+
+  void apply(std::size_t frame, const PoseUpdate& update) {
+    if (update.legs.empty()) return;
+    const Carrier& carrier = legs_.carrier;
+    if (norm(update.root_shift) > least_shift * legs_.height) {
+      clip_.root_positions[frame] += rotate(conjugate(carrier.frames_of[frame]), update.root_shift);
+      report_.root_changed[frame] = 1;
+    }
+    const auto turn = [&](const LegJoint& joint, Quat before, Vec3 by) {
+      if (norm(by) < least_turn_rad) return;
+      Quat& own = clip_.rotation(frame, joint.index);
+      const Quat rest = before * joint.rest;
+      const Quat turned = normalized(conjugate(rest) * exp(by) * rest * own);
+      own = align_hemisphere(within_channels(turned, joint), own);
+      report_.changed[frame * clip_.joint_count() + joint.index] = 1;
+    };
+    if (carrier.found) {
+      const Skeleton& skeleton = clip_.skeleton;
+      turn({carrier.joint, skeleton.rest_rotations[carrier.joint],
+            skeleton.rotation_order(carrier.joint)},
+           carrier.frames_of[frame], update.root_turn);
+    }
+    for (std::size_t l = 0; l < legs_.legs(); ++l) {
+      const LegModel& model = legs_.models[l];
+      const LegPose& pose = legs_.pose(frame, l);
+      turn(model.hip, pose.hip_parent, update.legs[l].hip);
+      turn(model.knee, pose.knee_parent, update.legs[l].knee);
+      turn(model.ankle, pose.ankle_parent, update.legs[l].ankle);
     }
   }
 
@@ -230,6 +313,7 @@ class FeetCleaning {
   std::vector<Leg> found_;
   LegMotion legs_;
   Up up_;
+  bool is_noisy_ = false;  // and not asked to hold whatever stands
   FeetReport report_;
 };
 

@@ -12,11 +12,12 @@ namespace kinemend::feet {
 inline constexpr double usual_height_m = 1.7;    ///< converts metres
 inline constexpr double close_to_floor = 0.012;  ///< 2 cm
 
-/// What may change.
+/// What may change, and what is known of it.
 struct FeetLimits {
   std::vector<std::uint8_t> joints;  ///< J; empty: all
   bool root_position = true;
   bool translations = true;
+  bool is_noisy = false;  ///< noise was found in the joints: it moves feet that slide, too
 };
 
 /// `clean_feet` of a clip of which every frame is motion. Frames of settings and report count from

@@ -168,7 +168,7 @@ Verdicts judge(const Soles& soles, const LegMotion& motion,
   bench.jitters = bench.take_jitters();
   Verdicts verdicts{std::vector<std::uint8_t>(contacts.size()),
                     std::vector<std::uint8_t>(contacts.size()),
-                    std::vector<std::string>(contacts.size())};
+                    std::vector<std::string>(contacts.size()), bench.jitters};
   for (const std::vector<std::size_t>& stand : stands_of(contacts)) {
     std::string reason = bench.excuse(stand);
     const bool still = reason.empty() && bench.is_still(stand);

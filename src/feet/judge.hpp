@@ -12,6 +12,7 @@ struct Verdicts {
   std::vector<std::uint8_t> held;    ///< one a contact
   std::vector<std::uint8_t> still;   ///< one a contact, 1 where there is no slide
   std::vector<std::string> reasons;  ///< one a contact; empty where held
+  bool jitters = false;              ///< noise, rather than drift, moves the feet of this take
 };
 
 /// `motion` is in `unit_cm` centimetres a unit of length; 0 where that is not known. Contacts of

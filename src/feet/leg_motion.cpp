@@ -187,6 +187,7 @@ void update_poses(const Clip& clip, const std::vector<Leg>& legs, LegMotion& mot
   const std::size_t width = clip.translated_joints.size();
   motion.poses.resize(motion.frames * legs.size());
   motion.carrier.frames_of.assign(motion.frames, Quat{});
+  motion.carrier.at.assign(motion.frames, Vec3{});
   const auto update = [&](std::size_t f, std::vector<Quat>& rotations,
                           std::vector<Vec3>& positions) {
     for (const std::size_t j : joints) {
@@ -208,7 +209,10 @@ void update_poses(const Clip& clip, const std::vector<Leg>& legs, LegMotion& mot
       const std::int32_t parent = skeleton.parents[joint];
       return parent < 0 ? Quat{} : rotations[index_of(parent)];
     };
-    if (motion.carrier.found) motion.carrier.frames_of[f] = parent_rotation(motion.carrier.joint);
+    if (motion.carrier.found) {
+      motion.carrier.frames_of[f] = parent_rotation(motion.carrier.joint);
+      motion.carrier.at[f] = positions[motion.carrier.joint];
+    }
     for (std::size_t l = 0; l < legs.size(); ++l) {
       const std::size_t h = index_of(legs[l].hip), k = index_of(legs[l].knee),
                         a = index_of(legs[l].ankle);

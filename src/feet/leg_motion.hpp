@@ -41,6 +41,7 @@ struct Carrier {
   std::size_t joint = 0;
   std::size_t track = 0;        ///< 0: the root position, k + 1: translated joint k
   std::vector<Quat> frames_of;  ///< F: the frame that its position is in
+  std::vector<Vec3> at;         ///< F: where it is in the world
 };
 
 /// The legs of a clip: F frames of L legs.

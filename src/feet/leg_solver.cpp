@@ -114,13 +114,6 @@ Quat turn_for(const KneeCircle& circle, double distance) {
                     circle.straight_sine * cosine + circle.straight_cosine * sine);
 }
 
-// The nearest rotation that the channels of a joint allow.
-Quat within_channels(Quat rotation, const LegJoint& joint) {
-  if (joint.order.count >= 3) return rotation;
-  if (joint.order.count == 0) return Quat{};
-  return from_euler(to_euler(rotation, joint.order), joint.order);
-}
-
 // The leg after its hip and knee have turned.
 class Leg {
  public:
@@ -182,6 +175,12 @@ class Leg {
 };
 
 }  // namespace
+
+Quat within_channels(Quat rotation, const LegJoint& joint) {
+  if (joint.order.count >= 3) return rotation;
+  if (joint.order.count == 0) return Quat{};
+  return from_euler(to_euler(rotation, joint.order), joint.order);
+}
 
 Vec3 turn_between(Vec3 from, Vec3 to) {
   const Vec3 axis = cross(from, to);

@@ -7,6 +7,9 @@
 
 namespace kinemend::feet {
 
+/// The nearest rotation that the channels of a joint allow.
+Quat within_channels(Quat rotation, const LegJoint& joint);
+
 /// The rotation vector of the least turn that brings the direction of `from` to that of `to`.
 Vec3 turn_between(Vec3 from, Vec3 to);
 

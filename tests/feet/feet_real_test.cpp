@@ -71,16 +71,23 @@ INSTANTIATE_TEST_SUITE_P(Takes, CmuWalks,
 TEST(FeetOfRealTakes, SlideOnASkeletonThatIsNotTheirsUntilTheyAreHeld) {
   // Rotations and path of one subject on the bones of another.
   for (const char* name : {"38_03", "46_01", "105_39"}) {
-    Clip clip = real_clip(std::string("cmu/bvh-rotations/") + name + ".bvh");
+    const Clip sliding = real_clip(std::string("cmu/bvh-rotations/") + name + ".bvh");
+    Clip clip = sliding;
     const FeetReport report = clean_feet(clip);
     const double cm = centimetres(report);
     EXPECT_GT(report.before.most_slide * cm, 3) << name;
     EXPECT_GT(count_held(report), 0u) << name;
+    EXPECT_LT(report.after.slide, report.before.slide) << name;
+    // 38_03 jitters, and feet then stand as still as feet do.
+    FeetSettings listed;
+    listed.contacts.emplace();
     for (std::size_t i = 0; i < report.contacts.size(); ++i) {
-      if (report.held[i] == 0) continue;
-      EXPECT_LT(feet_figures(clip, {report.contacts[i]}).most_slide * cm, 0.6)
-          << name << " contact " << i;
+      if (report.held[i] != 0) listed.contacts->push_back(report.contacts[i]);
     }
+    clip = sliding;
+    clean_feet(clip, listed);
+    for (const FootContact& contact : *listed.contacts)
+      EXPECT_LT(feet_figures(clip, {contact}).most_slide * cm, 0.6) << name;
   }
 }
 

@@ -1,0 +1,50 @@
+// Feet that stand tell of the whole leg: what that is worth after cleaning.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "feet/support.hpp"
+#include "kinemend/clean.hpp"
+#include "kinemend/methods.hpp"
+#include "kinemend/metrics.hpp"
+
+namespace kinemend::quality {
+namespace {
+
+// Figures of a noisy walk, cleaned by `auto`, against its truth.
+struct Outcome {
+  double slide = 0, legs_deg = 0, position = 0;
+
+  Outcome(const Clip& truth, const Clip& clip, const std::vector<FootContact>& contacts) {
+    slide = feet_figures(clip, contacts).slide;
+    position = mpjpe(truth, clip);
+    const std::vector<double> joints = geodesic_rms_deg_per_joint(truth, clip);
+    for (const Leg& leg : find_legs(truth.skeleton)) {
+      for (const std::int32_t joint : {leg.hip, leg.knee, leg.ankle})
+        legs_deg += std::pow(joints[static_cast<std::size_t>(joint)], 2);
+    }
+    legs_deg = std::sqrt(legs_deg);
+  }
+};
+
+// A foot that stands is a measurement: the whole leg is nearer to the truth with it.
+TEST(FeetOfNoisyTakes, SlideLessAndLegsAreNoWorse) {
+  for (const char* motion : {"walk", "stroll"}) {
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      const Clip truth = test::synthetic_clip(motion, 6, 120, seed);
+      const std::vector<FootContact> contacts = find_contacts(truth);
+      const Clip noisy = test::with_noise(truth, 1, seed + 10);
+      CleanSettings settings;
+      const auto cleaner = make_auto();
+      const Outcome off(truth, clean_clip(noisy, *cleaner, settings).clip, contacts);
+      settings.feet.emplace();
+      const Outcome on(truth, clean_clip(noisy, *cleaner, settings).clip, contacts);
+      EXPECT_LT(on.slide, 0.5 * off.slide) << motion << seed;
+      EXPECT_LE(on.legs_deg, off.legs_deg) << motion << seed;
+      EXPECT_LE(on.position, off.position) << motion << seed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kinemend::quality
