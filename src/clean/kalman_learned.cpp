@@ -51,7 +51,7 @@ void filter(PriorWork& work, const KalmanLearnedOptions& options, const LinearDy
   std::vector<double> noise = noise_with_spikes(work);
   if (options.noise_deg > 0) {
     std::fill(noise.begin(), noise.end(), options.noise_deg);
-    std::fill(work.needs.begin(), work.needs.end(), 1.0);
+    take_whole(work);
   }
   const LinearDynamics dynamics = at_rate(learned, channels.frame_rate_hz);
   const MeasurementFacts facts{channels.observed, noise};

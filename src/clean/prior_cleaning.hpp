@@ -28,8 +28,9 @@ struct PriorWork {
   std::vector<double> noise;          ///< D, degrees per channel, as `auto` measures it; 0: none
   std::vector<std::uint8_t> suspect;  ///< F x D, 1 where `auto` takes the sample for a spike
   /// D / 3: how much of the filter's result each part wants, by its noise: 0 where `auto` finds it
-  /// clean, to 1. A filter that is told the noise by hand sets them to 1.
+  /// clean, to 1.
   std::vector<double> needs;
+  bool is_whole = false;  ///< nothing holds the filter back: `take_whole`
   std::string why_no_need = "auto finds little or no noise in them";
   bool is_white = true;  ///< the noise, and every frame is a measurement, as far as `auto` can tell
   /// D / 3: 1 for parts that are not observed because they are left to `auto`. Empty: none.

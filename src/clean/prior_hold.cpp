@@ -1,6 +1,7 @@
 #include "clean/prior_hold.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "clean/prior_fall_backs.hpp"
@@ -10,7 +11,8 @@ namespace kinemend {
 namespace {
 
 constexpr std::size_t part_channels = 3;
-constexpr double mostly_own = 0.5;  // need
+constexpr double mostly_own = 0.5;     // need
+constexpr double most_deviations = 1;  // of the noise, from what `auto` makes of a sample
 
 // What is to be added to a channel: at held samples as given, between them on the straight line,
 // and nothing where none is held.
@@ -43,29 +45,77 @@ bool has_dense_spikes(const PriorWork& work) {
   return count(work.suspect) > dense * count(work.channels.observed);
 }
 
+// A sample that is farther from the other result than noise goes has lost motion: F x D / 3, the
+// share of its distance that it may have. Spikes do not count.
+std::vector<double> shares_within_noise(const PriorWork& work) {
+  const PoseMatrix& poses = work.channels.poses;
+  const std::size_t parts = work.needs.size();
+  std::vector<double> shares(poses.frames * parts, 1);
+  for (std::size_t part = 0; part < parts; ++part) {
+    const std::size_t first = part_channels * part;
+    double noise = 0;
+    for (std::size_t c = first; c < first + part_channels; ++c)
+      noise += work.noise[c] * work.noise[c];
+    const double farthest = most_deviations * most_deviations * noise;
+    for (std::size_t f = 0; f < poses.frames; ++f) {
+      double change = 0;
+      bool counts = true;
+      for (std::size_t c = first; c < first + part_channels; ++c) {
+        const std::size_t i = f * poses.channels + c;
+        counts = counts && work.channels.observed[i] != 0 && work.suspect[i] == 0;
+        change += std::pow(poses(f, c) - work.fallback(f, c), 2);
+      }
+      if (counts && change > farthest) shares[f * parts + part] = std::sqrt(farthest / change);
+    }
+  }
+  return shares;
+}
+
+// Of each part, the mean over frames of 1 - share.
+std::vector<double> mean_rest(const std::vector<double>& shares, std::size_t parts) {
+  std::vector<double> rest(parts);
+  const double weight = static_cast<double>(parts) / static_cast<double>(shares.size());
+  for (std::size_t i = 0; i < shares.size(); ++i) rest[i % parts] += weight * (1 - shares[i]);
+  return rest;
+}
+
 }  // namespace
 
 void hold_to_needs(PriorWork& work) {
   PoseMatrix& poses = work.channels.poses;
   const std::size_t frames = poses.frames;
-  if (has_dense_spikes(work)) std::fill(work.needs.begin(), work.needs.end(), 1.0);
+  const bool is_dense = has_dense_spikes(work);
+  if (is_dense) std::fill(work.needs.begin(), work.needs.end(), 1.0);
   std::vector<double> left_alone;
   for (const double need : work.needs) left_alone.push_back(1 - std::min(need, 1.0));
   add_fall_back(work, work.why_no_need, std::move(left_alone));
+  const std::size_t parts = work.needs.size();
+  std::vector<double> shares(frames * parts, 1);
+  if (!work.is_whole && !is_dense) {
+    shares = shares_within_noise(work);
+    add_fall_back(work, "they would change by more than their noise", mean_rest(shares, parts));
+  }
   std::vector<double> offsets(frames);
   std::vector<std::uint8_t> held(frames);
   for (std::size_t c = 0; c < poses.channels; ++c) {
-    const double need = work.needs[c / part_channels];
-    if (need >= 1) continue;
+    const std::size_t part = c / part_channels;
     for (std::size_t f = 0; f < frames; ++f) {
       const std::size_t i = f * poses.channels + c;
+      const double need = work.needs[part] * shares[f * parts + part];
       if (need < mostly_own && !work.rejected.empty()) work.rejected[i] = work.suspect[i];
       held[f] = work.channels.observed[i];
-      offsets[f] = (1 - need) * (work.fallback(f, c) - poses(f, c));
+      offsets[f] = (1 - std::min(need, 1.0)) * (work.fallback(f, c) - poses(f, c));
     }
     bridge_offsets(offsets, held);
-    for (std::size_t f = 0; f < frames; ++f) poses(f, c) += offsets[f];
+    for (std::size_t f = 0; f < frames; ++f) {
+      if (offsets[f] != 0) poses(f, c) += offsets[f];
+    }
   }
+}
+
+void take_whole(PriorWork& work) {
+  work.is_whole = true;
+  std::fill(work.needs.begin(), work.needs.end(), 1.0);
 }
 
 void leave_coloured_noise_to_auto(PriorWork& work) {

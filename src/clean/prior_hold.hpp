@@ -11,9 +11,13 @@ namespace kinemend {
 
 /// Puts what `auto` makes of the take in the place of what the filter made of it, by 1 - need for
 /// each part (`work.needs`): a part in which `auto` finds nothing stays as it is. What the filter
-/// put into gaps moves with the samples beside them. Where one sample in fifty is a spike to
-/// `auto`, every part needs the filter.
+/// put into gaps moves with the samples beside them. A sample that is farther from
+/// `auto`'s than the noise's deviation (of all three axes) is put at that distance. Where one
+/// sample in fifty is a spike to `auto`, every part needs the filter, all of it.
 void hold_to_needs(PriorWork& work);
+
+/// Of a filter that is told what to do: every part has all of it.
+void take_whole(PriorWork& work);
 
 /// Of a filter that takes noise for white: no part needs it where noise has a colour, or frames are
 /// samples of a lower rate, which `auto` sees. The filter may fill gaps.

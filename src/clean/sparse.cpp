@@ -8,6 +8,7 @@
 #include "clean/example_rest.hpp"
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
+#include "clean/prior_hold.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
 #include "priors/sparse_filter.hpp"
@@ -127,7 +128,7 @@ void filter(PriorWork& work, const SparseOptions& options, const SparsePrior& pr
   PoseMatrix found = filtered_points(work, positions, prior, layout, settings);
   PoseMatrix cleaned = channels_of(prior.points, layout, found, work.fallback);
   if (settings.exact) {
-    std::fill(work.needs.begin(), work.needs.end(), 1.0);
+    take_whole(work);
     work.channels.poses = std::move(cleaned);
     return;
   }

@@ -108,7 +108,7 @@ void turn_channels(PoseMatrix& poses, std::span<const Eigen::Matrix3d> turns) {
 }
 
 void filter(PriorWork& work, const WienerOptions& options, const WienerPrior& known) {
-  if (options.noise_deg > 0) std::fill(work.needs.begin(), work.needs.end(), 1.0);
+  if (options.noise_deg > 0) take_whole(work);
   PoseMatrix& poses = work.channels.poses;
   std::vector<Eigen::Matrix3d> axes = noise_axes(work);
   const WienerPrior prior = with_turned_channels(known, axes);
@@ -135,6 +135,7 @@ void filter(PriorWork& work, const WienerOptions& options, const WienerPrior& kn
   turn_channels(poses, axes);
   turn_channels(work.fallback, axes);
   work.rejected = std::move(result.rejected);
+  for (double& deviation : work.noise) deviation *= std::max(options.sensitivity, 1.0);
   if (options.noise_deg <= 0) leave_coloured_noise_to_auto(work);
 }
 

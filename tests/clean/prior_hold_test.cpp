@@ -1,0 +1,82 @@
+#include "clean/prior_hold.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace kinemend {
+namespace {
+
+constexpr std::size_t frames = 200;
+
+// One part; `auto` makes zero of it, the filter a leap of this size at frame 10, and noise is one
+// degree per axis.
+PriorWork leaping(double size) {
+  PriorWork work;
+  work.channels.poses = PoseMatrix(frames, 3);
+  work.fallback = PoseMatrix(frames, 3);
+  work.channels.observed.assign(frames * 3, 1);
+  work.suspect.assign(frames * 3, 0);
+  work.noise.assign(3, 1);
+  work.needs = {1};
+  work.channels.poses(10, 0) = size;
+  return work;
+}
+
+double leap(const PriorWork& work, std::size_t frame = 10) {
+  const PoseMatrix& poses = work.channels.poses;
+  return std::hypot(poses(frame, 0), poses(frame, 1), poses(frame, 2));
+}
+
+TEST(HoldToNeeds, PutsASampleNoFartherFromAutosThanTheNoiseIsStrong) {
+  PriorWork work = leaping(20);
+  work.channels.poses(10, 1) = -15;
+  hold_to_needs(work);
+  EXPECT_NEAR(leap(work), std::sqrt(3), 1e-12);
+  EXPECT_NEAR(work.channels.poses(10, 1) / work.channels.poses(10, 0), -0.75, 1e-12);
+  ASSERT_EQ(work.fall_backs.size(), 2u);
+  EXPECT_NEAR(work.fall_backs[1].shares[0], (1 - std::sqrt(3) / 25) / frames, 1e-12);
+}
+
+TEST(HoldToNeeds, LeavesWhatIsWithinTheNoiseToTheBit) {
+  PriorWork work = leaping(1.7);
+  const std::vector<double> before = work.channels.poses.values;
+  hold_to_needs(work);
+  EXPECT_EQ(work.channels.poses.values, before);
+}
+
+TEST(HoldToNeeds, LetsASpikeGoAsFarAsItMust) {
+  PriorWork work = leaping(20);
+  work.suspect[3 * 10] = 1;
+  hold_to_needs(work);
+  EXPECT_EQ(leap(work), 20);
+}
+
+TEST(HoldToNeeds, DoesNotHoldAFilterThatIsToldWhatToDo) {
+  PriorWork work = leaping(20);
+  take_whole(work);
+  hold_to_needs(work);
+  EXPECT_EQ(leap(work), 20);
+}
+
+TEST(HoldToNeeds, MovesWhatFillsAGapWithTheSamplesBesideIt) {
+  PriorWork work = leaping(20);
+  for (std::size_t f = 11; f <= 13; ++f) {
+    for (std::size_t c = 0; c < 3; ++c) work.channels.observed[3 * f + c] = 0;
+    work.channels.poses(f, 0) = 20;
+  }
+  work.channels.poses(14, 0) = 20;
+  hold_to_needs(work);
+  for (std::size_t f = 10; f <= 14; ++f) EXPECT_NEAR(leap(work, f), std::sqrt(3), 1e-12) << f;
+}
+
+TEST(HoldToNeeds, GivesAPartThatNeedsNothingBackToAuto) {
+  PriorWork work = leaping(1);
+  work.needs = {0};
+  hold_to_needs(work);
+  EXPECT_EQ(leap(work), 0);
+  EXPECT_EQ(work.fall_backs[0].shares[0], 1);
+}
+
+}  // namespace
+}  // namespace kinemend
