@@ -21,7 +21,7 @@ namespace kinemend::cli {
 
 namespace {
 
-constexpr std::string_view default_method = "one-euro";
+constexpr std::string_view default_method = "median";
 
 std::string live_name(const LiveMethod& method) {
   std::string name = method.name;
