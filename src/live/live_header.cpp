@@ -59,13 +59,17 @@ LiveHeader read_live_header(std::string_view text, std::string_view name, double
   return header;
 }
 
-bool begins_header(std::string_view line) {
+bool begins_header(std::string_view line, bool surely) {
   const std::string_view word = first_word(line);
-  return equal_ignoring_case(word, "HIERARCHY") || equal_ignoring_case(word, "ROOT");
+  return equal_ignoring_case(word, "HIERARCHY") || (!surely && equal_ignoring_case(word, "ROOT"));
 }
 
 HeaderLines::Next HeaderLines::take(std::string_view line) {
   const std::string_view word = first_word(line);
+  // No statement begins with a number: what began as a header was none, or lost its end.
+  constexpr std::string_view firsts_of_numbers = "0123456789+-.";
+  if (!word.empty() && firsts_of_numbers.find(word.front()) != firsts_of_numbers.npos)
+    return Next::over;
   if (in_motion_ && !word.empty()) {
     if (equal_ignoring_case(word, "Frames")) {
       has_frames_ = true;

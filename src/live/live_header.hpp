@@ -25,8 +25,8 @@ struct LiveHeader {
 /// unless it is 0. Errors: `unreadable_input`, naming the line; also where no joint has a channel.
 LiveHeader read_live_header(std::string_view text, std::string_view name, double frame_rate_hz);
 
-/// Whether a line of a stream begins a header.
-bool begins_header(std::string_view line);
+/// Whether a line of a stream begins a header: with HIERARCHY, or with ROOT unless `surely`.
+bool begins_header(std::string_view line, bool surely);
 
 /// Gathers the lines of a header.
 class HeaderLines {
@@ -34,7 +34,7 @@ class HeaderLines {
   enum class Next : std::uint8_t {
     more,      ///< the line belongs to it, and more is to come
     complete,  ///< the line was its last
-    over,      ///< it was complete before this line, which is not part of it
+    over,      ///< it ended before this line, which is not part of it
     too_long,
   };
 

@@ -47,8 +47,10 @@ class LiveSession::Work {
     check(options_);
     if (cleaner_.live_support(120).kind == LiveSupport::Kind::none)
       throw Error(ErrorKind::usage, "this method needs the whole take");
-    if (!options_.skeleton.empty())
-      open(read_live_header(options_.skeleton, "skeleton", options_.frame_rate_hz));
+    if (options_.skeleton.empty()) return;
+    LiveHeader header = read_live_header(options_.skeleton, "skeleton", options_.frame_rate_hz);
+    header.frames = 0;  // those of the stream are not known
+    open(std::move(header));
   }
 
   void feed(std::string_view bytes) {
@@ -99,7 +101,7 @@ class LiveSession::Work {
   }
 
   void take_line(std::string_view line) {
-    if (begins_header(line)) {
+    if (begins_header(line, stage_.has_value())) {
       collects_ = true;
       header_lines_.clear();
       return collect(line);
@@ -137,10 +139,7 @@ class LiveSession::Work {
   }
 
   void collect(std::string_view line) {
-    constexpr std::string_view keyword = "HIERARCHY";
-    const bool begins_again = !header_lines_.text().empty() && begins_header(line) &&
-                              equal_ignoring_case(line.substr(0, keyword.size()), keyword);
-    if (begins_again) header_lines_.clear();
+    if (!header_lines_.text().empty() && begins_header(line, true)) header_lines_.clear();
     switch (header_lines_.take(line)) {
       case HeaderLines::Next::more:
         return;

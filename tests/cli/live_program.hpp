@@ -68,7 +68,9 @@ class Socket {
     Socket made(::socket(AF_INET, type, 0));
     sockaddr_in place = loopback(0);
     EXPECT_EQ(::bind(made.number_, reinterpret_cast<sockaddr*>(&place), sizeof place), 0);
-    if (type == SOCK_STREAM) EXPECT_EQ(::listen(made.number_, 1), 0);
+    if (type == SOCK_STREAM) {
+      EXPECT_EQ(::listen(made.number_, 1), 0);
+    }
     return made;
   }
   static Socket connected(int type, int port) {

@@ -27,10 +27,15 @@ class StreamCommand : public Program {
     for (std::size_t f = from; f < from + count; ++f) text += frames_[f];
     return text;
   }
+  static Setting fed(std::string text) {
+    Setting setting;
+    setting.in = std::move(text);
+    return setting;
+  }
   // What a stream of the whole take gives.
   std::string streamed(std::vector<std::string> words) {
     words.insert(words.begin(), "stream");
-    const Ran ran = run(words, {.in = take_});
+    const Ran ran = run(words, fed(take_));
     EXPECT_EQ(ran.code, 0) << ran.err;
     return ran.out;
   }
@@ -58,14 +63,14 @@ TEST_F(StreamCommand, GivesWhatCleanMakesOfTheFile) {
 
 TEST_F(StreamCommand, SaysTheDelayAndASummary) {
   make_take();
-  const Ran ran = run({"stream"}, {.in = take_});
+  const Ran ran = run({"stream"}, fed(take_));
   EXPECT_THAT(ran.err, AllOf(HasSubstr("kinemend: method median\n"),
                              HasSubstr("31 joints at 60 Hz: 4 frames of delay, 66.7 ms\n"),
                              HasSubstr("frames: 60 in, 60 out, 0 lost, 0 made up, 0 held, 0 late, "
                                        "0 doubled, 0 malformed, 0 dropped\n"),
                              HasSubstr("ms at the 99th percentile")));
   EXPECT_EQ(frames_in(ran.out), 60);
-  EXPECT_EQ(run({"stream", "--quiet"}, {.in = take_}).err, "");
+  EXPECT_EQ(run({"stream", "--quiet"}, fed(take_)).err, "");
 }
 
 TEST_F(StreamCommand, RefusesAMethodThatNeedsTheWholeTakeAndNamesTheOthers) {
@@ -93,8 +98,8 @@ TEST_F(StreamCommand, RefusesWhatMakesNoSense) {
 
 TEST_F(StreamCommand, EndsWithACodeWhereItCannotReadOrWrite) {
   make_take();
-  EXPECT_EQ(run({"stream"}, {.in = ""}).code, 3);
-  EXPECT_EQ(run({"stream"}, {.in = "HIERARCHY\nnonsense\n"}).code, 3);
+  EXPECT_EQ(run({"stream"}, fed("")).code, 3);
+  EXPECT_EQ(run({"stream"}, fed("HIERARCHY\nnonsense\n")).code, 3);
   EXPECT_EQ(run({"stream", "--skeleton", "none.bvh"}).code, 3);
   int port = 0;
   {
@@ -102,7 +107,7 @@ TEST_F(StreamCommand, EndsWithACodeWhereItCannotReadOrWrite) {
     port = closed.port();
   }
   const std::string place = "127.0.0.1:" + std::to_string(port);
-  EXPECT_EQ(run({"stream", "--to-tcp", place}, {.in = take_}).code, 4);
+  EXPECT_EQ(run({"stream", "--to-tcp", place}, fed(take_)).code, 4);
   EXPECT_EQ(run({"stream", "--tcp", place}).code, 3);
 }
 
@@ -234,7 +239,7 @@ TEST_F(StreamCommand, CountsLostLateDoubledAndMalformedFrames) {
   std::string text = header_;
   for (const std::size_t f : {0, 1, 2, 5, 4, 5, 6}) text += std::to_string(f) + " " + frames_[f];
   text += "7 1 2 3\n";
-  const Ran ran = run({"stream", "--numbered", "--format", "jsonl"}, {.in = text});
+  const Ran ran = run({"stream", "--numbered", "--format", "jsonl"}, fed(text));
   EXPECT_EQ(ran.code, 0);
   EXPECT_THAT(ran.err, HasSubstr("frames: 5 in, 7 out, 2 lost, 2 made up, 0 held, 1 late, 1 "
                                  "doubled, 1 malformed, 0 dropped\n"));

@@ -216,6 +216,15 @@ TEST_F(LiveSessionTest, PassesOverAHeaderThatIsNone) {
   EXPECT_EQ(run.counts().frames_out, 30);
 }
 
+TEST_F(LiveSessionTest, GoesOnWithFramesBehindAHeaderThatLostItsEnd) {
+  LiveRun run(*filter_);
+  run.feed(stream_.header + stream_.frames[0] + stream_.header.substr(0, 100) + "\n" +
+           stream_.frames[1] + stream_.frames[2]);
+  run.session.finish();
+  EXPECT_EQ(run.counts().bad_headers, 1);
+  EXPECT_EQ(run.counts().frames_out, 3);
+}
+
 TEST_F(LiveSessionTest, TakesTheSkeletonAndTheRateThatItIsGiven) {
   LiveOptions options;
   options.skeleton = stream_.text();
