@@ -49,12 +49,12 @@ class SignalPipe {
     struct sigaction action {};
     action.sa_handler = tell_signal;
     action.sa_flags = static_cast<int>(SA_RESETHAND);
-    sigaction(SIGINT, &action, &old_interrupt_);
-    sigaction(SIGTERM, &action, &old_terminate_);
+    sigaction(SIGINT, &action, &old_[0]);
+    sigaction(SIGTERM, &action, &old_[1]);
   }
   ~SignalPipe() {
-    sigaction(SIGINT, &old_interrupt_, nullptr);
-    sigaction(SIGTERM, &old_terminate_, nullptr);
+    sigaction(SIGINT, &old_[0], nullptr);
+    sigaction(SIGTERM, &old_[1], nullptr);
     signal_pipe_end = -1;
   }
   SignalPipe(const SignalPipe&) = delete;
@@ -64,8 +64,7 @@ class SignalPipe {
 
  private:
   Descriptor read_end_, write_end_;
-  struct sigaction old_interrupt_ {
-  }, old_terminate_{};
+  struct sigaction old_[2] = {};  ///< of SIGINT and SIGTERM
 };
 
 class LiveLoop {
@@ -77,6 +76,7 @@ class LiveLoop {
 
   void run() {
     last_frame_ = LiveClock::now();
+    tell_notes();
     while (!ended_) step();
     session_.finish();
     tell_notes();
@@ -214,10 +214,10 @@ class LiveLoop {
     if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) return;
     if (plan_.source == LiveSource::udp) {
       // An error is that of an earlier datagram, and an empty one is none.
-      if (count > 0) feed(static_cast<std::size_t>(count));
-      return session_.end_line();
+      if (count > 0) feed(static_cast<std::size_t>(count), true);
+      return;
     }
-    if (count > 0) return feed(static_cast<std::size_t>(count));
+    if (count > 0) return feed(static_cast<std::size_t>(count), false);
     if (standard && count < 0) {
       throw Error(ErrorKind::unreadable_input,
                   fmt::format("standard input: {}", std::strerror(errno)));
@@ -225,11 +225,12 @@ class LiveLoop {
     sender_gone(count == 0);
   }
 
-  void feed(std::size_t bytes) {
-    const LiveCounts before = session_.counts();
+  void feed(std::size_t bytes, bool ends_line) {
+    const std::size_t frames_before = session_.counts().frames_in;
     *plan_.came = LiveClock::now();
     session_.feed({buffer_.data(), bytes});
-    if (session_.counts().frames_in == before.frames_in) return;
+    if (ends_line) session_.end_line();
+    if (session_.counts().frames_in == frames_before) return;
     if (is_stalled_) {
       tell(fmt::format("frames come again after {:.3g} s",
                        Seconds(*plan_.came - last_frame_).count()));

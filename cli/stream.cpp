@@ -43,6 +43,7 @@ std::unique_ptr<Cleaner> live_cleaner(const Method& method, OptionValues values)
   }
   if (runs) return make_cleaner(method.name, values);
   std::vector<std::string> names;
+  names.reserve(list.size());
   for (const LiveMethod& m : list) names.push_back(live_name(m));
   throw Error(ErrorKind::usage, fmt::format("stream: {} needs the whole take; live run {}",
                                             method.name, fmt::join(names, ", ")));
