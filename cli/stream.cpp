@@ -84,6 +84,7 @@ LiveOptions options_of(const Arguments& arguments, const Method& method) {
   options.frame_rate_hz = arguments.given("fps") ? arguments.number("fps") : 0;
   options.numbered = arguments.flag("numbered");
   options.skipped_words = static_cast<std::size_t>(arguments.whole("skip_words"));
+  options.body_height = arguments.number("body_height");
   options.longest_gap_s = arguments.number("longest_gap_s");
   if (const std::string path = arguments.text("skeleton"); !path.empty())
     options.skeleton = read_file(path);
@@ -148,7 +149,7 @@ int run(const Arguments& arguments) {
   }
   if (plan.source == LiveSource::standard && !session.has_skeleton()) {
     for (const std::string& note : session.take_notes()) say_error(note);
-    throw Error(ErrorKind::unreadable_input, "standard input: no header of a BVH stream has come");
+    throw Error(ErrorKind::unreadable_input, "standard input: no header of a stream has come");
   }
   if (!plan.quiet) tell_summary(session, *output);
   return 0;
@@ -202,6 +203,9 @@ std::vector<Flag> stream_flags() {
                   "By it lost, late and doubled frames are known."),
       whole_flag("skip_words", 0, 0, 1000, "Input",
                  "words before the number and the values of a motion line"),
+      number_flag("body_height", "", 1750, 1e-6, 1e9, "Input",
+                  "height of the person, in the units of a stream of markers",
+                  "Their distances are measured by it."),
       switch_flag("once", "Input", "end when the first sender has gone"),
       method,
       number_flag("strength", "", 1, 0, 1, "Cleaning",
@@ -227,8 +231,9 @@ Command stream_command() {
   command.name = "stream";
   command.summary = "clean frames as they come, with a constant delay";
   command.description =
-      "Reads a BVH header and then a line of channel values a frame, from standard input or a "
-      "socket, and writes the same with cleaned values to standard output or a socket, "
+      "Reads a BVH header and then a line of channel values a frame, or names of markers and then "
+      "their positions, from standard input or a socket, and writes the same with cleaned values "
+      "to standard output or a socket, "
       "as soon as a frame's window is there. The delay is printed. Frames that are lost, late, "
       "doubled or malformed are counted and end nothing; neither do senders that fall silent or "
       "come and go, nor clients that do not read.\n\n"

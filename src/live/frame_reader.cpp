@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "io/motion/motion_rows.hpp"
 
@@ -28,14 +29,32 @@ bool begins_like_a_number(std::string_view line) {
 
 }  // namespace
 
-FrameReader::FrameReader(const Skeleton& skeleton, bool numbered, std::size_t skipped_words)
-    : columns_(skeleton),
+FrameReader::Read FrameReader::read(std::string_view line) {
+  values_found_ = 0;
+  for (std::size_t i = 0; i < skipped_words_; ++i) take_word(line);
+  std::int64_t number = 0;
+  if (numbered_) {
+    constexpr double most = 0x1p53;  // still exact
+    const std::string_view word = take_word(line);
+    if (word.empty()) return Read::text;
+    const NumberToken token = read_number(word.data(), word.data() + word.size());
+    const bool whole = token.kind == TokenKind::number && token.end == word.data() + word.size() &&
+                       std::fabs(token.value) < most && token.value == std::floor(token.value);
+    if (!whole) return begins_like_a_number(word) ? Read::number : Read::text;
+    number = static_cast<std::int64_t>(token.value);
+  }
+  const Read read = read_values(line);
+  if (read == Read::frame) number_ = number;
+  return read;
+}
+
+JointReader::JointReader(const Skeleton& skeleton, bool numbered, std::size_t skipped_words)
+    : FrameReader(numbered, skipped_words),
+      columns_(skeleton),
       position_frames_(offset_replacing_frames(skeleton)),
-      numbered_(numbered),
-      skipped_words_(skipped_words),
       rotations_(skeleton.joint_count()),
-      row_(columns_.count()),
       line_(columns_.count()) {
+  row_.resize(columns_.count());
   frame_.rotations.resize(skeleton.joint_count());
   frame_.observed.reserve(skeleton.joint_count());
   for (const PositionFrame& position : position_frames_) frame_.positions.push_back(position.rest);
@@ -45,20 +64,7 @@ FrameReader::FrameReader(const Skeleton& skeleton, bool numbered, std::size_t sk
   }
 }
 
-FrameReader::Read FrameReader::read(std::string_view line) {
-  values_found_ = 0;
-  for (std::size_t i = 0; i < skipped_words_; ++i) take_word(line);
-  std::int64_t number = 0;
-  if (numbered_) {
-    constexpr double most = 0x1p53;  // still exact
-    const std::string_view word = take_word(line);
-    if (word.empty()) return Read::text;
-    const NumberToken token = kinemend::read_number(word.data(), word.data() + word.size());
-    const bool whole = token.kind == TokenKind::number && token.end == word.data() + word.size() &&
-                       std::fabs(token.value) < most && token.value == std::floor(token.value);
-    if (!whole) return begins_like_a_number(word) ? Read::number : Read::text;
-    number = static_cast<std::int64_t>(token.value);
-  }
+FrameReader::Read JointReader::read_values(std::string_view line) {
   if (!begins_like_a_number(line)) return Read::text;
   const CommaStyle commas =
       line.find(',') == line.npos ? CommaStyle::none : comma_style(line, columns_.count());
@@ -69,14 +75,13 @@ FrameReader::Read FrameReader::read(std::string_view line) {
     ++values_found_;
     return Read::values;
   }
-  number_ = number;
   gaps_ = rows.gaps();
   take_rotations();
   take_positions();
   return Read::frame;
 }
 
-void FrameReader::take_rotations() {
+void JointReader::take_rotations() {
   columns_.decode_rotations(line_.data(), 1, rotations_.data());
   frame_.observed.clear();
   if (gaps_ > 0) frame_.observed.resize(rotations_.size(), 1);
@@ -92,11 +97,57 @@ void FrameReader::take_rotations() {
   }
 }
 
-void FrameReader::take_positions() {
+void JointReader::take_positions() {
   for (const MotionColumns::Position& position : columns_.positions()) {
     component(frame_.positions[frame_index(position.translated)], position.axis) =
         row_[position.column];
   }
+}
+
+MarkerReader::MarkerReader(std::size_t markers, bool numbered, std::size_t skipped_words)
+    : FrameReader(numbered, skipped_words), line_(3 * markers) {
+  row_.resize(3 * markers);
+  frame_.positions.resize(markers);
+  frame_.observed.resize(markers);
+}
+
+FrameReader::Read MarkerReader::read_values(std::string_view line) {
+  constexpr std::string_view firsts = ",0123456789+-.nNiI";
+  const char* const end = line.data() + line.size();
+  const char* p = skip_space(line.data(), end);
+  if (p != end && firsts.find(*p) == firsts.npos) return Read::text;
+  std::size_t gaps = 0;
+  for (;; ++p) {
+    const char* const stop = std::find(p, end, ',');
+    p = skip_space(p, stop);
+    double value = std::numeric_limits<double>::quiet_NaN();
+    if (p != stop) {
+      const NumberToken token = read_sample(p, stop, CommaStyle::separator);
+      if (token.kind == TokenKind::text || token.kind == TokenKind::comment ||
+          skip_space(token.end, stop) != stop) {
+        return Read::values;
+      }
+      gaps += token.kind == TokenKind::not_finite ? 1 : 0;
+      if (token.kind == TokenKind::number) value = token.value;
+    }
+    if (values_found_ == line_.size()) {
+      ++values_found_;
+      return Read::values;
+    }
+    line_[values_found_++] = value;
+    p = stop;
+    if (p == end) break;
+  }
+  if (values_found_ < line_.size()) return Read::values;
+  gaps_ = gaps;
+  row_ = line_;
+  for (std::size_t m = 0; m < frame_.positions.size(); ++m) {
+    const Vec3 v{row_[3 * m], row_[3 * m + 1], row_[3 * m + 2]};
+    const bool seen = !std::isnan(v.x) && !std::isnan(v.y) && !std::isnan(v.z);
+    frame_.observed[m] = seen ? 1 : 0;
+    if (seen) frame_.positions[m] = v;
+  }
+  return Read::frame;
 }
 
 }  // namespace kinemend

@@ -15,27 +15,48 @@ constexpr unsigned value_decimals = 6, quaternion_decimals = 8;
 
 }  // namespace
 
-FrameWriter::FrameWriter(const LiveHeader& header, LiveFormat format)
+std::string_view FrameWriter::write(const Frame& frame, std::int64_t number) {
+  line_.clear();
+  append_frame(frame, number);
+  line_ += '\n';
+  return line_;
+}
+
+void FrameWriter::append(double value, unsigned decimals) {
+  std::array<char, fixed_number_room> text;
+  const double finite = std::isfinite(value) ? value : 0;
+  line_.append(text.data(), write_fixed(text.data(), finite, decimals));
+}
+
+void FrameWriter::append_json(Vec3 v) {
+  append("[");
+  append(v.x, value_decimals);
+  append(",");
+  append(v.y, value_decimals);
+  append(",");
+  append(v.z, value_decimals);
+  append("]");
+}
+
+JointWriter::JointWriter(const LiveHeader& header, LiveFormat format)
     : header_(header),
       format_(format),
       columns_(header_.skeleton),
       angles_(header_.skeleton.joint_count()),
-      row_(columns_.count()) {
-  line_.reserve(32 * (columns_.count() + 4 * angles_.size()));
-}
+      row_(columns_.count()) {}
 
-std::string FrameWriter::header_text(std::size_t latency_frames) const {
+std::string JointWriter::header_text(std::size_t latency_frames) const {
   return format_ == LiveFormat::bvh ? bvh_header() : json_header(latency_frames);
 }
 
-std::string FrameWriter::bvh_header() const {
+std::string JointWriter::bvh_header() const {
   const std::string frame_time =
       header_.frame_time.empty() ? frame_time_text(header_.frame_rate_hz) : header_.frame_time;
   return fmt::format("{}\nMOTION\nFrames: {}\nFrame Time: {}\n", header_.hierarchy, header_.frames,
                      frame_time);
 }
 
-std::string FrameWriter::json_header(std::size_t latency_frames) const {
+std::string JointWriter::json_header(std::size_t latency_frames) const {
   const Skeleton& skeleton = header_.skeleton;
   nlohmann::ordered_json json = {{"kinemend", "live/1"},
                                  {"frame_rate_hz", header_.frame_rate_hz},
@@ -50,7 +71,7 @@ std::string FrameWriter::json_header(std::size_t latency_frames) const {
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-void FrameWriter::start_near(const std::vector<double>& values) {
+void JointWriter::start_near(const std::vector<double>& values) {
   row_ = values;
   for (std::size_t j = 0; j < angles_.size(); ++j) {
     const MotionColumns::Rotation& rotation = columns_.rotations()[j];
@@ -64,18 +85,15 @@ void FrameWriter::start_near(const std::vector<double>& values) {
   }
 }
 
-std::string_view FrameWriter::write(const Frame& frame, std::int64_t number) {
-  line_.clear();
+void JointWriter::append_frame(const Frame& frame, std::int64_t number) {
   if (format_ == LiveFormat::bvh) {
-    write_values(frame);
+    append_values(frame);
   } else {
-    write_json(frame, number);
+    append_json_frame(frame, number);
   }
-  line_ += '\n';
-  return line_;
 }
 
-void FrameWriter::write_values(const Frame& frame) {
+void JointWriter::append_values(const Frame& frame) {
   const auto put = [&](std::size_t column, double value) {
     if (std::isfinite(value)) row_[column] = value;
   };
@@ -91,49 +109,70 @@ void FrameWriter::write_values(const Frame& frame) {
       put(rotation.columns[i], angles_[j][i] * degrees_per_radian);
   }
   for (std::size_t c = 0; c < row_.size(); ++c) {
-    if (c > 0) line_ += ' ';
+    if (c > 0) append(" ");
     append(row_[c], value_decimals);
   }
 }
 
-void FrameWriter::write_json(const Frame& frame, std::int64_t number) {
-  fmt::format_to(std::back_inserter(line_), "{{\"frame\":{},\"root\":", number);
-  append(frame.positions.front());
-  line_ += ",\"rotations\":[";
+void JointWriter::append_json_frame(const Frame& frame, std::int64_t number) {
+  append("{\"frame\":");
+  append(static_cast<double>(number), 0);
+  append(",\"root\":");
+  append_json(frame.positions.front());
+  append(",\"rotations\":[");
   for (std::size_t j = 0; j < frame.rotations.size(); ++j) {
     const Quat q = frame.rotations[j];
-    line_ += j > 0 ? ",[" : "[";
-    for (const double value : {q.w, q.x, q.y, q.z}) {
+    append(j > 0 ? ",[" : "[");
+    append(q.w, quaternion_decimals);
+    for (const double value : {q.x, q.y, q.z}) {
+      append(",");
       append(value, quaternion_decimals);
-      line_ += ',';
     }
-    line_.back() = ']';
+    append("]");
   }
-  line_ += ']';
-  if (frame.positions.size() > 1) {
-    line_ += ",\"translations\":[";
-    for (std::size_t i = 1; i < frame.positions.size(); ++i) {
-      append(frame.positions[i]);
-      line_ += ',';
-    }
-    line_.back() = ']';
+  append("]");
+  for (std::size_t i = 1; i < frame.positions.size(); ++i) {
+    append(i == 1 ? ",\"translations\":[" : ",");
+    append_json(frame.positions[i]);
   }
-  line_ += '}';
+  append(frame.positions.size() > 1 ? "]}" : "}");
 }
 
-void FrameWriter::append(Vec3 v) {
-  line_ += '[';
-  for (const double value : {v.x, v.y, v.z}) {
-    append(value, value_decimals);
-    line_ += ',';
+std::string MarkerWriter::header_text(std::size_t latency_frames) const {
+  if (format_ == LiveFormat::bvh) {
+    return fmt::format("MARKERS {} {}\n", header_.frame_rate_hz, fmt::join(header_.markers, ","));
   }
-  line_.back() = ']';
+  const nlohmann::ordered_json json = {{"kinemend", "live/1"},
+                                       {"frame_rate_hz", header_.frame_rate_hz},
+                                       {"delay_frames", latency_frames},
+                                       {"markers", header_.markers}};
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-void FrameWriter::append(double value, unsigned decimals) {
-  std::array<char, fixed_number_room> text;
-  const double finite = std::isfinite(value) ? value : 0;
-  line_.append(text.data(), write_fixed(text.data(), finite, decimals));
+void MarkerWriter::append_frame(const Frame& frame, std::int64_t number) {
+  const bool json = format_ == LiveFormat::jsonl;
+  if (json) {
+    append("{\"frame\":");
+    append(static_cast<double>(number), 0);
+    append(",\"positions\":[");
+  }
+  for (std::size_t m = 0; m < frame.positions.size(); ++m) {
+    if (m > 0) append(",");
+    const bool seen = frame.observed.empty() || frame.observed[m] != 0;
+    const Vec3 v = frame.positions[m];
+    if (!seen) {
+      append(json ? "null" : ",,");
+    } else if (json) {
+      append_json(v);
+    } else {
+      append(v.x, value_decimals);
+      append(",");
+      append(v.y, value_decimals);
+      append(",");
+      append(v.z, value_decimals);
+    }
+  }
+  if (json) append("]}");
 }
 
 }  // namespace kinemend

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "io/bvh/bvh_hierarchy.hpp"
 #include "io/bvh/bvh_text.hpp"
 #include "kinemend/diagnostics.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend {
 
@@ -62,6 +65,38 @@ LiveHeader read_live_header(std::string_view text, std::string_view name, double
 bool begins_header(std::string_view line, bool surely) {
   const std::string_view word = first_word(line);
   return equal_ignoring_case(word, "HIERARCHY") || (!surely && equal_ignoring_case(word, "ROOT"));
+}
+
+bool is_marker_header(std::string_view line) { return first_word(line) == "MARKERS"; }
+
+LiveHeader read_marker_header(std::string_view line, double frame_rate_hz) {
+  constexpr std::size_t most_markers = 16384;
+  const auto fail = [](std::string_view what) {
+    throw Error(ErrorKind::unreadable_input, fmt::format("header of markers: {}", what));
+  };
+  TextScanner scanner(line, 0);
+  scanner.next();
+  const std::string_view rate = scanner.next();
+  LiveHeader header;
+  const NumberToken token =
+      rate.empty() ? NumberToken{} : read_number(rate.data(), rate.data() + rate.size());
+  if (token.kind != TokenKind::number || !is_usable_frame_rate(token.value))
+    fail(fmt::format("expected MARKERS, the rate in hertz and names, found the rate {}",
+                     quote(rate)));
+  header.frame_rate_hz = frame_rate_hz > 0 ? frame_rate_hz : token.value;
+  std::string_view names = line.substr(scanner.position());
+  while (!names.empty()) {
+    const std::size_t end = std::min(names.find(','), names.size());
+    std::string_view name = names.substr(0, end);
+    names.remove_prefix(std::min(end + 1, names.size()));
+    while (!name.empty() && is_space(name.front())) name.remove_prefix(1);
+    while (!name.empty() && is_space(name.back())) name.remove_suffix(1);
+    if (name.empty()) fail("a marker has no name");
+    header.markers.emplace_back(name);
+  }
+  if (header.markers.empty()) fail("there are no names");
+  if (header.markers.size() > most_markers) fail("there are too many names");
+  return header;
 }
 
 HeaderLines::Next HeaderLines::take(std::string_view line) {

@@ -11,9 +11,10 @@
 
 namespace kinemend {
 
-/// The head of a BVH stream.
+/// The head of a stream.
 struct LiveHeader {
-  Skeleton skeleton;
+  Skeleton skeleton;                 ///< of joints
+  std::vector<std::string> markers;  ///< their names; empty of a stream of joints
   double frame_rate_hz = 0;
   std::string hierarchy;   ///< as it came, lines ended by LF, without an end of its last line
   std::size_t frames = 0;  ///< as declared; 0 where it is not
@@ -27,6 +28,11 @@ LiveHeader read_live_header(std::string_view text, std::string_view name, double
 
 /// Whether a line of a stream begins a header: with HIERARCHY, or with ROOT unless `surely`.
 bool begins_header(std::string_view line, bool surely);
+
+/// Whether a line is the header of a stream of markers: `MARKERS 120 LASI,RASI`.
+bool is_marker_header(std::string_view line);
+/// Reads one. `frame_rate_hz` goes over the header's, unless it is 0. Errors: `unreadable_input`.
+LiveHeader read_marker_header(std::string_view line, double frame_rate_hz);
 
 /// Gathers the lines of a header.
 class HeaderLines {

@@ -28,6 +28,8 @@ void check(const LiveOptions& options) {
   };
   if (!(options.strength >= 0 && options.strength <= 1)) refuse("strength is outside 0 to 1");
   if (options.frame_rate_hz != 0) check_frame_rate(options.frame_rate_hz);
+  if (!(options.body_height > 0 && std::isfinite(options.body_height)))
+    refuse("body_height is not above 0");
   if (!(options.longest_gap_s >= 0 && options.longest_gap_s <= 3600))
     refuse("longest_gap_s is outside 0 to 3600 s");
 }
@@ -107,6 +109,7 @@ class LiveSession::Work {
       return collect(line);
     }
     if (is_blank(line)) return;
+    if (is_marker_header(line)) return take_marker_header(line);
     if (!stage_) return count_malformed("there are frames before any header", false);
     switch (stage_->take(line)) {
       case FrameReader::Read::frame:
@@ -127,6 +130,14 @@ class LiveSession::Work {
                               more ? "more" : fmt::to_string(reader.values_found())),
             true);
       }
+    }
+  }
+
+  void take_marker_header(std::string_view line) {
+    try {
+      open(read_marker_header(line, options_.frame_rate_hz));
+    } catch (const Error& error) {
+      refuse_header(error.what());
     }
   }
 
@@ -170,7 +181,8 @@ class LiveSession::Work {
   }
 
   void open(LiveHeader header) {
-    if (stage_ && same_skeleton(stage_->header().skeleton, header.skeleton) &&
+    if (stage_ && stage_->header().markers == header.markers &&
+        same_skeleton(stage_->header().skeleton, header.skeleton) &&
         stage_->header().frame_rate_hz == header.frame_rate_hz) {
       return stage_->expect_any_number();
     }
@@ -181,8 +193,11 @@ class LiveSession::Work {
     is_told_malformed_ = false;
     const double rate_hz = stage_->header().frame_rate_hz;
     const std::size_t delay = stage_->latency_frames();
-    notes_.push_back(fmt::format("{} joints at {:.6g} Hz: {} frames of delay, {:.3g} ms",
-                                 stage_->header().skeleton.joint_count(), rate_hz, delay,
+    const LiveHeader& opened = stage_->header();
+    const bool joints = opened.markers.empty();
+    notes_.push_back(fmt::format("{} {} at {:.6g} Hz: {} frames of delay, {:.3g} ms",
+                                 joints ? opened.skeleton.joint_count() : opened.markers.size(),
+                                 joints ? "joints" : "markers", rate_hz, delay,
                                  1000 * static_cast<double>(delay) / rate_hz));
   }
 

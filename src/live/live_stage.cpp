@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "kinemend/marker_clip.hpp"
+
 namespace kinemend {
 
 namespace {
@@ -18,11 +20,34 @@ Clip clip_like(const LiveHeader& header) {
   return clip;
 }
 
-// A share of the way from one frame to another.
+std::unique_ptr<FrameReader> reader_of(const LiveHeader& header, const LiveOptions& options) {
+  if (header.markers.empty())
+    return std::make_unique<JointReader>(header.skeleton, options.numbered, options.skipped_words);
+  return std::make_unique<MarkerReader>(header.markers.size(), options.numbered,
+                                        options.skipped_words);
+}
+
+std::unique_ptr<FrameWriter> writer_of(const LiveHeader& header, LiveFormat format) {
+  if (header.markers.empty()) return std::make_unique<JointWriter>(header, format);
+  return std::make_unique<MarkerWriter>(header, format);
+}
+
+std::unique_ptr<Stream> stream_of(const Cleaner& cleaner, const LiveHeader& header,
+                                  const LiveOptions& options) {
+  if (header.markers.empty()) return make_stream(cleaner, clip_like(header));
+  const MarkerClip like = make_marker_clip(header.markers, 0, header.frame_rate_hz);
+  return make_stream(cleaner, like, options.body_height);
+}
+
+// A share of the way from one frame to another. Joints are there; a marker is where it is in both.
 void go_between(const Frame& from, const Frame& to, double share, Frame& result) {
   result.rotations.resize(from.rotations.size());
   result.positions.resize(from.positions.size());
   result.observed.clear();
+  if (from.rotations.empty()) {
+    for (std::size_t m = 0; m < from.positions.size(); ++m)
+      result.observed.push_back(from.observed[m] != 0 && to.observed[m] != 0 ? 1 : 0);
+  }
   for (std::size_t j = 0; j < from.rotations.size(); ++j)
     result.rotations[j] = slerp(from.rotations[j], to.rotations[j], share);
   for (std::size_t i = 0; i < from.positions.size(); ++i)
@@ -40,29 +65,29 @@ LiveStage::LiveStage(const Cleaner& cleaner, const LiveOptions& options, LiveHea
       numbered_(options.numbered),
       longest_gap_(
           static_cast<std::size_t>(std::ceil(options.longest_gap_s * header_.frame_rate_hz))),
-      reader_(header_.skeleton, options.numbered, options.skipped_words),
-      writer_(header_, options.format),
-      stream_(make_stream(cleaner, clip_like(header_))),
+      reader_(reader_of(header_, options)),
+      writer_(writer_of(header_, options.format)),
+      stream_(stream_of(cleaner, header_, options)),
       waiting_(stream_->latency_frames() + 1) {
-  const std::string text = writer_.header_text(stream_->latency_frames());
+  const std::string text = writer_->header_text(stream_->latency_frames());
   sink_({true, text});
 }
 
 FrameReader::Read LiveStage::take(std::string_view line) {
-  const FrameReader::Read read = reader_.read(line);
+  const FrameReader::Read read = reader_->read(line);
   if (read != FrameReader::Read::frame) return read;
-  const Frame& frame = reader_.frame();
+  const Frame& frame = reader_->frame();
   if (!std::exchange(has_started_, true)) {
-    writer_.start_near(reader_.values());
+    writer_->start_near(reader_->values());
     last_ = frame;
-    last_number_ = numbered_ ? reader_.number() - 1 : -1;
+    last_number_ = numbered_ ? reader_->number() - 1 : -1;
     any_number_ = false;
     missed_ = 0;
   }
-  const std::int64_t number = numbered_ ? reader_.number() : last_number_ + 1;
+  const std::int64_t number = numbered_ ? reader_->number() : last_number_ + 1;
   if (!is_due(number)) return read;
   ++counts_.frames_in;
-  counts_.not_finite += reader_.gaps();
+  counts_.not_finite += reader_->gaps();
   last_ = frame;
   last_number_ = numbered_ ? number : last_number_ + 1;
   held_ = missed_ = 0;
@@ -99,7 +124,7 @@ void LiveStage::make_up(std::size_t frames) {
   const std::size_t count = frames - held_;
   const std::int64_t first = last_number_ + static_cast<std::int64_t>(held_) + 1;
   for (std::size_t i = 0; i < count; ++i) {
-    go_between(last_, reader_.frame(), static_cast<double>(i + 1) / static_cast<double>(count + 1),
+    go_between(last_, reader_->frame(), static_cast<double>(i + 1) / static_cast<double>(count + 1),
                made_);
     push(made_, first + static_cast<std::int64_t>(i));
   }
@@ -113,7 +138,7 @@ void LiveStage::miss() {
 
 void LiveStage::hold() {
   if (!has_started_) return;
-  last_.observed.clear();
+  if (header_.markers.empty()) last_.observed.clear();
   ++held_;
   ++counts_.held;
   push(last_, last_number_ + static_cast<std::int64_t>(held_));
@@ -138,7 +163,7 @@ void LiveStage::give() {
   const Waiting& waiting = waiting_[given_++ % waiting_.size()];
   if (strength_ < 1) blend(waiting.frame);
   ++counts_.frames_out;
-  sink_({false, writer_.write(out_, waiting.number)});
+  sink_({false, writer_->write(out_, waiting.number)});
 }
 
 // What was not measured is a repair, which is made whole.

@@ -14,8 +14,8 @@
 
 namespace kinemend {
 
-/// A live stream of one skeleton: lines in, cleaned lines out, on a clock that lost frames do not
-/// stop.
+/// A live stream of one skeleton, or one set of markers: lines in, cleaned lines out, on a clock
+/// that lost frames do not stop.
 class LiveStage {
  public:
   /// Gives the header of the output at once. All but `header` outlive the stage.
@@ -23,7 +23,7 @@ class LiveStage {
             const LiveSink& sink, LiveCounts& counts);
 
   const LiveHeader& header() const { return header_; }
-  const FrameReader& reader() const { return reader_; }
+  const FrameReader& reader() const { return *reader_; }
   std::size_t latency_frames() const { return stream_->latency_frames(); }
 
   FrameReader::Read take(std::string_view line);
@@ -54,8 +54,8 @@ class LiveStage {
   double strength_;
   bool numbered_;
   std::size_t longest_gap_;
-  FrameReader reader_;
-  FrameWriter writer_;
+  std::unique_ptr<FrameReader> reader_;
+  std::unique_ptr<FrameWriter> writer_;
   std::unique_ptr<Stream> stream_;
   std::vector<Waiting> waiting_;  ///< a ring
   std::size_t pushed_ = 0, given_ = 0;

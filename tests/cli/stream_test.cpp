@@ -249,5 +249,14 @@ TEST_F(StreamCommand, CountsLostLateDoubledAndMalformedFrames) {
   EXPECT_EQ(Json::parse(lines[7])["frame"], 6);
 }
 
+TEST_F(StreamCommand, CleansMarkers) {
+  const Ran ran = run({"stream", "-m", "one-euro", "--body-height", "1700"},
+                      fed("MARKERS 100 LASI,RASI\n1,2,3,,,\n1,2,3,4,5,6\n"));
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(lines_of(ran.out),
+              ElementsAre("MARKERS 100 LASI,RASI", "1.000000,2.000000,3.000000,,,",
+                          "1.000000,2.000000,3.000000,4.000000,5.000000,6.000000"));
+}
+
 }  // namespace
 }  // namespace kinemend::test

@@ -10,13 +10,14 @@
 
 #include "kinemend/cleaner.hpp"
 
-// Live motion as text: bytes of BVH as they arrive in, cleaned frames as text out. docs/live.md
-// describes both.
+// Live motion as text: bytes of BVH, or of lines of markers, as they arrive in, cleaned frames as
+// text out. docs/live.md describes both.
 namespace kinemend {
 
 /// How cleaned frames are written.
 enum class LiveFormat {
-  bvh,    ///< the sender's hierarchy, then a line a frame with the channel values
+  bvh,    ///< as it came in: the sender's hierarchy, then a line a frame with the channel values;
+          ///< or the names of the markers, then their positions
   jsonl,  ///< a line of JSON that describes the stream, then one a frame
 };
 
@@ -30,7 +31,8 @@ struct LiveOptions {
   std::size_t skipped_words = 0;  ///< at the start of a motion line, before the number
   /// BVH whose hierarchy and rate hold until a header comes; empty: frames wait for a header.
   std::string skeleton;
-  double longest_gap_s = 1;                  ///< lost frames in a row that are made up (>= 0)
+  double body_height = 1750;  ///< of the person, in the units of a stream of markers (> 0)
+  double longest_gap_s = 1;   ///< lost frames in a row that are made up (>= 0)
   std::size_t most_line_bytes = 1U << 20;    ///< a longer line is malformed
   std::size_t most_header_bytes = 1U << 22;  ///< a longer header is none
 };
@@ -87,7 +89,7 @@ class LiveSession {
 
   const LiveCounts& counts() const noexcept;
   bool has_skeleton() const noexcept;
-  std::size_t joint_count() const noexcept;     ///< 0 before a header
+  std::size_t joint_count() const noexcept;     ///< 0 of markers, and before a header
   double frame_rate_hz() const noexcept;        ///< 0 before a header
   std::size_t latency_frames() const noexcept;  ///< 0 before a header
   /// Lines for people since the last call: a new skeleton with its delay, headers that are none,
