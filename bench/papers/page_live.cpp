@@ -1,4 +1,5 @@
 // Figures of docs/live.md: what each method that runs live leaves of noise, and its delay.
+#include <algorithm>
 #include <array>
 
 #include "kinemend/experimental/live.hpp"
