@@ -8,6 +8,7 @@ namespace kinemend::cli {
 Command clean_command();
 Command batch_command();
 Command fill_command();
+Command stream_command();
 Command info_command();
 Command check_command();
 Command contacts_command();

@@ -67,6 +67,20 @@ const std::vector<Topic>& topics() {
        "and last missing frame. "
        "A heading, # comments, blank lines and quoted names are understood. kinemend check "
        "--gaps-out writes one."},
+      {"live", "frames as they come, for kinemend stream",
+       "The sender gives the hierarchy of a BVH file, MOTION, Frames: and Frame Time:, then a line "
+       "of channel values a frame; lines end with LF, CR LF or ||, and each datagram ends one. A "
+       "method with a window gives a frame when half a window has come behind it; the delay is "
+       "printed.\n\n"
+       "With --numbered a line begins with the frame's number, and lost frames are made up between "
+       "those on either side, late and doubled ones left out. A malformed line is made up too. A "
+       "sender may fall silent, go and come back, with or without its header; a client that does "
+       "not read loses the oldest frames. The summary counts all of it.\n\n"
+       "A stream of markers begins with a line MARKERS, the rate in hertz and the names, as in "
+       "MARKERS 120 LASI,RASI; then come lines of three values a marker with commas between them, "
+       "empty ones where a marker is missing.\n\n"
+       "--format jsonl writes a line that describes the stream and one a frame: frame, root, "
+       "rotations (quaternions w, x, y, z) and translations."},
       {"exit-codes", "what the exit code means", exit_codes_text()}};
   return table;
 }

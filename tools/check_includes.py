@@ -27,6 +27,7 @@ USES = {
     "clean": {"representation", "tracks", "priors", "metrics", "fill", "feet"},
     "check": {"clean"},
     "stream": {"clean"},
+    "live": {"io", "stream"},
     "report": {"check", "metrics"},
     "page": {"report"},
 }
@@ -38,7 +39,7 @@ PUBLIC = {
     "marker_clip": "motion", "convert": "motion", "gaps": "motion", "fill": "fill", "check": "check",
     "io": "io", "representation": "representation", "metrics": "metrics", "corrupt": "corrupt",
     "synth": "synth", "signal": "signal", "cleaner": "clean", "methods": "clean", "clean": "clean",
-    "stream": "stream", "tensor": "nn", "body": "representation", "model": "priors", "train": "priors",
+    "stream": "stream", "live": "live", "tensor": "nn", "body": "representation", "model": "priors", "train": "priors",
     "feet": "feet", "frame_numbers": "motion", "text": "base", "report": "report", "batch_rows": "report", "svg": "report", "curves": "report", "pictures": "report", "page": "page", "known_names": "motion", "subjects": "motion",
 }
 

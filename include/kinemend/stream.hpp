@@ -17,8 +17,9 @@ class Stream {
   /// Constant from the first frame on. On markers a method with a window also waits for the 0.25 s
   /// after which a gap counts as long, and the 0.05 s behind it that a bridge rests on.
   virtual std::size_t latency_frames() const = 0;
-  /// Takes a frame; true when `out` holds the next cleaned one. Errors: `ErrorKind::usage` for a
-  /// frame of another shape.
+  /// Takes a frame; true when `out` holds the next cleaned one. Once the stream is warm, and unless
+  /// something is missing within a window, it takes nothing from the heap. Errors:
+  /// `ErrorKind::usage` for a frame of another shape; no value is one.
   virtual bool push(const Frame& in, Frame& out) = 0;
   /// After the last frame: gives the remaining frames one by one, then false.
   virtual bool flush(Frame& out) = 0;

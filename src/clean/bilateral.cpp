@@ -1,5 +1,9 @@
+#include <algorithm>
+#include <cmath>
 #include <memory>
+#include <vector>
 
+#include "clean/inner_filter.hpp"
 #include "clean/lanes.hpp"
 #include "clean/method_list.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
@@ -23,7 +27,67 @@ const OptionTable<BilateralOptions>& table() {
   return result;
 }
 
-class BilateralCleaner final : public Cleaner {
+// One pass amid a take, as `bilateral_filter` has it: a weight between two samples is found once,
+// when the later of them comes.
+template <class Sample>
+class BilateralPass {
+ public:
+  explicit BilateralPass(const BilateralKernel& kernel)
+      : kernel_(kernel),
+        k_(kernel.half_width()),
+        samples_(2 * k_ + 1),
+        increments_(2 * k_),
+        weights_((2 * k_ + 1) * k_) {}
+
+  Sample step(Sample newest) {
+    const Sample before = samples_.samples().back();
+    samples_.push(newest);
+    increments_.push(difference(before, newest));
+    const auto samples = samples_.samples();
+    std::move(weights_.begin() + static_cast<std::ptrdiff_t>(k_), weights_.end(), weights_.begin());
+    for (std::size_t r = 1; r <= k_; ++r) {
+      const Vec3 way = difference(samples[2 * k_ - r], newest);
+      weight(2 * k_, r) =
+          kernel_.temporal_weights[r] * std::exp(-kernel_.distance_scale * dot(way, way));
+    }
+    const auto increments = increments_.samples();
+    Vec3 sum;
+    double past = 0, next = 0;
+    for (std::size_t r = k_; r > 0; --r) {
+      past += weight(k_, r);
+      next += weight(k_ + r, r);
+      sum += next * increments[k_ + r - 1] - past * increments[k_ - r];
+    }
+    return moved(samples[k_], (1 / (1 + past + next)) * sum);
+  }
+
+ private:
+  // Between sample i of the window and the one r before it.
+  double& weight(std::size_t i, std::size_t r) { return weights_[i * k_ + r - 1]; }
+
+  BilateralKernel kernel_;
+  std::size_t k_;
+  SlidingWindow<Sample> samples_;
+  SlidingWindow<Vec3> increments_;
+  std::vector<double> weights_;
+};
+
+template <class Sample>
+class BilateralStep {
+ public:
+  BilateralStep(const BilateralKernel& kernel, std::size_t passes)
+      : passes_(passes, BilateralPass<Sample>(kernel)) {}
+
+  Sample step(Sample sample) {
+    for (BilateralPass<Sample>& pass : passes_) sample = pass.step(sample);
+    return sample;
+  }
+
+ private:
+  std::vector<BilateralPass<Sample>> passes_;
+};
+
+class BilateralCleaner final : public WindowedCleaner {
  public:
   explicit BilateralCleaner(const BilateralOptions& options) : options_(options) {
     table().validate(options);
@@ -31,13 +95,8 @@ class BilateralCleaner final : public Cleaner {
 
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
-    const double sigma_t = options_.sigma_t_s * window_rate_hz(take.frame_rate_hz);
-    const double sigma_g = options_.sigma_g_deg * radians_per_degree;
     const auto passes = static_cast<std::size_t>(options_.passes);
-    const BilateralKernel turns = bilateral_kernel(sigma_t, sigma_g);
-    // A body turned by sigma_g moves its far end by sigma_g times its height. Travel is no edge, as
-    // it would be for the length of a bone.
-    const BilateralKernel moves = bilateral_kernel(sigma_t, sigma_g * height_of(take));
+    const BilateralKernel turns = kernel_of_turns(take), moves = kernel_of_moves(take);
     filter_pieces(take, sink, progress,
                   Overloaded{[&](Piece<Quat>& piece) {
                                filter_lanes(piece, [&](RotationTrack& track) {
@@ -61,7 +120,29 @@ class BilateralCleaner final : public Cleaner {
     return {LiveSupport::Kind::windowed, k * static_cast<std::size_t>(options_.passes)};
   }
 
+  std::unique_ptr<InnerFilter> make_inner_filter(const TakeView& like) const override {
+    const auto passes = static_cast<std::size_t>(options_.passes);
+    const BilateralKernel turns = kernel_of_turns(like), moves = kernel_of_moves(like);
+    return make_track_inner_filter<BilateralStep>(
+        like, turns.half_width() * passes, [&](const Track& track, auto sample) {
+          return BilateralStep<decltype(sample)>(track.space == Space::rotation ? turns : moves,
+                                                 passes);
+        });
+  }
+
  private:
+  double sigma_t_frames(const TakeView& take) const {
+    return options_.sigma_t_s * window_rate_hz(take.frame_rate_hz);
+  }
+  BilateralKernel kernel_of_turns(const TakeView& take) const {
+    return bilateral_kernel(sigma_t_frames(take), options_.sigma_g_deg * radians_per_degree);
+  }
+  // A body turned by sigma_g moves its far end by sigma_g times its height. Travel is no edge, as
+  // it would be for the length of a bone.
+  BilateralKernel kernel_of_moves(const TakeView& take) const {
+    return bilateral_kernel(sigma_t_frames(take),
+                            options_.sigma_g_deg * radians_per_degree * height_of(take));
+  }
   static double height_of(const TakeView& take) {
     if (take.markers) return take.body_height;
     const double height = body_height(take.joints->skeleton);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include "clean/inner_filter.hpp"
 #include "clean/lanes.hpp"
 #include "clean/method_list.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
@@ -123,7 +124,33 @@ class GaussianFilter {
   std::vector<std::vector<double>> ends_;  // one a frame of the take; empty inside it
 };
 
-class GaussianCleaner final : public Cleaner {
+// The whole mask: each increment is taken once.
+template <class Sample>
+class GaussianStep {
+ public:
+  explicit GaussianStep(std::span<const double> increment_weights)
+      : weights_(increment_weights.begin(), increment_weights.end()),
+        samples_(weights_.size() + 1),
+        increments_(weights_.size()) {}
+
+  Sample step(Sample newest) {
+    const Sample before = samples_.samples().back();
+    samples_.push(newest);
+    if (weights_.empty()) return newest;
+    increments_.push(difference(before, newest));
+    Vec3 sum;
+    const auto increments = increments_.samples();
+    for (std::size_t r = 0; r < weights_.size(); ++r) sum += weights_[r] * increments[r];
+    return moved(samples_.samples()[weights_.size() / 2], sum);
+  }
+
+ private:
+  std::vector<double> weights_;
+  SlidingWindow<Sample> samples_;
+  SlidingWindow<Vec3> increments_;
+};
+
+class GaussianCleaner final : public WindowedCleaner {
  public:
   explicit GaussianCleaner(const GaussianOptions& options) : options_(options) {
     table().validate(options);
@@ -141,6 +168,16 @@ class GaussianCleaner final : public Cleaner {
 
   LiveSupport live_support(double frame_rate_hz) const override {
     return {LiveSupport::Kind::windowed, half_width(sigma_frames(frame_rate_hz))};
+  }
+
+  std::unique_ptr<InnerFilter> make_inner_filter(const TakeView& like) const override {
+    const double sigma = sigma_frames(like.frame_rate_hz);
+    const std::size_t k = half_width(sigma);
+    const std::vector<double> weights =
+        increment_weights(mask_at(gaussian_values(sigma, k), {}, k, 2 * k + 1));
+    return make_track_inner_filter<GaussianStep>(like, k, [&](const Track&, auto sample) {
+      return GaussianStep<decltype(sample)>(weights);
+    });
   }
 
  private:

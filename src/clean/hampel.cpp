@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/quantiles.hpp"
+#include "clean/inner_filter.hpp"
 #include "clean/method_list.hpp"
 #include "clean/pieces.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
@@ -84,7 +85,37 @@ class Despiker {
   std::vector<double> distances_;
 };
 
-class Hampel final : public Cleaner {
+// The rule amid a take, where windows are whole.
+template <class Sample>
+class HampelStep {
+ public:
+  explicit HampelStep(const Rule& rule) : rule_(rule), window_(2 * rule.half + 1) {
+    sums_.reserve(2 * rule.half + 1);
+    distances_.reserve(2 * rule.half + 1);
+    scratch_.reserve(2 * rule.half + 1);
+  }
+
+  Sample step(Sample newest) {
+    window_.push(newest);
+    const Track<Sample> samples = window_.samples();
+    const Sample own = samples[rule_.half];
+    const std::size_t middle = medoid(samples, sums_);
+    const double distance = chord(samples[middle], own);
+    if (distance <= rule_.least_distance) return own;
+    distances_.clear();
+    for (const Sample& sample : samples) distances_.push_back(chord(samples[middle], sample));
+    if (distance <= rule_.threshold * upper_median_of(distances_) / median_of_chi3) return own;
+    return l1_median(samples, middle, scratch_);
+  }
+
+ private:
+  Rule rule_;
+  SlidingWindow<Sample> window_;
+  std::vector<double> sums_, distances_;
+  std::vector<Vec3> scratch_;
+};
+
+class Hampel final : public WindowedCleaner {
  public:
   explicit Hampel(const HampelOptions& options) : options_(options) {}
 
@@ -105,6 +136,14 @@ class Hampel final : public Cleaner {
     return {LiveSupport::Kind::windowed, half_frames(rate_hz)};
   }
 
+  std::unique_ptr<InnerFilter> make_inner_filter(const TakeView& like) const override {
+    const std::size_t half = half_frames(like.frame_rate_hz);
+    return make_track_inner_filter<
+        HampelStep>(like, half, [&](const kinemend::Track& track, auto sample) {
+      return HampelStep<decltype(sample)>({half, options_.threshold, least_distance(track.radian)});
+    });
+  }
+
   Frame clean_frame(const TakeView& window, std::size_t frame) const override {
     return filter_frame(
         window, frame, [&]<class Sample>(const Piece<Sample>& piece, std::size_t i) {
@@ -120,7 +159,10 @@ class Hampel final : public Cleaner {
   }
   Rule rule_for(const TakeView& take, std::size_t track) const {
     return {half_frames(take.frame_rate_hz), options_.threshold,
-            options_.minimum_deg * radians_per_degree * take.tracks[track].radian};
+            least_distance(take.tracks[track].radian)};
+  }
+  double least_distance(double radian) const {
+    return options_.minimum_deg * radians_per_degree * radian;
   }
 
   HampelOptions options_;

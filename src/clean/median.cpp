@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "clean/inner_filter.hpp"
 #include "clean/method_list.hpp"
 #include "clean/pieces.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
@@ -72,7 +73,30 @@ std::vector<Sample> median_track(const std::vector<Sample>& samples, std::size_t
   return result;
 }
 
-class Median final : public Cleaner {
+// The median of the `half` samples on either side, amid a window that may be longer.
+template <class Sample>
+class MedianStep {
+ public:
+  MedianStep(std::size_t half, std::size_t window_half)
+      : half_(half), window_half_(window_half), window_(2 * window_half + 1) {
+    sums_.reserve(2 * half + 1);
+    scratch_.reserve(2 * half + 1);
+  }
+
+  Sample step(Sample sample) {
+    window_.push(sample);
+    const auto about = window_.samples().subspan(window_half_ - half_, 2 * half_ + 1);
+    return half_ == 0 ? about[0] : l1_median(about, medoid(about, sums_), scratch_);
+  }
+
+ private:
+  std::size_t half_, window_half_;
+  SlidingWindow<Sample> window_;
+  std::vector<double> sums_;
+  std::vector<Vec3> scratch_;
+};
+
+class Median final : public WindowedCleaner {
  public:
   explicit Median(const MedianOptions& options) : options_(options) {}
 
@@ -89,6 +113,15 @@ class Median final : public Cleaner {
     const std::size_t half = half_frames(rate_hz);
     const std::size_t end = half == 0 ? 0 : half == 1 ? 3 : 4;
     return {LiveSupport::Kind::windowed, std::max(half, end)};
+  }
+
+  std::unique_ptr<InnerFilter> make_inner_filter(const TakeView& like) const override {
+    const std::size_t half = half_frames(like.frame_rate_hz);
+    const std::size_t window_half = live_support(like.frame_rate_hz).half_window_frames;
+    return make_track_inner_filter<MedianStep>(
+        like, window_half, [&](const kinemend::Track&, auto sample) {
+          return MedianStep<decltype(sample)>(half, window_half);
+        });
   }
 
   Frame clean_frame(const TakeView& window, std::size_t frame) const override {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <limits>
 #include <utility>
 
@@ -23,35 +22,59 @@ class RunningNoise {
     // degrees is about n (1 - 2 / (9 n))^3.
     const double degrees = 3 * static_cast<double>(joints);
     const double median_share = std::pow(1 - 2 / (9 * degrees), 3);
-    values_.push_back(squared_difference / (6 * degrees * median_share));
-    if (values_.size() > most_frames) values_.pop_front();
+    values_[count_++ % most_frames] = squared_difference / (6 * degrees * median_share);
   }
-  bool known() const { return values_.size() >= least_frames; }
-  double variance() const {
-    std::vector<double> sorted(values_.begin(), values_.end());
-    return upper_median_of(sorted);
+  bool known() const { return count_ >= least_frames; }
+  double variance() {
+    sorted_.assign(values_.begin(),
+                   values_.begin() + static_cast<std::ptrdiff_t>(std::min(count_, most_frames)));
+    return upper_median_of(sorted_);
   }
 
  private:
   static constexpr std::size_t least_frames = 8;
   static constexpr std::size_t most_frames = 256;
-  std::deque<double> values_;
+  std::size_t count_ = 0;
+  std::vector<double> values_ = std::vector<double>(most_frames);  // a ring
+  std::vector<double> sorted_;
+};
+
+// The last things of a kind, the newest first. Their memory is used again.
+template <class T>
+class Latest {
+ public:
+  explicit Latest(std::size_t most) : things_(most) {}
+  std::size_t size() const { return std::min(count_, things_.size()); }
+  // Room for a new one, in place of the oldest.
+  T& add() { return things_[count_++ % things_.size()]; }
+  // 0 is the newest.
+  T& operator[](std::size_t age) { return things_[(count_ - 1 - age) % things_.size()]; }
+  const T& operator[](std::size_t age) const {
+    return things_[(count_ - 1 - age) % things_.size()];
+  }
+
+ private:
+  std::vector<T> things_;
+  std::size_t count_ = 0;
 };
 
 class CausalNonlocal final : public FrameFilter {
  public:
   CausalNonlocal(const CausalNonlocalSettings& settings, std::vector<std::size_t> joints)
-      : settings_(settings), joints_(std::move(joints)) {}
+      : settings_(settings),
+        joints_(std::move(joints)),
+        past_(settings.window + 1),
+        distances_(std::max<std::size_t>(settings.patch, 1)) {}
 
   void filter(Frame& frame) override {
     remember(frame);
-    const std::vector<double> weights = find_weights();
-    const Frame& present = past_.front();
+    find_weights();
+    const Frame& present = past_[0];
     for (const std::size_t joint : joints_) {
-      frame.rotations[joint] = present.rotations[joint] * exp(mean_turn(joint, weights));
+      frame.rotations[joint] = present.rotations[joint] * exp(mean_turn(joint));
     }
     for (std::size_t i = 1; i < frame.positions.size(); ++i)
-      frame.positions[i] = present.positions[i] + mean_move(i, weights);
+      frame.positions[i] = present.positions[i] + mean_move(i);
   }
 
  private:
@@ -67,14 +90,15 @@ class CausalNonlocal final : public FrameFilter {
 
   // Puts the frame before the past ones. What was not measured is held.
   void remember(const Frame& frame) {
-    past_.push_front(frame);
-    if (past_.size() > settings_.window + 1) past_.pop_back();
+    past_.add() = frame;
     for (const std::size_t joint : joints_) {
       if (past_.size() > 1 && !is_observed(frame, joint)) {
         past_[0].rotations[joint] = past_[1].rotations[joint];
       }
     }
-    Distances row;
+    Distances& row = distances_.add();
+    row.sums.clear();
+    row.pairs.clear();
     for (std::size_t lag = 1; lag < past_.size(); ++lag) {
       double sum = 0, pairs = 0;
       for (const std::size_t joint : joints_) {
@@ -86,8 +110,6 @@ class CausalNonlocal final : public FrameFilter {
       row.sums.push_back(sum);
       row.pairs.push_back(pairs);
     }
-    distances_.push_front(std::move(row));
-    if (distances_.size() > settings_.patch) distances_.pop_back();
     if (past_.size() >= 3) measure_noise();
   }
 
@@ -109,12 +131,12 @@ class CausalNonlocal final : public FrameFilter {
   }
 
   // sum_s w_s Log(q^-1 q_s) / (1 + sum_s w_s) over the measured samples.
-  Vec3 mean_turn(std::size_t joint, const std::vector<double>& weights) const {
-    const Quat present = conjugate(past_.front().rotations[joint]);
+  Vec3 mean_turn(std::size_t joint) const {
+    const Quat present = conjugate(past_[0].rotations[joint]);
     Vec3 sum;
-    double total = is_observed(past_.front(), joint) ? 1 : 0;
-    for (std::size_t lag = 1; lag <= weights.size(); ++lag) {
-      const double weight = weights[lag - 1];
+    double total = is_observed(past_[0], joint) ? 1 : 0;
+    for (std::size_t lag = 1; lag <= weights_.size(); ++lag) {
+      const double weight = weights_[lag - 1];
       if (weight == 0 || !is_observed(past_[lag], joint)) continue;
       sum += weight * log(present * past_[lag].rotations[joint]);
       total += weight;
@@ -122,12 +144,12 @@ class CausalNonlocal final : public FrameFilter {
     return total > 0 ? (1 / total) * sum : Vec3{};
   }
 
-  Vec3 mean_move(std::size_t column, const std::vector<double>& weights) const {
+  Vec3 mean_move(std::size_t column) const {
     Vec3 sum;
     double total = 1;
-    for (std::size_t lag = 1; lag <= weights.size(); ++lag) {
-      sum += weights[lag - 1] * (past_[lag].positions[column] - past_.front().positions[column]);
-      total += weights[lag - 1];
+    for (std::size_t lag = 1; lag <= weights_.size(); ++lag) {
+      sum += weights_[lag - 1] * (past_[lag].positions[column] - past_[0].positions[column]);
+      total += weights_[lag - 1];
     }
     return (1 / total) * sum;
   }
@@ -135,7 +157,8 @@ class CausalNonlocal final : public FrameFilter {
   // Mean squared difference per channel of the patches that end now and `lag` frames ago.
   double patch_distance(std::size_t lag) const {
     double sum = 0, pairs = 0;
-    for (const Distances& row : distances_) {
+    for (std::size_t age = 0; age < distances_.size(); ++age) {
+      const Distances& row = distances_[age];
       if (row.sums.size() < lag) break;
       sum += row.sums[lag - 1];
       pairs += row.pairs[lag - 1];
@@ -143,29 +166,28 @@ class CausalNonlocal final : public FrameFilter {
     return pairs > 0 ? sum / (3 * pairs) : std::numeric_limits<double>::infinity();
   }
 
-  // Of the poses 1, 2, ... frames ago; the present one weighs 1.
-  std::vector<double> find_weights() const {
+  void find_weights() {
     const bool automatic = settings_.bandwidth == 0;
     const double variance = automatic && noise_.known() ? noise_.variance() : 0;
-    if (automatic && variance == 0) return {};
-    std::vector<double> weights(past_.size() - 1);
-    for (std::size_t lag = 1; lag < past_.size(); ++lag) weights[lag - 1] = patch_distance(lag);
-    keep_nearest(weights);
+    weights_.clear();
+    if (automatic && variance == 0) return;
+    for (std::size_t lag = 1; lag < past_.size(); ++lag) weights_.push_back(patch_distance(lag));
+    keep_nearest(weights_);
     const double bandwidth2 = automatic ? settings_.noise_share * settings_.noise_share * variance
                                         : settings_.bandwidth * settings_.bandwidth;
     double floor = 2 * variance;
-    if (!automatic && !weights.empty()) floor = *std::min_element(weights.begin(), weights.end());
+    if (!automatic && !weights_.empty())
+      floor = *std::min_element(weights_.begin(), weights_.end());
     if (std::isinf(floor)) floor = 0;
-    for (double& value : weights) {
+    for (double& value : weights_) {
       value = std::exp(-std::max(0.0, value - floor) / (2 * bandwidth2));
     }
-    return weights;
   }
 
-  void keep_nearest(std::vector<double>& distances) const {
+  void keep_nearest(std::vector<double>& distances) {
     if (settings_.neighbours == 0 || settings_.neighbours >= distances.size()) return;
-    std::vector<double> sorted = distances;
-    const double limit = of_rank(sorted, settings_.neighbours - 1);
+    sorted_ = distances;
+    const double limit = of_rank(sorted_, settings_.neighbours - 1);
     for (double& value : distances) {
       if (value > limit) value = std::numeric_limits<double>::infinity();
     }
@@ -174,8 +196,10 @@ class CausalNonlocal final : public FrameFilter {
   CausalNonlocalSettings settings_;
   std::vector<std::size_t> joints_;
   RunningNoise noise_;
-  std::deque<Frame> past_;           // the present frame first
-  std::deque<Distances> distances_;  // of the frames of a patch, the present one first
+  Latest<Frame> past_;           // the present frame first
+  Latest<Distances> distances_;  // of the frames of a patch, the present one first
+  std::vector<double> weights_;  // of the poses 1, 2, ... frames ago; the present one weighs 1
+  std::vector<double> sorted_;
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "clean/filter_channels.hpp"
+#include "clean/inner_filter.hpp"
 #include "clean/method_list.hpp"
+#include "kinemend/experimental/representation.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "kinemend/methods.hpp"
 
@@ -14,7 +16,46 @@ const OptionTable<WeightedMeanOptions>& table() {
   return options;
 }
 
-class WeightedMean final : public Cleaner {
+// All passes as one mask: what they make of an impulse far from both ends.
+std::vector<double> mask_of(int passes) {
+  const std::size_t half = 2 * static_cast<std::size_t>(passes);
+  PoseMatrix impulse(4 * half + 1, 1);
+  impulse.row(2 * half)[0] = 1;
+  weighted_mean_filter(impulse, passes);
+  std::vector<double> mask(2 * half + 1);
+  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = impulse.row(half + i)[0];
+  return mask;
+}
+
+// Amid a take: channels of quaternions with continued signs, or positions about the middle one.
+template <class Sample>
+class WeightedMeanStep {
+ public:
+  explicit WeightedMeanStep(std::span<const double> mask)
+      : mask_(mask.begin(), mask.end()), window_(mask.size()) {}
+
+  Quat step(Quat newest) {
+    window_.push(sign_.next(newest));
+    Quat sum{0, 0, 0, 0};
+    for (std::size_t i = 0; i < mask_.size(); ++i) sum = sum + mask_[i] * window_.samples()[i];
+    return normalized(sum);
+  }
+  Vec3 step(Vec3 newest) {
+    window_.push(newest);
+    const auto samples = window_.samples();
+    const Vec3 middle = samples[mask_.size() / 2];
+    Vec3 sum;
+    for (std::size_t i = 0; i < mask_.size(); ++i) sum += mask_[i] * (samples[i] - middle);
+    return middle + sum;
+  }
+
+ private:
+  std::vector<double> mask_;
+  SlidingWindow<Sample> window_;
+  SignContinuation sign_;
+};
+
+class WeightedMean final : public WindowedCleaner {
  public:
   explicit WeightedMean(const WeightedMeanOptions& options) : options_(options) {}
 
@@ -28,6 +69,13 @@ class WeightedMean final : public Cleaner {
 
   LiveSupport live_support(double) const override {
     return {LiveSupport::Kind::windowed, 2 * static_cast<std::size_t>(options_.passes)};
+  }
+
+  std::unique_ptr<InnerFilter> make_inner_filter(const TakeView& like) const override {
+    const std::vector<double> mask = mask_of(static_cast<int>(options_.passes));
+    return make_track_inner_filter<WeightedMeanStep>(
+        like, mask.size() / 2,
+        [&](const Track&, auto sample) { return WeightedMeanStep<decltype(sample)>(mask); });
   }
 
  private:

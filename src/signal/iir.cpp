@@ -74,8 +74,9 @@ void CausalState::step(std::span<double> frame) {
     start_at_rest(sections_, frame.data(), channels_, memory_);
     started_ = true;
   }
-  signal::require(frame.size() == channels_,
-                  "a frame with another number of channels than the first");
+  // The message takes memory, which a frame that is as it should be must not.
+  if (frame.size() != channels_)
+    throw Error(ErrorKind::usage, "a frame with another number of channels than the first");
   signal::filter_rows({frame.data(), static_cast<std::ptrdiff_t>(channels_), 1, channels_},
                       sections_, memory_.data());
 }

@@ -94,6 +94,20 @@ double distance_of(Quat a, Quat b) {
 }
 double distance_of(Vec3 a, Vec3 b) { return norm(a - b); }
 
+// The sums of distances, in the order that `MovingMedoid` takes them in.
+template <class Sample>
+std::size_t least_sum(std::span<const Sample> samples, std::vector<double>& sums) {
+  sums.assign(samples.size(), 0.0);
+  for (std::size_t s = 1; s < samples.size(); ++s) {
+    for (std::size_t i = 0; i < s; ++i) {
+      const double d = distance_of(samples[s], samples[i]);
+      sums[s] += d;
+      sums[i] += d;
+    }
+  }
+  return static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) - sums.begin());
+}
+
 }  // namespace
 
 double chord(Quat a, Quat b) { return distance_of(a, b); }
@@ -103,6 +117,13 @@ std::size_t medoid(std::span<const Quat> samples) {
 }
 std::size_t medoid(std::span<const Vec3> samples) {
   return MovingMedoid<Vec3>(samples, samples.size()).find(0, samples.size() - 1);
+}
+
+std::size_t medoid(std::span<const Quat> samples, std::vector<double>& scratch) {
+  return least_sum(samples, scratch);
+}
+std::size_t medoid(std::span<const Vec3> samples, std::vector<double>& scratch) {
+  return least_sum(samples, scratch);
 }
 
 Quat l1_median(std::span<const Quat> samples, std::size_t start, std::vector<Vec3>& scratch) {

@@ -18,6 +18,9 @@ inline double chord(Vec3 a, Vec3 b) { return norm(a - b); }
 /// Index of the sample with the least sum of distances to all (the first of equals). Not empty.
 std::size_t medoid(std::span<const Quat> samples);
 std::size_t medoid(std::span<const Vec3> samples);
+/// The same; `scratch` is reused between calls.
+std::size_t medoid(std::span<const Quat> samples, std::vector<double>& scratch);
+std::size_t medoid(std::span<const Vec3> samples, std::vector<double>& scratch);
 
 /// The point with the least sum of distances to the samples, from sample `start` (their medoid): it
 /// is `start` itself if that is the median, and else found by Newton's steps, or Weiszfeld's where

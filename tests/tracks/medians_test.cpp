@@ -41,6 +41,18 @@ TEST(Medians, TheMedoidHasTheLeastSumOfAllSamples) {
   }
 }
 
+TEST(Medians, AMedoidIsTheSameWithMemoryThatIsUsedAgain) {
+  Random random(6);
+  std::vector<double> scratch;
+  for (int trial = 0; trial < 50; ++trial) {
+    const auto samples = scattered(1 + random.below(20), 0.5, random);
+    EXPECT_EQ(medoid(samples, scratch), medoid(samples));
+    std::vector<Vec3> points;
+    for (const Quat& q : samples) points.push_back(log(q));
+    EXPECT_EQ(medoid(points, scratch), medoid(points));
+  }
+}
+
 TEST(Medians, AMovingMedoidIsThatOfEachWindow) {
   Random random(2);
   const auto track = scattered(80, 0.3, random);

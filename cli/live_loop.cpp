@@ -1,0 +1,292 @@
+#include "live_loop.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <vector>
+
+#include "terminal.hpp"
+
+namespace kinemend::cli {
+
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+using TimePoint = LiveClock::time_point;
+
+constexpr std::chrono::seconds between_attempts{1};
+/// How long a client may take for the last frames.
+constexpr std::chrono::seconds last_patience{2};
+
+int signal_pipe_end = -1;
+
+extern "C" void tell_signal(int /*signal*/) {
+  const int error = errno;
+  const char byte = 0;
+  [[maybe_unused]] const ssize_t ignored = ::write(signal_pipe_end, &byte, 1);
+  errno = error;
+}
+
+/// While it lives, SIGINT and SIGTERM are bytes in a pipe; the same once more ends the program.
+class SignalPipe {
+ public:
+  SignalPipe() {
+    int ends[2];
+    if (pipe(ends) != 0) throw Error(ErrorKind::cannot_write, std::strerror(errno));
+    read_end_ = Descriptor(ends[0]);
+    write_end_ = Descriptor(ends[1]);
+    fcntl(ends[1], F_SETFL, O_NONBLOCK);
+    signal_pipe_end = ends[1];
+    struct sigaction action {};
+    action.sa_handler = tell_signal;
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    sigaction(SIGINT, &action, &old_[0]);
+    sigaction(SIGTERM, &action, &old_[1]);
+  }
+  ~SignalPipe() {
+    sigaction(SIGINT, &old_[0], nullptr);
+    sigaction(SIGTERM, &old_[1], nullptr);
+    signal_pipe_end = -1;
+  }
+  SignalPipe(const SignalPipe&) = delete;
+  SignalPipe& operator=(const SignalPipe&) = delete;
+
+  int descriptor() const { return read_end_.number(); }
+
+ private:
+  Descriptor read_end_, write_end_;
+  struct sigaction old_[2] = {};  ///< of SIGINT and SIGTERM
+};
+
+class LiveLoop {
+ public:
+  explicit LiveLoop(const LivePlan& plan)
+      : plan_(plan), session_(*plan.session), output_(*plan.output), buffer_(std::size_t{1} << 16) {
+    open_input();
+  }
+
+  void run() {
+    last_frame_ = LiveClock::now();
+    tell_notes();
+    while (!ended_) step();
+    session_.finish();
+    tell_notes();
+    drain();
+  }
+
+ private:
+  void open_input() {
+    // A pipe waits for its reader; a device does not, and its frames would grow old.
+    output_.set_dropping(plan_.source != LiveSource::standard);
+    switch (plan_.source) {
+      case LiveSource::standard:
+        return;
+      case LiveSource::tcp_listen:
+        listener_ = listen_at(plan_.from, Transport::tcp);
+        return tell(fmt::format("waiting for a sender at {} (TCP)", place_of(listener_)));
+      case LiveSource::udp:
+        input_ = listen_at(plan_.from, Transport::udp);
+        return tell(fmt::format("waiting for frames at {} (UDP)", place_of(input_)));
+      case LiveSource::tcp_connect: {
+        std::string error;
+        input_ = connect_to(plan_.from, Transport::tcp, error);
+        if (!input_) {
+          throw Error(ErrorKind::unreadable_input,
+                      fmt::format("{}: {}", to_string(plan_.from), error));
+        }
+        return tell(fmt::format("receiving from {} (TCP)", to_string(plan_.from)));
+      }
+    }
+  }
+
+  void tell(const std::string& text) const {
+    if (!plan_.quiet) say(text);
+  }
+  void tell_notes() {
+    for (const std::string& note : session_.take_notes()) tell(note);
+  }
+
+  // What can happen next, each with what to wait for.
+  enum Slot : std::size_t { signals, sender, listener, client, slot_count };
+
+  void step() {
+    std::array<pollfd, slot_count> waits;
+    waits[signals] = {signals_.descriptor(), POLLIN, 0};
+    waits[sender] = {sender_descriptor(), sender_events(), 0};
+    waits[listener] = {input_ ? -1 : listener_.number(), POLLIN, 0};
+    waits[client] = {output_.descriptor(), POLLOUT, 0};
+    if (poll(waits.data(), waits.size(), timeout_ms()) < 0 && errno != EINTR)
+      throw Error(ErrorKind::unreadable_input, fmt::format("poll: {}", std::strerror(errno)));
+    if (waits[signals].revents != 0) {
+      char byte = 0;
+      was_told_ = ::read(signals_.descriptor(), &byte, 1) == 1;
+      ended_ = true;
+      return;
+    }
+    // A silence that the reader of the output makes is none of the sender.
+    if (waits[sender].fd < 0 && plan_.source == LiveSource::standard)
+      last_frame_ = LiveClock::now();
+    if (waits[client].revents != 0) output_.write_some();
+    if (waits[sender].revents != 0) receive();
+    if (waits[listener].revents != 0) accept_sender();
+    attend_to_time();
+    tell_notes();
+  }
+
+  int sender_descriptor() const {
+    if (plan_.source != LiveSource::standard) return input_.number();
+    return output_.is_full() ? -1 : STDIN_FILENO;
+  }
+  short sender_events() const { return is_connecting_ ? POLLOUT : POLLIN; }
+
+  int timeout_ms() const {
+    std::optional<TimePoint> next = output_.next_attempt();
+    const auto also = [&next](std::optional<TimePoint> time) {
+      if (time && (!next || *time < *next)) next = time;
+    };
+    also(next_connection_);
+    also(stall_time());
+    if (!next) return -1;
+    const double seconds = Seconds(*next - LiveClock::now()).count();
+    return static_cast<int>(std::ceil(1000 * std::clamp(seconds, 0.0, 3600.0)));
+  }
+
+  // When a silence will have to be dealt with.
+  std::optional<TimePoint> stall_time() const {
+    if (plan_.stall_s <= 0 || session_.counts().frames_in == 0) return std::nullopt;
+    if (!is_stalled_) return after(plan_.stall_s);
+    if (!plan_.holds) return std::nullopt;
+    return after(static_cast<double>(held_ + 1) / session_.frame_rate_hz());
+  }
+  TimePoint after(double seconds) const {
+    return last_frame_ + std::chrono::duration_cast<LiveClock::duration>(Seconds(seconds));
+  }
+
+  void attend_to_time() {
+    const TimePoint now = LiveClock::now();
+    if (output_.next_attempt() && now >= *output_.next_attempt()) output_.try_again();
+    if (next_connection_ && now >= *next_connection_) begin_receiving();
+    while (stall_time() && now >= *stall_time()) {
+      if (!is_stalled_) {
+        is_stalled_ = true;
+        tell(fmt::format("nothing has come for {:.3g} s{}", plan_.stall_s,
+                         plan_.holds ? ": the last frame is held" : ""));
+      } else {
+        *plan_.came = now;
+        session_.hold();
+        ++held_;
+      }
+    }
+  }
+
+  void accept_sender() {
+    input_ = accept_from(listener_);
+    if (input_) tell("a sender has come");
+  }
+
+  void begin_receiving() {
+    next_connection_.reset();
+    input_ = begin_connection(plan_.from, Transport::tcp);
+    is_connecting_ = static_cast<bool>(input_);
+    if (!input_) next_connection_ = LiveClock::now() + between_attempts;
+  }
+
+  void receive() {
+    if (is_connecting_) {
+      is_connecting_ = false;
+      if (connection_error(input_) == 0) return tell("the sender is back");
+      input_.close();
+      next_connection_ = LiveClock::now() + between_attempts;
+      return;
+    }
+    const bool standard = plan_.source == LiveSource::standard;
+    const int descriptor = standard ? STDIN_FILENO : input_.number();
+    const ssize_t count = ::read(descriptor, buffer_.data(), buffer_.size());
+    if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) return;
+    if (plan_.source == LiveSource::udp) {
+      // An error is that of an earlier datagram, and an empty one is none.
+      if (count > 0) feed(static_cast<std::size_t>(count), true);
+      return;
+    }
+    if (count > 0) return feed(static_cast<std::size_t>(count), false);
+    if (standard && count < 0) {
+      throw Error(ErrorKind::unreadable_input,
+                  fmt::format("standard input: {}", std::strerror(errno)));
+    }
+    sender_gone(count == 0);
+  }
+
+  void feed(std::size_t bytes, bool ends_line) {
+    const std::size_t frames_before = session_.counts().frames_in;
+    *plan_.came = LiveClock::now();
+    session_.feed({buffer_.data(), bytes});
+    if (ends_line) session_.end_line();
+    if (session_.counts().frames_in == frames_before) return;
+    if (is_stalled_) {
+      tell(fmt::format("frames come again after {:.3g} s",
+                       Seconds(*plan_.came - last_frame_).count()));
+    }
+    is_stalled_ = false;
+    held_ = 0;
+    last_frame_ = *plan_.came;
+  }
+
+  // `whole`: it has sent all that it meant to.
+  void sender_gone(bool whole) {
+    if (whole) session_.end_line();
+    input_.close();
+    ended_ = plan_.source == LiveSource::standard || plan_.once;
+    if (ended_) return;
+    session_.drop_line();
+    tell("the sender has gone; it may come back");
+    if (plan_.source == LiveSource::tcp_connect)
+      next_connection_ = LiveClock::now() + between_attempts;
+  }
+
+  // A pipe's reader is waited for; a client that does not read is not.
+  void drain() {
+    const TimePoint end = LiveClock::now() + last_patience;
+    while (!output_.is_empty()) {
+      const double left = Seconds(end - LiveClock::now()).count();
+      const bool waits = plan_.source == LiveSource::standard && !was_told_;
+      if (output_.descriptor() < 0 || (!waits && left <= 0)) break;
+      std::array<pollfd, 2> fds;
+      fds[0] = {output_.descriptor(), POLLOUT, 0};
+      fds[1] = {signals_.descriptor(), POLLIN, 0};
+      const int timeout = waits ? -1 : static_cast<int>(std::ceil(1000 * left));
+      if (poll(fds.data(), fds.size(), timeout) < 0 && errno != EINTR) break;
+      if (fds[0].revents != 0) output_.write_some();
+      if (fds[1].revents != 0) break;
+    }
+    output_.give_up();
+  }
+
+  const LivePlan& plan_;
+  LiveSession& session_;
+  LiveOutput& output_;
+  SignalPipe signals_;
+  Descriptor listener_, input_;
+  bool is_connecting_ = false;
+  std::optional<TimePoint> next_connection_;
+  std::vector<char> buffer_;
+  TimePoint last_frame_;
+  std::size_t held_ = 0;
+  bool is_stalled_ = false;
+  bool was_told_ = false;
+  bool ended_ = false;
+};
+
+}  // namespace
+
+void run_live(const LivePlan& plan) { LiveLoop(plan).run(); }
+
+}  // namespace kinemend::cli

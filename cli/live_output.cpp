@@ -1,0 +1,200 @@
+#include "live_output.hpp"
+
+#include <fmt/format.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <climits>
+#include <cmath>
+#include <cstring>
+
+#include "terminal.hpp"
+
+namespace kinemend::cli {
+
+namespace {
+
+constexpr double least_s = 1e-6, buckets_per_factor = 50;  // of e
+constexpr std::chrono::seconds between_attempts{1};
+constexpr std::size_t most_datagram = 60000;
+
+#ifdef MSG_NOSIGNAL
+constexpr int send_flags = MSG_NOSIGNAL;
+#else
+constexpr int send_flags = 0;
+#endif
+
+bool must_wait(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == EINTR; }
+
+// A piece of a header that fits a datagram, at the end of a line where there is one.
+std::string_view datagram_of(std::string_view text) {
+  if (text.size() <= most_datagram) return text;
+  const std::size_t end = text.rfind('\n', most_datagram - 1);
+  return text.substr(0, end == text.npos ? most_datagram : end + 1);
+}
+
+}  // namespace
+
+void LatencyHistogram::add(double seconds) {
+  const double place = std::log(std::max(seconds, least_s) / least_s) * buckets_per_factor;
+  ++counts_[std::min(static_cast<std::size_t>(place), buckets - 1)];
+  ++count_;
+  most_ = std::max(most_, seconds);
+}
+
+double LatencyHistogram::quantile_s(double share) const {
+  const auto wanted = static_cast<std::size_t>(std::ceil(share * static_cast<double>(count_)));
+  std::size_t seen = 0;
+  for (std::size_t b = 0; b < buckets; ++b) {
+    seen += counts_[b];
+    if (seen >= std::max<std::size_t>(wanted, 1))
+      return std::min(most_,
+                      least_s * std::exp((static_cast<double>(b) + 0.5) / buckets_per_factor));
+  }
+  return most_;
+}
+
+LiveOutput::LiveOutput(std::size_t most_waiting) : most_waiting_(most_waiting) {
+  check_out_is_open();
+}
+
+LiveOutput::LiveOutput(const Address& address, Transport transport, std::size_t most_waiting)
+    : kind_(transport == Transport::tcp ? Kind::tcp : Kind::udp),
+      address_(address),
+      most_waiting_(most_waiting) {
+  std::string error;
+  socket_ = connect_to(address, transport, error);
+  if (!socket_)
+    throw Error(ErrorKind::cannot_write, fmt::format("{}: {}", to_string(address), error));
+}
+
+void LiveOutput::add(bool is_header, std::string_view text, LiveClock::time_point came) {
+  if (is_header) header_ = text;
+  // A client that has gone is given the header when it comes back, and no frames from before it.
+  if (is_header && !is_connected_) return give_up();
+  if (drops_ && !is_header && is_full()) drop_oldest();
+  waiting_.push_back({is_header, std::string(text), came});
+  frames_waiting_ += is_header ? 0 : 1;
+}
+
+// Of one that is written in part, the rest must follow.
+void LiveOutput::drop_oldest() {
+  const auto first = waiting_.begin() + (offset_ > 0 ? 1 : 0);
+  const auto frame =
+      std::find_if(first, waiting_.end(), [](const Waiting& piece) { return !piece.is_header; });
+  if (frame == waiting_.end()) return;
+  waiting_.erase(frame);
+  --frames_waiting_;
+  ++dropped_;
+}
+
+int LiveOutput::descriptor() const {
+  if (!is_connected_) return socket_.number();
+  if (waiting_.empty()) return -1;
+  return kind_ == Kind::standard ? STDOUT_FILENO : socket_.number();
+}
+
+std::optional<LiveClock::time_point> LiveOutput::next_attempt() const { return next_attempt_; }
+
+void LiveOutput::try_again() {
+  next_attempt_.reset();
+  socket_ = begin_connection(address_, Transport::tcp);
+  is_connected_ = false;
+  if (!socket_) next_attempt_ = LiveClock::now() + between_attempts;
+}
+
+void LiveOutput::write_some() {
+  if (!is_connected_) {
+    if (connection_error(socket_) != 0) {
+      socket_.close();
+      next_attempt_ = LiveClock::now() + between_attempts;
+      return;
+    }
+    is_connected_ = true;
+    say(fmt::format("{}: the client is back", to_string(address_)));
+    const bool begins_with_header = !waiting_.empty() && waiting_.front().is_header;
+    if (!header_.empty() && !begins_with_header)
+      waiting_.push_front({true, header_, LiveClock::now()});
+    return;
+  }
+  if (waiting_.empty()) return;
+  switch (kind_) {
+    case Kind::standard:
+      return write_standard();
+    case Kind::tcp:
+      return write_tcp();
+    case Kind::udp:
+      return write_udp();
+  }
+}
+
+// A pipe that can be written to takes PIPE_BUF bytes without waiting for its reader.
+void LiveOutput::write_standard() {
+  const std::string_view rest = std::string_view(waiting_.front().text).substr(offset_);
+  const ssize_t count =
+      ::write(STDOUT_FILENO, rest.data(), std::min<std::size_t>(rest.size(), PIPE_BUF));
+  if (count >= 0) {
+    offset_ += static_cast<std::size_t>(count);
+    if (offset_ == waiting_.front().text.size()) written();
+  } else if (errno == EPIPE) {
+    throw ClosedPipe();
+  } else if (!must_wait(errno)) {
+    throw Error(ErrorKind::cannot_write, fmt::format("standard output: {}", std::strerror(errno)));
+  }
+}
+
+void LiveOutput::write_tcp() {
+  while (!waiting_.empty()) {
+    const std::string_view rest = std::string_view(waiting_.front().text).substr(offset_);
+    const ssize_t count = ::send(socket_.number(), rest.data(), rest.size(), send_flags);
+    if (count < 0) {
+      if (!must_wait(errno)) client_gone();
+      return;
+    }
+    offset_ += static_cast<std::size_t>(count);
+    if (offset_ < waiting_.front().text.size()) return;
+    written();
+  }
+}
+
+// Nobody may listen, which a datagram does not mind.
+void LiveOutput::write_udp() {
+  while (!waiting_.empty()) {
+    const std::string_view piece =
+        datagram_of(std::string_view(waiting_.front().text).substr(offset_));
+    const ssize_t count = ::send(socket_.number(), piece.data(), piece.size(), send_flags);
+    if (count < 0 && must_wait(errno)) return;
+    offset_ += piece.size();
+    if (offset_ == waiting_.front().text.size()) written();
+  }
+}
+
+void LiveOutput::written() {
+  const Waiting& piece = waiting_.front();
+  if (!piece.is_header) {
+    latency_.add(std::chrono::duration<double>(LiveClock::now() - piece.came).count());
+    --frames_waiting_;
+  }
+  waiting_.pop_front();
+  offset_ = 0;
+}
+
+void LiveOutput::client_gone() {
+  say(fmt::format("{}: the client has gone; it is looked for again", to_string(address_)));
+  socket_.close();
+  next_attempt_ = LiveClock::now() + between_attempts;
+  is_connected_ = false;
+  offset_ = 0;
+  // It will be given the last header before all else.
+  std::erase_if(waiting_, [](const Waiting& piece) { return piece.is_header; });
+}
+
+void LiveOutput::give_up() {
+  dropped_ += frames_waiting_;
+  frames_waiting_ = offset_ = 0;
+  waiting_.clear();
+}
+
+}  // namespace kinemend::cli

@@ -1,0 +1,257 @@
+// kinemend stream: cleans frames as they come.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "commands.hpp"
+#include "kinemend/experimental/live.hpp"
+#include "kinemend/io.hpp"
+#include "live_loop.hpp"
+#include "live_output.hpp"
+#include "method_options.hpp"
+#include "takes.hpp"
+#include "terminal.hpp"
+
+namespace kinemend::cli {
+
+namespace {
+
+constexpr std::string_view default_method = "median";
+
+std::string live_name(const LiveMethod& method) {
+  std::string name = method.name;
+  for (const auto& [option, value] : method.options)
+    name += fmt::format(" --{}{}", std::get<bool>(value) ? "" : "no-", dashed(option));
+  return name;
+}
+
+// A cleaner that runs live: an option without which the method does not is set, unless the user
+// has set it.
+std::unique_ptr<Cleaner> live_cleaner(const Method& method, OptionValues values) {
+  const std::vector<LiveMethod> list = live_methods();
+  const auto found = std::find_if(list.begin(), list.end(),
+                                  [&](const LiveMethod& m) { return m.name == method.name; });
+  bool runs = found != list.end();
+  if (runs) {
+    for (const auto& [option, value] : found->options)
+      runs = values.try_emplace(option, value).first->second == value && runs;
+  }
+  if (runs) return make_cleaner(method.name, values);
+  std::vector<std::string> names;
+  names.reserve(list.size());
+  for (const LiveMethod& m : list) names.push_back(live_name(m));
+  throw Error(ErrorKind::usage, fmt::format("stream: {} needs the whole take; live run {}",
+                                            method.name, fmt::join(names, ", ")));
+}
+
+LivePlan plan_of(const Arguments& arguments) {
+  LivePlan plan;
+  const bool tcp = arguments.given("tcp"), udp = arguments.given("udp");
+  if (tcp && udp) throw Error(ErrorKind::usage, "stream: --tcp and --udp exclude each other");
+  if (tcp || udp) {
+    const std::string option = tcp ? "tcp" : "udp";
+    plan.from = parse_address("--" + option, arguments.text(option));
+    const bool listens = plan.from.host.empty();
+    if (udp && !listens)
+      throw Error(ErrorKind::usage, "stream: --udp takes a port; --bind names the address");
+    if (!listens && arguments.given("bind"))
+      throw Error(ErrorKind::usage, "stream: --bind is of a port that is listened at");
+    plan.source = udp       ? LiveSource::udp
+                  : listens ? LiveSource::tcp_listen
+                            : LiveSource::tcp_connect;
+    if (listens) plan.from.host = arguments.text("bind");
+  } else if (arguments.given("bind")) {
+    throw Error(ErrorKind::usage, "stream: --bind is of --tcp or --udp");
+  }
+  plan.stall_s = static_cast<double>(arguments.whole("stall_ms")) / 1000;
+  plan.holds = arguments.text("on_stall") == "hold";
+  plan.once = arguments.flag("once");
+  plan.quiet = arguments.flag("quiet");
+  return plan;
+}
+
+LiveOptions options_of(const Arguments& arguments, const Method& method) {
+  LiveOptions options;
+  options.format = arguments.text("format") == "jsonl" ? LiveFormat::jsonl : LiveFormat::bvh;
+  options.strength = arguments.number("strength");
+  // What this method changes is repairs, which are made whole at any strength.
+  if (method.name == "hampel" && options.strength > 0) options.strength = 1;
+  options.frame_rate_hz = arguments.given("fps") ? arguments.number("fps") : 0;
+  options.numbered = arguments.flag("numbered");
+  options.skipped_words = static_cast<std::size_t>(arguments.whole("skip_words"));
+  options.body_height = arguments.number("body_height");
+  options.longest_gap_s = arguments.number("longest_gap_s");
+  if (const std::string path = arguments.text("skeleton"); !path.empty())
+    options.skeleton = read_file(path);
+  return options;
+}
+
+std::unique_ptr<LiveOutput> output_of(const Arguments& arguments) {
+  const bool tcp = arguments.given("to_tcp"), udp = arguments.given("to_udp");
+  if (tcp && udp) throw Error(ErrorKind::usage, "stream: --to-tcp and --to-udp exclude each other");
+  const auto queue = static_cast<std::size_t>(arguments.whole("queue"));
+  if (!tcp && !udp) return std::make_unique<LiveOutput>(queue);
+  const std::string option = tcp ? "to-tcp" : "to-udp";
+  const Address address = parse_address("--" + option, arguments.text(tcp ? "to_tcp" : "to_udp"));
+  if (address.host.empty())
+    throw Error(ErrorKind::usage, fmt::format("stream: --{} takes HOST:PORT", option));
+  return std::make_unique<LiveOutput>(address, tcp ? Transport::tcp : Transport::udp, queue);
+}
+
+void tell_summary(const LiveSession& session, const LiveOutput& output) {
+  const LiveCounts& c = session.counts();
+  say(
+      fmt::format("frames: {} in, {} out, {} lost, {} made up, {} held, {} late, {} doubled, {} "
+                  "malformed, {} dropped",
+                  c.frames_in, c.frames_out, c.lost, c.made_up, c.held, c.late, c.doubled,
+                  c.malformed, output.dropped()));
+  const auto tell_if = [](std::size_t count, std::string_view what) {
+    if (count > 0) say(fmt::format("{}: {}", what, count));
+  };
+  tell_if(c.not_finite, "values that were no finite numbers");
+  tell_if(c.restarts, "leaps of the frame numbers");
+  tell_if(c.bad_headers, "headers that were none");
+  if (c.sessions > 1) tell_if(c.sessions, "skeletons");
+  if (output.latency().empty()) return;
+  const double delay_ms =
+      1000 * static_cast<double>(session.latency_frames()) / session.frame_rate_hz();
+  say(
+      fmt::format("latency: {:.3g} ms median, {:.3g} ms at the 99th percentile, {:.3g} ms at most, "
+                  "beside {:.3g} ms of delay",
+                  1000 * output.latency().quantile_s(0.5), 1000 * output.latency().quantile_s(0.99),
+                  1000 * output.latency().most_s(), delay_ms));
+}
+
+int run(const Arguments& arguments) {
+  const Method& method = find_method(arguments.text("method"));
+  const auto cleaner = live_cleaner(method, parse_method_options(method, arguments.group_texts));
+  LivePlan plan = plan_of(arguments);
+  const LiveOptions options = options_of(arguments, method);
+  const auto output = output_of(arguments);
+  LiveClock::time_point came = LiveClock::now();
+  if (!plan.quiet) say(fmt::format("method {}", method.name));
+  LiveSession session(*cleaner, options, [&](const LivePiece& piece) {
+    output->add(piece.is_header, piece.text, came);
+  });
+  plan.session = &session;
+  plan.output = output.get();
+  plan.came = &came;
+  try {
+    run_live(plan);
+  } catch (const ClosedPipe&) {
+    // Whoever read has seen enough.
+    output->give_up();
+  }
+  if (plan.source == LiveSource::standard && !session.has_skeleton()) {
+    for (const std::string& note : session.take_notes()) say_error(note);
+    throw Error(ErrorKind::unreadable_input, "standard input: no header of a stream has come");
+  }
+  if (!plan.quiet) tell_summary(session, *output);
+  return 0;
+}
+
+Flag endpoint_flag(std::string name, std::string value, std::string group, std::string help,
+                   std::string details = {}) {
+  return text_flag(std::move(name), std::move(value), std::move(group), std::move(help),
+                   std::move(details));
+}
+
+std::vector<Flag> stream_flags() {
+  Flag method =
+      text_flag("method", "NAME", "Cleaning", "how to clean, of the methods that run live",
+                "Those that need the whole take are refused, with the list of the others. "
+                "An option without which a method does not run live (--causal) is set.");
+  method.spec.default_value = std::string(default_method);
+  method.spec.choices = method_names();
+  method.has_default = true;
+  method.letter = 'm';
+  Flag format = text_flag("format", "", "Output", "how cleaned frames are written");
+  format.spec.default_value = std::string("bvh");
+  format.spec.choices = {"bvh", "jsonl"};
+  format.has_default = true;
+  Flag on_stall = text_flag("on_stall", "", "Trouble", "what to do while nothing comes",
+                            "hold: the frame before comes out again and again, at the frame rate.");
+  on_stall.spec.default_value = std::string("wait");
+  on_stall.spec.choices = {"wait", "hold"};
+  on_stall.has_default = true;
+  Flag bind = text_flag("bind", "ADDRESS", "Input", "where --tcp PORT and --udp PORT listen",
+                        "0.0.0.0 is every network; by default nobody but this machine is heard.");
+  bind.spec.default_value = std::string("127.0.0.1");
+  bind.has_default = true;
+  Flag skeleton = text_flag("skeleton", "FILE", "Input",
+                            "a BVH file whose skeleton and rate hold where the sender sends none");
+  skeleton.completion = Completion::file;
+  Flag fps =
+      number_flag("fps", "Hz", 0, 0.1, 100000, "Input", "frame rate, whatever the header says");
+  fps.has_default = false;
+  Flag quiet = switch_flag("quiet", "Output", "print warnings and errors only");
+  quiet.letter = 'q';
+  return {
+      endpoint_flag("tcp", "[HOST:]PORT", "Input",
+                    "frames over TCP: PORT waits for a sender, HOST:PORT connects to one",
+                    "Port 0 is any that is free; which one is printed."),
+      endpoint_flag("udp", "PORT", "Input", "frames over UDP: datagrams of whole lines"),
+      bind,
+      skeleton,
+      fps,
+      switch_flag("numbered", "Input", "a motion line begins with the number of its frame",
+                  "By it lost, late and doubled frames are known."),
+      whole_flag("skip_words", 0, 0, 1000, "Input",
+                 "words before the number and the values of a motion line"),
+      number_flag("body_height", "", 1750, 1e-6, 1e9, "Input",
+                  "height of the person, in the units of a stream of markers",
+                  "Their distances are measured by it."),
+      switch_flag("once", "Input", "end when the first sender has gone"),
+      method,
+      number_flag("strength", "", 1, 0, 1, "Cleaning",
+                  "how far to go from the input (0) to the cleaned motion (1)"),
+      endpoint_flag("to_tcp", "HOST:PORT", "Output", "cleaned frames to a TCP server"),
+      endpoint_flag("to_udp", "HOST:PORT", "Output", "cleaned frames as datagrams, a line each"),
+      format,
+      quiet,
+      number_flag("longest_gap_s", "s", 1, 0, 3600, "Trouble",
+                  "lost frames in a row that are made up, so that the output keeps its clock"),
+      whole_flag("stall_ms", 1000, 0, 1e9, "Trouble",
+                 "a longer silence of the sender is told, once; 0: never"),
+      on_stall,
+      whole_flag("queue", 240, 1, 1e6, "Trouble",
+                 "frames that wait for a client that does not read; the oldest are dropped",
+                 "From standard input to standard output nothing is dropped: the input waits.")};
+}
+
+}  // namespace
+
+Command stream_command() {
+  Command command;
+  command.name = "stream";
+  command.summary = "clean frames as they come, with a constant delay";
+  command.description =
+      "Reads a BVH header and then a line of channel values a frame, or names of markers and then "
+      "their positions, from standard input or a socket, and writes the same with cleaned values "
+      "to standard output or a socket, "
+      "as soon as a frame's window is there. The delay is printed. Frames that are lost, late, "
+      "doubled or malformed are counted and end nothing; neither do senders that fall silent or "
+      "come and go, nor clients that do not read.\n\n"
+      "The end of standard input, SIGINT and SIGTERM give the frames that are left, and a summary "
+      "on standard error.";
+  command.flags = stream_flags();
+  command.group_heading = "With --method %";
+  command.groups = method_groups();
+  command.groups_are_flags = true;
+  command.examples = {{"kinemend stream < take.bvh > clean.bvh", "a take, as it would be live"},
+                      {"kinemend stream --tcp 7001 --to-udp 127.0.0.1:7002",
+                       "waits for a suit, and sends what it cleans on"},
+                      {"kinemend stream --tcp 192.168.0.7:7001 --numbered --format jsonl",
+                       "connects to a server whose lines begin with frame numbers"},
+                      {"kinemend stream --udp 7001 --skeleton suit.bvh --method kalman",
+                       "a sender without a header"}};
+  command.run = run;
+  return command;
+}
+
+}  // namespace kinemend::cli

@@ -1,0 +1,153 @@
+#include "live/frame_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "io/motion/motion_rows.hpp"
+
+namespace kinemend {
+
+namespace {
+
+// The first word and what is behind it.
+std::string_view take_word(std::string_view& line) {
+  const char* const end = line.data() + line.size();
+  const char* const begin = skip_space(line.data(), end);
+  const char* const stop = std::find_if(begin, end, is_space);
+  line = {stop, static_cast<std::size_t>(end - stop)};
+  return {begin, static_cast<std::size_t>(stop - begin)};
+}
+
+bool begins_like_a_number(std::string_view line) {
+  const char* const end = line.data() + line.size();
+  const char* const begin = skip_space(line.data(), end);
+  if (begin == end) return false;
+  constexpr std::string_view firsts = "0123456789+-.nNiI";
+  return firsts.find(*begin) != firsts.npos;
+}
+
+}  // namespace
+
+FrameReader::Read FrameReader::read(std::string_view line) {
+  values_found_ = 0;
+  for (std::size_t i = 0; i < skipped_words_; ++i) take_word(line);
+  std::int64_t number = 0;
+  if (numbered_) {
+    constexpr double most = 0x1p53;  // still exact
+    const std::string_view word = take_word(line);
+    if (word.empty()) return Read::text;
+    const NumberToken token = read_number(word.data(), word.data() + word.size());
+    const bool whole = token.kind == TokenKind::number && token.end == word.data() + word.size() &&
+                       std::fabs(token.value) < most && token.value == std::floor(token.value);
+    if (!whole) return begins_like_a_number(word) ? Read::number : Read::text;
+    number = static_cast<std::int64_t>(token.value);
+  }
+  const Read read = read_values(line);
+  if (read == Read::frame) number_ = number;
+  return read;
+}
+
+JointReader::JointReader(const Skeleton& skeleton, bool numbered, std::size_t skipped_words)
+    : FrameReader(numbered, skipped_words),
+      columns_(skeleton),
+      position_frames_(offset_replacing_frames(skeleton)),
+      rotations_(skeleton.joint_count()),
+      line_(columns_.count()) {
+  row_.resize(columns_.count());
+  frame_.rotations.resize(skeleton.joint_count());
+  frame_.observed.reserve(skeleton.joint_count());
+  for (const PositionFrame& position : position_frames_) frame_.positions.push_back(position.rest);
+  for (const MotionColumns::Position& position : columns_.positions()) {
+    row_[position.column] =
+        component(frame_.positions[frame_index(position.translated)], position.axis);
+  }
+}
+
+FrameReader::Read JointReader::read_values(std::string_view line) {
+  if (!begins_like_a_number(line)) return Read::text;
+  const CommaStyle commas =
+      line.find(',') == line.npos ? CommaStyle::none : comma_style(line, columns_.count());
+  MotionRows rows(line.data(), line.data() + line.size(), commas);
+  values_found_ = rows.next(line_.data(), line_.size());
+  if (values_found_ < line_.size()) return Read::values;
+  if (!rows.at_end()) {
+    ++values_found_;
+    return Read::values;
+  }
+  gaps_ = rows.gaps();
+  take_rotations();
+  take_positions();
+  return Read::frame;
+}
+
+void JointReader::take_rotations() {
+  columns_.decode_rotations(line_.data(), 1, rotations_.data());
+  frame_.observed.clear();
+  if (gaps_ > 0) frame_.observed.resize(rotations_.size(), 1);
+  for (std::size_t j = 0; j < rotations_.size(); ++j) {
+    if (is_gap(rotations_[j])) {
+      frame_.observed[j] = 0;
+      continue;
+    }
+    frame_.rotations[j] = rotations_[j];
+  }
+  for (std::size_t c = 0; c < row_.size(); ++c) {
+    if (!std::isnan(line_[c])) row_[c] = line_[c];
+  }
+}
+
+void JointReader::take_positions() {
+  for (const MotionColumns::Position& position : columns_.positions()) {
+    component(frame_.positions[frame_index(position.translated)], position.axis) =
+        row_[position.column];
+  }
+}
+
+MarkerReader::MarkerReader(std::size_t markers, bool numbered, std::size_t skipped_words)
+    : FrameReader(numbered, skipped_words), line_(3 * markers) {
+  row_.resize(3 * markers);
+  frame_.positions.resize(markers);
+  frame_.observed.resize(markers);
+}
+
+FrameReader::Read MarkerReader::read_values(std::string_view line) {
+  constexpr std::string_view firsts = ",0123456789+-.nNiI";
+  const char* const end = line.data() + line.size();
+  const char* p = skip_space(line.data(), end);
+  if (p != end && firsts.find(*p) == firsts.npos) return Read::text;
+  std::size_t gaps = 0;
+  for (;; ++p) {
+    const char* const stop = std::find(p, end, ',');
+    p = skip_space(p, stop);
+    double value = std::numeric_limits<double>::quiet_NaN();
+    if (p != stop) {
+      const NumberToken token = read_sample(p, stop, CommaStyle::separator);
+      if (token.kind == TokenKind::text || token.kind == TokenKind::comment ||
+          skip_space(token.end, stop) != stop) {
+        return Read::values;
+      }
+      gaps += token.kind == TokenKind::not_finite ? 1 : 0;
+      if (token.kind == TokenKind::number) value = token.value;
+    }
+    if (values_found_ == line_.size()) {
+      ++values_found_;
+      return Read::values;
+    }
+    line_[values_found_++] = value;
+    p = stop;
+    if (p == end) break;
+  }
+  if (values_found_ < line_.size()) return Read::values;
+  gaps_ = gaps;
+  row_ = line_;
+  for (std::size_t m = 0; m < frame_.positions.size(); ++m) {
+    const Vec3 v{row_[3 * m], row_[3 * m + 1], row_[3 * m + 2]};
+    const bool seen = !std::isnan(v.x) && !std::isnan(v.y) && !std::isnan(v.z);
+    frame_.observed[m] = seen ? 1 : 0;
+    if (seen) frame_.positions[m] = v;
+  }
+  return Read::frame;
+}
+
+}  // namespace kinemend

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace kinemend {
+
+/// Lines from bytes that arrive in pieces of any size, in bounded memory.
+class LineSplitter {
+ public:
+  enum class Found : std::uint8_t { nothing, line, too_long };
+
+  explicit LineSplitter(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+
+  /// Takes bytes off the front of `bytes`, up to the end of a line or all of them. A line ends with
+  /// LF or CR, and with | where `bars_end_lines`; the end is no part of it, and an empty one is a
+  /// line too. `line` is valid until the next call.
+  Found next(std::string_view& bytes, bool bars_end_lines, std::string_view& line);
+  /// What stands of a line.
+  Found end(std::string_view& line);
+  /// Forgets what stands of a line.
+  void drop();
+
+ private:
+  void add(std::string_view piece);
+
+  std::size_t most_bytes_;
+  std::string part_;
+  bool is_too_long_ = false;
+  bool is_given_ = false;  ///< `part_` was the last line
+};
+
+}  // namespace kinemend

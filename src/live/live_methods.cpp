@@ -1,0 +1,37 @@
+#include "kinemend/error.hpp"
+#include "kinemend/experimental/live.hpp"
+
+namespace kinemend {
+
+namespace {
+
+// A method that cannot be made without more (a model) does not run live.
+bool runs_live(const Method& method, const OptionValues& options) {
+  constexpr double any_rate_hz = 120;
+  try {
+    return method.make(options)->live_support(any_rate_hz).kind != LiveSupport::Kind::none;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+std::vector<LiveMethod> live_methods() {
+  std::vector<LiveMethod> list;
+  for (const Method& method : methods()) {
+    if (runs_live(method, {})) {
+      list.push_back({method.name, {}});
+      continue;
+    }
+    for (const OptionSpec& spec : method.options) {
+      const bool* const is_on = std::get_if<bool>(&spec.default_value);
+      if (is_on == nullptr || !runs_live(method, {{spec.name, !*is_on}})) continue;
+      list.push_back({method.name, {{spec.name, !*is_on}}});
+      break;
+    }
+  }
+  return list;
+}
+
+}  // namespace kinemend

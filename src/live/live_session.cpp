@@ -1,0 +1,238 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "io/motion/motion_write.hpp"
+#include "io/text/text.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/experimental/live.hpp"
+#include "live/frame_reader.hpp"
+#include "live/line_splitter.hpp"
+#include "live/live_header.hpp"
+#include "live/live_stage.hpp"
+
+namespace kinemend {
+
+namespace {
+
+// Notes of bad headers that are told; all are counted.
+constexpr std::size_t most_header_notes = 3;
+
+void check(const LiveOptions& options) {
+  const auto refuse = [](std::string_view what) {
+    throw Error(ErrorKind::usage, fmt::format("live: {}", what));
+  };
+  if (!(options.strength >= 0 && options.strength <= 1)) refuse("strength is outside 0 to 1");
+  if (options.frame_rate_hz != 0) check_frame_rate(options.frame_rate_hz);
+  if (!(options.body_height > 0 && std::isfinite(options.body_height)))
+    refuse("body_height is not above 0");
+  if (!(options.longest_gap_s >= 0 && options.longest_gap_s <= 3600))
+    refuse("longest_gap_s is outside 0 to 3600 s");
+}
+
+bool is_blank(std::string_view line) { return std::all_of(line.begin(), line.end(), is_space); }
+
+}  // namespace
+
+class LiveSession::Work {
+ public:
+  Work(const Cleaner& cleaner, const LiveOptions& options, LiveSink sink)
+      : cleaner_(cleaner),
+        options_(options),
+        sink_(std::move(sink)),
+        splitter_(options.most_line_bytes),
+        header_lines_(options.most_header_bytes) {
+    check(options_);
+    if (cleaner_.live_support(120).kind == LiveSupport::Kind::none)
+      throw Error(ErrorKind::usage, "this method needs the whole take");
+    if (options_.skeleton.empty()) return;
+    LiveHeader header = read_live_header(options_.skeleton, "skeleton", options_.frame_rate_hz);
+    header.frames = 0;  // those of the stream are not known
+    open(std::move(header));
+  }
+
+  void feed(std::string_view bytes) {
+    std::string_view line;
+    while (!bytes.empty()) take(splitter_.next(bytes, ends_with_bars(), line), line);
+  }
+
+  void end_line() {
+    std::string_view line;
+    if (!collects_) take(splitter_.end(line), line);
+  }
+
+  void drop_line() {
+    splitter_.drop();
+    header_lines_.clear();
+    collects_ = false;
+    if (stage_) stage_->expect_any_number();
+  }
+
+  void hold() {
+    if (stage_) stage_->hold();
+  }
+
+  void finish() {
+    std::string_view line;
+    take(splitter_.end(line), line);
+    if (std::exchange(collects_, false)) open_collected();
+    if (stage_) stage_->finish();
+  }
+
+  std::vector<std::string> take_notes() { return std::exchange(notes_, {}); }
+  const LiveCounts& counts() const { return counts_; }
+  const LiveStage* stage() const { return stage_ ? &*stage_ : nullptr; }
+
+ private:
+  bool ends_with_bars() const { return stage_ && !collects_; }
+
+  void take(LineSplitter::Found found, std::string_view line) {
+    switch (found) {
+      case LineSplitter::Found::nothing:
+        return;
+      case LineSplitter::Found::too_long:
+        if (collects_) return refuse_header("a line of the header is too long");
+        return count_malformed("a line is too long", false);
+      case LineSplitter::Found::line:
+        return collects_ ? collect(line) : take_line(line);
+    }
+  }
+
+  void take_line(std::string_view line) {
+    if (begins_header(line, stage_.has_value())) {
+      collects_ = true;
+      header_lines_.clear();
+      return collect(line);
+    }
+    if (is_blank(line)) return;
+    if (is_marker_header(line)) return take_marker_header(line);
+    if (!stage_) return count_malformed("there are frames before any header", false);
+    switch (stage_->take(line)) {
+      case FrameReader::Read::frame:
+        return;
+      case FrameReader::Read::number:
+        return count_malformed("a line does not begin with the number of a frame", true);
+      case FrameReader::Read::text:
+        return count_malformed("a line is no frame", false);
+      case FrameReader::Read::values: {
+        const FrameReader& reader = stage_->reader();
+        const bool more = reader.values_found() > reader.values_expected();
+        return count_malformed(
+            is_told_malformed_
+                ? std::string()
+                : fmt::format("a line is no frame: expected {} channel values, found "
+                              "{}",
+                              reader.values_expected(),
+                              more ? "more" : fmt::to_string(reader.values_found())),
+            true);
+      }
+    }
+  }
+
+  void take_marker_header(std::string_view line) {
+    try {
+      open(read_marker_header(line, options_.frame_rate_hz));
+    } catch (const Error& error) {
+      refuse_header(error.what());
+    }
+  }
+
+  // `has_place`: a frame was meant.
+  void count_malformed(std::string_view why, bool has_place) {
+    ++counts_.malformed;
+    if (has_place && stage_) stage_->miss();
+    if (std::exchange(is_told_malformed_, true)) return;
+    notes_.push_back(fmt::format("{}; such lines are counted", why));
+  }
+
+  void collect(std::string_view line) {
+    if (!header_lines_.text().empty() && begins_header(line, true)) header_lines_.clear();
+    switch (header_lines_.take(line)) {
+      case HeaderLines::Next::more:
+        return;
+      case HeaderLines::Next::complete:
+        collects_ = false;
+        return open_collected();
+      case HeaderLines::Next::over:
+        collects_ = false;
+        open_collected();
+        return take_line(line);
+      case HeaderLines::Next::too_long:
+        return refuse_header("the header is too long");
+    }
+  }
+
+  void open_collected() {
+    try {
+      open(read_live_header(header_lines_.text(), "header", options_.frame_rate_hz));
+    } catch (const Error& error) {
+      refuse_header(error.what());
+    }
+  }
+
+  void refuse_header(std::string_view why) {
+    collects_ = false;
+    header_lines_.clear();
+    if (++counts_.bad_headers <= most_header_notes) notes_.emplace_back(why);
+  }
+
+  void open(LiveHeader header) {
+    if (stage_ && stage_->header().markers == header.markers &&
+        same_skeleton(stage_->header().skeleton, header.skeleton) &&
+        stage_->header().frame_rate_hz == header.frame_rate_hz) {
+      return stage_->expect_any_number();
+    }
+    if (stage_) stage_->finish();
+    for (const std::string& repair : header.repairs) notes_.push_back(repair);
+    stage_.emplace(cleaner_, options_, std::move(header), sink_, counts_);
+    ++counts_.sessions;
+    is_told_malformed_ = false;
+    const double rate_hz = stage_->header().frame_rate_hz;
+    const std::size_t delay = stage_->latency_frames();
+    const LiveHeader& opened = stage_->header();
+    const bool joints = opened.markers.empty();
+    notes_.push_back(fmt::format("{} {} at {:.6g} Hz: {} frames of delay, {:.3g} ms",
+                                 joints ? opened.skeleton.joint_count() : opened.markers.size(),
+                                 joints ? "joints" : "markers", rate_hz, delay,
+                                 1000 * static_cast<double>(delay) / rate_hz));
+  }
+
+  const Cleaner& cleaner_;
+  LiveOptions options_;
+  LiveSink sink_;
+  LineSplitter splitter_;
+  HeaderLines header_lines_;
+  bool collects_ = false;
+  bool is_told_malformed_ = false;
+  std::optional<LiveStage> stage_;
+  LiveCounts counts_;
+  std::vector<std::string> notes_;
+};
+
+LiveSession::LiveSession(const Cleaner& cleaner, const LiveOptions& options, LiveSink sink)
+    : work_(std::make_unique<Work>(cleaner, options, std::move(sink))) {}
+LiveSession::~LiveSession() = default;
+
+void LiveSession::feed(std::string_view bytes) { work_->feed(bytes); }
+void LiveSession::end_line() { work_->end_line(); }
+void LiveSession::drop_line() { work_->drop_line(); }
+void LiveSession::hold() { work_->hold(); }
+void LiveSession::finish() { work_->finish(); }
+const LiveCounts& LiveSession::counts() const noexcept { return work_->counts(); }
+bool LiveSession::has_skeleton() const noexcept { return work_->stage() != nullptr; }
+std::size_t LiveSession::joint_count() const noexcept {
+  return has_skeleton() ? work_->stage()->header().skeleton.joint_count() : 0;
+}
+double LiveSession::frame_rate_hz() const noexcept {
+  return has_skeleton() ? work_->stage()->header().frame_rate_hz : 0;
+}
+std::size_t LiveSession::latency_frames() const noexcept {
+  return has_skeleton() ? work_->stage()->latency_frames() : 0;
+}
+std::vector<std::string> LiveSession::take_notes() { return work_->take_notes(); }
+
+}  // namespace kinemend

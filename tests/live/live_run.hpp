@@ -1,0 +1,92 @@
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "clean/takes.hpp"
+#include "kinemend/experimental/live.hpp"
+#include "kinemend/io.hpp"
+#include "kinemend/methods.hpp"
+
+// A live session and all that came out of it.
+namespace kinemend::test {
+
+struct LiveRun {
+  explicit LiveRun(const Cleaner& cleaner, const LiveOptions& options = {})
+      : session(cleaner, options, [this](const LivePiece& piece) {
+          text += piece.text;
+          headers += piece.is_header ? 1 : 0;
+          if (!piece.is_header) lines.emplace_back(piece.text);
+        }) {}
+
+  /// In pieces of so many bytes.
+  void feed(std::string_view bytes, std::size_t piece = 1000) {
+    for (; !bytes.empty(); bytes.remove_prefix(std::min(piece, bytes.size())))
+      session.feed(bytes.substr(0, piece));
+  }
+  const LiveCounts& counts() const { return session.counts(); }
+
+  std::string text;
+  std::vector<std::string> lines;  ///< frames
+  std::size_t headers = 0;
+  LiveSession session;
+};
+
+/// A stream of BVH in its parts.
+struct StreamText {
+  std::string header;
+  std::vector<std::string> frames;  ///< each with its newline
+
+  std::string text() const {
+    std::string all = header;
+    for (const std::string& frame : frames) all += frame;
+    return all;
+  }
+};
+
+inline StreamText stream_text(const Clip& clip) {
+  const std::string bytes = write_clip(clip);
+  const std::size_t motion = bytes.find('\n', bytes.find("Frame Time:")) + 1;
+  StreamText stream{bytes.substr(0, motion), {}};
+  for (std::size_t at = motion; at < bytes.size();) {
+    const std::size_t end = bytes.find('\n', at) + 1;
+    stream.frames.push_back(bytes.substr(at, end - at));
+    at = end;
+  }
+  return stream;
+}
+
+inline Clip noisy_clip(std::size_t frames) {
+  Clip clip = moving_take(frames, 120);
+  add_noise(clip, 1.5, 0.5, 1);
+  return clip;
+}
+
+inline Clip read_bvh_text(const std::string& text) { return read_clip(text, "live.bvh").clip; }
+
+/// Largest difference of rotations, radians, and of positions.
+inline std::pair<double, double> difference(const Clip& a, const Clip& b) {
+  EXPECT_EQ(a.frame_count(), b.frame_count());
+  double turn = 0, way = 0;
+  for (std::size_t f = 0; f < std::min(a.frame_count(), b.frame_count()); ++f) {
+    for (std::size_t j = 0; j < a.joint_count(); ++j)
+      turn = std::max(turn, angle_between(a.rotation(f, j), b.rotation(f, j)));
+    way = std::max(way, norm(a.root_positions[f] - b.root_positions[f]));
+  }
+  for (std::size_t i = 0; i < std::min(a.joint_translations.size(), b.joint_translations.size());
+       ++i) {
+    way = std::max(way, norm(a.joint_translations[i] - b.joint_translations[i]));
+  }
+  return {turn, way};
+}
+
+/// Six decimals, of degrees and of units.
+inline constexpr double digits_rad = 1e-7, digits_units = 2e-6;
+
+}  // namespace kinemend::test
