@@ -85,8 +85,9 @@ std::string take_page(const Report& report, const Take& before, const Take* afte
                        {"take", text_of(take)},
                        {"first", page::first_part(channels.samples, stride)}};
   if (stride > 1) parts.emplace_back("second", page::second_part(channels.samples, stride));
+  for (const auto& [part, json] : settings.parts) parts.emplace_back(part, json);
   return page::document(fmt::format("{}: kinemend {}", name, settings.command),
-                        fmt::format("{}: {}", name, verdict_of(report)), parts);
+                        fmt::format("{}: {}", name, verdict_of(report)), parts, settings.is_served);
 }
 
 }  // namespace

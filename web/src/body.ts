@@ -353,6 +353,26 @@ export class Body {
     }
   }
 
+  /** Where it is seen from, to be taken up by the next body; the middle it goes with is not part of it. */
+  viewpoint(): three.Vector3[] {
+    return [this.camera.position.clone(), this.controls.target.clone(), this.centre.clone()];
+  }
+  seeFrom([position, target, centre]: three.Vector3[]): void {
+    const way = this.centre.clone().sub(centre);
+    this.camera.position.copy(position).add(way);
+    this.controls.target.copy(target).add(way);
+    this.controls.update();
+    this.draw();
+  }
+
+  /** Gives back what the browser has few of. */
+  dispose(): void {
+    this.waiting = true;
+    this.controls.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
+  }
+
   /** Where a point of the body is in the picture, -1 to 1; for tests. */
   seen(point: number): [number, number] | null {
     const place = this.main.at(point)?.add(this.main.group.position) ?? null;
