@@ -46,10 +46,15 @@ ViewFiles files_of(const Arguments& arguments) {
   files.cleaned = given("output", output_beside(files.input, "clean"));
   files.filled = given("output", output_beside(files.input, "filled"));
   files.contacts = given("contacts", beside(files.input, "contacts"));
+  files.gaps = arguments.text("gaps");
   files.plan = given("plan", beside(files.input, "plan.csv"));
-  check_is_no_input("--output", files.cleaned, {files.input, files.contacts, files.plan});
-  check_is_no_input("--contacts", files.contacts, {files.input, files.filled, files.plan});
-  check_is_no_input("--plan", files.plan, {files.input, files.filled});
+  check_is_no_input("--output", files.cleaned,
+                    {files.input, files.contacts, files.plan, files.gaps});
+  check_is_no_input("--output", files.filled,
+                    {files.input, files.contacts, files.plan, files.gaps});
+  check_is_no_input("--contacts", files.contacts,
+                    {files.input, files.filled, files.plan, files.gaps});
+  check_is_no_input("--plan", files.plan, {files.input, files.filled, files.gaps});
   for (const char* flag : {"from", "asf"}) {
     if (arguments.given(flag))
       files.reading.push_back(fmt::format("--{}={}", flag, arguments.text(flag)));
@@ -114,6 +119,12 @@ Flag file_flag(std::string name, std::string help) {
   return flag;
 }
 
+Flag gaps_flag() {
+  Flag flag = file_flag("gaps", "samples that count as missing: lines name,first,last");
+  flag.group = "Input";
+  return flag;
+}
+
 }  // namespace
 
 Command view_command() {
@@ -135,6 +146,7 @@ Command view_command() {
   open.spec.default_value = true;
   command.flags = {
       output_flag("where to save the take (default walk.clean.bvh or walk.filled.bvh)"),
+      gaps_flag(),
       file_flag("contacts", "where to save contacts (default walk.contacts); read where it exists"),
       file_flag("plan", "where to save the gap plan (default walk.plan.csv)"),
       force_flag(),

@@ -145,6 +145,7 @@ std::vector<std::string> ViewSession::words_of(const Json& asked) const {
   const bool fills = is_fill(asked);
   std::vector<std::string> words = {fills ? "fill" : "clean", files_.input};
   words.insert(words.end(), files_.reading.begin(), files_.reading.end());
+  if (!files_.gaps.empty()) words.push_back("--gaps=" + files_.gaps);
   const Json flags = asked.value("flags", Json::object());
   for (const auto& [name, value] : flags.items()) {
     check_flag(fills, flags, name);

@@ -18,8 +18,9 @@ namespace kinemend::cli {
 /// The files that a session reads and writes; no others are touched, whatever is asked.
 struct ViewFiles {
   std::string input;
-  std::string other;                 ///< compared with it, and nothing else; empty: none
-  std::string cleaned, filled;       ///< where "save as" goes, of clean and of fill
+  std::string other;            ///< compared with it, and nothing else; empty: none
+  std::string cleaned, filled;  ///< where "save as" goes, of clean and of fill
+  std::string gaps;  ///< side file of gaps that the take's format cannot hold; empty: none
   std::string contacts, plan;        ///< side files
   std::vector<std::string> reading;  ///< flags of the input, as they were given: "--asf=..."
   bool force = false;                ///< replace files that another run has made
