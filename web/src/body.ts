@@ -98,10 +98,13 @@ class Figure {
   }
 }
 
+/** A browser has few of these, and making one takes long: the page has one, which each body in turn draws with. */
+let renderer: three.WebGLRenderer | null = null;
+
 /** What draws; null where the browser has no WebGL. */
 export function makeRenderer(): three.WebGLRenderer | null {
   try {
-    return new three.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
+    return renderer ??= new three.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
   } catch {
     return null;
   }
@@ -125,6 +128,7 @@ export class Body {
   private centre = new three.Vector3();
   private readonly unseen = element('p', { class: 'unseen', hidden: true }, 'Nothing is seen in this frame.');
   private waiting = false;
+  private ended = false;
 
   constructor(private readonly holder: HTMLElement, private readonly take: Take, private readonly player: Player, renderer: three.WebGLRenderer) {
     const { stage } = take.data;
@@ -332,6 +336,7 @@ export class Body {
     this.waiting = true;
     requestAnimationFrame(() => {
       this.waiting = false;
+      if (this.ended) return;
       this.renderer.render(this.scene, this.camera);
       this.drawAxes();
     });
@@ -365,12 +370,15 @@ export class Body {
     this.draw();
   }
 
-  /** Gives back what the browser has few of. */
+  /** Before another body takes its place. */
   dispose(): void {
-    this.waiting = true;
+    this.ended = true;
     this.controls.dispose();
-    this.renderer.dispose();
-    this.renderer.forceContextLoss();
+    this.scene.traverse((part) => {
+      const { geometry, material } = part as Partial<three.Mesh>;
+      geometry?.dispose();
+      for (const one of [material ?? []].flat()) one.dispose();
+    });
   }
 
   /** Where a point of the body is in the picture, -1 to 1; for tests. */

@@ -49,7 +49,7 @@ export class GapEditor {
       this.edited = false;
       again();
     }), this.words), element('div', { class: 'scroll', tabindex: '0' },
-      element('table', {}, element('thead', {}, element('tr', {}, ...columns.map((text) => element('th', { scope: 'col' }, text)))), this.body)));
+      element('table', {}, element('thead', {}, element('tr', {}, ...columns.map((text, i) => element('th', { scope: 'col', class: i === columns.length - 1 ? 'words' : '' }, text)))), this.body)));
   }
 
   text(): string { return JSON.stringify(this.plan); }
@@ -92,7 +92,7 @@ export class GapEditor {
   /** "spline (0.4 mm off)" where it was tried. */
   private told(gap: PlannedGap, method: string): string {
     const shown = gap.previews?.find((one) => one.method === method);
-    if (!shown) return method;
+    if (!shown || (method === gap.method && shown.filled)) return method;
     if (!shown.filled) return `${method} (refused)`;
     return shown.distance === null ? method : `${method} (${figure(shown.distance)} ${gap.unit} off)`.replace('  ', ' ');
   }

@@ -147,13 +147,16 @@ function lookAsBefore(now: Shown, before: Shown): void {
 }
 
 /** Warnings as findings, in the frames that their words name, else in all. */
-function warningsOf(entry: TakeEntry): Finding[] {
+function warningsOf(entry: TakeEntry, names: string[]): Finding[] {
   const last = entry.first_frame + Math.max(0, entry.frames - 1);
   return entry.frames === 0 ? [] : entry.warnings.map((reason) => {
-    const named = /\bframes? (-?\d+)(?: to (-?\d+))?/.exec(reason);
-    const first = named ? Math.min(last, Math.max(entry.first_frame, Number(named[1]))) : entry.first_frame;
-    const end = named ? Math.min(last, Math.max(first, Number(named[2] ?? named[1]))) : last;
-    return { kind: 'warning', verdict: '', track: null, first_frame: first, last_frame: end, amount: null, unit: null, reason };
+    const frames = /\bframes? (-?\d+)(?: to (-?\d+))?/.exec(reason);
+    const time = /\bat (\d+(?:\.\d+)?) s\b/.exec(reason);
+    const begin = frames ? Number(frames[1]) : time ? entry.first_frame + Math.round(Number(time[1]) * entry.frame_rate_hz) : null;
+    const first = begin === null ? entry.first_frame : Math.min(last, Math.max(entry.first_frame, begin));
+    const end = begin === null ? last : Math.min(last, Math.max(first, Number(frames?.[2] ?? begin)));
+    const track = names.find((name) => reason.startsWith(`${name}: `)) ?? null;
+    return { kind: 'warning', verdict: '', track, first_frame: first, last_frame: end, amount: null, unit: null, reason };
   });
 }
 
@@ -173,7 +176,7 @@ export async function showTake(page: HTMLElement, document_: ReportDocument, dat
   const [tableSection] = section(take.isJoints ? 'Joints' : 'Markers', 'tracks');
   const table = new TrackTable(tableSection, take, player, entry);
   const [timelineSection] = section('Found and done', 'found');
-  const timeline = new Timeline(timelineSection, take, player, [...entry.findings, ...warningsOf(entry)], (finding) => {
+  const timeline = new Timeline(timelineSection, take, player, [...entry.findings, ...warningsOf(entry, data.names)], (finding) => {
     const tracks = (finding.track ?? '').split(', ').map((name) => data.names.indexOf(name)).filter((track) => track >= 0);
     const whole = data.names.indexOf(finding.track ?? '');
     if (whole >= 0) player.choose([whole]);
@@ -187,11 +190,16 @@ export async function showTake(page: HTMLElement, document_: ReportDocument, dat
     timeline.draw();
     curves.rebuild();
   }, ended.signal);
-  page.replaceChildren(
-    element('header', {}, element('div', {}, title, verdict), loading, theme), ...panel,
+  const header = element('header', {}, element('div', {}, title, verdict), loading, theme);
+  const parts = [
     element('div', { class: 'top' }, bodySection, tableSection),
     timelineSection, curvesSection, facts,
-    element('footer', {}, element('p', {}, help)));
+    element('footer', {}, element('p', {}, help)),
+  ];
+  // What is taken out and put in again loses the focus.
+  for (const child of [...page.children]) if (!panel.includes(child as HTMLElement)) child.remove();
+  page.prepend(header);
+  page.append(...panel.filter((one) => one.parentNode !== page), ...parts);
   if (data.step > 1) page.querySelector('header')?.after(element('p', { class: 'note' }, `A long take: 1 frame in ${data.step} is shown here. What was found is told of all ${counted(data.frames, 'frame')}.`));
   if (take.told > 0 && data.names.length > 0) player.choose([table.worst]);
   else player.choose([]);

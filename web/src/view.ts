@@ -45,8 +45,8 @@ function field(label: string, title: string, control: HTMLElement): HTMLElement 
 }
 
 /** A control of one option; `act` gets its value, undefined where it is the default. */
-function optionControl(option: Option, act: (value: Value | undefined) => void): HTMLElement {
-  const told = option.name.replace(/_/g, ' ') + (option.unit ? ` (${option.unit})` : '');
+function optionControl(option: Option, act: (value: Value | undefined) => void, label = ''): HTMLElement {
+  const told = label || option.name.replace(/_/g, ' ') + (option.unit ? ` (${option.unit})` : '');
   if (option.kind === 'switch') {
     const made = toggle(told, option.help, option.default === true, (on) => act(on === option.default ? undefined : on));
     made.dataset.flag = option.name;
@@ -74,7 +74,9 @@ class Controls {
   private readonly options: Record<string, Record<string, Value>> = {};
   private readonly status = element('p', { class: 'status', role: 'status' }, 'done');
   private readonly line = element('code', { class: 'line', tabindex: '0' });
-  private readonly rows = element('div', { class: 'fields' });
+  private readonly rows = { clean: element('div', { class: 'fields' }), fill: element('div', { class: 'fields' }) };
+  private readonly optionRow = element('div', { class: 'fields own' });
+  private readonly byPlan = element('p', { class: 'empty' }, 'The gap plan says how each gap is filled.');
   private readonly saved = element('p', { class: 'saved', role: 'status' });
   private readonly contacts: ContactEditor | null;
   private readonly gaps: GapEditor;
@@ -98,88 +100,85 @@ class Controls {
     const save = button('Save as', `write ${session.cleaned} or ${session.filled}`, () => void this.save());
     save.dataset.action = 'save';
     this.element.append(element('div', { class: 'head' }, element('h2', {}, 'Controls'), commands, save, element('span', { class: 'gap' }), this.status),
-      this.rows, this.contactBox, this.gapBox, this.line, this.saved);
+      this.rows.clean, this.rows.fill, this.contactBox, this.gapBox, this.line, this.saved);
+    this.addClean();
+    this.addFill();
     this.draw();
   }
 
-  private set(name: string, value: Value | undefined): void {
-    const own = this.general[this.command];
+  private set(command: 'clean' | 'fill', name: string, value: Value | undefined): void {
+    const own = this.general[command];
     if (value === undefined || value === '') delete own[name];
     else own[name] = value;
     this.later();
   }
 
-  private text(name: string, label: string, hint: string): HTMLElement {
-    const made = element('input', { type: 'text', placeholder: hint, 'aria-label': label, value: String(this.general[this.command][name] ?? '') });
+  private text(command: 'clean' | 'fill', name: string, label: string, hint: string): HTMLElement {
+    const made = element('input', { type: 'text', placeholder: hint, 'aria-label': label });
     made.dataset.flag = name;
-    made.addEventListener('input', () => this.set(name, made.value.trim()));
+    made.addEventListener('input', () => this.set(command, name, made.value.trim()));
     return field(label, hint, made);
   }
-  private number(name: string, label: string, value: number, most: number, title: string): HTMLElement {
-    return this.kept(optionControl({ name, kind: 'number', help: title, default: value, minimum: 0, maximum: most }, (given) => this.set(name, given)), name, label);
+  private option(command: 'clean' | 'fill', label: string, option: Option): HTMLElement {
+    return optionControl(option, (value) => this.set(command, option.name, value), label);
   }
-  private select(name: string, label: string, choices: string[], value: string, title: string): HTMLElement {
-    return this.kept(optionControl({ name, kind: 'choice', help: title, default: value, choices }, (given) => this.set(name, given)), name, label);
+  private fillMethods(): string[] {
+    return this.session.fill_methods.filter((one) => (this.isJoints ? one.joints : one.markers)).map(({ name }) => name);
   }
-  private switch(name: string, label: string, on: boolean, title: string): HTMLElement {
-    const made = optionControl({ name, kind: 'switch', help: title, default: on }, (given) => this.set(name, given));
-    made.textContent = label;
-    made.setAttribute('aria-pressed', String(this.general[this.command][name] ?? on));
-    return made;
+
+  private addClean(): void {
+    const method = choice('method', this.session.methods.map(({ name }) => [name, name]), this.method, (value) => {
+      this.method = value;
+      this.drawOptions();
+      this.later();
+    });
+    method.dataset.flag = 'method';
+    const patterns = `${this.isJoints ? 'Left*' : 'L*'} (all)`;
+    this.rows.clean.append(field('method', 'how to clean', method),
+      this.option('clean', 'strength', { name: 'strength', kind: 'number', help: 'how far to go from the input (0) to the cleaned motion (1)', default: 1, minimum: 0, maximum: 1 }),
+      this.text('clean', 'joints', this.isJoints ? 'joints' : 'markers', patterns), this.text('clean', 'exclude', 'not', 'none'), this.text('clean', 'range', 'frames', '121:240 or 1s:2.5s'),
+      this.option('clean', 'fill gaps', { name: 'fill', kind: 'choice', help: 'fill gaps before anything is smoothed', default: 'off', choices: ['off', ...this.fillMethods()] }));
+    if (this.isJoints) {
+      this.rows.clean.append(this.option('clean', 'feet', { name: 'feet', kind: 'choice', help: 'stop feet that stand from sliding', default: 'off', choices: ['off', 'auto', 'force'] }),
+        this.option('clean', 'largest change (deg)', { name: 'max_change_deg', kind: 'number', help: 'no rotation goes further than this from its input', default: 180, minimum: 0, maximum: 180 }),
+        this.option('clean', 'root\u2019s path', { name: 'root_position', kind: 'switch', help: 'also clean the root\u2019s path', default: true }));
+    } else {
+      this.rows.clean.append(this.option('clean', 'undo swaps', { name: 'fix_swaps', kind: 'switch', help: 'undo swapped labels of markers first', default: false }));
+    }
+    this.rows.clean.append(this.optionRow);
+    this.drawOptions();
   }
-  /** With the value that it had. */
-  private kept(made: HTMLElement, name: string, label: string): HTMLElement {
-    const given = this.general[this.command][name];
-    const control = made.querySelector<HTMLInputElement | HTMLSelectElement>('input, select');
-    if (control && given !== undefined) control.value = String(given);
-    const words = made.querySelector('span');
-    if (words) words.textContent = label;
-    return made;
+
+  /** Those of the method. */
+  private drawOptions(): void {
+    const chosen = this.session.methods.find(({ name }) => name === this.method);
+    const own = (this.options[this.method] ??= {});
+    this.optionRow.replaceChildren(element('p', { class: 'empty' }, chosen?.summary ?? ''), ...(chosen?.options ?? []).map((option) => {
+      const made = optionControl(option, (value) => {
+        if (value === undefined) delete own[option.name];
+        else own[option.name] = value;
+        this.later();
+      });
+      const given = own[option.name];
+      const control = made.querySelector<HTMLInputElement | HTMLSelectElement>('input, select');
+      if (control && given !== undefined) control.value = String(given);
+      if (option.kind === 'switch') made.setAttribute('aria-pressed', String(given ?? option.default));
+      return made;
+    }));
+  }
+
+  private addFill(): void {
+    this.rows.fill.append(this.option('fill', 'method', { name: 'method', kind: 'choice', help: 'how to fill', default: 'auto', choices: this.fillMethods() }),
+      this.text('fill', 'names', this.isJoints ? 'joints' : 'markers', `${this.isJoints ? 'Left*' : 'L*'} (all)`), this.text('fill', 'range', 'frames', '121:240 or 1s:2.5s'),
+      this.option('fill', 'fill all', { name: 'fill_all', kind: 'switch', help: 'also what the rules refuse', default: false }));
+    if (!this.isJoints) this.rows.fill.append(this.text('fill', 'donor', 'donor', 'marker of pattern'));
+    this.rows.fill.append(this.byPlan);
   }
 
   private draw(): void {
-    const what = this.isJoints ? 'joints' : 'markers';
-    const patterns = `${this.isJoints ? 'Left*' : 'L*'} (all)`;
-    this.rows.replaceChildren();
-    if (this.command === 'clean') {
-      const method = choice('method', this.session.methods.map(({ name }) => [name, name]), this.method, (value) => {
-        this.method = value;
-        this.draw();
-        this.later();
-      });
-      method.dataset.flag = 'method';
-      const chosen = this.session.methods.find(({ name }) => name === this.method);
-      this.rows.append(field('method', chosen?.summary ?? '', method), this.number('strength', 'strength', 1, 1, 'how far to go from the input (0) to the cleaned motion (1)'),
-        this.text('joints', what, patterns), this.text('exclude', 'not', 'none'), this.text('range', 'frames', '121:240 or 1s:2.5s'),
-        this.select('fill', 'fill gaps', ['off', ...this.session.fill_methods.filter((one) => (this.isJoints ? one.joints : one.markers)).map(({ name }) => name)], 'off', 'fill gaps before anything is smoothed'));
-      if (this.isJoints) {
-        this.rows.append(this.select('feet', 'feet', ['off', 'auto', 'force'], 'off', 'stop feet that stand from sliding'), this.number('max_change_deg', 'largest change (deg)', 180, 180, 'no rotation goes further than this from its input'),
-          this.switch('root_position', 'root\u2019s path', true, 'also clean the root\u2019s path'));
-      } else {
-        this.rows.append(this.switch('fix_swaps', 'undo swaps', false, 'undo swapped labels of markers first'));
-      }
-      const own = (this.options[this.method] ??= {});
-      for (const option of chosen?.options ?? []) {
-        const made = optionControl(option, (value) => {
-          if (value === undefined) delete own[option.name];
-          else own[option.name] = value;
-          this.later();
-        });
-        const control = made.querySelector<HTMLInputElement | HTMLSelectElement>('input, select');
-        if (control && own[option.name] !== undefined) control.value = String(own[option.name]);
-        if (option.kind === 'switch') made.setAttribute('aria-pressed', String(own[option.name] ?? option.default));
-        this.rows.append(made);
-      }
-    } else {
-      const names = this.session.fill_methods.filter((one) => (this.isJoints ? one.joints : one.markers)).map(({ name }) => name);
-      this.rows.append(this.select('method', 'method', names, 'auto', 'how to fill'), this.text('names', what, patterns), this.text('range', 'frames', '121:240 or 1s:2.5s'),
-        this.switch('fill_all', 'fill all', false, 'also what the rules refuse'));
-      if (!this.isJoints) this.rows.append(this.text('donor', 'donor', 'marker of the method pattern'));
-      if (this.gaps.edited) {
-        for (const control of this.rows.querySelectorAll<HTMLInputElement>('input, select, button')) control.disabled = true;
-        this.rows.append(element('p', { class: 'empty' }, 'The gap plan says how each gap is filled.'));
-      }
-    }
+    for (const command of ['clean', 'fill'] as const) this.rows[command].hidden = command !== this.command;
+    for (const control of this.rows.fill.querySelectorAll<HTMLInputElement>('input, select, button')) control.disabled = this.gaps.edited;
+    this.byPlan.hidden = !this.gaps.edited;
     this.contactBox.hidden = this.contacts === null || this.command !== 'clean';
     this.gapBox.hidden = this.command !== 'fill';
   }
@@ -215,15 +214,18 @@ class Controls {
   private async run(): Promise<void> {
     const turn = ++this.turn;
     const begun = performance.now();
+    const since = (from: number): string => ((performance.now() - from) / 1000).toFixed(2);
     try {
       const reply = await this.ask('run', this.asked());
       if (turn !== this.turn) return;
       if (!reply.ok) return this.fail((await reply.json()).error);
       const html = await reply.text();
       if (turn !== this.turn) return;
+      const answered = since(begun);
       await this.show(html);
       this.status.classList.remove('error');
-      this.status.textContent = `done in ${((performance.now() - begun) / 1000).toFixed(2)} s`;
+      this.status.textContent = `done in ${since(begun)} s`;
+      this.status.title = `${answered} s until the answer was here`;
     } catch (error) {
       if (turn === this.turn) this.fail(error instanceof TypeError ? 'kinemend view has ended' : String(error));
     }
@@ -243,15 +245,12 @@ class Controls {
   async take(report: ReportDocument, take: TakeData): Promise<void> {
     this.line.textContent = take.command_line;
     const plan = await jsonOf<GapPlan>('plan');
-    const focused = document.activeElement as HTMLElement | null;
     const scrolled = window.scrollY;
-    // The controls stay where they are; taken out and put in again they lose the focus.
     this.shown = await showTake(this.page, report, take, [this.element], this.shown);
     if (plan !== null) {
       this.gaps.show(plan, take.first_frame);
       this.draw();
     }
-    if (focused && this.element.contains(focused)) focused.focus({ preventScroll: true });
     window.scrollTo(0, scrolled);
   }
 

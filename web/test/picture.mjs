@@ -16,7 +16,7 @@ await page.waitForSelector('#page[data-ready="true"]');
 for (const key of keys) {
   const [, flag, value] = /^(\w+)=(.*)$/.exec(key) ?? [];
   if (flag) {
-    const control = page.locator(`[data-flag=${flag}]`);
+    const control = page.locator(`[data-flag=${flag}]:visible`);
     if ((await control.evaluate((one) => one.tagName)) === 'SELECT') await control.selectOption(value);
     else await control.fill(value);
     await page.waitForSelector('#page[data-ready="running"]');

@@ -104,14 +104,14 @@ step('a method is changed, and what is saved has the bytes of the command line',
   await page.fill('.number', '200');
   await page.keyboard.press('Tab');
   const frame = await page.evaluate(() => window.kinemend.player.shown);
-  await after(page, () => page.selectOption('[data-flag=method]', 'butterworth'));
+  await after(page, () => page.selectOption('[data-flag=method]:visible', 'butterworth'));
   assert.notEqual(await page.textContent('.verdict'), first);
   assert.equal(await page.evaluate(() => window.kinemend.player.shown), frame, 'the time is lost');
-  await after(page, () => page.fill('[data-flag=cutoff_hz]', '7'));
-  await after(page, () => page.fill('[data-flag=strength]', '0.8'));
-  await after(page, () => page.fill('[data-flag=joints]', 'Left*'));
-  await after(page, () => page.fill('[data-flag=range]', '100:400'));
-  const told = await page.textContent('.view-controls .status');
+  await after(page, () => page.fill('[data-flag=cutoff_hz]:visible', '7'));
+  await after(page, () => page.fill('[data-flag=strength]:visible', '0.8'));
+  await after(page, () => page.fill('[data-flag=joints]:visible', 'Left*'));
+  await after(page, () => page.fill('[data-flag=range]:visible', '100:400'));
+  const told = `${await page.textContent('.view-controls .status')}, ${await page.getAttribute('.view-controls .status', 'title')}`;
   console.log(`  a run of ${await page.evaluate(() => window.kinemend.take.told / window.kinemend.take.rate)} s of motion: ${told}`);
   await page.click('[data-action=save]');
   await page.waitForSelector('.saved:has-text("saved walk.clean.bvh")');
@@ -137,11 +137,11 @@ step('a file that was there before is not replaced', async () => {
 step('an option out of range is said, and the page goes on', async () => {
   const { address } = await serve('walk.bvh', '-o', 'range.bvh');
   const page = await open(address);
-  await page.fill('[data-flag=range]', '9999:');
+  await page.fill('[data-flag=range]:visible', '9999:');
   await page.waitForSelector('#page[data-ready="error"]');
   assert.match(await page.textContent('.view-controls .status'), /walk\.bvh: .*9999/);
   await shot(page, 'error');
-  await after(page, () => page.fill('[data-flag=range]', ''));
+  await after(page, () => page.fill('[data-flag=range]:visible', ''));
 });
 
 step('runs that are overtaken leave the last', async () => {
@@ -175,7 +175,7 @@ step('contacts are edited, used and saved as the file that clean reads', async (
 step('gaps are looked at, refused and given another method, and the plan is saved', async () => {
   const { address } = await serve('markers.trc', '-o', 'filled.trc', '--plan', 'plan.csv');
   const page = await open(address);
-  await after(page, () => page.selectOption('[data-flag=command]', 'fill'));
+  await after(page, () => page.selectOption('[data-flag=command]:visible', 'fill'));
   await page.click('summary:has-text("Gap plan")');
   assert.equal(await page.locator('.editor tbody tr').count(), 2);
   await after(page, () => page.click('[data-action=preview]'));
@@ -227,7 +227,7 @@ step('the keyboard alone, dark, narrow', async () => {
   await shot(page, 'narrow');
   const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
   assert.ok(wide <= 0, `${wide} pixels too wide`);
-  await page.focus('[data-flag=method]');
+  await page.focus('[data-flag=method]:visible');
   await after(page, () => page.keyboard.type('median'));
   assert.equal(await page.evaluate(() => document.activeElement?.dataset.flag), 'method', 'the focus is lost');
   while ((await page.evaluate(() => document.activeElement?.dataset.action)) !== 'save') await page.keyboard.press('Shift+Tab');
@@ -243,7 +243,7 @@ step('Ctrl-C ends it, and the page says so', async () => {
   const ended = new Promise((resolve) => child.on('exit', resolve));
   child.kill('SIGINT');
   assert.equal(await Promise.race([ended, code, new Promise((resolve) => setTimeout(resolve, 5000, 'still there'))]), 0);
-  await page.fill('[data-flag=strength]', '0.5');
+  await page.fill('[data-flag=strength]:visible', '0.5');
   await page.waitForSelector('.view-controls .error:has-text("has ended")');
 });
 
