@@ -209,6 +209,7 @@ class Controls {
     this.status.textContent = text;
     this.status.classList.add('error');
     this.page.dataset.ready = 'error';
+    this.page.dataset.runs = String(this.turn);
   }
 
   private async run(): Promise<void> {
@@ -225,6 +226,7 @@ class Controls {
       await this.show(html);
       this.status.classList.remove('error');
       this.status.textContent = `done in ${since(begun)} s`;
+      this.page.dataset.runs = String(turn);
       this.status.title = `${answered} s until the answer was here`;
     } catch (error) {
       if (turn === this.turn) this.fail(error instanceof TypeError ? 'kinemend view has ended' : String(error));

@@ -16,11 +16,11 @@ await page.waitForSelector('#page[data-ready="true"]');
 for (const key of keys) {
   const [, flag, value] = /^(\w+)=(.*)$/.exec(key) ?? [];
   if (flag) {
+    const before = await page.getAttribute('#page', 'data-runs');
     const control = page.locator(`[data-flag=${flag}]:visible`);
     if ((await control.evaluate((one) => one.tagName)) === 'SELECT') await control.selectOption(value);
     else await control.fill(value);
-    await page.waitForSelector('#page[data-ready="running"]');
-    await page.waitForSelector('#page[data-ready="true"]');
+    await page.waitForSelector(`#page[data-runs]:not([data-runs="${before}"])`);
   } else if (key.endsWith('?')) {
     await page.click(`summary:has-text("${key.slice(0, -1)}")`);
   } else {

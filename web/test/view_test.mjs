@@ -75,9 +75,10 @@ async function ready(page) {
 }
 /** Waits for the run that a change starts. */
 async function after(page, change) {
+  const before = await page.getAttribute('#page', 'data-runs');
   await change();
-  await page.waitForSelector('#page[data-ready="running"]', { timeout: 5000 });
-  await ready(page);
+  // The page's own rules forbid what waitForFunction needs.
+  await page.waitForSelector(`#page[data-runs]:not([data-runs="${before}"]):not([data-ready="running"])`, { timeout: 60000 });
   assert.equal(await page.getAttribute('#page', 'data-ready'), 'true', await page.textContent('.view-controls .status'));
 }
 const shot = async (page, name) => {
