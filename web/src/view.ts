@@ -225,9 +225,9 @@ class Controls {
       const answered = since(begun);
       await this.show(html);
       this.status.classList.remove('error');
-      this.status.textContent = `done in ${since(begun)} s`;
+      this.status.textContent = 'done';
       this.page.dataset.runs = String(turn);
-      this.status.title = `${answered} s until the answer was here`;
+      this.status.title = `in ${since(begun)} s, ${answered} s until the answer was here`;
     } catch (error) {
       if (turn === this.turn) this.fail(error instanceof TypeError ? 'kinemend view has ended' : String(error));
     }
