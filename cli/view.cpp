@@ -39,9 +39,9 @@ ViewFiles files_of(const Arguments& arguments) {
     if (is_stream(input))
       throw Error(ErrorKind::usage, "view: a take is read several times, and must be a file");
   }
-  const auto given = [&](const char* flag, std::string otherwise) {
+  const auto given = [&](const char* flag, const std::string& otherwise) {
     const std::string text = arguments.text(flag);
-    return text.empty() ? std::move(otherwise) : text;
+    return text.empty() ? otherwise : text;
   };
   files.cleaned = given("output", output_beside(files.input, "clean"));
   files.filled = given("output", output_beside(files.input, "filled"));

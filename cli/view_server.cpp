@@ -38,9 +38,9 @@ void reply_to(const httplib::Request& request, httplib::Response& response,
   response.set_header("Cross-Origin-Resource-Policy", "same-origin");
   response.status = access.refusal(asked);
   if (response.status != 0) return response.set_content("refused\n", "text/plain");
-  ServedReply reply = answer(request.method, access.action(request.path), request.body);
+  const ServedReply reply = answer(request.method, access.action(request.path), request.body);
   response.status = reply.status;
-  response.set_content(std::move(reply.body), reply.type);
+  response.set_content(reply.body, reply.type);
 }
 
 // Where a signal writes a byte: all that may be done while it is handled.
