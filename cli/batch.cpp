@@ -312,6 +312,7 @@ void add_pictures(const Batch& batch, const std::vector<BatchItem>& items,
                   std::vector<BatchPageRow>& rows) {
   constexpr std::size_t most_pictures = 200;
   std::vector<BatchRow> all;
+  all.reserve(rows.size());
   for (const BatchPageRow& row : rows) all.push_back(row.row);
   std::set<std::string> shown;
   for (const BatchRow& row : worst_rows(all, most_pictures)) shown.insert(row.name);
