@@ -11,6 +11,7 @@
 #include <mutex>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -56,6 +57,10 @@ fs::path page_name(const Batch& batch, const BatchItem& item) {
 }
 fs::path page_path(const Batch& batch, const BatchItem& item) {
   return fs::path(batch.index).parent_path() / page_name(batch, item);
+}
+/// Of a few of its poses, for the index.
+fs::path picture_path(const Batch& batch, const BatchItem& item) {
+  return page_path(batch, item).replace_extension(".svg");
 }
 
 /// What came of one file.
@@ -146,6 +151,7 @@ Done clean_item(const BatchItem& item, const std::string& output, const Batch& b
   if (!batch.index.empty() && outcome.code == 0) {
     make_folder(page_path(batch, item).parent_path());
     write_file(page_path(batch, item), outcome.report, true);
+    write_file(picture_path(batch, item), outcome.picture, true);
   }
   const std::string result = outcome.code == 0 ? content_hash(read_file(output)) : std::string();
   write_record(batch.folder, item.name, {key, result, done.row});
@@ -301,6 +307,25 @@ std::vector<Done> do_all(const std::vector<BatchItem>& items, const Batch& batch
   return done;
 }
 
+// Of the takes that most should be looked at, so that an index of thousands stays small.
+void add_pictures(const Batch& batch, const std::vector<BatchItem>& items,
+                  std::vector<BatchPageRow>& rows) {
+  constexpr std::size_t most_pictures = 200;
+  std::vector<BatchRow> all;
+  all.reserve(rows.size());
+  for (const BatchPageRow& row : rows) all.push_back(row.row);
+  std::set<std::string> shown;
+  for (const BatchRow& row : worst_rows(all, most_pictures)) shown.insert(row.name);
+  for (std::size_t i = 0; i < all.size() && shown.size() < most_pictures; ++i)
+    shown.insert(all[i].name);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::error_code ignored;
+    const fs::path picture = picture_path(batch, items[i]);
+    if (shown.count(rows[i].row.name) > 0 && fs::is_regular_file(picture, ignored))
+      rows[i].picture = read_file(picture);
+  }
+}
+
 // The index of the pages, of the takes that this run was about.
 void write_index(const Batch& batch, const std::vector<BatchItem>& items,
                  const std::vector<Done>& done, const BatchSums& sums,
@@ -312,6 +337,7 @@ void write_index(const Batch& batch, const std::vector<BatchItem>& items,
                           fs::is_regular_file(page_path(batch, items[i]), ignored);
     rows.push_back({done[i].row, has_page ? page_name(batch, items[i]).generic_string() : ""});
   }
+  add_pictures(batch, items, rows);
   write_file(batch.index, batch_page(rows, sums, settings), true);
 }
 

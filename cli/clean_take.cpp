@@ -11,6 +11,7 @@
 #include "clean_leftovers.hpp"
 #include "kinemend/check.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
+#include "kinemend/experimental/pictures.hpp"
 #include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"
@@ -126,6 +127,17 @@ void tell(const Report& report, const CleanJob& job, const CleanPlan& plan, Outc
   if (!job.row_name.empty()) outcome.row = cleaned_row(job.row_name, report, outcome.warnings);
 }
 
+// A few poses, for the index of a batch.
+std::string picture_of(const Take& take) {
+  constexpr std::size_t poses = 5;
+  return std::visit(
+      [](const auto& clip) {
+        if (clip.frame_count() == 0) return std::string();
+        return film_strip_svg(clip, nullptr, {0, clip.frame_count() - 1}, poses);
+      },
+      take);
+}
+
 void clean_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& progress,
                 Outcome& outcome) {
   const std::string name = input_name(job.input);
@@ -154,6 +166,7 @@ void clean_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& 
   if (!plan.dry_run) report.take.output = job.output;
   tell(report, job, plan, outcome);
   if (plan.page) outcome.report = page_of(report, *before, &read.take, *plan.page);
+  if (plan.page && !job.row_name.empty()) outcome.picture = picture_of(read.take);
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ struct Outcome {
   std::string error;
   std::string json;             ///< entry of --json; empty when not asked for
   std::string report;           ///< entry of --report
+  std::string picture;          ///< SVG of a few poses, for the index of a batch with pages
   std::optional<BatchRow> row;  ///< of `CleanPlan::row_name`
 };
 

@@ -14,6 +14,7 @@ Command check_command();
 Command contacts_command();
 Command compare_command();
 Command plot_command();
+Command view_command();
 Command methods_command();
 Command train_command();
 Command models_command();

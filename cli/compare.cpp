@@ -4,10 +4,12 @@
 
 #include <limits>
 #include <optional>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "commands.hpp"
+#include "compare_page.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/metrics.hpp"
@@ -113,9 +115,26 @@ MarkerClip with_markers(const MarkerClip& clip, const std::vector<std::string>& 
   return result;
 }
 
-std::string comparison_page(const Report& report, const TakeResult& reference,
-                            const TakeResult& other, const Arguments& arguments) {
-  PageSettings settings = page_settings(arguments);
+struct Compared {
+  TakeResult reference, other;
+  Report report;
+};
+
+Compared compared(const Arguments& arguments) {
+  const std::string other_name = arguments.positionals[1];
+  TakeResult reference = read_one(arguments.positionals[0], arguments);
+  TakeResult other = read_one(other_name, arguments);
+  CompareOutcome outcome = compare_takes(reference, other, arguments);
+  // The reference says how joints and markers are spelled; lengths are in its unit.
+  const TakeFacts shown = take_of(reference, arguments.positionals[0]);
+  TakeFacts facts = take_of(other, other_name);
+  facts.tracks = outcome.markers ? outcome.markers->names : shown.tracks;
+  if (!shown.unit.empty()) facts.unit = shown.unit;
+  return {std::move(reference), std::move(other), {std::move(facts), std::move(outcome)}};
+}
+
+std::string page_of(const Compared& both, PageSettings settings) {
+  const auto& [reference, other, report] = both;
   settings.before_label = "reference";
   settings.after_label = "other";
   const auto& markers = std::get<CompareOutcome>(report.result).markers;
@@ -136,22 +155,13 @@ int run(const Arguments& arguments) {
   check_single_use({reference_name, other_name}, {report_path}, json);
   check_is_no_input("--report", report_path, {reference_name, other_name});
   if (!report_path.empty()) check_free(report_path, force);
-  const TakeResult reference = read_one(reference_name, arguments);
-  const TakeResult other = read_one(other_name, arguments);
-  CompareOutcome outcome = compare_takes(reference, other, arguments);
-  // The reference says how joints and markers are spelled; lengths are in its unit.
-  const TakeFacts shown = take_of(reference, reference_name);
-  TakeFacts facts = take_of(other, other_name);
-  facts.tracks = outcome.markers ? outcome.markers->names : shown.tracks;
-  if (!shown.unit.empty()) facts.unit = shown.unit;
-  const Report report{std::move(facts), std::move(outcome)};
+  const Compared both = compared(arguments);
+  const Report& report = both.report;
   const std::vector<std::string> takes = {to_json(report)};
   const std::string document = report_document("compare", takes);
   if (!report_path.empty()) {
-    write_output(
-        report_path,
-        is_page(report_path) ? comparison_page(report, reference, other, arguments) : document,
-        force);
+    write_output(report_path,
+                 is_page(report_path) ? page_of(both, page_settings(arguments)) : document, force);
   }
   if (json) {
     write_out(document);
@@ -220,6 +230,12 @@ std::vector<Flag> flags() {
 }
 
 }  // namespace
+
+std::string comparison_page(const Arguments& arguments, bool is_served) {
+  PageSettings settings = page_settings(arguments);
+  settings.is_served = is_served;
+  return page_of(compared(arguments), std::move(settings));
+}
 
 Command compare_command() {
   Command command;

@@ -4,18 +4,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <optional>
-#include <utility>
-#include <variant>
 #include <vector>
 
 #include "commands.hpp"
-#include "frame_range.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
+#include "fill_take.hpp"
 #include "kinemend/experimental/text.hpp"
-#include "kinemend/gaps.hpp"
-#include "kinemend/io.hpp"
 #include "kinemend/report.hpp"
 #include "page_report.hpp"
 #include "takes.hpp"
@@ -25,124 +18,48 @@ namespace kinemend::cli {
 
 namespace {
 
-std::size_t count_gaps(const Clip& clip) {
-  return find_gaps(clip).size() + find_position_gaps(clip).size();
-}
-std::size_t count_gaps(const MarkerClip& clip) { return find_gaps(clip).size(); }
-
-void mark_given_gaps(Take& take, const std::string& gap_file) {
-  if (gap_file.empty()) return;
-  const std::string name = input_name(gap_file);
-  const std::vector<NamedGap> gaps = parse_gaps(read_file(gap_file), name, first_frame_of(take));
-  try {
-    std::visit([&](auto& clip) { mark_gaps(clip, gaps); }, take);
-  } catch (const Error& error) {
-    throw Error(error.kind(), fmt::format("{}: {}", name, error.what()));
-  }
-}
-
-FillSettings settings_of(const Arguments& arguments) {
-  FillSettings settings;
-  settings.method = arguments.text("method");
-  settings.names = arguments.list("names");
-  settings.donor = arguments.text("donor");
-  settings.longest_gap_s = arguments.given("longest_gap") ? arguments.number("longest_gap") : 0;
-  settings.fill_all = arguments.flag("fill_all");
-  return settings;
-}
-
-/// What `fill` was asked for, beside how to fill.
-struct FillPlan {
-  std::string input, output, gap_file, report_path;
-  std::optional<FrameRange> range;
-  bool json = false, force = false, dry_run = false, strict = false, quiet = false, verbose = false;
-};
-
-FillPlan plan_of(const Arguments& arguments) {
-  FillPlan plan;
-  plan.input = arguments.positionals[0];
-  plan.output = arguments.text("output");
-  if (plan.output.empty()) plan.output = output_beside(plan.input, "filled");
-  plan.gap_file = arguments.text("gaps");
-  plan.report_path = arguments.text("report");
-  if (const std::string range = arguments.text("range"); !range.empty())
-    plan.range = parse_range(range);
-  plan.json = arguments.flag("json");
-  plan.force = arguments.flag("force");
-  plan.dry_run = arguments.flag("dry_run");
-  plan.strict = arguments.flag("strict");
-  plan.quiet = arguments.flag("quiet");
-  plan.verbose = arguments.flag("verbose");
-  check_page(plan.report_path, 1);
-  check_single_use({plan.input, plan.gap_file},
-                   {plan.dry_run ? std::string() : plan.output, plan.report_path}, plan.json);
-  check_is_no_input("--report", plan.report_path, {plan.input, plan.gap_file, plan.output});
-  check_is_no_input("--output", plan.output, {plan.gap_file});
-  if (!plan.dry_run) check_free(plan.output, plan.force);
-  if (!plan.report_path.empty()) check_free(plan.report_path, plan.force);
-  return plan;
-}
-
-/// Fills the gaps of the take in place.
-FillOutcome fill_take(Take& take, FillSettings settings, const FillPlan& plan) {
-  return std::visit(
-      [&](auto& clip) {
-        if (plan.range)
-          settings.range = frames_of(*plan.range, clip.frame_count(), clip.frame_rate_hz,
-                                     first_frame_number(clip));
-        FillOutcome outcome{fill_gaps(clip, settings)};
-        if (plan.range) {
-          // What is neither filled nor refused was not asked for.
-          const std::size_t left = count_gaps(clip);
-          outcome.not_within_range = left - std::min(left, outcome.report.refused());
-        }
-        return outcome;
-      },
-      take);
-}
-
-void say_outcome(const Report& report, const FillPlan& plan, const std::string& document) {
-  if (plan.json) return write_out(document);
-  if (plan.quiet) return;
-  const bool out_is_taken = (plan.output == "-" && !plan.dry_run) || plan.report_path == "-";
+void say_outcome(const Report& report, const FillRun& run, const std::string& document) {
+  if (run.json) return write_out(document);
+  if (run.quiet) return;
+  const bool out_is_taken =
+      (run.output == "-" && !run.dry_run) || run.report_path == "-" || run.plan_out_path == "-";
   TextOptions options;
-  options.all = plan.verbose;
+  options.all = run.verbose;
   options.colours = Colours::of_out().on();
   const std::string text = to_text(report, options);
   out_is_taken ? write_err(text) : write_out(text);
 }
 
-int run(const Arguments& arguments) {
-  const FillPlan plan = plan_of(arguments);
-  const std::string name = input_name(plan.input);
-  TakeResult read = read_take(std::filesystem::path(plan.input), read_options(arguments));
-  warn_of_repairs(source_of(read.take), read.diagnostics);
-  mark_given_gaps(read.take, plan.gap_file);
-  std::optional<Take> before;
-  if (is_page(plan.report_path)) before = read.take;
-  FillOutcome filled = fill_take(read.take, settings_of(arguments), plan);
-  for (const std::string& warning : filled.report.warnings)
-    say_warning(fmt::format("{}: {}", name, warning));
+int run_fill(const Arguments& arguments) {
+  const FillRun run = fill_run_of(arguments);
+  const std::string name = input_name(run.input);
+  const bool with_page = is_page(run.report_path);
+  FilledTake filled = fill_take(run, with_page);
+  for (const std::string& warning : filled.warnings) say_warning(warning);
 
-  const std::size_t refused = filled.report.refused();
-  const bool failed = plan.strict && refused > 0;
-  const std::string format = format_for(plan.output, source_of(read.take));
+  const std::size_t refused = filled.refused();
+  const bool failed = run.strict && refused > 0;
+  const std::string format = format_for(run.output, source_of(filled.after));
   if (!failed) {
-    for (const std::string& line : loss_lines(name, read.take, format, plan.strict))
+    for (const std::string& line : loss_lines(name, filled.after, format, run.strict))
       say_warning(line);
   }
-  Report report{facts_of(read.take, plan.input, std::move(read.diagnostics)), std::move(filled)};
-  if (!plan.dry_run && !failed) {
-    report.take.output = plan.output;
-    write_take_output(plan.output, read.take, format, plan.force);
+  if (!run.dry_run && !failed) {
+    filled.report.take.output = run.output;
+    write_take_output(run.output, filled.after, format, run.force);
   }
-  const std::vector<std::string> takes = {to_json(report)};
+  if (!run.plan_out_path.empty() && !failed)
+    write_output(run.plan_out_path, filled.plan_text, run.force);
+  const std::vector<std::string> takes = {to_json(filled.report)};
   const std::string document = report_document("fill", takes);
-  if (plan.report_path == "-" || (!plan.report_path.empty() && !failed))
-    write_output(plan.report_path,
-                 before ? page_of(report, *before, &read.take, page_settings(arguments)) : document,
-                 plan.force);
-  say_outcome(report, plan, document);
+  if (run.report_path == "-" || (!run.report_path.empty() && !failed)) {
+    write_output(
+        run.report_path,
+        with_page ? page_of(filled.report, filled.before, &filled.after, page_settings(arguments))
+                  : document,
+        run.force);
+  }
+  say_outcome(filled.report, run, document);
   if (!failed) return 0;
   say_error(fmt::format("{}: {} refused, which --strict does not allow; nothing is written", name,
                         counted(refused, "gap")));
@@ -166,6 +83,13 @@ Flag gaps_flag() {
       "position channels. What stands in a gap is not looked at.");
   gaps.completion = Completion::file;
   return gaps;
+}
+
+Flag file_flag(std::string name, std::string group, std::string help, std::string details) {
+  Flag flag =
+      text_flag(std::move(name), "FILE", std::move(group), std::move(help), std::move(details));
+  flag.completion = Completion::file;
+  return flag;
 }
 
 Flag lettered(char letter, Flag flag) {
@@ -199,6 +123,14 @@ std::vector<Flag> fill_flags() {
       longest,
       switch_flag("fill_all", "Work", "also fill what the rules refuse",
                   "By the best guess there is."),
+      file_flag("plan", "Work", "do what a gap plan says, and nothing else",
+                "A row a gap, as --plan-out writes them: its verdict is fill, force (also what the "
+                "rules refuse) or refuse. Gaps without a row stay."),
+      file_flag("plan_out", "Work",
+                "write the gap plan of this run: a row a gap, to look at and edit",
+                "A table, or FILE.json. With --dry-run no take is written."),
+      switch_flag("preview", "Work", "into the plan also what every method would make of each gap",
+                  "The distance, over the gap, from what the row's own method fills."),
       gaps_flag()};
   append(flags, reading_flags("what needs a repair, and a gap that is refused, is an error"));
   return flags;
@@ -235,10 +167,12 @@ Command fill_command() {
   command.group_heading = "--method %";
   command.examples = {
       {"kinemend fill walk.c3d", "every gap by the method that suits it, into walk.filled.c3d"},
+      {"kinemend fill walk.c3d --dry-run --plan-out plan.csv", "what would be done, a row a gap"},
+      {"kinemend fill walk.c3d --plan plan.csv", "what the plan says, after an edit"},
       {"kinemend fill dance.bvh --gaps gaps.csv -o filled.bvh", "gaps that a side file names"},
       {"kinemend fill walk.c3d -o filled.c3d --method pattern --donor RTHI --names RKNE",
        "one marker, after its neighbour"}};
-  command.run = run;
+  command.run = run_fill;
   return command;
 }
 

@@ -29,9 +29,10 @@ Doubt spikes_among(Doubt doubt, const Track& around, FrameSpan gap, const Fillin
 
 // Without the samples beside the gap that are spikes.
 Filling fill_gap(const GappedTake& take, const OpenGap& gap) {
+  if (gap.request->refusal) return *gap.request->refusal;
   const FrameSpan span = gap.span();
   if (span.length() == take.frames)
-    return Filling::refused(take.method, std::string(take.never_seen));
+    return Filling::refused(gap.request->method->about.name, std::string(take.never_seen));
   const Track around = take.around(gap);
   const FrameSpan inner = within(around, span);
   const double spike_size = take.spike_size(gap);
@@ -84,16 +85,16 @@ class Rounds {
     if (!again.empty()) try_gaps(again);
   }
 
-  FillReport finish() {
-    FillReport report;
+  std::vector<FilledGap> finish() {
+    std::vector<FilledGap> found;
     for (std::size_t g = 0; g < gaps_.size(); ++g) {
       Filling& filling = fillings_[g];
       if (filling.made()) take_.store(gaps_[g], filling);
-      report.gaps.push_back({gaps_[g].gap, std::move(filling.method), filling.made(),
-                             std::move(filling.reason), filling.expected_error,
-                             gaps_[g].is_position});
+      found.push_back({{gaps_[g].gap, std::move(filling.method), filling.made(),
+                        std::move(filling.reason), filling.expected_error, gaps_[g].is_position},
+                       std::move(filling.markers_used)});
     }
-    return report;
+    return found;
   }
 
  private:
@@ -120,11 +121,17 @@ class Rounds {
 
 }  // namespace
 
-FillReport fill_take(GappedTake& take, const std::vector<OpenGap>& gaps) {
+std::vector<FilledGap> fill_take(GappedTake& take, const std::vector<OpenGap>& gaps) {
   Rounds rounds(take, gaps);
   rounds.run();
   rounds.refine();
   return rounds.finish();
+}
+
+FillReport report_of(const std::vector<FilledGap>& gaps) {
+  FillReport report;
+  for (const FilledGap& gap : gaps) report.gaps.push_back(gap.outcome);
+  return report;
 }
 
 }  // namespace kinemend::fill

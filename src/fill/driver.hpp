@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "fill/filling.hpp"
+#include "fill/request.hpp"
 #include "fill/track.hpp"
 #include "kinemend/fill.hpp"
 
@@ -17,6 +19,7 @@ struct OpenGap {
   Gap gap;                   ///< `track` as the report names it: a joint or marker
   bool is_position = false;  ///< of a joint
   std::size_t track = 0;     ///< among the tracks of the take
+  const GapRequest* request = nullptr;
 
   FrameSpan span() const { return {gap.first_frame, gap.last_frame}; }
 };
@@ -27,7 +30,6 @@ class GappedTake {
  public:
   virtual ~GappedTake() = default;
 
-  std::string method = {};  ///< asked for
   std::size_t frames = 0;
   double frame_rate_hz = 0;
   std::string_view never_seen = {};  ///< why a gap as long as the take is refused
@@ -49,13 +51,35 @@ class GappedTake {
   virtual void store(const OpenGap& gap, const Filling& filling) = 0;
 };
 
-/// Fills the gaps in rounds: what one round fills may be evidence for the next. By gap.
-FillReport fill_take(GappedTake& take, const std::vector<OpenGap>& gaps);
+/// What became of a gap, and the markers that it was filled from.
+struct FilledGap {
+  GapOutcome outcome;
+  std::vector<std::size_t> markers_used = {};
+};
 
-/// Whether a gap of a clip that begins with frame `first` of the take is one that may be filled.
-inline bool lies_within(const Gap& gap, std::size_t first, const FillSettings& settings) {
-  return !settings.range || (gap.first_frame + first >= settings.range->first &&
-                             gap.last_frame + first <= settings.range->second);
+/// Fills the gaps in rounds: what one round fills may be evidence for the next. By gap.
+std::vector<FilledGap> fill_take(GappedTake& take, const std::vector<OpenGap>& gaps);
+FillReport report_of(const std::vector<FilledGap>& gaps);
+
+/// Says what is asked for a gap of the take, frames as the take counts them; null: the gap is left
+/// alone, and is not listed.
+using RequestOf = std::function<const GapRequest*(const Gap& gap, bool is_position)>;
+
+/// The gaps of a take for which something is asked. Those in the calibration pose are gaps of their
+/// own, which nothing fills.
+std::vector<FilledGap> fill_asked(Clip& clip, const RequestOf& request_of);
+std::vector<FilledGap> fill_asked(MarkerClip& clip, const RequestOf& request_of);
+/// All gaps of a take with the frames as it counts them, in the order in which they are filled; the
+/// track among tracks and the request are not set.
+std::vector<OpenGap> open_gaps(const Clip& clip);
+std::vector<OpenGap> open_gaps(const MarkerClip& clip);
+/// The donor's marker, by its name or a shell pattern; `no_marker` for an empty name. Errors:
+/// `ErrorKind::usage` where there is none.
+std::size_t donor_of(const MarkerClip& clip, const std::string& name);
+
+inline bool lies_within(const Gap& gap, const FillSettings& settings) {
+  return !settings.range ||
+         (gap.first_frame >= settings.range->first && gap.last_frame <= settings.range->second);
 }
 
 }  // namespace kinemend::fill

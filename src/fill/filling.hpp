@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,8 @@ struct Filling {
   bool may_wait = false;
   /// Made from what other tracks show, so that it tells others something in turn; a curve does not.
   bool is_evidence = true;
+  /// Markers whose movement it was made from; empty for a curve, and for joints.
+  std::vector<std::size_t> markers_used = {};
 
   bool made() const { return !values.empty(); }
   static Filling refused(std::string_view method, std::string reason, bool may_wait = false) {

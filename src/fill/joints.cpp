@@ -2,13 +2,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <optional>
 #include <tuple>
 
 #include "fill/doubt.hpp"
 #include "fill/driver.hpp"
 #include "fill/joint_choice.hpp"
 #include "motion/calibration.hpp"
-#include "motion/name_pattern.hpp"
 
 // Gaps of joints: rotations, and the positions that joints have.
 namespace kinemend::fill {
@@ -33,9 +33,7 @@ struct JointGaps {
 };
 
 // `first`: the frame of the take that the clip begins with.
-JointGaps gaps_of(const Clip& clip, const FillSettings& settings, std::size_t first) {
-  const std::vector<std::uint8_t> chosen =
-      names_meant(clip.skeleton.names, settings.names, "joint");
+JointGaps gaps_of(const Clip& clip, const RequestOf& request_of, std::size_t first) {
   JointGaps found;
   const auto append = [&](const std::vector<Gap>& gaps, bool is_position) {
     const std::size_t own = found.sources.size();
@@ -44,11 +42,15 @@ JointGaps gaps_of(const Clip& clip, const FillSettings& settings, std::size_t fi
           !is_position || gap.track == 0
               ? gap.track
               : static_cast<std::size_t>(clip.translated_joints[gap.track - 1]);
-      if (!chosen[joint] || !lies_within(gap, first, settings)) continue;
+      const GapRequest* request =
+          request_of({joint, gap.first_frame + first, gap.last_frame + first}, is_position);
+      if (request == nullptr) continue;
       if (found.sources.size() == own || found.sources.back().index != gap.track)
         found.sources.push_back({gap.track, is_position});
-      found.gaps.push_back(
-          {{joint, gap.first_frame, gap.last_frame}, is_position, found.sources.size() - 1});
+      found.gaps.push_back({{joint, gap.first_frame, gap.last_frame},
+                            is_position,
+                            found.sources.size() - 1,
+                            request});
     }
   };
   append(find_gaps(clip), false);
@@ -59,20 +61,16 @@ JointGaps gaps_of(const Clip& clip, const FillSettings& settings, std::size_t fi
 // Each gap is filled by itself, from what was observed.
 class JointTake : public GappedTake {
  public:
-  JointTake(Clip& clip, const FillSettings& settings, const std::vector<Source>& sources)
+  JointTake(Clip& clip, const std::vector<Source>& sources)
       : clip_(clip),
-        settings_(settings),
         sources_(sources),
         poses_(clip),
         context_{clip.frame_rate_hz, poses_, body_height(clip.skeleton)},
         tracks_(sources.size()) {
-    method = settings.method;
     frames = clip.frame_count();
     frame_rate_hz = clip.frame_rate_hz;
     never_seen = "none of its samples is observed";
     rests_on_doubted = true;
-    const Method& named = find_method(method, true);
-    methods_ = method == "auto" ? joint_methods() : std::vector<const Method*>{&named};
     tbb::parallel_for(std::size_t{0}, sources.size(), [&](std::size_t i) {
       tracks_[i] = sources[i].is_position ? position_track(clip, sources[i].index)
                                           : rotation_track(clip, sources[i].index);
@@ -92,7 +90,7 @@ class JointTake : public GappedTake {
     const Track& own = tracks_[gap.track];
     if (span.length() == gap.gap.length()) {
       Filling filling = chosen_of(own, span, gap);
-      return filling.made() || !settings_.fill_all ? filling : best_guess(own, span, filling);
+      return filling.made() || !gap.request->fill_all ? filling : best_guess(own, span, filling);
     }
     const Track other = without_span(own, span, frame_rate_hz);
     Filling filling = chosen_of(other, span, gap);
@@ -122,7 +120,10 @@ class JointTake : public GappedTake {
  private:
   // The best that fills the span and may. Where none does, the reason of the best tells most.
   Filling chosen_of(const Track& track, FrameSpan span, const OpenGap& gap) const {
-    std::vector<const Method*> able = methods_;
+    const GapRequest& request = *gap.request;
+    const std::string_view method = request.method->about.name;
+    std::vector<const Method*> able = {request.method};
+    if (method == "auto") able = all_methods_;
     std::erase_if(able,
                   [&](const Method* m) { return track.is_position && !m->joint_rules.positions; });
     if (able.empty()) return Filling::refused(method, fmt::format("{} fills no positions", method));
@@ -130,7 +131,7 @@ class JointTake : public GappedTake {
     for (JointProposal& proposal : propose(track, span, able, context_)) {
       Filling filling{{}, std::string(proposal.method->about.name)};
       filling.expected_error = proposal.expected_error;
-      if (!settings_.fill_all) filling.reason = refusal(proposal, gap);
+      if (!request.fill_all) filling.reason = refusal(proposal, gap);
       if (filling.reason.empty() && !proposal.values.empty()) {
         filling.values = std::move(proposal.values);
         return filling;
@@ -147,14 +148,15 @@ class JointTake : public GappedTake {
     const JointRules& rules = proposal.method->joint_rules;
     const bool at_end = gap.gap.first_frame == 0 || gap.gap.last_frame + 1 == frames;
     const double rule = at_end ? rules.longest_at_end_s : rules.longest_s;
-    const double longest = settings_.longest_gap_s > 0 ? settings_.longest_gap_s : rule;
+    const double own = gap.request->longest_gap_s;
+    const double longest = own > 0 ? own : rule;
     const double length = static_cast<double>(gap.gap.length()) / frame_rate_hz;
     if (length > longest + 0.5 / frame_rate_hz) {
       return fmt::format("{:.3g} s is longer than the {:.3g} s that {} may fill{}", length, longest,
                          name, at_end ? " at an end of the take" : "");
     }
     const double largest = largest_error(gap.is_position);
-    if (method == "auto" && proposal.expected_error > largest) {
+    if (gap.request->method->about.name == "auto" && proposal.expected_error > largest) {
       return fmt::format("the expected error of {}, {:.3g}, is above {:.3g}", name,
                          proposal.expected_error, largest);
     }
@@ -181,51 +183,62 @@ class JointTake : public GappedTake {
   }
 
   Clip& clip_;
-  const FillSettings& settings_;
   const std::vector<Source>& sources_;
   PoseRegression poses_;
   JointContext context_;
-  std::vector<const Method*> methods_;
+  std::vector<const Method*> all_methods_ = joint_methods();
   std::vector<Track> tracks_;
 };
 
-FillReport fill_motion(Clip& clip, const FillSettings& settings, std::size_t first) {
-  const JointGaps found = gaps_of(clip, settings, first);
+std::vector<FilledGap> fill_motion(Clip& clip, const RequestOf& request_of, std::size_t first) {
+  const JointGaps found = gaps_of(clip, request_of, first);
   if (found.gaps.empty()) return {};
-  JointTake take(clip, settings, found.sources);
+  JointTake take(clip, found.sources);
   return fill_take(take, found.gaps);
 }
 
 }  // namespace
 
-}  // namespace kinemend::fill
-
-namespace kinemend {
-
-FillReport fill_gaps(Clip& clip, const FillSettings& settings) {
-  clip.validate();
-  fill::find_method(settings.method, true);
+std::vector<OpenGap> open_gaps(const Clip& clip) {
+  const GapRequest any;
+  const auto ask = [&](const Gap&, bool) { return &any; };
   const std::size_t calibration = leading_calibration_frames(clip);
-  FillReport report;
-  on_motion(clip, calibration,
-            [&](Clip& motion) { report = fill::fill_motion(motion, settings, calibration); });
-  if (calibration > 0) {
-    for (GapOutcome& outcome : report.gaps) {
-      outcome.gap.first_frame += calibration;
-      outcome.gap.last_frame += calibration;
+  std::vector<OpenGap> gaps;
+  const auto append = [&](const Clip& part, std::size_t first) {
+    for (OpenGap open : gaps_of(part, ask, first).gaps) {
+      open.gap.first_frame += first;
+      open.gap.last_frame += first;
+      gaps.push_back({open.gap, open.is_position});
     }
-    // Gaps of the calibration pose, which is no part of the motion.
-    for (const fill::OpenGap& open : fill::gaps_of(slice(clip, 0, calibration), settings, 0).gaps) {
-      report.gaps.push_back({open.gap, settings.method, false, "is part of the calibration pose", 0,
-                             open.is_position});
-    }
-  }
-  std::stable_sort(report.gaps.begin(), report.gaps.end(),
-                   [](const GapOutcome& a, const GapOutcome& b) {
-                     return std::tie(a.gap.track, a.is_position, a.gap.first_frame) <
-                            std::tie(b.gap.track, b.is_position, b.gap.first_frame);
-                   });
-  return report;
+  };
+  std::optional<Clip> sliced;
+  if (calibration > 0) append(slice(clip, 0, calibration), 0);
+  append(frames_from(clip, calibration, sliced), calibration);
+  return gaps;
 }
 
-}  // namespace kinemend
+std::vector<FilledGap> fill_asked(Clip& clip, const RequestOf& request_of) {
+  const std::size_t calibration = leading_calibration_frames(clip);
+  std::vector<FilledGap> found;
+  on_motion(clip, calibration,
+            [&](Clip& motion) { found = fill_motion(motion, request_of, calibration); });
+  if (calibration > 0) {
+    for (FilledGap& filled : found) {
+      filled.outcome.gap.first_frame += calibration;
+      filled.outcome.gap.last_frame += calibration;
+    }
+    // Gaps of the calibration pose, which is no part of the motion.
+    for (const OpenGap& open : gaps_of(slice(clip, 0, calibration), request_of, 0).gaps) {
+      found.push_back({{open.gap, std::string(open.request->method->about.name), false,
+                        "is part of the calibration pose", 0, open.is_position}});
+    }
+  }
+  std::stable_sort(found.begin(), found.end(), [](const FilledGap& left, const FilledGap& right) {
+    const GapOutcome &a = left.outcome, &b = right.outcome;
+    return std::tie(a.gap.track, a.is_position, a.gap.first_frame) <
+           std::tie(b.gap.track, b.is_position, b.gap.first_frame);
+  });
+  return found;
+}
+
+}  // namespace kinemend::fill

@@ -136,6 +136,7 @@ Filling average(const Samples& samples, const MarkerGap& gap, const Candidates& 
                    })->first;
   filling.expected_error = judgement.expected_error(weights);
   filling.is_evidence = candidates.kinds().front() == CandidateKind::model;
+  if (filling.is_evidence) filling.markers_used = candidates.markers_used();
   return filling;
 }
 
@@ -167,7 +168,10 @@ Filling fill_by_auto(const Samples& samples, const MarkerGap& gap, const MarkerR
     }
     const std::size_t chosen =
         candidates.on_a_segment() || !candidates.has_curve() ? 0 : candidates.curve();
-    return {proposals[chosen], std::string(candidates.method(chosen))};
+    Filling filling{proposals[chosen], std::string(candidates.method(chosen))};
+    if (candidates.kinds()[chosen] == CandidateKind::model)
+      filling.markers_used = candidates.markers_used();
+    return filling;
   }
   Filling filling = average(samples, gap, candidates, proposals, trials);
   // Without other markers there is no size to judge by; a curve is short.

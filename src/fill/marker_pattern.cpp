@@ -45,7 +45,9 @@ Filling fill_by_pattern(const Samples& samples, const MarkerGap& gap,
   Guess guess{first - track.first_frame, {}};
   for (std::size_t f = first; f <= last; ++f) guess.values.push_back(samples.at(f, donor));
   place_guess(track, span, guess, {.frame_rate_hz = samples.frame_rate_hz});
-  return {values_in(track, span), std::string(name)};
+  Filling filling{values_in(track, span), std::string(name)};
+  filling.markers_used = {donor};
+  return filling;
 }
 
 }  // namespace kinemend::fill

@@ -114,7 +114,9 @@ Filling fill_by_pca(const Samples& samples, const MarkerGap& gap, const MarkerRe
   const std::vector<Vec3> moves =
       Bridge(beside, gap.span, wanted, samples.frame_rate_hz, {}).carry(errors);
   for (std::size_t i = 0; i < wanted.size(); ++i) positions[i] += moves[i];
-  return {std::move(positions), std::string(name)};
+  Filling filling{std::move(positions), std::string(name)};
+  filling.markers_used = helpers;
+  return filling;
 }
 
 }  // namespace kinemend::fill

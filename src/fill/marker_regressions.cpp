@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "fill/local_regression.hpp"
 #include "fill/marker_methods.hpp"
@@ -117,6 +118,13 @@ Rows averaged(const LocalRegression& body, const LocalRegression::Scene& scene, 
   return result;
 }
 
+Filling filling_of(const LocalRegression& body, std::vector<Vec3> values, std::string_view name) {
+  Filling filling{std::move(values), std::string(name)};
+  const auto markers = body.group().markers();
+  filling.markers_used = {markers.begin(), markers.end()};
+  return filling;
+}
+
 }  // namespace
 
 Filling fill_by_local_regression(const Samples& samples, const MarkerGap& gap,
@@ -134,7 +142,8 @@ Filling fill_by_local_regression(const Samples& samples, const MarkerGap& gap,
   }
   const LocalRegression::Scene scene = body.scene_of(gap, frames_of(gap.span));
   const Rows coordinates = averaged(body, scene, samples.radius);
-  return {LocalRegression::meet_ends(scene, body.bridge_of(scene), coordinates), std::string(name)};
+  return filling_of(body, LocalRegression::meet_ends(scene, body.bridge_of(scene), coordinates),
+                    name);
 }
 
 Filling fill_by_rigid_body(const Samples& samples, const MarkerGap& gap,
@@ -159,7 +168,7 @@ Filling fill_by_rigid_body(const Samples& samples, const MarkerGap& gap,
   }
   const LocalRegression::Scene scene = body.scene_of(gap, frames_of(gap.span));
   const Rows still = body.predict(scene, {&rigid, 1}).front();
-  return {LocalRegression::meet_ends(scene, body.bridge_of(scene), still), std::string(name)};
+  return filling_of(body, LocalRegression::meet_ends(scene, body.bridge_of(scene), still), name);
 }
 
 }  // namespace kinemend::fill

@@ -19,24 +19,6 @@ constexpr double spike_share = 0.1;
 // A gap gains from a second look where one so steady was missing too. Not swept.
 constexpr std::size_t steadiest = 8;
 
-std::size_t donor_of(const MarkerClip& clip, const FillSettings& settings) {
-  if (settings.donor.empty()) {
-    if (settings.method != "pattern") return MarkerRequest::no_marker;
-    throw Error(ErrorKind::usage, "fill: the method pattern needs a donor");
-  }
-  std::int32_t donor = clip.find(settings.donor);
-  if (donor < 0) {
-    const std::vector<std::uint8_t> meant = names_meant(clip.names, settings.donor);
-    if (std::count(meant.begin(), meant.end(), 1) == 1)
-      donor = static_cast<std::int32_t>(std::find(meant.begin(), meant.end(), 1) - meant.begin());
-  }
-  if (donor < 0) {
-    throw Error(ErrorKind::usage, fmt::format("fill: there is no donor \"{}\" (the take has {})",
-                                              settings.donor, fmt::join(clip.names, ", ")));
-  }
-  return static_cast<std::size_t>(donor);
-}
-
 Samples samples_of(const MarkerClip& clip, const std::vector<std::uint8_t>& seen) {
   Samples samples;
   samples.frames = clip.frame_count();
@@ -56,13 +38,8 @@ Samples samples_of(const MarkerClip& clip, const std::vector<std::uint8_t>& seen
 // What one round fills is evidence for the next.
 class MarkerTake : public GappedTake {
  public:
-  MarkerTake(MarkerClip& clip, const FillSettings& settings, const std::vector<OpenGap>& gaps)
-      : clip_(clip),
-        method_(find_method(settings.method, false)),
-        request_{donor_of(clip, settings), settings.longest_gap_s, settings.fill_all},
-        gaps_(gaps),
-        seen_(clip.observed) {
-    method = settings.method;
+  MarkerTake(MarkerClip& clip, const std::vector<OpenGap>& gaps)
+      : clip_(clip), gaps_(gaps), seen_(clip.observed) {
     frames = clip.frame_count();
     frame_rate_hz = clip.frame_rate_hz;
     never_seen = "the marker is never seen";
@@ -76,15 +53,18 @@ class MarkerTake : public GappedTake {
 
   // By the method, or where all are to be filled and it cannot, by the best guess there is.
   Filling fill(const OpenGap& gap, FrameSpan span) const override {
+    const Method& method = *gap.request->method;
+    const MarkerRequest request = gap.request->of_marker();
     const double length_s = static_cast<double>(gap.gap.length()) / frame_rate_hz;
-    if (!request_.lenient && request_.longest_gap_s > 0 && length_s > request_.longest_gap_s) {
-      return Filling::refused(method, fmt::format("the gap of {:.2f} s is longer than {:.2f} s",
-                                                  length_s, request_.longest_gap_s));
+    if (!request.lenient && request.longest_gap_s > 0 && length_s > request.longest_gap_s) {
+      return Filling::refused(method.about.name,
+                              fmt::format("the gap of {:.2f} s is longer than {:.2f} s", length_s,
+                                          request.longest_gap_s));
     }
     const MarkerGap asked{gap.track, span};
-    Filling filling = fill_marker(method_, samples_, asked, request_);
-    if (filling.made() || !request_.lenient) return filling;
-    return fill_by_auto(samples_, asked, request_);
+    Filling filling = fill_marker(method, samples_, asked, request);
+    if (filling.made() || !request.lenient) return filling;
+    return fill_by_auto(samples_, asked, request);
   }
 
   void begin_round() override { samples_ = samples_of(clip_, seen_); }
@@ -125,8 +105,6 @@ class MarkerTake : public GappedTake {
 
  private:
   MarkerClip& clip_;
-  const Method& method_;
-  MarkerRequest request_;
   const std::vector<OpenGap>& gaps_;
   std::vector<std::uint8_t> seen_;  // F x M: observed, or filled in an earlier round
   Samples samples_;
@@ -134,21 +112,35 @@ class MarkerTake : public GappedTake {
 
 }  // namespace
 
-}  // namespace kinemend::fill
-
-namespace kinemend {
-
-FillReport fill_gaps(MarkerClip& clip, const FillSettings& settings) {
-  clip.validate();
-  fill::find_method(settings.method, false);
-  const std::vector<std::uint8_t> chosen = names_meant(clip.names, settings.names, "marker");
-  std::vector<fill::OpenGap> gaps;
-  for (const Gap& gap : find_gaps(clip)) {
-    if (chosen[gap.track] != 0 && fill::lies_within(gap, 0, settings))
-      gaps.push_back({gap, false, gap.track});
+std::size_t donor_of(const MarkerClip& clip, const std::string& name) {
+  if (name.empty()) return MarkerRequest::no_marker;
+  std::int32_t donor = clip.find(name);
+  if (donor < 0) {
+    const std::vector<std::uint8_t> meant = names_meant(clip.names, name);
+    if (std::count(meant.begin(), meant.end(), 1) == 1)
+      donor = static_cast<std::int32_t>(std::find(meant.begin(), meant.end(), 1) - meant.begin());
   }
-  fill::MarkerTake take(clip, settings, gaps);
-  return fill::fill_take(take, gaps);
+  if (donor < 0) {
+    throw Error(ErrorKind::usage, fmt::format("fill: there is no donor \"{}\" (the take has {})",
+                                              name, fmt::join(clip.names, ", ")));
+  }
+  return static_cast<std::size_t>(donor);
 }
 
-}  // namespace kinemend
+std::vector<OpenGap> open_gaps(const MarkerClip& clip) {
+  std::vector<OpenGap> gaps;
+  for (const Gap& gap : find_gaps(clip)) gaps.push_back({gap});
+  return gaps;
+}
+
+std::vector<FilledGap> fill_asked(MarkerClip& clip, const RequestOf& request_of) {
+  std::vector<OpenGap> gaps;
+  for (const Gap& gap : find_gaps(clip)) {
+    if (const GapRequest* request = request_of(gap, false))
+      gaps.push_back({gap, false, gap.track, request});
+  }
+  MarkerTake take(clip, gaps);
+  return fill_take(take, gaps);
+}
+
+}  // namespace kinemend::fill

@@ -8,22 +8,27 @@
 
 namespace kinemend {
 
+namespace {
+
+// As JSON has a text.
+std::string quoted(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace
+
 std::string batch_page(std::span<const BatchPageRow> rows, const BatchSums& sums,
                        const PageSettings& settings) {
   page::check_is_built();
   // Rows and sums are JSON already.
   std::string text = "[";
   for (const BatchPageRow& entry : rows) {
-    const nlohmann::json link = entry.page;
-    text +=
-        fmt::format("{}{{\"row\": {}, \"page\": {}}}", text.size() > 1 ? ",\n" : "", entry.row.json,
-                    link.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    text += fmt::format("{}{{\"row\": {}, \"page\": {}, \"picture\": {}}}",
+                        text.size() > 1 ? ",\n" : "", entry.row.json, quoted(entry.page),
+                        quoted(entry.picture));
   }
-  const nlohmann::json command = settings.command_line;
-  const std::string batch =
-      fmt::format("{{\"command_line\": {}, \"summary\": {}, \"rows\": {}]}}",
-                  command.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace),
-                  to_json(sums, ""), text);
+  const std::string batch = fmt::format("{{\"command_line\": {}, \"summary\": {}, \"rows\": {}]}}",
+                                        quoted(settings.command_line), to_json(sums, ""), text);
   const std::string verdict = fmt::format("{} of {} cleaned, {} failed", grouped(sums.cleaned),
                                           counted(sums.takes, "take"), grouped(sums.failed));
   return page::document("kinemend batch", verdict, {{"batch", batch}});

@@ -22,18 +22,20 @@ void check_is_built() {
               "written as FILE.json");
 }
 
-std::string document(std::string_view title, std::string_view summary, const Parts& parts) {
+std::string document(std::string_view title, std::string_view summary, const Parts& parts,
+                     bool is_served) {
   check_is_built();
-  // Nothing is fetched from anywhere, whatever is in the data.
+  // Nothing is fetched from anywhere else, whatever is in the data.
   std::string html = fmt::format(
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
-      "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:\">\n"
+      "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:{}\">\n"
       "<meta name=\"generator\" content=\"kinemend {}\">\n<title>{}</title>\n<style>{}</style>\n"
       "</head>\n<body>\n<main id=\"page\"><p class=\"first\">{}</p>\n"
       "<noscript><p>This page needs JavaScript to show the motion.</p></noscript></main>\n",
-      version(), xml_escaped(title), style, xml_escaped(summary));
+      is_served ? "; connect-src 'self'" : "", version(), xml_escaped(title), style,
+      xml_escaped(summary));
   for (const auto& [name, bytes] : parts) {
     html += fmt::format("<script type=\"application/octet-stream\" id=\"data-{}\">", name);
     html += base64(deflated(bytes));

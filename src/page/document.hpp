@@ -14,6 +14,8 @@ using Parts = std::vector<std::pair<std::string_view, std::string>>;
 /// Errors: `ErrorKind::usage` for a build without the page.
 void check_is_built();
 /// `summary` is what a browser without scripts shows.
-std::string document(std::string_view title, std::string_view summary, const Parts& parts);
+/// `is_served`: the page may ask the server that it came from.
+std::string document(std::string_view title, std::string_view summary, const Parts& parts,
+                     bool is_served = false);
 
 }  // namespace kinemend::page

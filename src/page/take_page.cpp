@@ -46,8 +46,10 @@ Stage stage_for(const MarkerClip& clip, const Report& /*report*/) { return page:
 // The motion in quanta as fine as they may be for a page of about two megabytes at most, of which
 // its program takes a third.
 template <class Take>
-Channels fine_channels(const Take& before, const Take* after, double body_height) {
-  constexpr double most_bytes = 1'000'000, least_share = 1.0 / 64;
+Channels fine_channels(const Take& before, const Take* after, double body_height, bool is_served) {
+  constexpr double most_bytes = 1'000'000, least_share = 1.0 / 64, served_share = 1.0 / 16;
+  // Nobody mails what is served, and somebody waits for it.
+  if (is_served) return page::channels_of(before, after, body_height, served_share);
   double share = 1;
   Channels channels = page::channels_of(before, after, body_height, share);
   const std::size_t count = channels.samples.size();
@@ -74,7 +76,7 @@ std::string take_page(const Report& report, const Take& before, const Take* afte
   page::check_is_built();
   if (after != nullptr) check_pair(before, *after);
   const Stage stage = stage_for(after != nullptr ? *after : before, report);
-  const Channels channels = fine_channels(before, after, stage.height);
+  const Channels channels = fine_channels(before, after, stage.height, settings.is_served);
   Json take = page::take_json(before, after, channels, stage);
   take["command_line"] = settings.command_line;
   take["labels"] = {settings.before_label, settings.after_label};
@@ -85,8 +87,9 @@ std::string take_page(const Report& report, const Take& before, const Take* afte
                        {"take", text_of(take)},
                        {"first", page::first_part(channels.samples, stride)}};
   if (stride > 1) parts.emplace_back("second", page::second_part(channels.samples, stride));
+  for (const auto& [part, json] : settings.parts) parts.emplace_back(part, json);
   return page::document(fmt::format("{}: kinemend {}", name, settings.command),
-                        fmt::format("{}: {}", name, verdict_of(report)), parts);
+                        fmt::format("{}: {}", name, verdict_of(report)), parts, settings.is_served);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ interface Row {
 export interface Batch {
   command_line: string;
   summary: { kinemend: string; figures: Record<string, number | null> };
-  rows: { row: Row; page: string }[];
+  rows: { row: Row; page: string; picture?: string }[];
 }
 
 function repaired(row: Row): number {
@@ -38,9 +38,12 @@ const filters: [string, string, (row: Row) => boolean][] = [
   ['clean', 'nothing to look at', (row) => badness(row) === 0],
 ];
 
-function line({ row, page }: Batch['rows'][number]): HTMLTableRowElement {
+function line({ row, page, picture }: Batch['rows'][number]): HTMLTableRowElement {
   const link = page === '' ? element('span', {}, row.name) : element('a', { href: page.split('/').map(encodeURIComponent).join('/') }, row.name);
-  const made = element('tr', {}, element('th', { scope: 'row' }, link));
+  const name = element('th', { scope: 'row' }, link);
+  // Drawn as a picture nothing in it runs.
+  if (picture) name.append(element('img', { class: 'poses', src: `data:image/svg+xml,${encodeURIComponent(picture)}`, alt: `poses of ${row.name}`, loading: 'lazy' }));
+  const made = element('tr', {}, name);
   const share = element('td', { class: 'share' });
   const bar = element('i');
   bar.style.width = `${Math.min(100, 100 * repaired(row))}%`;

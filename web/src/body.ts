@@ -98,10 +98,13 @@ class Figure {
   }
 }
 
+/** A browser has few of these, and making one takes long: the page has one, which each body in turn draws with. */
+let renderer: three.WebGLRenderer | null = null;
+
 /** What draws; null where the browser has no WebGL. */
 export function makeRenderer(): three.WebGLRenderer | null {
   try {
-    return new three.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
+    return renderer ??= new three.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
   } catch {
     return null;
   }
@@ -125,6 +128,7 @@ export class Body {
   private centre = new three.Vector3();
   private readonly unseen = element('p', { class: 'unseen', hidden: true }, 'Nothing is seen in this frame.');
   private waiting = false;
+  private ended = false;
 
   constructor(private readonly holder: HTMLElement, private readonly take: Take, private readonly player: Player, renderer: three.WebGLRenderer) {
     const { stage } = take.data;
@@ -332,6 +336,7 @@ export class Body {
     this.waiting = true;
     requestAnimationFrame(() => {
       this.waiting = false;
+      if (this.ended) return;
       this.renderer.render(this.scene, this.camera);
       this.drawAxes();
     });
@@ -351,6 +356,29 @@ export class Body {
       add('line', { x1: 0, y1: 0, x2: 17 * seen.x, y2: -17 * seen.y });
       if (Math.hypot(seen.x, seen.y) > 0.15) add('text', { x: 23 * seen.x, y: -23 * seen.y }, name.toUpperCase());
     }
+  }
+
+  /** Where it is seen from, to be taken up by the next body; the middle it goes with is not part of it. */
+  viewpoint(): three.Vector3[] {
+    return [this.camera.position.clone(), this.controls.target.clone(), this.centre.clone()];
+  }
+  seeFrom([position, target, centre]: three.Vector3[]): void {
+    const way = this.centre.clone().sub(centre);
+    this.camera.position.copy(position).add(way);
+    this.controls.target.copy(target).add(way);
+    this.controls.update();
+    this.draw();
+  }
+
+  /** Before another body takes its place. */
+  dispose(): void {
+    this.ended = true;
+    this.controls.dispose();
+    this.scene.traverse((part) => {
+      const { geometry, material } = part as Partial<three.Mesh>;
+      geometry?.dispose();
+      for (const one of [material ?? []].flat()) one.dispose();
+    });
   }
 
   /** Where a point of the body is in the picture, -1 to 1; for tests. */

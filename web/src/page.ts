@@ -7,6 +7,7 @@ import { jsonOf } from './codec';
 import { element } from './dom';
 import type { ReportDocument, TakeData } from './report';
 import { showTake } from './take_page';
+import { startView, type Session } from './view';
 
 async function start(): Promise<void> {
   const page = document.getElementById('page') as HTMLElement;
@@ -16,6 +17,8 @@ async function start(): Promise<void> {
     const report = await jsonOf<ReportDocument>('report');
     const take = await jsonOf<TakeData>('take');
     if (report === null || take === null) throw new Error('the page holds no report');
+    const view = await jsonOf<Session>('view');
+    if (view !== null) return await startView(page, view, report, take);
     await showTake(page, report, take);
   } catch (error) {
     page.replaceChildren(element('h1', {}, 'This report cannot be shown'), element('p', {}, String(error)),

@@ -5,7 +5,7 @@ import { Curves, type Kind, type Quantity } from './curves';
 import { button, choice, counted, element, toggle } from './dom';
 import { addFacts } from './facts';
 import { Player } from './player';
-import type { ReportDocument, TakeData } from './report';
+import type { Finding, ReportDocument, TakeData, TakeEntry } from './report';
 import { TrackTable } from './tables';
 import { Take } from './take';
 import { themeButton } from './theme';
@@ -87,7 +87,7 @@ function addCurves(take: Take, player: Player): [HTMLElement, Curves] {
   return [made, curves];
 }
 
-function listenToKeys(player: Player, take: Take, timeline: Timeline, body: Body | null): void {
+function listenToKeys(player: Player, take: Take, timeline: Timeline, body: Body | null, signal: AbortSignal): void {
   const press = (option: string): void => document.querySelector<HTMLButtonElement>(`[data-option="${option}"]`)?.click();
   const keys: Record<string, (event: KeyboardEvent) => void> = {
     ' ': () => (player.playing ? player.pause() : player.play()),
@@ -117,10 +117,52 @@ function listenToKeys(player: Player, take: Take, timeline: Timeline, body: Body
     if (!act) return;
     event.preventDefault();
     act(event);
+  }, { signal });
+}
+
+/** A page of one take that is shown. */
+export interface Shown {
+  take: Take;
+  player: Player;
+  body: Body | null;
+  timeline: Timeline;
+  curves: Curves;
+  /** Before another takes its place. */
+  dispose(): void;
+}
+
+/** What is looked at stays as it is when the same take is shown again. */
+function lookAsBefore(now: Shown, before: Shown): void {
+  if (before.take.told !== now.take.told || before.take.data.names.length !== now.take.data.names.length) return;
+  now.player.speed = before.player.speed;
+  now.player.loop = before.player.loop;
+  now.player.zoom(before.player.from, before.player.to);
+  now.player.choose(before.player.chosen);
+  now.player.seek(before.player.frame);
+  if (now.body && before.body) {
+    Object.assign(now.body.options, { follow: before.body.options.follow });
+    now.body.refresh();
+    now.body.seeFrom(before.body.viewpoint());
+  }
+}
+
+/** Warnings as findings, in the frames that their words name, else in all. */
+function warningsOf(entry: TakeEntry, names: string[]): Finding[] {
+  const last = entry.first_frame + Math.max(0, entry.frames - 1);
+  return entry.frames === 0 ? [] : entry.warnings.map((reason) => {
+    const frames = /\bframes? (-?\d+)(?: to (-?\d+))?/.exec(reason);
+    const time = /\bat (\d+(?:\.\d+)?) s\b/.exec(reason);
+    const begin = frames ? Number(frames[1]) : time ? entry.first_frame + Math.round(Number(time[1]) * entry.frame_rate_hz) : null;
+    const first = begin === null ? entry.first_frame : Math.min(last, Math.max(entry.first_frame, begin));
+    const end = begin === null ? last : Math.min(last, Math.max(first, Number(frames?.[2] ?? begin)));
+    const track = names.find((name) => reason.startsWith(`${name}: `)) ?? null;
+    return { kind: 'warning', verdict: '', track, first_frame: first, last_frame: end, amount: null, unit: null, reason };
   });
 }
 
-export async function showTake(page: HTMLElement, document_: ReportDocument, data: TakeData): Promise<void> {
+/** `panel`: what stands below the title, of a page with controls. `before`: what was shown until now. */
+export async function showTake(page: HTMLElement, document_: ReportDocument, data: TakeData, panel: HTMLElement[] = [], before: Shown | null = null): Promise<Shown> {
+  const ended = new AbortController();
   const entry = document_.takes[0];
   const take = await Take.load(data);
   const player = new Player(take.told, take.rate || 1);
@@ -134,7 +176,7 @@ export async function showTake(page: HTMLElement, document_: ReportDocument, dat
   const [tableSection] = section(take.isJoints ? 'Joints' : 'Markers', 'tracks');
   const table = new TrackTable(tableSection, take, player, entry);
   const [timelineSection] = section('Found and done', 'found');
-  const timeline = new Timeline(timelineSection, take, player, entry.findings, (finding) => {
+  const timeline = new Timeline(timelineSection, take, player, [...entry.findings, ...warningsOf(entry, data.names)], (finding) => {
     const tracks = (finding.track ?? '').split(', ').map((name) => data.names.indexOf(name)).filter((track) => track >= 0);
     const whole = data.names.indexOf(finding.track ?? '');
     if (whole >= 0) player.choose([whole]);
@@ -147,20 +189,37 @@ export async function showTake(page: HTMLElement, document_: ReportDocument, dat
     body?.paint();
     timeline.draw();
     curves.rebuild();
-  });
-  page.replaceChildren(
-    element('header', {}, element('div', {}, title, verdict), loading, theme),
+  }, ended.signal);
+  const header = element('header', {}, element('div', {}, title, verdict), loading, theme);
+  const parts = [
     element('div', { class: 'top' }, bodySection, tableSection),
     timelineSection, curvesSection, facts,
-    element('footer', {}, element('p', {}, help)));
+    element('footer', {}, element('p', {}, help)),
+  ];
+  // What is taken out and put in again loses the focus.
+  for (const child of [...page.children]) if (!panel.includes(child as HTMLElement)) child.remove();
+  page.prepend(header);
+  page.append(...panel.filter((one) => one.parentNode !== page), ...parts);
   if (data.step > 1) page.querySelector('header')?.after(element('p', { class: 'note' }, `A long take: 1 frame in ${data.step} is shown here. What was found is told of all ${counted(data.frames, 'frame')}.`));
   if (take.told > 0 && data.names.length > 0) player.choose([table.worst]);
   else player.choose([]);
   player.seek(take.firstSeen());
   body?.resize();
   body?.look('orbit');
-  listenToKeys(player, take, timeline, body);
-  Object.assign(window, { kinemend: { take, player, body, curves, timeline } });
+  listenToKeys(player, take, timeline, body, ended.signal);
+  const shown: Shown = {
+    take, player, body, curves, timeline,
+    dispose: () => {
+      ended.abort();
+      player.pause();
+      body?.dispose();
+    },
+  };
+  Object.assign(window, { kinemend: shown });
+  if (before !== null) {
+    lookAsBefore(shown, before);
+    before.dispose();
+  }
   await take.loadRest();
   loading.remove();
   if (data.stride > 1) {
@@ -168,4 +227,5 @@ export async function showTake(page: HTMLElement, document_: ReportDocument, dat
     player.refresh();
   }
   page.dataset.ready = 'true';
+  return shown;
 }

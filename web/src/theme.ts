@@ -9,7 +9,8 @@ export function isDark(): boolean {
   return chosen === undefined ? dark.matches : chosen === 'dark';
 }
 
-export function themeButton(onChange: () => void): HTMLButtonElement {
+/** `signal` ends it. */
+export function themeButton(onChange: () => void, signal?: AbortSignal): HTMLButtonElement {
   const made: HTMLButtonElement = button('', 'light or dark', () => {
     document.documentElement.dataset.theme = isDark() ? 'light' : 'dark';
     update();
@@ -19,7 +20,7 @@ export function themeButton(onChange: () => void): HTMLButtonElement {
   dark.addEventListener('change', () => {
     update();
     onChange();
-  });
+  }, { signal });
   update();
   return made;
 }

@@ -7,7 +7,7 @@ import type { Take } from './take';
 
 const laneHeight = 18;
 /** What is drawn first and listed first; other kinds follow. */
-const order = ['gap', 'spike', 'swap', 'frozen', 'bridged', 'slide', 'sink', 'length', 'euler_flip', 'repeated_frames', 'zero_frames', 'noise'];
+const order = ['warning', 'gap', 'spike', 'swap', 'frozen', 'bridged', 'slide', 'sink', 'length', 'euler_flip', 'repeated_frames', 'zero_frames', 'noise'];
 const mostListed = 200;
 
 function rank(kind: string): number {
@@ -17,7 +17,7 @@ function rank(kind: string): number {
 
 export function textOf(finding: Finding): string {
   const frames = finding.first_frame === finding.last_frame ? `frame ${finding.first_frame}` : `frames ${finding.first_frame} to ${finding.last_frame}`;
-  const parts = [`${words(finding.kind)} ${words(finding.verdict)}`];
+  const parts = [`${words(finding.kind)} ${words(finding.verdict)}`.trim()];
   if (finding.track) parts.push(isolated(finding.track));
   parts.push(frames);
   if (finding.method) parts.push(`by ${finding.method}`);

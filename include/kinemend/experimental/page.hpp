@@ -2,6 +2,8 @@
 
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "kinemend/clip.hpp"
 #include "kinemend/experimental/batch_rows.hpp"
@@ -19,6 +21,9 @@ struct PageSettings {
   std::string command_line{};           ///< as it was given, to be shown
   std::string before_label = "before";  ///< what the two takes are called
   std::string after_label = "after";
+  /// Further data of the page's program: name and JSON, as `kinemend view` has them.
+  std::vector<std::pair<std::string, std::string>> parts{};
+  bool is_served = false;  ///< by a server that it may ask; a page in a file asks nobody
 };
 
 /// The page: HTML in one file that needs nothing beside it, no network and no server. It holds the
@@ -38,6 +43,7 @@ std::string report_page(const Report& report, const MarkerClip& before, const Ma
 struct BatchPageRow {
   BatchRow row;
   std::string page;  ///< path from the index, with / between its parts; empty where there is none
+  std::string picture{};  ///< SVG of a few poses, of the takes that most should be looked at
 };
 /// The index of a batch: a row a take, what failed and what most should be looked at first, with
 /// filters and links to the pages of takes. Errors: as of `report_page`.

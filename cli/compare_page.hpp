@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "command.hpp"
+
+namespace kinemend::cli {
+
+/// The page of `compare`, as --report FILE.html writes it, of a checked command line of it. Errors:
+/// those of reading and comparing.
+std::string comparison_page(const Arguments& arguments, bool is_served);
+
+}  // namespace kinemend::cli

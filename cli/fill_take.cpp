@@ -1,0 +1,147 @@
+#include "fill_take.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <variant>
+
+#include "kinemend/experimental/frame_numbers.hpp"
+#include "kinemend/experimental/gap_plan.hpp"
+#include "kinemend/gaps.hpp"
+#include "page_report.hpp"
+#include "takes.hpp"
+
+namespace kinemend::cli {
+
+namespace {
+
+std::size_t count_gaps(const Clip& clip) {
+  return find_gaps(clip).size() + find_position_gaps(clip).size();
+}
+std::size_t count_gaps(const MarkerClip& clip) { return find_gaps(clip).size(); }
+
+void mark_given_gaps(Take& take, const FillRun& run) {
+  if (!run.gaps) return;
+  const auto& [text, name] = *run.gaps;
+  const std::vector<NamedGap> gaps = parse_gaps(text, name, first_frame_of(take));
+  try {
+    std::visit([&](auto& clip) { mark_gaps(clip, gaps); }, take);
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("{}: {}", run.gaps->second, error.what()));
+  }
+}
+
+FillSettings settings_of(const Arguments& arguments) {
+  FillSettings settings;
+  settings.method = arguments.text("method");
+  settings.names = arguments.list("names");
+  settings.donor = arguments.text("donor");
+  settings.longest_gap_s = arguments.given("longest_gap") ? arguments.number("longest_gap") : 0;
+  settings.fill_all = arguments.flag("fill_all");
+  return settings;
+}
+
+/// A plan says these of each gap.
+void check_plan_alone(const Arguments& arguments) {
+  if (!arguments.given("plan")) return;
+  for (const char* name : {"method", "names", "range", "donor", "longest_gap", "fill_all"}) {
+    if (!arguments.given(name)) continue;
+    throw Error(ErrorKind::usage,
+                fmt::format("fill: --plan says for each gap how it is filled: --{} goes without it",
+                            dashed(name)));
+  }
+}
+
+bool is_json(const std::string& path) { return std::filesystem::path(path).extension() == ".json"; }
+
+/// Fills the gaps of the clip in place.
+template <class AnyClip>
+PlannedFill fill_clip(AnyClip& clip, const FillSettings& settings, const FillRun& run) {
+  if (!run.plan) return fill_with_plan(clip, settings);
+  return fill_with_plan(clip, parse_plan(run.plan->first, run.plan->second, clip));
+}
+
+/// Also says the plan as the text that --plan-out asks for.
+FillOutcome fill_in_place(Take& take, const FillRun& run, std::string& plan_text) {
+  FillSettings settings = run.settings;
+  return std::visit(
+      [&](auto& clip) {
+        if (run.range)
+          settings.range = frames_of(*run.range, clip.frame_count(), clip.frame_rate_hz,
+                                     first_frame_number(clip));
+        std::optional<std::decay_t<decltype(clip)>> before;
+        if (run.preview) before = clip;
+        PlannedFill filled = fill_clip(clip, settings, run);
+        FillOutcome outcome{std::move(filled.report)};
+        if (before) preview_methods(*before, filled.plan);
+        if (!run.plan_out_path.empty()) {
+          plan_text = is_json(run.plan_out_path) ? plan_json(clip, filled.plan)
+                                                 : plan_csv(clip, filled.plan);
+        }
+        if (run.range) {
+          // What is neither filled nor refused was not asked for.
+          const std::size_t left = count_gaps(clip);
+          outcome.not_within_range = left - std::min(left, outcome.report.refused());
+        }
+        return outcome;
+      },
+      take);
+}
+
+}  // namespace
+
+FillRun fill_run_of(const Arguments& arguments) {
+  FillRun run;
+  run.input = arguments.positionals[0];
+  run.output = arguments.text("output");
+  if (run.output.empty()) run.output = output_beside(run.input, "filled");
+  const std::string gap_file = arguments.text("gaps"), plan_file = arguments.text("plan");
+  run.report_path = arguments.text("report");
+  check_plan_alone(arguments);
+  run.plan_out_path = arguments.text("plan_out");
+  run.preview = arguments.flag("preview");
+  if (run.preview && run.plan_out_path.empty())
+    throw Error(ErrorKind::usage, "fill: --preview is of the plan that --plan-out FILE writes");
+  if (const std::string range = arguments.text("range"); !range.empty())
+    run.range = parse_range(range);
+  run.settings = settings_of(arguments);
+  run.reading = read_options(arguments);
+  run.json = arguments.flag("json");
+  run.force = arguments.flag("force");
+  run.dry_run = arguments.flag("dry_run");
+  run.strict = arguments.flag("strict");
+  run.quiet = arguments.flag("quiet");
+  run.verbose = arguments.flag("verbose");
+  check_page(run.report_path, 1);
+  check_single_use({run.input, gap_file, plan_file},
+                   {run.dry_run ? std::string() : run.output, run.report_path, run.plan_out_path},
+                   run.json);
+  check_is_no_input("--report", run.report_path,
+                    {run.input, gap_file, plan_file, run.plan_out_path, run.output});
+  check_is_no_input("--plan-out", run.plan_out_path, {run.input, gap_file, plan_file, run.output});
+  check_is_no_input("--output", run.output, {gap_file, plan_file});
+  if (!run.dry_run) check_free(run.output, run.force);
+  if (!run.plan_out_path.empty()) check_free(run.plan_out_path, run.force);
+  if (!run.report_path.empty()) check_free(run.report_path, run.force);
+  if (!gap_file.empty()) run.gaps.emplace(read_file(gap_file), input_name(gap_file));
+  if (!plan_file.empty()) run.plan.emplace(read_file(plan_file), input_name(plan_file));
+  return run;
+}
+
+FilledTake fill_take(const FillRun& run, bool with_before) {
+  TakeResult read = read_take(std::filesystem::path(run.input), run.reading);
+  FilledTake filled;
+  for (const Diagnostic& entry : read.diagnostics.entries())
+    filled.warnings.push_back(diagnostic_line(source_of(read.take), entry));
+  mark_given_gaps(read.take, run);
+  if (with_before) filled.before = read.take;
+  FillOutcome outcome = fill_in_place(read.take, run, filled.plan_text);
+  for (const std::string& warning : outcome.report.warnings)
+    filled.warnings.push_back(fmt::format("{}: {}", input_name(run.input), warning));
+  filled.report = {facts_of(read.take, run.input, std::move(read.diagnostics)), std::move(outcome)};
+  filled.after = std::move(read.take);
+  return filled;
+}
+
+}  // namespace kinemend::cli

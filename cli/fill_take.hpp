@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "command.hpp"
+#include "frame_range.hpp"
+#include "kinemend/fill.hpp"
+#include "kinemend/io.hpp"
+#include "kinemend/report.hpp"
+
+namespace kinemend::cli {
+
+/// All that `fill` was asked for, checked.
+struct FillRun {
+  std::string input, output, report_path, plan_out_path;
+  /// Of --gaps and --plan: bytes and name. Names and frames are those of a take.
+  std::optional<std::pair<std::string, std::string>> gaps, plan;
+  FillSettings settings;
+  std::optional<FrameRange> range;
+  ReadOptions reading;
+  bool preview = false;
+  bool json = false, force = false, dry_run = false, strict = false, quiet = false, verbose = false;
+};
+
+/// Errors: `ErrorKind::usage`; of files that cannot be read or written, theirs.
+FillRun fill_run_of(const Arguments& arguments);
+
+/// A take with its gaps filled.
+struct FilledTake {
+  Take before, after;
+  Report report;          ///< without the output
+  std::string plan_text;  ///< as --plan-out asks for it; empty where it does not
+  std::vector<std::string> warnings;
+
+  std::size_t refused() const { return std::get<FillOutcome>(report.result).report.refused(); }
+};
+
+/// Reads the take and fills its gaps; writes nothing. `before` is kept where `with_before` is set.
+FilledTake fill_take(const FillRun& run, bool with_before);
+
+}  // namespace kinemend::cli

@@ -1,0 +1,164 @@
+// kinemend view: the page of a take, served to a browser of this machine, with controls.
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <variant>
+#include <vector>
+
+#include "commands.hpp"
+#include "kinemend/experimental/page.hpp"
+#include "kinemend/io.hpp"
+#include "takes.hpp"
+#include "terminal.hpp"
+#include "view_server.hpp"
+#include "view_session.hpp"
+
+extern char** environ;
+
+namespace kinemend::cli {
+
+namespace {
+
+/// walk.bvh to walk.contacts for the ending "contacts".
+std::string beside(const std::string& input, std::string_view ending) {
+  std::filesystem::path path(input);
+  path.replace_filename(fmt::format("{}.{}", path.stem().string(), ending));
+  return path.string();
+}
+
+ViewFiles files_of(const Arguments& arguments) {
+  ViewFiles files;
+  files.input = arguments.positionals[0];
+  if (arguments.positionals.size() > 1) files.other = arguments.positionals[1];
+  for (const std::string& input : arguments.positionals) {
+    if (is_stream(input))
+      throw Error(ErrorKind::usage, "view: a take is read several times, and must be a file");
+  }
+  const auto given = [&](const char* flag, const std::string& otherwise) {
+    const std::string text = arguments.text(flag);
+    return text.empty() ? otherwise : text;
+  };
+  files.cleaned = given("output", output_beside(files.input, "clean"));
+  files.filled = given("output", output_beside(files.input, "filled"));
+  files.contacts = given("contacts", beside(files.input, "contacts"));
+  files.gaps = arguments.text("gaps");
+  files.plan = given("plan", beside(files.input, "plan.csv"));
+  check_is_no_input("--output", files.cleaned,
+                    {files.input, files.contacts, files.plan, files.gaps});
+  check_is_no_input("--output", files.filled,
+                    {files.input, files.contacts, files.plan, files.gaps});
+  check_is_no_input("--contacts", files.contacts,
+                    {files.input, files.filled, files.plan, files.gaps});
+  check_is_no_input("--plan", files.plan, {files.input, files.filled, files.gaps});
+  for (const char* flag : {"from", "asf"}) {
+    if (arguments.given(flag))
+      files.reading.push_back(fmt::format("--{}={}", flag, arguments.text(flag)));
+  }
+  if (arguments.given("from_fps"))
+    files.reading.push_back(fmt::format("--from-fps={}", arguments.number("from_fps")));
+  if (arguments.flag("strict")) files.reading.emplace_back("--strict");
+  files.force = arguments.flag("force");
+  return files;
+}
+
+/// What the desktop opens addresses with; whether it could be started.
+bool open_in_browser(const std::string& address) {
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    posix_spawn_file_actions_addopen(&files, stream, "/dev/null", O_RDWR, 0);
+  posix_spawnattr_t settings;
+  posix_spawnattr_init(&settings);
+  // A browser that is started now goes on when this program ends.
+  posix_spawnattr_setflags(&settings, POSIX_SPAWN_SETSID);
+  std::string program = "xdg-open", word = address;
+  char* words[] = {program.data(), word.data(), nullptr};
+  pid_t child = 0;
+  const int failed = posix_spawnp(&child, program.c_str(), &files, &settings, words, environ);
+  posix_spawnattr_destroy(&settings);
+  posix_spawn_file_actions_destroy(&files);
+  return failed == 0;
+}
+
+int run(const Arguments& arguments) {
+  const ViewFiles files = files_of(arguments);
+  if (!has_report_page())
+    throw Error(ErrorKind::usage,
+                "view: this kinemend was built without its page (KINEMEND_WEB=OFF)");
+  if (!has_view_server()) serve_view(0, {}, {}, {});
+  for (const std::string& input : arguments.positionals) {
+    const TakeResult read = read_take(std::filesystem::path(input), read_options(arguments));
+    warn_of_repairs(source_of(read.take), read.diagnostics);
+  }
+  // The children that open the browser are nobody's business.
+  std::signal(SIGCHLD, SIG_IGN);
+  ViewSession session(files);
+  serve_view(
+      static_cast<int>(arguments.whole("port")),
+      [&](const std::string& method, std::string_view action, const std::string& body) {
+        ViewReply reply = session.answer(method, action, body);
+        return ServedReply{reply.status, std::move(reply.type), std::move(reply.body)};
+      },
+      [&](const std::string& address) {
+        write_out(fmt::format("{}\nCtrl-C ends\n", address));
+        if (arguments.flag("open") && !open_in_browser(address))
+          say_warning("there is no xdg-open: open the address in a browser");
+      },
+      [&] { session.stop(); });
+  return 0;
+}
+
+Flag file_flag(std::string name, std::string help) {
+  Flag flag = text_flag(std::move(name), "FILE", "Output", std::move(help));
+  flag.completion = Completion::file;
+  return flag;
+}
+
+Flag gaps_flag() {
+  Flag flag = file_flag("gaps", "samples that count as missing: lines name,first,last");
+  flag.group = "Input";
+  return flag;
+}
+
+}  // namespace
+
+Command view_command() {
+  Command command;
+  command.name = "view";
+  command.summary = "look at a take in a browser, and clean it there";
+  command.description =
+      "Serves the page of --report FILE.html on this machine, 127.0.0.1, and opens it in the "
+      "browser. Method, options, joints, range and feet are controls there; the result follows at "
+      "once, and a run that is overtaken by the next is given up. Contacts and gaps can be edited. "
+      "What is saved is written by the same code as kinemend clean and fill, into files that are "
+      "named here or beside the take, and the page shows the command line that does the same.\n\n"
+      "The address holds a random token; requests of other pages, hosts and machines are refused, "
+      "and no other file is read or written. With OTHER the two takes are compared, as by kinemend "
+      "compare. Ctrl-C ends.";
+  command.positionals = {{"TAKE", "take to look at", 1, 1, {}},
+                         {"OTHER", "take to compare it with", 0, 1, {}}};
+  Flag open = switch_flag("open", "Page", "open the address in the browser");
+  open.spec.default_value = true;
+  command.flags = {
+      output_flag("where to save the take (default walk.clean.bvh or walk.filled.bvh)"),
+      gaps_flag(),
+      file_flag("contacts", "where to save contacts (default walk.contacts); read where it exists"),
+      file_flag("plan", "where to save the gap plan (default walk.plan.csv)"),
+      force_flag(),
+      whole_flag("port", 0, 0, 65535, "Page", "port of 127.0.0.1; 0: one that is free"),
+      open};
+  append(command.flags, reading_flags("what needs a repair or a warning becomes an error"));
+  command.examples = {{"kinemend view walk.bvh", "opens the browser"},
+                      {"kinemend view walk.bvh walk.clean.bvh", "two takes on one time cursor"},
+                      {"kinemend view trial.c3d --no-open --port 8080 -o trial.filled.c3d",
+                       "prints the address only"}};
+  command.run = run;
+  return command;
+}
+
+}  // namespace kinemend::cli

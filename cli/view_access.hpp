@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+// Who may ask the server of `view`: whoever has the address that it printed, from its own page.
+namespace kinemend::cli {
+
+/// What the server must know of a request before it looks at it.
+struct ViewRequest {
+  std::string method;  ///< "GET", "POST"
+  std::string path;    ///< "/TOKEN/run", without a query
+  std::string host;    ///< header Host
+  std::string origin;  ///< header Origin; empty where there is none
+  std::string site;    ///< header Sec-Fetch-Site; empty where there is none
+  std::string type;    ///< header Content-Type
+};
+
+class ViewAccess {
+ public:
+  /// `token`: what the address must hold; `port`: that of the server on 127.0.0.1.
+  ViewAccess(std::string token, int port) : token_(std::move(token)), port_(port) {}
+
+  /// 0 for a request that may go on, else the status that refuses it: 403 for another host or
+  /// origin and for a missing token, 415 for a body that is no JSON.
+  int refusal(const ViewRequest& request) const;
+  /// What the path asks for: "" for the page, "run"; null data for a path without the token.
+  std::string_view action(std::string_view path) const;
+  std::string address() const;
+
+ private:
+  std::string token_;
+  int port_;
+};
+
+/// 32 hexadecimal digits from the system's generator.
+std::string random_token();
+
+}  // namespace kinemend::cli

@@ -1,0 +1,221 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <string>
+
+#include "fill/made_gaps.hpp"
+#include "fill/marker_takes.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/experimental/gap_plan.hpp"
+#include "motion/clips.hpp"
+
+// Gap plans: what a run says of its gaps, read back and applied.
+namespace kinemend::fill {
+namespace {
+
+using ::testing::HasSubstr;
+
+MarkerClip markers_with_gaps() {
+  MarkerClip clip = marker_take("walk", 4, 0.8);
+  hide(clip, "LeftLeg_b", 200, 223);
+  hide(clip, "LeftLeg_c", 210, 250);
+  hide(clip, "Head_a", 0, 5);
+  hide(clip, "LeftFoot_a", 210, 240);
+  // Too long for any that sees nothing else.
+  for (const std::string& name : clip.names) hide(clip, name, 300, 420);
+  return clip;
+}
+
+Clip joints_with_gaps() {
+  Clip clip = testing::moving_chain(6, 500);
+  hide(clip, "joint1", 200, 223);
+  hide(clip, "joint3", 410, 417);
+  hide(clip, "root", 210, 214);
+  return spoilt(clip);
+}
+
+bool are_same(const MarkerClip& a, const MarkerClip& b) {
+  return a.positions == b.positions && a.observed == b.observed && a.residuals == b.residuals;
+}
+bool are_same(const Clip& a, const Clip& b) {
+  return a.local_rotations == b.local_rotations && a.root_positions == b.root_positions &&
+         a.observed == b.observed && a.observed_positions == b.observed_positions;
+}
+
+std::string complaint(const std::string& text, const MarkerClip& clip) {
+  try {
+    parse_plan(text, "plan.csv", clip);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::unreadable_input);
+    return error.what();
+  }
+  return "";
+}
+
+template <class AnyClip>
+void expect_same_after_plan(const AnyClip& damaged, const FillSettings& settings) {
+  AnyClip filled = damaged, planned = damaged;
+  const FillReport report = fill_gaps(filled, settings);
+  const PlannedFill made = fill_with_plan(planned, settings);
+  EXPECT_TRUE(are_same(planned, filled));
+  for (const bool as_json : {false, true}) {
+    const std::string text = as_json ? plan_json(damaged, made.plan) : plan_csv(damaged, made.plan);
+    std::vector<PlannedGap> plan = parse_plan(text, "plan", damaged);
+    ASSERT_EQ(plan.size(), report.gaps.size());
+    // The order of rows means nothing.
+    std::reverse(plan.begin(), plan.end());
+    AnyClip applied = damaged;
+    const PlannedFill again = fill_with_plan(applied, plan);
+    EXPECT_TRUE(are_same(applied, filled)) << settings.method << text;
+    EXPECT_EQ(again.report.filled(), report.filled());
+    for (std::size_t g = 0; g < report.gaps.size(); ++g) {
+      EXPECT_EQ(again.report.gaps[g].reason, report.gaps[g].reason);
+      EXPECT_EQ(again.report.gaps[g].method, report.gaps[g].method);
+    }
+  }
+}
+
+TEST(GapPlan, GivesTheSameSamplesAsTheRunThatWroteIt) {
+  for (const FillMethod& method : fill_methods()) {
+    for (const bool fill_all : {false, true}) {
+      FillSettings settings;
+      settings.method = method.name;
+      settings.fill_all = fill_all;
+      settings.longest_gap_s = method.name == "spline" ? 0.3 : 0;
+      if (method.joints) expect_same_after_plan(joints_with_gaps(), settings);
+      if (method.name == "pattern") settings.donor = "LeftLeg_a";
+      if (method.markers) expect_same_after_plan(markers_with_gaps(), settings);
+    }
+  }
+}
+
+TEST(GapPlan, DoesForEachGapWhatItsRowSays) {
+  const MarkerClip damaged = markers_with_gaps();
+  const std::string text =
+      "name,first_frame,last_frame,method,verdict,donor\n"
+      "LeftLeg_b,201,224,spline,fill,\n"
+      "\"LeftFoot_a\",211,241,pattern,fill,LeftFoot_b\n"
+      "LeftLeg_c,211,251,auto,refuse,\n"
+      "Head_a,1,6,spline,force,\n";
+  MarkerClip clip = damaged;
+  const PlannedFill made = fill_with_plan(clip, parse_plan(text, "plan.csv", damaged));
+  ASSERT_EQ(made.plan.size(), 4u);
+  // A method alone, on that gap alone, makes the same of it.
+  for (const auto& [name, method, donor] :
+       {std::tuple("LeftLeg_b", "spline", ""), std::tuple("LeftFoot_a", "pattern", "LeftFoot_b")}) {
+    MarkerClip alone = damaged;
+    FillSettings settings;
+    settings.method = method;
+    settings.names = {name};
+    settings.donor = donor;
+    settings.range = {200, 250};
+    ASSERT_EQ(fill_gaps(alone, settings).filled(), 1u) << name;
+    const std::size_t marker = track_of(clip, name);
+    for (std::size_t f = 200; f < 250; ++f)
+      EXPECT_EQ(clip.position(f, marker), alone.position(f, marker));
+  }
+  EXPECT_FALSE(clip.is_observed(220, track_of(clip, "LeftLeg_c")));
+  EXPECT_TRUE(clip.is_observed(2, track_of(clip, "Head_a")));
+  // Gaps without a row stay.
+  EXPECT_FALSE(clip.is_observed(350, track_of(clip, "Head_a")));
+  for (const GapOutcome& gap : made.report.gaps) {
+    EXPECT_EQ(gap.reason, gap.filled ? "" : "the plan refuses it");
+  }
+}
+
+TEST(GapPlan, SaysWhichMarkersAGapWasFilledFrom) {
+  MarkerClip clip = marker_take("walk", 4, 0.8);
+  hide(clip, "LeftLeg_b", 200, 240);
+  MarkerClip by_donor = clip;
+  const PlannedFill made = fill_with_plan(clip, FillSettings{});
+  ASSERT_EQ(made.plan.size(), 1u);
+  EXPECT_THAT(made.plan[0].evidence, ::testing::Contains("LeftLeg_a"));
+  FillSettings settings;
+  settings.method = "pattern";
+  settings.donor = "LeftLeg_c";
+  EXPECT_THAT(fill_with_plan(by_donor, settings).plan[0].evidence,
+              ::testing::ElementsAre("LeftLeg_c"));
+}
+
+TEST(GapPlan, PreviewsEveryMethodBesideWhatFillsTheGap) {
+  MarkerClip clip = marker_take("walk", 4, 0.8);
+  hide(clip, "LeftLeg_b", 200, 215);
+  const MarkerClip damaged = clip;
+  PlannedFill made = fill_with_plan(clip, FillSettings{});
+  preview_methods(damaged, made.plan);
+  std::size_t seen = 0;
+  for (const GapPreview& preview : made.plan[0].previews) {
+    MarkerClip other = damaged;
+    FillSettings settings;
+    settings.method = preview.method;
+    if (preview.method == "pattern") {
+      EXPECT_EQ(preview.reason, "the row names no donor");
+      continue;
+    }
+    const FillReport report = fill_gaps(other, settings);
+    EXPECT_EQ(preview.filled, report.filled() == 1) << preview.method;
+    if (!preview.filled) continue;
+    ++seen;
+    EXPECT_NEAR(*preview.distance, rms_error(clip, other, report.gaps[0].gap), 1e-9);
+  }
+  EXPECT_GT(seen, 4u);
+}
+
+TEST(GapPlan, NamesTheLineOfWhatIsWrong) {
+  const MarkerClip clip = markers_with_gaps();
+  const std::string heading = "name,first_frame,last_frame,method,verdict\n";
+  const auto after = [&](const std::string& row) { return complaint(heading + row + "\n", clip); };
+  EXPECT_EQ(after("Leg,201,224,auto,fill"), "plan.csv:2: the take has no marker \"Leg\"");
+  EXPECT_EQ(after("LeftLeg_b,201,230,auto,fill"),
+            "plan.csv:2: frames 201 to 230 are no gap of the marker \"LeftLeg_b\": its gaps are "
+            "201-224, 301-421");
+  EXPECT_THAT(after("LeftLeg_b,201,224,bezier,fill"),
+              HasSubstr("plan.csv:2: expected a method for markers (auto, spline"));
+  EXPECT_THAT(after("LeftLeg_b,201,224,slerp,fill"), HasSubstr("found \"slerp\""));
+  EXPECT_EQ(after("LeftLeg_b,201,224,pattern,fill"),
+            "plan.csv:2: the method pattern needs a donor");
+  EXPECT_EQ(after("LeftLeg_b,201,224,auto,keep"),
+            "plan.csv:2: expected the verdict fill, force or refuse, found \"keep\"");
+  EXPECT_EQ(after("LeftLeg_b,201,224,auto,fill\n\n# again\nLeftLeg_b,201,224,spline,fill"),
+            "plan.csv:5: the gap of \"LeftLeg_b\" in frames 201 to 224 stands in another row "
+            "already");
+  EXPECT_EQ(after("LeftLeg_b,first,224,auto,fill"),
+            "plan.csv:2: expected a frame number from 1 as first_frame, found \"first\"");
+  EXPECT_EQ(after("LeftLeg_b,201"), "plan.csv:2: expected 5 cells as in the heading, found 2");
+  EXPECT_EQ(complaint("LeftLeg_b,201,224\n", clip),
+            "plan.csv:1: expected a heading with the column name");
+  EXPECT_EQ(complaint("name,first_frame,last_frame,methd\n", clip),
+            "plan.csv:1: no column of a gap plan is called \"methd\"");
+  EXPECT_EQ(complaint("{\n\"gaps\": [\n}", clip), "plan.csv:3: this is no JSON from here on");
+  EXPECT_EQ(complaint("{\"schema\": \"kinemend.gap-plan/1\", \"gaps\": [{\"name\": \"LeftLeg_b\", "
+                      "\"first_frame\": 1, \"last_frame\": 2}]}",
+                      clip),
+            "plan.csv: gap 1: frames 1 to 2 are no gap of the marker \"LeftLeg_b\": its gaps are "
+            "201-224, 301-421");
+}
+
+TEST(GapPlan, TellsTracksOfOneNameApart) {
+  MarkerClip clip = marker_take("walk", 4, 0.8);
+  hide(clip, "LeftLeg_b", 200, 210);
+  hide(clip, "LeftLeg_c", 200, 210);
+  clip.names[track_of(clip, "LeftLeg_c")] = "LeftLeg_b";
+  MarkerClip filled = clip;
+  const PlannedFill made = fill_with_plan(filled, FillSettings{});
+  MarkerClip applied = clip;
+  fill_with_plan(applied, parse_plan(plan_csv(clip, made.plan), "plan.csv", clip));
+  EXPECT_TRUE(are_same(applied, filled));
+}
+
+TEST(GapPlan, QuotesNamesThatNeedIt) {
+  MarkerClip clip = marker_take("walk", 4, 0.8);
+  clip.names[track_of(clip, "LeftLeg_b")] = "a, \"b\" #1";
+  hide(clip, "a, \"b\" #1", 200, 210);
+  MarkerClip filled = clip;
+  const PlannedFill made = fill_with_plan(filled, FillSettings{});
+  const std::string text = plan_csv(clip, made.plan);
+  EXPECT_THAT(text, HasSubstr("\n\"a, \"\"b\"\" #1\",position,201,211,11,"));
+  EXPECT_EQ(parse_plan(text, "plan.csv", clip).size(), 1u);
+}
+
+}  // namespace
+}  // namespace kinemend::fill

@@ -1,0 +1,99 @@
+// The gap plan as a table: a row a gap, with its method and verdict to choose.
+
+import { button, choice, element, figure, grouped, toggle } from './dom';
+import type { Session } from './view';
+
+/** As `kinemend.gap-plan/1` has it (docs/methods/gap-plan.md). */
+export interface PlannedGap {
+  name: string;
+  quantity: string;
+  first_frame: number;
+  last_frame: number;
+  length_frames: number;
+  length_s: number;
+  verdict: string;
+  method: string;
+  donor: string;
+  filled_by: string;
+  evidence: string[];
+  expected_error: number | null;
+  unit: string;
+  reason: string;
+  previews?: { method: string; filled: boolean; distance: number | null; reason: string }[];
+}
+export interface GapPlan {
+  schema: string;
+  gaps: PlannedGap[];
+}
+
+const mostRows = 300;
+
+export class GapEditor {
+  readonly element = element('div');
+  /** Whether gaps are filled by this plan. */
+  edited = false;
+  /** Whether every method is tried on every gap. */
+  preview = false;
+  private plan: GapPlan = { schema: '', gaps: [] };
+  private readonly body = element('tbody');
+  private readonly words = element('p', { class: 'empty' });
+
+  constructor(private readonly session: Session, private readonly isJoints: boolean, private readonly goTo: (track: string, frame: number) => void, private readonly again: () => void) {
+    const columns = [isJoints ? 'joint' : 'marker', 'frames', 'length', 'verdict', 'method', 'filled by', 'expected error', 'why refused'];
+    const tried = toggle('Try every method', 'how far each method would be from what fills the gap', false, (on) => {
+      this.preview = on;
+      again();
+    });
+    tried.dataset.action = 'preview';
+    this.element.append(element('div', { class: 'head' }, tried, button('Forget edits', 'back to what the controls above ask for', () => {
+      this.edited = false;
+      again();
+    }), this.words), element('div', { class: 'scroll', tabindex: '0' },
+      element('table', {}, element('thead', {}, element('tr', {}, ...columns.map((text, i) => element('th', { scope: 'col', class: i === columns.length - 1 ? 'words' : '' }, text)))), this.body)));
+  }
+
+  text(): string { return JSON.stringify(this.plan); }
+
+  show(plan: GapPlan, _first: number): void {
+    this.plan = plan;
+    this.words.textContent = plan.gaps.length === 0 ? 'The take has no gaps.' : plan.gaps.length > mostRows ? `the first ${grouped(mostRows)} of ${grouped(plan.gaps.length)} gaps` : '';
+    this.body.replaceChildren(...plan.gaps.slice(0, mostRows).map((gap) => this.row(gap)));
+  }
+
+  private change(): void {
+    this.edited = true;
+    this.again();
+  }
+
+  private row(gap: PlannedGap): HTMLTableRowElement {
+    const where = button(gap.name, 'go there', () => this.goTo(gap.name, gap.first_frame));
+    const verdict = choice(`verdict of ${gap.name}, frames ${gap.first_frame} to ${gap.last_frame}`, [['fill', 'fill'], ['force', 'force'], ['refuse', 'refuse']], gap.verdict, (value) => {
+      gap.verdict = value;
+      // Why the rules refused it is not why it is refused now.
+      if (value === 'refuse') gap.reason = '';
+      this.change();
+    });
+    verdict.dataset.gap = 'verdict';
+    const methods = this.session.fill_methods.filter((one) => (this.isJoints ? one.joints : one.markers)).map(({ name }): [string, string] => [name, this.told(gap, name)]);
+    const method = choice(`method of ${gap.name}, frames ${gap.first_frame} to ${gap.last_frame}`, methods, gap.method, (value) => {
+      gap.method = value;
+      if (gap.verdict === 'refuse') gap.verdict = 'fill';
+      this.change();
+    });
+    method.dataset.gap = 'method';
+    const error = gap.expected_error === null ? '\u2013' : `${figure(gap.expected_error)} ${gap.unit}`.trim();
+    const cells = [`${gap.first_frame}\u2013${gap.last_frame}`, `${grouped(gap.length_frames)} (${figure(gap.length_s)} s)`, verdict, method, gap.verdict === 'refuse' ? '\u2013' : gap.filled_by, error, gap.reason];
+    const name = element('th', { scope: 'row' }, where, gap.quantity === 'position' && this.isJoints ? ' (position)' : '');
+    const made = element('tr', { class: gap.reason === '' ? '' : 'failed' }, name, ...cells.map((cell, i) => element('td', { class: i === cells.length - 1 ? 'words' : '' }, cell)));
+    if (gap.evidence.length > 0) made.title = `filled from ${gap.evidence.join(', ')}`;
+    return made;
+  }
+
+  /** "spline (0.4 mm off)" where it was tried. */
+  private told(gap: PlannedGap, method: string): string {
+    const shown = gap.previews?.find((one) => one.method === method);
+    if (!shown || (method === gap.method && shown.filled)) return method;
+    if (!shown.filled) return `${method} (refused)`;
+    return shown.distance === null ? method : `${method} (${figure(shown.distance)} ${gap.unit} off)`.replace('  ', ' ');
+  }
+}

@@ -1,0 +1,285 @@
+// The page that `kinemend view` serves: the page of a take, with controls that run it anew.
+
+import { jsonOf } from './codec';
+import { button, choice, element, toggle } from './dom';
+import { ContactEditor } from './contact_editor';
+import { GapEditor, type GapPlan } from './gap_editor';
+import type { ReportDocument, TakeData } from './report';
+import { showTake, type Shown } from './take_page';
+
+export interface Option {
+  name: string;
+  kind: 'switch' | 'choice' | 'whole' | 'number';
+  help: string;
+  default: string | number | boolean;
+  unit?: string;
+  choices?: string[];
+  minimum?: number;
+  maximum?: number;
+}
+/** What src/page puts in of `kinemend view`: cli/view_session.cpp writes it. */
+export interface Session {
+  input: string;
+  cleaned: string;
+  filled: string;
+  contacts: string;
+  plan: string;
+  methods: { name: string; summary: string; options: Option[] }[];
+  fill_methods: { name: string; summary: string; joints: boolean; markers: boolean }[];
+}
+export type Value = string | number | boolean;
+
+/** What a run is asked for, as the server reads it. */
+interface Asked {
+  command: 'clean' | 'fill';
+  flags: Record<string, Value>;
+  contacts?: string;
+  plan?: string;
+  preview?: boolean;
+}
+
+const restMs = 150;
+
+function field(label: string, title: string, control: HTMLElement): HTMLElement {
+  return element('label', { class: 'field', title }, element('span', {}, label), control);
+}
+
+/** A control of one option; `act` gets its value, undefined where it is the default. */
+function optionControl(option: Option, act: (value: Value | undefined) => void, label = ''): HTMLElement {
+  const told = label || option.name.replace(/_/g, ' ') + (option.unit ? ` (${option.unit})` : '');
+  if (option.kind === 'switch') {
+    const made = toggle(told, option.help, option.default === true, (on) => act(on === option.default ? undefined : on));
+    made.dataset.flag = option.name;
+    return made;
+  }
+  if (option.choices) {
+    const made = choice(told, option.choices.map((one) => [one, one]), String(option.default), (value) => act(value === option.default ? undefined : value));
+    made.dataset.flag = option.name;
+    return field(told, option.help, made);
+  }
+  const made = element('input', { type: 'number', class: 'number', value: String(option.default), min: option.minimum, max: option.maximum, step: option.kind === 'whole' ? 1 : 'any', 'aria-label': told });
+  made.dataset.flag = option.name;
+  made.addEventListener('input', () => {
+    if (made.value === '' || !made.checkValidity()) return;
+    act(Number(made.value) === option.default ? undefined : Number(made.value));
+  });
+  return field(told, option.help, made);
+}
+
+class Controls {
+  readonly element = element('section', { class: 'view-controls', 'aria-label': 'Controls' });
+  private command: 'clean' | 'fill' = 'clean';
+  private readonly general: Record<'clean' | 'fill', Record<string, Value>> = { clean: {}, fill: {} };
+  private method = 'auto';
+  private readonly options: Record<string, Record<string, Value>> = {};
+  private readonly status = element('p', { class: 'status', role: 'status' }, 'done');
+  private readonly line = element('code', { class: 'line', tabindex: '0' });
+  private readonly rows = { clean: element('div', { class: 'fields' }), fill: element('div', { class: 'fields' }) };
+  private readonly optionRow = element('div', { class: 'fields own' });
+  private readonly byPlan = element('p', { class: 'empty' }, 'The gap plan says how each gap is filled.');
+  private readonly saved = element('p', { class: 'saved', role: 'status' });
+  private readonly contacts: ContactEditor | null;
+  private readonly gaps: GapEditor;
+  private readonly contactBox: HTMLElement;
+  private readonly gapBox: HTMLElement;
+  private timer = 0;
+  private turn = 0;
+
+  constructor(private readonly page: HTMLElement, private readonly session: Session, private readonly isJoints: boolean, private shown: Shown | null) {
+    const again = (): void => this.later();
+    this.contacts = isJoints ? new ContactEditor(() => this.shown?.take ?? null, () => this.shown?.player ?? null, () => this.ask('contacts', {}), again) : null;
+    this.gaps = new GapEditor(session, isJoints, (track, frame) => this.goTo(track, frame), again);
+    const commands = choice('what to do', [['clean', 'Clean'], ['fill', 'Fill gaps only']], 'clean', (value) => {
+      this.command = value as 'clean' | 'fill';
+      this.draw();
+      this.later();
+    });
+    commands.dataset.flag = 'command';
+    this.contactBox = element('details', { class: 'editor' }, element('summary', {}, 'Contacts'), this.contacts?.element ?? '');
+    this.gapBox = element('details', { class: 'editor' }, element('summary', {}, 'Gap plan'), this.gaps.element);
+    const save = button('Save as', `write ${session.cleaned} or ${session.filled}`, () => void this.save());
+    save.dataset.action = 'save';
+    this.element.append(element('div', { class: 'head' }, element('h2', {}, 'Controls'), commands, save, element('span', { class: 'gap' }), this.status),
+      this.rows.clean, this.rows.fill, this.contactBox, this.gapBox, this.line, this.saved);
+    this.addClean();
+    this.addFill();
+    this.draw();
+  }
+
+  private set(command: 'clean' | 'fill', name: string, value: Value | undefined): void {
+    const own = this.general[command];
+    if (value === undefined || value === '') delete own[name];
+    else own[name] = value;
+    this.later();
+  }
+
+  private text(command: 'clean' | 'fill', name: string, label: string, hint: string): HTMLElement {
+    const made = element('input', { type: 'text', placeholder: hint, 'aria-label': label });
+    made.dataset.flag = name;
+    made.addEventListener('input', () => this.set(command, name, made.value.trim()));
+    return field(label, hint, made);
+  }
+  private option(command: 'clean' | 'fill', label: string, option: Option): HTMLElement {
+    return optionControl(option, (value) => this.set(command, option.name, value), label);
+  }
+  private fillMethods(): string[] {
+    return this.session.fill_methods.filter((one) => (this.isJoints ? one.joints : one.markers)).map(({ name }) => name);
+  }
+
+  private addClean(): void {
+    const method = choice('method', this.session.methods.map(({ name }) => [name, name]), this.method, (value) => {
+      this.method = value;
+      this.drawOptions();
+      this.later();
+    });
+    method.dataset.flag = 'method';
+    const patterns = `${this.isJoints ? 'Left*' : 'L*'} (all)`;
+    this.rows.clean.append(field('method', 'how to clean', method),
+      this.option('clean', 'strength', { name: 'strength', kind: 'number', help: 'how far to go from the input (0) to the cleaned motion (1)', default: 1, minimum: 0, maximum: 1 }),
+      this.text('clean', 'joints', this.isJoints ? 'joints' : 'markers', patterns), this.text('clean', 'exclude', 'not', 'none'), this.text('clean', 'range', 'frames', '121:240 or 1s:2.5s'),
+      this.option('clean', 'fill gaps', { name: 'fill', kind: 'choice', help: 'fill gaps before anything is smoothed', default: 'off', choices: ['off', ...this.fillMethods()] }));
+    if (this.isJoints) {
+      this.rows.clean.append(this.option('clean', 'feet', { name: 'feet', kind: 'choice', help: 'stop feet that stand from sliding', default: 'off', choices: ['off', 'auto', 'force'] }),
+        this.option('clean', 'largest change (deg)', { name: 'max_change_deg', kind: 'number', help: 'no rotation goes further than this from its input', default: 180, minimum: 0, maximum: 180 }),
+        this.option('clean', 'root\u2019s path', { name: 'root_position', kind: 'switch', help: 'also clean the root\u2019s path', default: true }));
+    } else {
+      this.rows.clean.append(this.option('clean', 'undo swaps', { name: 'fix_swaps', kind: 'switch', help: 'undo swapped labels of markers first', default: false }));
+    }
+    this.rows.clean.append(this.optionRow);
+    this.drawOptions();
+  }
+
+  /** Those of the method. */
+  private drawOptions(): void {
+    const chosen = this.session.methods.find(({ name }) => name === this.method);
+    const own = (this.options[this.method] ??= {});
+    this.optionRow.replaceChildren(element('p', { class: 'empty' }, chosen?.summary ?? ''), ...(chosen?.options ?? []).map((option) => {
+      const made = optionControl(option, (value) => {
+        if (value === undefined) delete own[option.name];
+        else own[option.name] = value;
+        this.later();
+      });
+      const given = own[option.name];
+      const control = made.querySelector<HTMLInputElement | HTMLSelectElement>('input, select');
+      if (control && given !== undefined) control.value = String(given);
+      if (option.kind === 'switch') made.setAttribute('aria-pressed', String(given ?? option.default));
+      return made;
+    }));
+  }
+
+  private addFill(): void {
+    this.rows.fill.append(this.option('fill', 'method', { name: 'method', kind: 'choice', help: 'how to fill', default: 'auto', choices: this.fillMethods() }),
+      this.text('fill', 'names', this.isJoints ? 'joints' : 'markers', `${this.isJoints ? 'Left*' : 'L*'} (all)`), this.text('fill', 'range', 'frames', '121:240 or 1s:2.5s'),
+      this.option('fill', 'fill all', { name: 'fill_all', kind: 'switch', help: 'also what the rules refuse', default: false }));
+    if (!this.isJoints) this.rows.fill.append(this.text('fill', 'donor', 'donor', 'marker of pattern'));
+    this.rows.fill.append(this.byPlan);
+  }
+
+  private draw(): void {
+    for (const command of ['clean', 'fill'] as const) this.rows[command].hidden = command !== this.command;
+    for (const control of this.rows.fill.querySelectorAll<HTMLInputElement>('input, select, button')) control.disabled = this.gaps.edited;
+    this.byPlan.hidden = !this.gaps.edited;
+    this.contactBox.hidden = this.contacts === null || this.command !== 'clean';
+    this.gapBox.hidden = this.command !== 'fill';
+  }
+
+  private asked(): Asked {
+    if (this.command === 'fill') {
+      const plan = this.gaps.edited ? this.gaps.text() : undefined;
+      return { command: 'fill', flags: plan === undefined ? this.general.fill : {}, plan, preview: this.gaps.preview };
+    }
+    const flags: Record<string, Value> = { ...this.general.clean, ...this.options[this.method] };
+    if (this.method !== 'auto') flags.method = this.method;
+    return { command: 'clean', flags, contacts: this.contacts?.edited ? this.contacts.text() : undefined };
+  }
+
+  private ask(action: string, asked: object): Promise<Response> {
+    return fetch(action, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(asked) });
+  }
+
+  /** Runs when nothing has been changed for a moment; a run that is under way is overtaken. */
+  later(): void {
+    window.clearTimeout(this.timer);
+    this.status.textContent = 'running\u2026';
+    this.page.dataset.ready = 'running';
+    this.timer = window.setTimeout(() => void this.run(), restMs);
+  }
+
+  private fail(text: string): void {
+    this.status.textContent = text;
+    this.status.classList.add('error');
+    this.page.dataset.ready = 'error';
+    this.page.dataset.runs = String(this.turn);
+  }
+
+  private async run(): Promise<void> {
+    const turn = ++this.turn;
+    const begun = performance.now();
+    const since = (from: number): string => ((performance.now() - from) / 1000).toFixed(2);
+    try {
+      const reply = await this.ask('run', this.asked());
+      if (turn !== this.turn) return;
+      if (!reply.ok) return this.fail((await reply.json()).error);
+      const html = await reply.text();
+      if (turn !== this.turn) return;
+      const answered = since(begun);
+      await this.show(html);
+      this.status.classList.remove('error');
+      this.status.textContent = 'done';
+      this.page.dataset.runs = String(turn);
+      this.status.title = `in ${since(begun)} s, ${answered} s until the answer was here`;
+    } catch (error) {
+      if (turn === this.turn) this.fail(error instanceof TypeError ? 'kinemend view has ended' : String(error));
+    }
+  }
+
+  /** Takes the data out of a page that the server made. */
+  private async show(html: string): Promise<void> {
+    const made = new DOMParser().parseFromString(html, 'text/html');
+    for (const old of document.querySelectorAll('[id^="data-"]')) old.remove();
+    for (const part of made.querySelectorAll('[id^="data-"]')) document.body.append(document.adoptNode(part));
+    const report = await jsonOf<ReportDocument>('report');
+    const take = await jsonOf<TakeData>('take');
+    if (report === null || take === null) throw new Error('the reply holds no report');
+    await this.take(report, take);
+  }
+
+  async take(report: ReportDocument, take: TakeData): Promise<void> {
+    this.line.textContent = take.command_line;
+    const plan = await jsonOf<GapPlan>('plan');
+    const scrolled = window.scrollY;
+    this.shown = await showTake(this.page, report, take, [this.element], this.shown);
+    if (plan !== null) {
+      this.gaps.show(plan, take.first_frame);
+      this.draw();
+    }
+    window.scrollTo(0, scrolled);
+  }
+
+  private goTo(name: string, frame: number): void {
+    const track = this.shown?.take.data.names.indexOf(name) ?? -1;
+    if (this.shown === null || track < 0) return;
+    this.shown.player.choose([track]);
+    this.shown.player.jump(this.shown.take.frameOf(frame));
+  }
+
+  private async save(): Promise<void> {
+    this.saved.textContent = 'saving\u2026';
+    this.saved.classList.remove('error');
+    try {
+      const reply = await this.ask('save', this.asked());
+      const told = await reply.json();
+      this.saved.classList.toggle('error', !reply.ok);
+      this.saved.textContent = reply.ok ? `saved ${told.written.join(', ')}` : told.error;
+      if (reply.ok) this.line.textContent = told.command_line;
+    } catch (error) {
+      this.saved.classList.add('error');
+      this.saved.textContent = error instanceof TypeError ? 'kinemend view has ended' : String(error);
+    }
+  }
+}
+
+export async function startView(page: HTMLElement, session: Session, report: ReportDocument, take: TakeData): Promise<void> {
+  const controls = new Controls(page, session, take.kind === 'joints', null);
+  await controls.take(report, take);
+}
