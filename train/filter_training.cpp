@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -45,10 +46,6 @@ BidirectionalShape shape_of(const std::string& kind, FilterHead head, std::size_
   } else if (kind != "ebf") {
     throw Error(ErrorKind::usage, "network " + kind + ": ebf, bf, nn or ebd");
   }
-  if (head == FilterHead::gaussian || head == FilterHead::biased) {
-    constexpr double first_frames = 3;
-    shape.outset.assign(channels, std::log(first_frames));
-  }
   return shape;
 }
 
@@ -81,7 +78,8 @@ FilterStatistics statistics_of(const std::vector<FilterTake>& takes) {
 }
 
 double rate_at(std::size_t batch, std::size_t batches, double highest) {
-  constexpr double warm_up = 100, least = 0.02;
+  constexpr double longest_warm_up = 100, least = 0.02;
+  const double warm_up = std::min(longest_warm_up, 0.1 * static_cast<double>(batches));
   const double done = static_cast<double>(batch) / static_cast<double>(batches);
   const double cosine = 0.5 + 0.5 * std::cos(std::numbers::pi * std::min(done, 1.0));
   return highest * std::min(1.0, static_cast<double>(batch + 1) / warm_up) *
@@ -183,6 +181,8 @@ FilterTrainer::FilterTrainer(std::vector<Clip> takes, const FilterTraining& sett
     chunks_of_epoch_ *= 2;
   }
   shape_ = shape_of(settings_.kind, head_, clean.front().channels, inputs());
+  if (head_ == FilterHead::gaussian || head_ == FilterHead::biased)
+    shape_.outset = best_constants();
   network_ = std::make_unique<SequenceNetwork>(shape_, settings_.descent, settings_.seed);
 }
 
@@ -212,6 +212,35 @@ void FilterTrainer::damage_takes(std::size_t round) {
   for (std::size_t i = 0; i < takes_.size(); ++i)
     samples_.push_back(sample_of(takes_[i], random.fork(i)));
   round_ = round + 1;
+}
+
+std::vector<double> FilterTrainer::best_constants() {
+  const std::vector<float> logs{-2, -1.5, -1, -0.5, 0, 0.3F, 0.6F, 0.9F, 1.2F, 1.5F, 1.8F, 2.1F};
+  const std::size_t channels = statistics_.mean.size();
+  std::vector<double> least(channels, std::numeric_limits<double>::infinity());
+  std::vector<double> best(channels);
+  damage_takes(0);
+  for (const float log : logs) {
+    std::vector<double> errors(channels);
+    for (const Sample& sample : samples_) {
+      const FilterTake& take = sample.take;
+      const std::vector<float> outputs(take.values.size(), log);
+      std::vector<float> result(take.values.size());
+      apply_predicted_filter(FilterHead::gaussian,
+                             {take.frames, take.channels, take.values, statistics_.deviation},
+                             outputs, result);
+      const double weight = 1 / (sample.scale * static_cast<double>(take.frames));
+      for (std::size_t i = 0; i < result.size(); ++i)
+        errors[i % channels] +=
+            weight * std::pow(static_cast<double>(result[i] - sample.truth[i]), 2);
+    }
+    for (std::size_t c = 0; c < channels; ++c) {
+      if (errors[c] >= least[c]) continue;
+      least[c] = errors[c];
+      best[c] = static_cast<double>(log);
+    }
+  }
+  return best;
 }
 
 // Each take is cut anew in each epoch; chunks in an order of the epoch's own.

@@ -81,6 +81,8 @@ class FilterTrainer {
   FilterInputs inputs() const noexcept { return {settings_.sees_roughness, fills()}; }
   Sample sample_of(const Clip& clip, Random random) const;
   void damage_takes(std::size_t round);
+  /// Logarithms of the widths that would be best as constants, one a channel.
+  std::vector<double> best_constants();
   std::vector<Chunk> chunks_of(std::size_t epoch) const;
   Rows rows_of(const Chunk& chunk) const;
   std::vector<float> apply(const FilterTake& take) const;

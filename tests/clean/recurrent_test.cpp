@@ -121,7 +121,8 @@ TEST(Recurrent, CleansJointsWithTheFiltersThatANetworkOfThePaperPredicts) {
   const Clip cleaned = clean_clip(noisy, *cleaner).clip;
   const Clip gaussian = clean_clip(noisy, *make_cleaner("gaussian", {{"width_s", 0.025}})).clip;
   EXPECT_NEAR(rms_deg(truth, cleaned) / rms_deg(truth, gaussian), 1, 0.1);
-  EXPECT_LT(rms_deg(cleaned, gaussian), 0.25 * rms_deg(truth, gaussian));
+  // Alike, but for joints that the model does not know and samples that are spikes to `auto`.
+  EXPECT_LT(rms_deg(cleaned, gaussian), 0.6 * rms_deg(truth, gaussian));
   const Clip automatic = clean_clip(noisy, *make_auto()).clip;
   for (std::size_t f = 0; f < truth.frame_count(); ++f)
     EXPECT_LT(angle_between(cleaned.rotation(f, 0), automatic.rotation(f, 0)), 1e-6);
