@@ -161,7 +161,7 @@ void add_lstm(Maker& maker, const std::string& name, std::size_t inputs, std::si
 }
 
 void make(const BidirectionalShape& shape, Maker& maker) {
-  // Half of the deviation that ReLU wants: tanh halves nothing.
+  // Uniform within 1 / sqrt(inputs), which leaves tanh far from its ends.
   constexpr double gain = 0.577;
   std::size_t width = shape.inputs * (2 * shape.reach + 1);
   for (std::size_t i = 0; i < shape.encoder.size(); ++i) {

@@ -42,7 +42,7 @@ void check_width(const std::string& layer, std::size_t found, std::size_t expect
         fmt::format("the model's layer {}: expected {} numbers, found {}", layer, expected, found));
 }
 
-// The same layer at every `stride`-th row from `phase` on.
+// Every `stride`-th row from `phase` on.
 std::vector<float> rows_of_phase(std::span<const float> rows, std::size_t width, std::size_t phase,
                                  std::size_t stride) {
   std::vector<float> chosen;
