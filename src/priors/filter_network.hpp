@@ -35,7 +35,7 @@ struct FilterStatistics {
 struct FilterInputs {
   bool has_roughness = false;  ///< C: logarithm of what the second differences of the 31 frames
                                ///< about a frame would be as white noise, normalised
-  bool has_masks = false;  ///< C / 3: the marks
+  bool has_masks = false;      ///< C / 3: the marks
 };
 std::size_t filter_feature_count(std::size_t channels, FilterInputs inputs);
 /// F x that many.
