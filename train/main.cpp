@@ -3,15 +3,15 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
+#include <cstring>
 
 #include "base/file_bytes.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
 #include "priors/sequence_damage.hpp"
+#include "program.hpp"
 #include "recurrent_training.hpp"
 
 namespace kinemend::train {
@@ -28,31 +28,10 @@ struct Arguments {
   RecurrentTraining training;
 };
 
-std::vector<std::string> lines_of(const std::string& path) {
-  std::vector<std::string> lines;
-  std::ifstream file(path);
-  if (!file) throw Error(ErrorKind::unreadable_input, path + ": cannot be read");
-  for (std::string line; std::getline(file, line);) {
-    if (!line.empty()) lines.push_back(line);
-  }
-  return lines;
-}
-
 TrainingTakes takes_of(const std::vector<std::string>& paths) {
   return {paths.size(), [paths](std::size_t i) -> std::optional<std::variant<Clip, MarkerClip>> {
             return read_clip(paths[i]).clip;
           }};
-}
-
-// Written beside and renamed, so that a killed run leaves the old file or the new one.
-void write_file(const std::string& path, const std::string& bytes) {
-  const std::string part = path + ".part";
-  {
-    std::ofstream file(part, std::ios::binary);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (!file.flush()) throw Error(ErrorKind::cannot_write, path + ": cannot be written");
-  }
-  std::filesystem::rename(part, path);
 }
 
 struct ValidationSet {
@@ -100,16 +79,6 @@ std::string validation_text(const RecurrentTrainer& trainer,
   }
   return text.empty() ? text : "  of auto's error:" + text;
 }
-
-class Clock {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 void save(const Arguments& arguments, const RecurrentTrainer& trainer,
           const TrainingSequences& sequences) {
@@ -161,9 +130,14 @@ void run(const Arguments& arguments) {
 }
 
 int start(int count, char** values) {
+  if (count > 1 && std::strcmp(values[1], "paper") == 0)
+    return paper_program(count - 1, values + 1);
   Arguments arguments;
   RecurrentTraining& training = arguments.training;
-  CLI::App app{"Trains the network of the method recurrent.", "kinemend-train"};
+  CLI::App app{
+      "Trains the network of the method recurrent. `kinemend-train paper`: the networks of "
+      "Mall et al. 2017.",
+      "kinemend-train"};
   app.add_option("takes", arguments.takes, "clean takes");
   app.add_option("--list", arguments.list, "file with further takes, one a line");
   app.add_option("--validate", arguments.validation,

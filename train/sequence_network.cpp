@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kinemend/error.hpp"
+#include "lstm_layer.hpp"
 
 namespace kinemend::train {
 
@@ -47,6 +48,69 @@ torch::Tensor forward_of(const ConvolutionalShape& shape, const Call& call, torc
   return call.dense(torch::relu(x), "output");
 }
 
+torch::Tensor forward_of(const ConvolutionalShape& shape, const Call& call, torch::Tensor x,
+                         std::int64_t) {
+  return forward_of(shape, call, std::move(x));
+}
+
+// Frames of each sequence with their neighbours side by side, zeros beyond the ends.
+torch::Tensor windows_of(const torch::Tensor& x, std::int64_t reach) {
+  const torch::Tensor pad = torch::zeros({x.size(0), reach, x.size(2)});
+  const torch::Tensor padded = torch::cat({pad, x, pad}, 1);
+  return padded.as_strided({x.size(0), x.size(1), (2 * reach + 1) * x.size(2)},
+                           {padded.stride(0), padded.stride(1), 1});
+}
+
+// T x B x inputs to T x B x 2 H: LibTorch's layer, or where gradients are wanted one that is as
+// exact and quicker to differentiate.
+torch::Tensor both_ways(const Call& call, std::size_t layer, const torch::Tensor& x) {
+  const auto weight = [&](const char* way, const char* part) {
+    return call.weights.at(fmt::format("{}{}{}", way, layer, part));
+  };
+  if (torch::GradMode::is_enabled()) {
+    std::vector<torch::Tensor> ways;
+    for (const char* way : {"forward", "backward"})
+      ways.push_back(lstm_layer(x, weight(way, ".input.weight"), weight(way, ".state.weight"),
+                                weight(way, ".input.bias") + weight(way, ".state.bias"),
+                                !ways.empty()));
+    return torch::cat(ways, 2);
+  }
+  std::vector<torch::Tensor> weights;
+  for (const char* way : {"forward", "backward"}) {
+    for (const char* part : {".input.weight", ".state.weight", ".input.bias", ".state.bias"})
+      weights.push_back(weight(way, part));
+  }
+  const torch::Tensor zero = torch::zeros({2, x.size(1), weights[1].size(1)});
+  return std::get<0>(torch::lstm(x, {zero, zero}, weights, true, 1, 0.0, false, true, false));
+}
+
+torch::Tensor forward_of(const BidirectionalShape& shape, const Call& call, torch::Tensor x,
+                         std::int64_t sequences) {
+  if (shape.reach > 0) {
+    x = x.view({sequences, -1, x.size(1)});
+    x = windows_of(x, static_cast<std::int64_t>(shape.reach)).flatten(0, 1);
+  }
+  for (std::size_t i = 0; i < shape.encoder.size(); ++i)
+    x = torch::tanh(call.dense(x, fmt::format("encoder{}", i)));
+  if (shape.layers > 0) {
+    x = x.view({sequences, -1, x.size(1)}).transpose(0, 1);
+    for (std::size_t i = 0; i < shape.layers; ++i) x = both_ways(call, i, call.drop(x));
+    x = x.transpose(0, 1).flatten(0, 1);
+  }
+  for (std::size_t i = 0; i < shape.decoder.size(); ++i)
+    x = torch::tanh(call.dense(x, fmt::format("decoder{}", i)));
+  return call.dense(x, fmt::format("decoder{}", shape.decoder.size()));
+}
+
+torch::Tensor forward_of(const NetworkShape& shape, const Call& call, const torch::Tensor& x,
+                         std::size_t sequences) {
+  return std::visit(
+      [&](const auto& network) {
+        return forward_of(network, call, x, static_cast<std::int64_t>(sequences));
+      },
+      shape);
+}
+
 // Draws weights, uniform as is usual for ReLU, in the order of their making.
 class Maker {
  public:
@@ -56,6 +120,11 @@ class Maker {
     torch::Tensor values = torch::zeros(shape);
     if (bound > 0) values.uniform_(-bound, bound);
     weights_[name] = values.requires_grad_(true);
+  }
+  void set(const std::string& name, const std::vector<double>& values) {
+    const torch::NoGradGuard guard;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      weights_.at(name)[static_cast<std::int64_t>(i)] = values[i];
   }
   void add_dense(const std::string& name, std::size_t inputs, std::size_t outputs,
                  double gain = 1) {
@@ -80,6 +149,44 @@ void make(const ConvolutionalShape& shape, Maker& maker) {
     maker.add_dense(block + ".dense", hidden, hidden, 0.5);
   }
   maker.add_dense("output", hidden, shape.outputs, 0);
+}
+
+void add_lstm(Maker& maker, const std::string& name, std::size_t inputs, std::size_t units) {
+  const auto in = static_cast<std::int64_t>(inputs), out = static_cast<std::int64_t>(units);
+  const double bound = 1 / std::sqrt(static_cast<double>(units));
+  maker.add(name + ".input.weight", {4 * out, in}, bound);
+  maker.add(name + ".state.weight", {4 * out, out}, bound);
+  maker.add(name + ".input.bias", {4 * out}, bound);
+  maker.add(name + ".state.bias", {4 * out}, bound);
+}
+
+void make(const BidirectionalShape& shape, Maker& maker) {
+  // Uniform within 1 / sqrt(inputs), which leaves tanh far from its ends.
+  constexpr double gain = 0.577;
+  std::size_t width = shape.inputs * (2 * shape.reach + 1);
+  for (std::size_t i = 0; i < shape.encoder.size(); ++i) {
+    maker.add_dense(fmt::format("encoder{}", i), width, shape.encoder[i], gain);
+    width = shape.encoder[i];
+  }
+  for (std::size_t i = 0; i < shape.layers; ++i) {
+    for (const char* way : {"forward", "backward"})
+      add_lstm(maker, fmt::format("{}{}", way, i), width, shape.units);
+    width = 2 * shape.units;
+  }
+  for (std::size_t i = 0; i < shape.decoder.size(); ++i) {
+    maker.add_dense(fmt::format("decoder{}", i), width, shape.decoder[i], gain);
+    width = shape.decoder[i];
+  }
+  const std::string last = fmt::format("decoder{}", shape.decoder.size());
+  maker.add_dense(last, width, shape.outputs, 0);
+  if (!shape.outset.empty()) maker.set(last + ".bias", shape.outset);
+}
+
+std::size_t outputs_of(const NetworkShape& shape) {
+  return std::visit([](const auto& network) { return network.outputs; }, shape);
+}
+std::size_t inputs_of(const NetworkShape& shape) {
+  return std::visit([](const auto& network) { return network.inputs; }, shape);
 }
 
 std::vector<float> floats_of(const torch::Tensor& tensor) {
@@ -110,16 +217,16 @@ void take_values(const Tensor& from, torch::Tensor& target, const std::string& n
 }  // namespace
 
 struct SequenceNetwork::Body {
-  ConvolutionalShape shape;
+  NetworkShape shape;
   DescentSettings settings;
   Parameters weights, means, first, second;  // moments of the gradient
   std::int64_t steps = 0;
   torch::Tensor last;  // outputs of the last forward
 
-  Body(const ConvolutionalShape& made, const DescentSettings& given, std::uint64_t seed)
+  Body(const NetworkShape& made, const DescentSettings& given, std::uint64_t seed)
       : shape(made), settings(given) {
     Maker maker(weights, seed);
-    make(shape, maker);
+    std::visit([&](const auto& network) { make(network, maker); }, shape);
     for (const auto& [name, values] : weights) {
       means[name] = values.detach().clone();
       first[name] = torch::zeros_like(values);
@@ -137,20 +244,21 @@ struct SequenceNetwork::Body {
   }
 };
 
-SequenceNetwork::SequenceNetwork(const ConvolutionalShape& shape, const DescentSettings& settings,
+SequenceNetwork::SequenceNetwork(const NetworkShape& shape, const DescentSettings& settings,
                                  std::uint64_t seed)
     : body_(std::make_unique<Body>(shape, settings, seed)) {}
 SequenceNetwork::~SequenceNetwork() = default;
 
-std::vector<float> SequenceNetwork::forward(std::span<const float> inputs, std::uint64_t seed) {
+std::vector<float> SequenceNetwork::forward(std::span<const float> inputs, std::uint64_t seed,
+                                            std::size_t sequences) {
   torch::manual_seed(seed);
   body_->last = forward_of(body_->shape, {body_->weights, body_->settings.dropout},
-                           body_->matrix_of(inputs, body_->shape.inputs).clone());
+                           body_->matrix_of(inputs, inputs_of(body_->shape)).clone(), sequences);
   return floats_of(body_->last);
 }
 
 void SequenceNetwork::add_gradient(std::span<const float> derivative) {
-  body_->last.backward(body_->matrix_of(derivative, body_->shape.outputs));
+  body_->last.backward(body_->matrix_of(derivative, outputs_of(body_->shape)));
   body_->last = torch::Tensor();
 }
 
@@ -183,8 +291,8 @@ double SequenceNetwork::step(double rate) {
 
 std::vector<float> SequenceNetwork::run(std::span<const float> inputs) const {
   const torch::NoGradGuard guard;
-  return floats_of(
-      forward_of(body_->shape, {body_->means, 0}, body_->matrix_of(inputs, body_->shape.inputs)));
+  return floats_of(forward_of(body_->shape, {body_->means, 0},
+                              body_->matrix_of(inputs, inputs_of(body_->shape)), 1));
 }
 
 Weights SequenceNetwork::averages() const {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "kinemend/experimental/tensor.hpp"
@@ -31,15 +32,28 @@ struct ConvolutionalShape {
   std::vector<std::size_t> dilations{1, 2, 4, 8};
 };
 
+/// Dense layers with tanh, LSTM layers in both directions, dense layers with tanh and a last one
+/// without (`FilterNetwork`). Dropout is on what the LSTM layers see.
+struct BidirectionalShape {
+  std::size_t inputs = 0, outputs = 0;
+  std::vector<std::size_t> encoder{128, 96, 80, 64};  ///< empty: none
+  std::size_t layers = 2, units = 126;                ///< of each direction
+  std::vector<std::size_t> decoder{192, 160, 128};    ///< and `outputs`
+  std::size_t reach = 0;       ///< without LSTM layers: frames on either side of a window
+  std::vector<double> outset;  ///< of the outputs before training; empty: 0
+};
+using NetworkShape = std::variant<ConvolutionalShape, BidirectionalShape>;
+
 class SequenceNetwork {
  public:
   /// Weights are drawn from the seed; those of the last layer are zero.
-  SequenceNetwork(const ConvolutionalShape& shape, const DescentSettings& settings,
-                  std::uint64_t seed);
+  SequenceNetwork(const NetworkShape& shape, const DescentSettings& settings, std::uint64_t seed);
   ~SequenceNetwork();
 
-  /// T x inputs to T x outputs, with dropout drawn from `seed`; kept for `add_gradient`.
-  std::vector<float> forward(std::span<const float> inputs, std::uint64_t seed);
+  /// T x inputs to T x outputs, with dropout drawn from `seed`; kept for `add_gradient`. Several
+  /// sequences of one length, one behind the other, may go through a bidirectional network at once.
+  std::vector<float> forward(std::span<const float> inputs, std::uint64_t seed,
+                             std::size_t sequences = 1);
   /// Adds the gradient of the weights, by the derivative by the outputs of the last `forward`.
   void add_gradient(std::span<const float> derivative);
   /// A step of Adam with decoupled weight decay; the gradient is zero again. Returns the norm that

@@ -1,4 +1,7 @@
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -8,6 +11,7 @@
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
+#include "priors/filter_network.hpp"
 #include "priors/recurrent_filter.hpp"
 
 namespace kinemend {
@@ -40,16 +44,49 @@ void filter(PriorWork& work, const RecurrentNetwork& network, const BodyLayout& 
   work.rejected = work.suspect;
 }
 
+// A network of the paper filters the joints as they were measured; the root is left to `auto`, and
+// so is a take at another rate, since its filters are frames.
+void filter_as_in_the_paper(PriorWork& work, const FilterNetwork& network,
+                            const BodyLayout& layout) {
+  constexpr double same_rate = 0.01;
+  PoseMatrix& poses = work.channels.poses;
+  const std::size_t parts = poses.channels / 3;
+  if (std::abs(work.channels.frame_rate_hz / network.rate_hz - 1) > same_rate) {
+    poses = work.fallback;
+    return add_fall_back(work,
+                         fmt::format("the network filters takes of {:g} Hz only", network.rate_hz),
+                         std::vector<double>(parts, 1.0));
+  }
+  for (std::size_t i = 0; i < poses.values.size(); ++i) {
+    const bool is_measured = work.channels.observed[i] != 0 && work.suspect[i] == 0;
+    if (!is_measured) poses.values[i] = work.fallback.values[i];
+  }
+  const std::vector<float> values = filtered(network, filter_take_of(work.channels, layout));
+  poses = work.fallback;
+  put_filtered(values, poses);
+  work.rejected = work.suspect;
+}
+
+PriorFilter filter_of(const std::shared_ptr<const Model>& model) {
+  if (!is_filter_network(*model)) {
+    auto network = std::make_shared<const RecurrentNetwork>(recurrent_network_of(*model));
+    return [network, model](PriorWork& work) { filter(work, *network, model->layout); };
+  }
+  auto network = std::make_shared<const FilterNetwork>(filter_network_of(*model));
+  if (network->inputs.has_masks)
+    throw Error(ErrorKind::usage,
+                "this model of the method recurrent fills gaps and cleans nothing");
+  return
+      [network, model](PriorWork& work) { filter_as_in_the_paper(work, *network, model->layout); };
+}
+
 }  // namespace
 
 std::unique_ptr<Cleaner> make_recurrent(const RecurrentOptions& options,
                                         std::shared_ptr<const Model> model) {
   table().validate(options);
   model = model_for("recurrent", options.model, std::move(model));
-  auto network = std::make_shared<const RecurrentNetwork>(recurrent_network_of(*model));
-  return make_prior_cleaner(model, options.map, options.fill, [network, model](PriorWork& work) {
-    filter(work, *network, model->layout);
-  });
+  return make_prior_cleaner(model, options.map, options.fill, filter_of(model));
 }
 
 Method recurrent_method() {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
 
@@ -14,6 +15,7 @@
 #include "kinemend/experimental/synth.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
+#include "priors/filter_support.hpp"
 
 namespace kinemend::test {
 namespace {
@@ -101,6 +103,42 @@ TEST(Recurrent, IsTheSameForAnyNumberOfRuns) {
   const Clip noisy = damaged(walk(120), "gaussian", {{"std_deg", 2.0}});
   EXPECT_EQ(clean_clip(noisy, cleaner()).clip.local_rotations,
             clean_clip(noisy, *make_recurrent()).clip.local_rotations);
+}
+
+// A network of the paper whose Gaussians are all three frames wide.
+std::shared_ptr<const Model> constant_filter(const Clip& clip, FilterHead head,
+                                             FilterInputs inputs = {}) {
+  BodyLayoutBuilder builder;
+  builder.add(clip);
+  return std::make_shared<const Model>(
+      constant_filter_model(builder.finish(), head, std::log(3.0), inputs));
+}
+
+TEST(Recurrent, CleansJointsWithTheFiltersThatANetworkOfThePaperPredicts) {
+  const Clip truth = walk(120, 3);
+  const Clip noisy = damaged(truth, "gaussian", {{"std_deg", 4.0}});
+  const auto cleaner = make_recurrent({}, constant_filter(truth, FilterHead::gaussian));
+  const Clip cleaned = clean_clip(noisy, *cleaner).clip;
+  const Clip gaussian = clean_clip(noisy, *make_cleaner("gaussian", {{"width_s", 0.025}})).clip;
+  EXPECT_NEAR(rms_deg(truth, cleaned) / rms_deg(truth, gaussian), 1, 0.1);
+  // Alike, but for joints that the model does not know and samples that are spikes to `auto`.
+  EXPECT_LT(rms_deg(cleaned, gaussian), 0.6 * rms_deg(truth, gaussian));
+  const Clip automatic = clean_clip(noisy, *make_auto()).clip;
+  for (std::size_t f = 0; f < truth.frame_count(); ++f)
+    EXPECT_LT(angle_between(cleaned.rotation(f, 0), automatic.rotation(f, 0)), 1e-6);
+}
+
+TEST(Recurrent, LeavesATakeAtAnotherRateThanThatOfThePapersNetworkToAuto) {
+  const Clip noisy = damaged(walk(60), "gaussian", {{"std_deg", 4.0}});
+  const auto cleaner = make_recurrent({}, constant_filter(noisy, FilterHead::gaussian));
+  const CleanResult result = clean_clip(noisy, *cleaner);
+  EXPECT_LT(rms_deg(clean_clip(noisy, *make_auto()).clip, result.clip), 1e-6);
+}
+
+TEST(Recurrent, RefusesANetworkThatFillsGaps) {
+  const Clip clip = walk(120);
+  EXPECT_THROW(make_recurrent({}, constant_filter(clip, FilterHead::residual, {false, true})),
+               Error);
 }
 
 }  // namespace

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "experiment.hpp"
+#include "kinemend/experimental/body.hpp"
+#include "kinemend/experimental/model.hpp"
+#include "priors/filter_network.hpp"
+
+// What the programs on the networks of Mall et al. 2017 share.
+namespace kinemend::papers {
+
+struct HeldOut {
+  std::string name, action;
+  int holdout = 0;  ///< 1 to 5
+};
+
+/// The hold-outs of cmu/recurrent-100.csv; none without data.
+inline std::vector<HeldOut> hold_outs_of(const Arguments& arguments) {
+  std::vector<HeldOut> takes;
+  std::ifstream list(arguments.data / "cmu" / "recurrent-100.csv");
+  for (std::string line; std::getline(list, line);) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (line.empty() || line.back() < '1' || line.back() > '5') continue;
+    const std::size_t first = line.find(','), second = line.find(',', first + 1);
+    takes.push_back(
+        {line.substr(0, first), line.substr(first + 1, second - first - 1), line.back() - '0'});
+  }
+  return takes;
+}
+
+/// A trained network with the body that it knows.
+struct PaperNetwork {
+  BodyLayout layout;
+  FilterNetwork network;
+};
+
+/// `<output>/models/<name>.kmodel`, as `tools/train_paper` leaves it.
+inline std::optional<PaperNetwork> paper_network(const Arguments& arguments,
+                                                 const std::string& name) {
+  const std::filesystem::path path = arguments.output / "models" / (name + ".kmodel");
+  if (!std::filesystem::is_regular_file(path)) return std::nullopt;
+  const Model model = read_model(path);
+  return PaperNetwork{model.layout, filter_network_of(model)};
+}
+
+/// What a network makes of a take at its rate; the root stays.
+inline Clip by_network(const PaperNetwork& paper, const Clip& clip) {
+  const BodyMatch match = match_body(paper.layout, clip);
+  BodyChannels channels = encode_body(clip, paper.layout, match);
+  put_filtered(filtered(paper.network, filter_take_of(channels, paper.layout)), channels.poses);
+  std::vector<std::uint8_t> chosen(paper.layout.track_count() + 1, 1);
+  chosen.front() = chosen.back() = 0;
+  Clip result = clip;
+  decode_body(channels, paper.layout, match, result, chosen);
+  return result;
+}
+
+}  // namespace kinemend::papers

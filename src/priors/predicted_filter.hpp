@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+// What the outputs of a network of Mall et al. 2017 do to a take, with the adjoint that training
+// needs. One path for training and cleaning; F frames of C channels in degrees, in floats.
+namespace kinemend {
+
+/// Frames on either side of a frame that a predicted filter sees: 31 in all, at 120 Hz.
+inline constexpr std::size_t predicted_filter_reach = 15;
+
+/// How outputs o of a frame become its pose y; x is what was measured, s_c a scale of channel c.
+enum class FilterHead : std::uint8_t {
+  gaussian,  ///< y = sum_tau w(tau) x(t + tau), w a Gaussian of deviation exp(o_c) frames
+  biased,    ///< the same less s_c o_(C + c): section 3 of the paper, "b"
+  shape,     ///< y = sum_tau softmax(o)(tau) x(t + tau), one shape for all channels (figure 3)
+  residual,  ///< y = x + s_c o_c: no filter
+};
+
+/// C, 2 C, 31 and C numbers a frame.
+std::size_t filter_output_count(FilterHead head, std::size_t channels);
+
+/// F x C. Deviations lie between exp(-2.5) and exp(3) frames; beyond them outputs change nothing.
+/// Weights of frames beyond the ends go to the others.
+struct FilterSignal {
+  std::size_t frames = 0, channels = 0;
+  std::span<const float> values;  ///< F x C
+  std::span<const float> scales;  ///< C
+};
+void apply_predicted_filter(FilterHead head, const FilterSignal& signal,
+                            std::span<const float> outputs, std::span<float> result);
+/// The derivative by the outputs (F x O) from that by the result (F x C).
+void predicted_filter_adjoint(FilterHead head, const FilterSignal& signal,
+                              std::span<const float> outputs, std::span<const float> derivative,
+                              std::span<float> gradient);
+
+}  // namespace kinemend

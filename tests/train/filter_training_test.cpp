@@ -1,0 +1,131 @@
+#include "filter_training.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "kinemend/error.hpp"
+#include "kinemend/experimental/synth.hpp"
+#include "kinemend/metrics.hpp"
+
+namespace kinemend::train {
+namespace {
+
+std::vector<Clip> walks() {
+  std::vector<Clip> takes;
+  for (std::uint64_t seed = 1; seed < 4; ++seed) {
+    SynthOptions options;
+    options.duration_s = 2;
+    options.frame_rate_hz = 120;
+    options.seed = seed;
+    takes.push_back(synthesize(options));
+  }
+  return takes;
+}
+
+FilterTraining tiny(const char* kind, const char* head) {
+  FilterTraining training;
+  training.kind = kind;
+  training.head = head;
+  training.epochs = 6;
+  training.batch = 2;
+  training.frames = 48;
+  training.uses = 2;
+  training.noise = {{"gaussian-channels", {{"k", 0.5}}}};
+  return training;
+}
+
+struct Kind {
+  const char *name, *head;
+};
+class EveryKind : public testing::TestWithParam<Kind> {};
+
+TEST_P(EveryKind, GoesOnFromACheckpointToTheSameResult) {
+  FilterTraining training = tiny(GetParam().name, GetParam().head);
+  if (training.kind == "ebd") training.gaps = {{"gaps", {{"start_probability", 0.05}}}};
+  FilterTrainer whole(walks(), training), first(walks(), training), second(walks(), training);
+  ASSERT_GE(whole.batches(), 8u);
+  for (int i = 0; i < 8; ++i) whole.step();
+  for (int i = 0; i < 5; ++i) first.step();
+  second.resume(first.checkpoint(), "checkpoint");
+  for (int i = 0; i < 3; ++i) second.step();
+  EXPECT_EQ(write_model(whole.model()), write_model(second.model()));
+  // What it has made is a network that cleans.
+  const Model model = whole.model();
+  EXPECT_TRUE(is_filter_network(model));
+  const Clip clip = walks()[0];
+  const FilterTake take =
+      filter_take_of(encode_body(clip, model.layout, match_body(model.layout, clip)), model.layout);
+  for (const float value : filtered(filter_network_of(model), take))
+    ASSERT_TRUE(std::isfinite(value));
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, EveryKind,
+                         testing::Values(Kind{"ebf", "gaussian"}, Kind{"ebf", "biased"},
+                                         Kind{"bf", "shape"}, Kind{"nn", "residual"},
+                                         Kind{"ebd", "residual"}),
+                         [](const auto& kind) {
+                           return std::string(kind.param.name) + "_" + kind.param.head;
+                         });
+
+TEST(FilterTraining, LeavesLessErrorTheLongerItGoesOn) {
+  // A free shape begins as the mean of 31 frames.
+  FilterTraining training = tiny("ebf", "shape");
+  training.epochs = 40;
+  FilterTrainer trainer(walks(), training);
+  const double before = trainer.share_left(walks());
+  for (int i = 0; i < 120; ++i) trainer.step();
+  EXPECT_LT(trainer.share_left(walks()), 0.9 * before);
+}
+
+TEST(SequenceNetwork, OfLstmLayersIsTheSameWhetherItIsTrainedOrRun) {
+  BidirectionalShape shape;
+  shape.inputs = 5;
+  shape.outputs = 3;
+  shape.encoder = {6};
+  shape.units = 4;
+  shape.decoder = {6};
+  SequenceNetwork network(shape, {.dropout = 0}, 1);
+  // The last layer begins with zeros.
+  TensorFile state = network.state();
+  for (auto& [name, tensor] : state.tensors) {
+    for (std::size_t i = 0; i < tensor.values.size(); ++i)
+      tensor.values[i] = 0.3 * std::sin(static_cast<double>(i) + 1);
+  }
+  network.set_state(state);
+  std::vector<float> inputs;
+  for (int i = 0; i < 11 * 5; ++i) inputs.push_back(static_cast<float>(std::cos(0.7 * i)));
+  const std::vector<float> trained = network.forward(inputs, 1), run = network.run(inputs);
+  ASSERT_EQ(trained.size(), run.size());
+  for (std::size_t i = 0; i < run.size(); ++i) EXPECT_NEAR(trained[i], run[i], 1e-5);
+
+  // The gradient that a step reports is that of differences of sum(outputs).
+  network.add_gradient(std::vector<float>(trained.size(), 1.0F));
+  const double norm = network.step(0);
+  double square = 0;
+  for (const auto& [name, tensor] : state.tensors) {
+    if (name.rfind("weights.", 0) != 0) continue;
+    for (std::size_t i = 0; i < tensor.values.size(); ++i) {
+      double change = 0;
+      for (const double sign : {-1.0, 1.0}) {
+        TensorFile moved = state;
+        moved.tensors["means" + name.substr(7)].values[i] += sign * 1e-2;
+        network.set_state(moved);
+        for (const float value : network.run(inputs)) change += sign * static_cast<double>(value);
+      }
+      square += std::pow(change / 2e-2, 2);
+    }
+  }
+  EXPECT_NEAR(norm, std::sqrt(square), 2e-3 * norm);
+}
+
+TEST(FilterTraining, RefusesWhatItCannotTrain) {
+  EXPECT_THROW(FilterTrainer({}, tiny("ebf", "gaussian")), Error);
+  EXPECT_THROW(FilterTrainer(walks(), tiny("tcn", "gaussian")), Error);
+  EXPECT_THROW(FilterTrainer(walks(), tiny("ebf", "round")), Error);
+  EXPECT_THROW(FilterTrainer(walks(), tiny("ebd", "gaussian")), Error);
+}
+
+}  // namespace
+}  // namespace kinemend::train

@@ -1,0 +1,72 @@
+// Small networks of Mall et al. 2017 by LibTorch: writes
+// tests/fixtures/nn/filter_<kind>.safetensors (ebf, bf, nn, ebd), which
+// tests/priors/filter_network_test.cpp compares with. Built where LibTorch is found:
+//   cmake --build build/dev --target reference_filter_network
+//   build/dev/train/reference_filter_network FOLDER
+#include <fstream>
+#include <iostream>
+#include <string>
+
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/experimental/tensor.hpp"
+#include "priors/filter_network.hpp"
+#include "sequence_network.hpp"
+
+using namespace kinemend;
+
+namespace {
+
+train::BidirectionalShape shape_of(const std::string& kind) {
+  constexpr std::size_t channels = 6;
+  const bool is_ebd = kind == "ebd";
+  train::BidirectionalShape shape;
+  shape.inputs = filter_feature_count(channels, {false, is_ebd});
+  shape.outputs = channels;
+  shape.encoder = {9, 7, 6, 5};
+  shape.units = is_ebd ? 4 : 6;
+  shape.decoder = {8, 7, 7};
+  if (kind == "bf" || kind == "nn") shape.encoder.clear();
+  if (kind == "nn") {
+    shape.layers = 0;
+    shape.reach = 3;
+    shape.decoder = {8, 7, 7, 6, 5};
+  }
+  return shape;
+}
+
+void write_network(const std::string& folder, const std::string& kind) {
+  constexpr std::size_t steps = 19;
+  const train::BidirectionalShape shape = shape_of(kind);
+  train::SequenceNetwork network(shape, {}, 3);
+  // The last layer begins with zeros.
+  Random random(5);
+  TensorFile state = network.state();
+  for (auto& [name, tensor] : state.tensors) {
+    if (name.rfind("means.", 0) != 0) continue;
+    for (double& value : tensor.values)
+      value = static_cast<double>(static_cast<float>(0.4 * random.normal()));
+  }
+  network.set_state(state);
+  std::vector<float> features(steps * shape.inputs);
+  for (float& value : features) value = static_cast<float>(random.normal());
+  const std::vector<float> outputs = network.run(features);
+  TensorFile file;
+  file.tensors = network.averages();
+  file.tensors["features"] = {
+      TensorType::f32, {steps, shape.inputs}, {features.begin(), features.end()}};
+  file.tensors["outputs"] = {
+      TensorType::f32, {steps, shape.outputs}, {outputs.begin(), outputs.end()}};
+  file.metadata["made by"] = "train/reference_filter_network.cpp";
+  std::ofstream(folder + "/filter_" + kind + ".safetensors", std::ios::binary)
+      << write_tensors(file);
+}
+
+}  // namespace
+
+int main(int count, char** values) {
+  if (count != 2) {
+    std::cerr << "usage: reference_filter_network FOLDER\n";
+    return 2;
+  }
+  for (const char* kind : {"ebf", "bf", "nn", "ebd"}) write_network(values[1], kind);
+}
