@@ -127,7 +127,7 @@ ArmWindows arm_windows(sparse::Loss loss) {
   const auto model = kinemend::shipped_model("sparse");
   const kinemend::SparsePrior prior = kinemend::sparse_prior_of(*model);
   const kinemend::SparsePoselet& arm = prior.poselets[1];
-  const auto take = kinemend::bench::noisy_walk(120, 10, 0);
+  const auto take = kinemend::bench::noisy_walk(120, 3, 0);
   const auto channels =
       kinemend::encode_body(take, model->layout, kinemend::match_body(model->layout, take));
   const auto positions = kinemend::points_of(prior.points, model->layout, channels.poses);
@@ -176,7 +176,7 @@ BENCHMARK(descend_overlapping)
     ->ArgNames({"p", "warm"})
     ->ArgsProduct({{2, 1}, {0, 1}})
     ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
+    ->MeasureProcessCPUTime();
 
 // `batch` windows next to each other share a working set that starts with `atoms` of each.
 void dual_overlapping(benchmark::State& state) {
@@ -196,7 +196,7 @@ BENCHMARK(dual_overlapping)
     ->Args({2, 4, 1000})
     ->Args({1, 4, 1000})
     ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
+    ->MeasureProcessCPUTime();
 
 void clean_take(benchmark::State& state) {
   const auto take = kinemend::bench::noisy_walk(static_cast<double>(state.range(0)), 10, 0);

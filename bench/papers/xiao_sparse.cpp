@@ -183,9 +183,8 @@ void compare(const Arguments& arguments, const XiaoGroup& group, Table& table) {
     const auto add = [&](const std::string& name, const std::string& setting,
                          const Errors& errors) {
       const auto metres = [](double value) { return fmt::format("{:.5f}", value); };
-      table.add({group.name, noise.name, name, metres(errors.own.mean),
-                 metres(errors.own.deviation), metres(errors.all.mean),
-                 metres(errors.all.deviation)});
+      table.add({noise.name, name, metres(errors.own.mean), metres(errors.own.deviation),
+                 metres(errors.all.mean), metres(errors.all.deviation)});
       fmt::print("{:<11}{:<7}{:<10}{:9.5f}{:9.5f}{:9.5f}{:9.5f}  {}\n", group.name, noise.name,
                  name, errors.own.mean, errors.own.deviation, errors.all.mean, errors.all.deviation,
                  setting);
@@ -207,10 +206,12 @@ void compare(const Arguments& arguments, const XiaoGroup& group, Table& table) {
 }
 
 void experiment(const Arguments& arguments) {
-  Table table(arguments, "xiao_noise.csv",
-              "motion,noise,method,own_mean_m,own_deviation_m,mean_m,deviation_m");
-  for (const XiaoGroup& group : xiao_groups(arguments)) compare(arguments, group, table);
-  table.close();
+  for (const XiaoGroup& group : xiao_groups(arguments)) {
+    Table table(arguments, "xiao_" + group.name + ".csv",
+                "noise,method,own_mean_m,own_deviation_m,mean_m,deviation_m");
+    compare(arguments, group, table);
+    table.close();
+  }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // What makes up `sparse`, as Xiao et al. 2015 vary it: table 2 (poselets against whole poses),
-// figure 9 (learned from one action or from all) and figure 10 (M, K and lambda).
+// figure 9 (learned from one action or from all) and, on the first action, figure 10 (M, K and
+// lambda).
 #include <chrono>
 
 #include "xiao.hpp"
@@ -18,8 +19,8 @@ SparseOptions plain_options(double lambda = 0.1) {
 // not kept: machines differ.
 class Lines {
  public:
-  explicit Lines(const Arguments& arguments)
-      : table_(arguments, "xiao_variants.csv", "motion,what,value,mean_m") {}
+  Lines(const Arguments& arguments, const std::string& file)
+      : table_(arguments, file, "motion,what,value,mean_m") {}
 
   void add(const XiaoGroup& group, const std::string& what, const std::string& value,
            const Cleaner& cleaner, const XiaoNoise& noise) {
@@ -95,11 +96,16 @@ void sizes(const Arguments& arguments, const XiaoGroup& group, Lines& lines) {
 
 void experiment(const Arguments& arguments) {
   const std::vector<XiaoGroup> groups = xiao_groups(arguments);
-  Lines lines(arguments);
-  for (const XiaoGroup& group : groups) representations(arguments, group, lines);
-  if (groups.size() > 1) actions(arguments, groups, lines);
-  for (const XiaoGroup& group : groups) sizes(arguments, group, lines);
-  lines.close();
+  Lines represented(arguments, "xiao_representation.csv");
+  for (const XiaoGroup& group : groups) representations(arguments, group, represented);
+  represented.close();
+  Lines sized(arguments, "xiao_sizes.csv");
+  sizes(arguments, groups.front(), sized);
+  sized.close();
+  if (groups.size() == 1) return;
+  Lines learned_from(arguments, "xiao_actions.csv");
+  actions(arguments, groups, learned_from);
+  learned_from.close();
 }
 
 }  // namespace

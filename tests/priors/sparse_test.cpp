@@ -346,6 +346,30 @@ TEST(SparseFilter, FillsMissingRowsFromTheOthers) {
   EXPECT_LT(take.error(), 1.5 * before);
 }
 
+TEST(SparseFilter, SolvesOnlyPoseletsOfWhichAPointIsWanted) {
+  const NoisyTake take = noisy_take(0.01, 0, 0.5);
+  std::vector<std::uint8_t> wanted(take.prior.points.count(), 0);
+  const std::vector<std::int32_t>& chosen = take.prior.poselets[1].points;
+  wanted[static_cast<std::size_t>(chosen.front())] = 1;
+  const SparseTake all{take.noisy, take.clean, take.observed, take.noise, 60};
+  SparseTake some = all;
+  some.wanted = wanted;
+  const PoseMatrix whole = sparse_filter(take.prior, all), part = sparse_filter(take.prior, some);
+  std::size_t solved = 0;
+  for (std::size_t p = 0; p < wanted.size(); ++p) {
+    const bool is_chosen =
+        std::find(chosen.begin(), chosen.end(), static_cast<std::int32_t>(p)) != chosen.end();
+    if (part(0, 3 * p) == take.clean(0, 3 * p)) continue;
+    ++solved;
+    // A point that another poselet has, too, is its mean with that elsewhere.
+    if (is_chosen) {
+      EXPECT_NEAR(part(0, 3 * p), whole(0, 3 * p), 0.01);
+    }
+  }
+  EXPECT_GE(solved, chosen.size());
+  EXPECT_LT(solved, wanted.size());
+}
+
 TEST(SparseFilter, TakesATakeOfOneFrame) {
   NoisyTake take = noisy_take(0.01, 0);
   for (PoseMatrix* poses : {&take.clean, &take.noisy}) {
