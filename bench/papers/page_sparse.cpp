@@ -34,10 +34,11 @@ std::vector<Kind> kinds() {
           {"inertial", of("system", {{"kind", std::string("inertial")}})}};
 }
 
-// Three seconds of each.
+// Three seconds of each of ten hold-outs of cmu/recurrent-100.csv, which no model that ships has
+// seen.
 std::vector<Clip> takes(const Arguments& arguments) {
-  std::vector<std::string> names{"01_13",  "02_10",  "05_14", "06_11", "08_08",
-                                 "131_07", "135_09", "16_24", "35_14", "49_17"};
+  std::vector<std::string> names{"02_02", "05_01", "07_02", "08_01", "16_15",
+                                 "26_01", "35_02", "09_01", "10_01", "135_04"};
   if (arguments.quick || arguments.data.empty()) names = {"walk"};
   std::vector<Clip> clips;
   for (const std::string& name : names) {

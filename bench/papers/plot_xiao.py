@@ -23,8 +23,8 @@ for axis, motion in zip(axes[0], motions):
     rows = table(f"xiao_{motion}.csv")
     for method in dict.fromkeys(row["method"] for row in rows):
         own = [row for row in rows if row["method"] == method]
-        axis.errorbar([row["noise"] for row in own], [100 * float(row["mean_m"]) for row in own],
-                      yerr=[100 * float(row["deviation_m"]) for row in own], marker="o", capsize=2, label=method,
+        axis.errorbar([row["noise"] for row in own], [float(row["mean_cm"]) for row in own],
+                      yerr=[float(row["deviation_cm"]) for row in own], marker="o", capsize=2, label=method,
                       linestyle="--" if method == "(noisy)" else "-")
     axis.set_yscale("log")
     axis.set_title(motion)
@@ -41,7 +41,7 @@ if (folder / "xiao_sizes.csv").exists():
     figure, axes = plt.subplots(1, 3, figsize=(12, 4))
     for axis, what in zip(axes, ("M", "K", "lambda")):
         own = [row for row in rows if row["what"] == what]
-        axis.plot([row["value"] for row in own], [100 * float(row["mean_m"]) for row in own], marker="o")
+        axis.plot([row["value"] for row in own], [float(row["mean_cm"]) for row in own], marker="o")
         axis.set(xlabel=what, ylabel="RMSE, cm per marker")
         axis.grid(alpha=0.3)
     figure.suptitle("Xiao et al. 2015, figure 10")

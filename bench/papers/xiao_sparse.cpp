@@ -182,9 +182,9 @@ void compare(const Arguments& arguments, const XiaoGroup& group, Table& table) {
   for (const XiaoNoise& noise : xiao_noises()) {
     const auto add = [&](const std::string& name, const std::string& setting,
                          const Errors& errors) {
-      const auto metres = [](double value) { return fmt::format("{:.5f}", value); };
-      table.add({noise.name, name, metres(errors.own.mean), metres(errors.own.deviation),
-                 metres(errors.all.mean), metres(errors.all.deviation)});
+      const auto cm = [](double metres) { return fmt::format("{:.3f}", 100 * metres); };
+      table.add({noise.name, name, cm(errors.own.mean), cm(errors.own.deviation),
+                 cm(errors.all.mean), cm(errors.all.deviation)});
       fmt::print("{:<11}{:<7}{:<10}{:9.5f}{:9.5f}{:9.5f}{:9.5f}  {}\n", group.name, noise.name,
                  name, errors.own.mean, errors.own.deviation, errors.all.mean, errors.all.deviation,
                  setting);
@@ -208,7 +208,7 @@ void compare(const Arguments& arguments, const XiaoGroup& group, Table& table) {
 void experiment(const Arguments& arguments) {
   for (const XiaoGroup& group : xiao_groups(arguments)) {
     Table table(arguments, "xiao_" + group.name + ".csv",
-                "noise,method,own_mean_m,own_deviation_m,mean_m,deviation_m");
+                "noise,method,own_mean_cm,own_deviation_cm,mean_cm,deviation_cm");
     compare(arguments, group, table);
     table.close();
   }

@@ -20,7 +20,7 @@ SparseOptions plain_options(double lambda = 0.1) {
 class Lines {
  public:
   Lines(const Arguments& arguments, const std::string& file)
-      : table_(arguments, file, "motion,what,value,mean_m") {}
+      : table_(arguments, file, "motion,what,value,mean_cm") {}
 
   void add(const XiaoGroup& group, const std::string& what, const std::string& value,
            const Cleaner& cleaner, const XiaoNoise& noise) {
@@ -30,7 +30,7 @@ class Lines {
       error += xiao_error(cleaner, group.tests[t], xiao_noise(group.tests[t], noise, t + 1)).mean /
                static_cast<double>(group.tests.size());
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-    table_.add({group.name, what, value, fmt::format("{:.5f}", error)});
+    table_.add({group.name, what, value, fmt::format("{:.3f}", 100 * error)});
     fmt::print("{:<11}{:<16}{:<9}{:9.5f} m {:7.2f} s\n", group.name, what, value, error,
                time.count());
     std::fflush(stdout);
