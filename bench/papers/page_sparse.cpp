@@ -97,8 +97,11 @@ void gaps(const Arguments& arguments, const std::vector<Clip>& truths) {
       const std::size_t first = middle - std::min(half, middle);
       const std::size_t last = std::min(middle + half, clip.frame_count());
       std::vector<std::size_t> arm;
-      for (const char* joint : {"LeftArm", "LeftForeArm", "LeftHand"})
-        arm.push_back(static_cast<std::size_t>(clip.skeleton.find(joint)));
+      for (const char* joint : {"LeftArm", "LeftForeArm", "LeftHand"}) {
+        if (const auto found = clip.skeleton.find(joint); found >= 0)
+          arm.push_back(static_cast<std::size_t>(found));
+      }
+      if (arm.size() < 2) continue;
       for (std::size_t f = first; f < last; ++f) {
         for (const std::size_t joint : arm) {
           clip.observed[f * clip.joint_count() + joint] = 0;
