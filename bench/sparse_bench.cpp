@@ -2,12 +2,18 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numeric>
+#include <span>
 #include <vector>
 
 #include "kinemend/cleaner.hpp"
+#include "kinemend/experimental/body.hpp"
+#include "kinemend/experimental/model.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/methods.hpp"
 #include "noisy_walk.hpp"
+#include "priors/sparse_filter.hpp"
+#include "priors/sparse_prior.hpp"
 #include "sparse/batch_omp.hpp"
 #include "sparse/descent_solver.hpp"
 #include "sparse/dual_solver.hpp"
@@ -92,6 +98,105 @@ void dual(benchmark::State& state) {
         [](const auto& atoms, const auto& problem) { return solve_sparse(atoms, problem); });
 }
 BENCHMARK(dual)->ArgName("p")->Arg(2)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+// Windows of an arm in a noisy walk, a quarter of a window apart, as the method has them, on the
+// model that ships: what warm starts and working sets bring.
+struct ArmWindows {
+  sparse::Dictionary atoms;
+  std::vector<double> signals, lambdas;  // in units of the noise
+
+  std::size_t count() const { return lambdas.size(); }
+  // Every other window, from the first or the second on.
+  ArmWindows half(std::size_t first) const {
+    ArmWindows result{atoms, {}, {}};
+    for (std::size_t s = first; s < count(); s += 2) {
+      const auto from = signals.begin() + static_cast<std::ptrdiff_t>(s * atoms.rows);
+      result.signals.insert(result.signals.end(), from,
+                            from + static_cast<std::ptrdiff_t>(atoms.rows));
+      result.lambdas.push_back(lambdas[s]);
+    }
+    return result;
+  }
+  sparse::SparseProblem problem(sparse::Loss loss, std::span<const double> start = {}) const {
+    return {loss, signals, {}, lambdas, start};
+  }
+};
+
+ArmWindows arm_windows(sparse::Loss loss) {
+  constexpr double noise = 0.01;  // body heights
+  const auto model = kinemend::shipped_model("sparse");
+  const kinemend::SparsePrior prior = kinemend::sparse_prior_of(*model);
+  const kinemend::SparsePoselet& arm = prior.poselets[1];
+  const auto take = kinemend::bench::noisy_walk(120, 3, 0);
+  const auto channels =
+      kinemend::encode_body(take, model->layout, kinemend::match_body(model->layout, take));
+  const auto positions = kinemend::points_of(prior.points, model->layout, channels.poses);
+  const std::size_t frames = 2 * prior.window_frames, width = arm.channels();
+  ArmWindows result{kinemend::dictionary_at_rate(arm, prior.window_frames, frames), {}, {}};
+  for (std::size_t first = 0; first + frames <= positions.frames; first += frames / 4) {
+    for (std::size_t i = 0; i < frames * width; ++i) {
+      const auto point = static_cast<std::size_t>(arm.points[i % width / 3]);
+      const double value = positions(first + i / width, 3 * point + i % 3);
+      result.signals.push_back((value - arm.mean[i % width]) / noise);
+    }
+    const double squares = loss == sparse::Loss::squares ? 2 : 1;
+    result.lambdas.push_back(0.1 * squares *
+                             std::sqrt(2 * std::log(static_cast<double>(result.atoms.atoms))));
+  }
+  return result;
+}
+
+sparse::Loss loss_of(std::int64_t p) {
+  return p == 2 ? sparse::Loss::squares : sparse::Loss::absolute;
+}
+
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+// Warm: of every second window from the code of the one before.
+void descend_overlapping(benchmark::State& state) {
+  const sparse::Loss loss = loss_of(state.range(0));
+  const ArmWindows all = arm_windows(loss);
+  const ArmWindows even = all.half(0), odd = all.half(1);
+  double objective = 0;
+  for (auto _ : state) {
+    if (state.range(1) == 0) {
+      objective = mean_of(descend_sparse(all.atoms, all.problem(loss)).objectives);
+      continue;
+    }
+    const auto first = descend_sparse(even.atoms, even.problem(loss));
+    const std::span<const double> start(first.codes.data(), odd.count() * odd.atoms.atoms);
+    const auto second = descend_sparse(odd.atoms, odd.problem(loss, start));
+    objective = 0.5 * (mean_of(first.objectives) + mean_of(second.objectives));
+  }
+  state.counters["objective"] = objective;
+}
+BENCHMARK(descend_overlapping)
+    ->ArgNames({"p", "warm"})
+    ->ArgsProduct({{2, 1}, {0, 1}})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime();
+
+// `batch` windows next to each other share a working set that starts with `atoms` of each.
+void dual_overlapping(benchmark::State& state) {
+  const sparse::Loss loss = loss_of(state.range(0));
+  const ArmWindows all = arm_windows(loss);
+  sparse::DualSettings settings;
+  settings.batch = static_cast<std::size_t>(state.range(1));
+  settings.first_atoms = static_cast<std::size_t>(state.range(2));
+  double objective = 0;
+  for (auto _ : state)
+    objective = mean_of(solve_sparse(all.atoms, all.problem(loss), settings).objectives);
+  state.counters["objective"] = objective;
+}
+BENCHMARK(dual_overlapping)
+    ->ArgNames({"p", "batch", "atoms"})
+    ->ArgsProduct({{2, 1}, {1, 4, 16}, {8}})
+    ->Args({2, 4, 1000})
+    ->Args({1, 4, 1000})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime();
 
 void clean_take(benchmark::State& state) {
   const auto take = kinemend::bench::noisy_walk(static_cast<double>(state.range(0)), 10, 0);

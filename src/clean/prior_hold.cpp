@@ -124,6 +124,17 @@ void leave_coloured_noise_to_auto(PriorWork& work) {
   work.why_no_need = "the model takes noise for white, and theirs is not";
 }
 
+std::vector<std::uint8_t> wanted_parts(const PriorWork& work, bool fill) {
+  const bool all = has_dense_spikes(work);
+  std::vector<std::uint8_t> wanted(work.match->tracks.size(), 0);
+  for (std::size_t part = 0; part < wanted.size(); ++part) {
+    const bool is_absent =
+        work.match->tracks[part] < 0 || (!work.left_out.empty() && work.left_out[part] != 0);
+    wanted[part] = !is_absent && (all || !is_left_alone(work, part, fill)) ? 1 : 0;
+  }
+  return wanted;
+}
+
 bool is_left_alone(const PriorWork& work, std::size_t part, bool fill) {
   if (work.needs[part] > 0) return false;
   if (!fill) return true;

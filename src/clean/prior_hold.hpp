@@ -23,6 +23,11 @@ void take_whole(PriorWork& work);
 /// samples of a lower rate, which `auto` sees. The filter may fill gaps.
 void leave_coloured_noise_to_auto(PriorWork& work);
 
+/// A mark for each part of the model's layout (N): 1 where the filter has a say, by need, by gaps
+/// that it fills where `fill` is set, or because spikes are dense. Parts that the take lacks, or
+/// that are left out, have 0. What is 0 everywhere needs no filter at all.
+std::vector<std::uint8_t> wanted_parts(const PriorWork& work, bool fill);
+
 /// Whether the filter has no say in a part: no need, and nothing that it may fill.
 bool is_left_alone(const PriorWork& work, std::size_t part, bool fill);
 

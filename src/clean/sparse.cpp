@@ -96,10 +96,24 @@ std::vector<double> noise_about(const PriorWork& work, const PoseMatrix& cleaned
   return noise;
 }
 
+// The points that the result of wanted joints depends on, which are they and the ends of their
+// bones; of markers they themselves.
+std::vector<std::uint8_t> wanted_points(const SparsePoints& points,
+                                        const std::vector<std::uint8_t>& wanted) {
+  std::vector<std::uint8_t> marks(points.count(), 0);
+  for (std::size_t p = 0; p < marks.size(); ++p) {
+    const std::int32_t parent = points.parents[p];
+    const bool is_own = p < wanted.size() && wanted[p] != 0;
+    marks[p] = is_own || (parent >= 0 && wanted[static_cast<std::size_t>(parent)] != 0) ? 1 : 0;
+  }
+  return marks;
+}
+
 // What the dictionaries make of the points. Where many are outliers, what `auto` makes of them is
 // no good guide, and the result is the guide of another turn.
 PoseMatrix filtered_points(const PriorWork& work, const PoseMatrix& positions,
                            const SparsePrior& prior, const BodyLayout& layout,
+                           const std::vector<std::uint8_t>& wanted,
                            const SparseSettings& settings) {
   PoseMatrix guide = points_of(prior.points, layout, work.fallback);
   const std::vector<std::uint8_t> observed =
@@ -111,9 +125,29 @@ PoseMatrix filtered_points(const PriorWork& work, const PoseMatrix& positions,
     if (turn > 0 &&
         share_beyond(positions, guide, noise, settings.outlier_deviations) < many_outliers)
       break;
-    guide = sparse_filter(prior, {positions, guide, observed, noise, rate_hz}, settings);
+    guide = sparse_filter(prior, {positions, guide, observed, noise, rate_hz, wanted}, settings);
   }
   return guide;
+}
+
+// Spikes, and what is measured far from what the atoms express.
+void reject_outliers(PriorWork& work, const std::vector<double>& noise,
+                     const PoseMatrix& expressed) {
+  work.rejected.assign(expressed.values.size(), 0);
+  for (std::size_t i = 0; i < expressed.values.size(); ++i) {
+    if (work.channels.observed[i] == 0) continue;
+    const double distance = std::abs(work.channels.poses.values[i] - expressed.values[i]);
+    const bool is_far = distance > outlier_deviations * noise[i % expressed.channels];
+    work.rejected[i] = work.suspect[i] != 0 || is_far ? 1 : 0;
+  }
+}
+
+// F x D, 1 for measurements that are not rejected.
+PoseMatrix counted(const PriorWork& work) {
+  PoseMatrix counts(work.channels.poses.frames, work.channels.poses.channels);
+  for (std::size_t i = 0; i < counts.values.size(); ++i)
+    counts.values[i] = work.channels.observed[i] != 0 && work.rejected[i] == 0 ? 1 : 0;
+  return counts;
 }
 
 void filter(PriorWork& work, const SparseOptions& options, const SparsePrior& prior,
@@ -124,8 +158,18 @@ void filter(PriorWork& work, const SparseOptions& options, const SparsePrior& pr
   settings.lambda = options.lambda;
   settings.hops = static_cast<std::size_t>(options.hops);
   settings.exact = options.solver == "paper";
+  std::vector<std::uint8_t> wanted;
+  if (!settings.exact) {
+    leave_coloured_noise_to_auto(work);
+    const std::vector<std::uint8_t> parts = wanted_parts(work, options.fill);
+    if (std::find(parts.begin(), parts.end(), 1) == parts.end()) {
+      work.channels.poses = work.fallback;
+      return;
+    }
+    wanted = wanted_points(prior.points, parts);
+  }
   const PoseMatrix positions = points_of(prior.points, layout, guess_of(work, prior.points.kind));
-  PoseMatrix found = filtered_points(work, positions, prior, layout, settings);
+  PoseMatrix found = filtered_points(work, positions, prior, layout, wanted, settings);
   PoseMatrix cleaned = channels_of(prior.points, layout, found, work.fallback);
   if (settings.exact) {
     take_whole(work);
@@ -133,20 +177,11 @@ void filter(PriorWork& work, const SparseOptions& options, const SparsePrior& pr
     return;
   }
   const std::vector<double> noise = noise_about(work, cleaned);
-  PoseMatrix counts(cleaned.frames, cleaned.channels);
-  work.rejected.assign(counts.values.size(), 0);
-  for (std::size_t i = 0; i < counts.values.size(); ++i) {
-    if (work.channels.observed[i] == 0) continue;
-    const double distance = std::abs(work.channels.poses.values[i] - cleaned.values[i]);
-    const bool counted =
-        work.suspect[i] == 0 && distance <= outlier_deviations * noise[i % counts.channels];
-    counts.values[i] = counted ? 1 : 0;
-    work.rejected[i] = counted ? 0 : 1;
-  }
+  reject_outliers(work, noise, cleaned);
   // Of joints, whose noise is seldom the same about each axis, it flips between two estimates.
   if (prior.points.kind == BodyKind::markers) {
     const PoseMatrix expressed = cleaned;
-    smooth_rest(work, counts, expressed, noise, cleaned);
+    smooth_rest(work, counted(work), expressed, noise, cleaned);
   }
   fall_back_where_biased(work, noise, cleaned);
   work.channels.poses = std::move(cleaned);

@@ -162,6 +162,12 @@ std::vector<std::size_t> starts_of(std::size_t frames, std::size_t window, std::
   return starts;
 }
 
+bool is_wanted(const SparsePoselet& poselet, std::span<const std::uint8_t> wanted) {
+  return wanted.empty() ||
+         std::any_of(poselet.points.begin(), poselet.points.end(),
+                     [&](std::int32_t p) { return wanted[static_cast<std::size_t>(p)] != 0; });
+}
+
 }  // namespace
 
 sparse::Dictionary dictionary_at_rate(const SparsePoselet& poselet, std::size_t window_frames,
@@ -193,7 +199,7 @@ PoseMatrix sparse_filter(const SparsePrior& prior, const SparseTake& take,
   const std::vector<LocalFrame> turns = local_frames(guide, prior.local);
   to_local(turns, local);
   to_local(turns, guide);
-  const SparseTake own{local, guide, take.observed, take.noise, take.rate_hz};
+  const SparseTake own{local, guide, take.observed, take.noise, take.rate_hz, take.wanted};
   std::vector<double> levels(take.noise.begin(), take.noise.end());
   const double unit = std::max(median_of(levels), least_noise);
   const auto frames = static_cast<std::size_t>(std::max(
@@ -201,6 +207,7 @@ PoseMatrix sparse_filter(const SparsePrior& prior, const SparseTake& take,
   const std::vector<std::size_t> starts = starts_of(local.frames, frames, settings.hops);
   PoseMatrix sums(local.frames, local.channels), counts(local.frames, local.channels);
   for (const SparsePoselet& poselet : prior.poselets) {
+    if (!is_wanted(poselet, take.wanted)) continue;
     const PoseletFilter filter(prior, poselet, own, settings, frames, unit);
     const std::size_t together =
         std::clamp(chunk_values / (frames * poselet.channels()), least_windows, most_windows);
@@ -208,7 +215,7 @@ PoseMatrix sparse_filter(const SparsePrior& prior, const SparseTake& take,
       filter.filter(starts, first, std::min(starts.size(), first + together), sums, counts);
   }
   for (std::size_t i = 0; i < sums.values.size(); ++i) {
-    if (counts.values[i] > 0) local.values[i] = sums.values[i] / counts.values[i];
+    local.values[i] = counts.values[i] > 0 ? sums.values[i] / counts.values[i] : guide.values[i];
   }
   from_local(turns, local);
   return local;

@@ -32,6 +32,9 @@ struct SparseTake {
   std::span<const std::uint8_t> observed;  ///< F x 3 P; empty: all
   std::span<const double> noise;           ///< 3 P, positive: standard deviations
   double rate_hz = 120;
+  /// P; empty: all. Poselets of which no point is wanted are not solved: where no other poselet has
+  /// them, their points are the guide's.
+  std::span<const std::uint8_t> wanted = {};
 };
 
 /// What the dictionaries make of a take: its poses in local coordinates, cut into windows of each

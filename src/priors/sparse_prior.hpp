@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kinemend/experimental/model.hpp"
@@ -39,6 +40,17 @@ struct SparsePrior {
 /// `whole`: all points as one.
 std::vector<SparsePoselet> find_poselets(const BodyLayout& layout, const SparsePoints& points,
                                          bool whole = false);
+
+/// The same as a file says it, a line each:
+///
+///     torso: Hips, Spine*, Neck, Head, *Shoulder    # a comment
+///
+/// Names of joints or markers, or shell patterns, in any poselet; a free end of a bone is where its
+/// joint is. `name` is the file's, for errors. Errors: `ErrorKind::usage`, `<name>:<line>: ...`,
+/// for a line that is none, an empty poselet, one that is there twice, and a name that the body
+/// lacks; with the names for tracks that are in no poselet.
+std::vector<SparsePoselet> parse_poselets(std::string_view text, std::string_view name,
+                                          const BodyLayout& layout, const SparsePoints& points);
 
 /// The points of section 3.1.1, by names.
 LocalPoints find_local_points(const BodyLayout& layout);

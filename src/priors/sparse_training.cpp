@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <numeric>
 #include <optional>
+#include <string>
 #include <utility>
 #include <variant>
 
+#include "base/file_bytes.hpp"
 #include "base/parallel.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/convert.hpp"
@@ -27,6 +29,7 @@ struct SparseTraining {
   std::int64_t sparsity = 10;
   std::int64_t iterations = 10;
   std::int64_t windows = 20'000;
+  std::string poselets;
   bool whole = false;
   bool local = false;
 };
@@ -50,6 +53,10 @@ const OptionTable<SparseTraining>& table() {
                    "of coding and updating the atoms")
           .integer(&SparseTraining::windows, "windows", "", 1, 1e6,
                    "windows that the atoms are learned from, drawn from all")
+          .text(
+              &SparseTraining::poselets, "poselets",
+              "file of poselets, a line each: \"left arm: LeftShoulder, LeftArm*\"; empty: torso, "
+              "arms and legs by the body's names")
           .flag(&SparseTraining::whole, "whole",
                 "one dictionary of the whole body instead of one a poselet")
           .flag(&SparseTraining::local, "local",
@@ -171,8 +178,19 @@ void learn_dictionaries(const SparseTraining& options, std::size_t windows, std:
   });
 }
 
+// `text` is what the file of poselets says.
+std::vector<SparsePoselet> poselets_for(const SparseTraining& options, const std::string& text,
+                                        const BodyLayout& layout, const SparsePoints& points) {
+  if (options.poselets.empty()) return find_poselets(layout, points, options.whole);
+  return parse_poselets(text, options.poselets, layout, points);
+}
+
 Model train(const TrainingTakes& takes, const OptionValues& values, const TrainSettings& settings) {
   const SparseTraining options = table().parse(values);
+  if (options.whole && !options.poselets.empty())
+    throw Error(ErrorKind::usage, "poselets, whole: one or the other");
+  const std::string poselet_text =
+      options.poselets.empty() ? std::string() : file_bytes(options.poselets);
   std::vector<Clip> frames;
   const TrainingSequences sequences =
       encode_takes(keeping_frames(takes, frames), settings, options.rate_hz);
@@ -184,7 +202,7 @@ Model train(const TrainingTakes& takes, const OptionValues& values, const TrainS
   prior.window_frames = static_cast<std::size_t>(options.window_frames);
   prior.points = points_for(model.layout, frames);
   if (options.local) prior.local = find_local_points(model.layout);
-  prior.poselets = find_poselets(model.layout, prior.points, options.whole);
+  prior.poselets = poselets_for(options, poselet_text, model.layout, prior.points);
   const std::size_t window = prior.window_frames, all = window_count(sequences, window);
   if (all == 0) {
     throw Error(ErrorKind::usage, "no take has a stretch without gaps of " +

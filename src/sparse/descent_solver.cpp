@@ -3,7 +3,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "base/parallel.hpp"
 #include "base/quantiles.hpp"
@@ -29,64 +31,64 @@ class Descent {
 
   void start(std::size_t atom, float code) {
     if (code == 0 || used_.size() >= settings_.most_atoms) return;
-    used_.push_back(atom);
-    codes_.push_back(code);
+    append(atom, code);
   }
 
-  // The weights of rows, half of those of the squares' slope.
+  // The weights of rows, half of those of the squares' slope. Atoms without a code go.
   void weigh(const Vector& weights) {
     weights_ = weights;
-    rows_.clear();
     const std::vector<std::size_t> atoms = std::exchange(used_, {});
     const std::vector<float> codes = std::exchange(codes_, {});
-    products_.clear(), targets_.clear();
+    columns_.clear();
     for (std::size_t i = 0; i < atoms.size(); ++i) {
-      if (codes[i] != 0) use(atoms[i], codes[i]);
+      if (codes[i] != 0) append(atoms[i], codes[i]);
     }
+    const Eigen::MatrixXf weighted = weights_.asDiagonal() * columns();
+    products_.resize(most(), most());
+    products_.topLeftCorner(size(), size()).noalias() = weighted.transpose() * columns();
+    targets_.resize(most());
+    targets_.head(size()).noalias() = weighted.transpose() * signal_;
   }
 
   bool uses(std::size_t atom) const {
     return std::find(used_.begin(), used_.end(), atom) != used_.end();
   }
 
-  bool use(std::size_t atom, float code) {
+  bool use(std::size_t atom) {
     if (used_.size() >= settings_.most_atoms || uses(atom)) return false;
-    rows_.push_back(weights_.cwiseProduct(atom_of(atom)));
-    used_.push_back(atom);
-    codes_.push_back(code);
-    std::vector<float> products;
-    for (const std::size_t other : used_) products.push_back(rows_.back().dot(atom_of(other)));
-    products_.push_back(std::move(products));
-    targets_.push_back(rows_.back().dot(signal_));
+    append(atom, 0);
+    const Vector weighted = weights_.cwiseProduct(atom_of(atom));
+    const Eigen::Index last = size() - 1;
+    products_.col(last).head(size()).noalias() = columns().transpose() * weighted;
+    products_.row(last).head(last) = products_.col(last).head(last).transpose();
+    targets_[last] = weighted.dot(signal_);
     return true;
   }
 
   // Coordinate descent on the atoms in use: of code^T G code - 2 target^T code + lambda |code|_1.
+  // Slopes follow the codes that change, which are few.
   void descend(float lambda) {
-    const std::size_t n = used_.size();
+    const Eigen::Index n = size();
+    Eigen::Map<Vector> codes(codes_.data(), n);
+    Vector slopes = targets_.head(n) - products_.topLeftCorner(n, n) * codes;
     for (std::size_t sweep = 0; sweep < settings_.sweeps; ++sweep) {
       float moved = 0;
-      for (std::size_t i = 0; i < n; ++i) {
-        const float own = product(i, i);
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const float own = products_(i, i);
         if (!(own > 0)) continue;
-        float slope = targets_[i];
-        for (std::size_t j = 0; j < n; ++j) slope -= j == i ? 0 : product(i, j) * codes_[j];
+        const float slope = slopes[i] + own * codes[i];
         const float size = std::max(std::abs(slope) - 0.5F * lambda, 0.0F) / own;
-        const float next = slope < 0 ? -size : size;
-        moved = std::max(moved, 2 * own * std::abs(next - codes_[i]));
-        codes_[i] = next;
+        const float change = (slope < 0 ? -size : size) - codes[i];
+        if (change == 0) continue;
+        moved = std::max(moved, 2 * own * std::abs(change));
+        slopes -= change * products_.col(i).head(n);
+        codes[i] += change;
       }
       if (moved <= static_cast<float>(settings_.tolerance) * lambda) break;
     }
   }
 
-  Vector fit() const {
-    Vector sum = Vector::Zero(signal_.size());
-    for (std::size_t i = 0; i < used_.size(); ++i) {
-      if (codes_[i] != 0) sum += codes_[i] * atom_of(used_[i]);
-    }
-    return sum;
-  }
+  Vector fit() const { return columns() * Map(codes_.data(), size()); }
 
   const Vector& weights() const { return weights_; }
   Map signal() const { return signal_; }
@@ -96,22 +98,29 @@ class Descent {
   }
 
  private:
+  Eigen::Index size() const { return static_cast<Eigen::Index>(used_.size()); }
+  Eigen::Index most() const { return static_cast<Eigen::Index>(settings_.most_atoms); }
   Map atom_of(std::size_t k) const {
     return {dictionary_.values.data() + k * dictionary_.rows,
             static_cast<Eigen::Index>(dictionary_.rows)};
   }
-  float product(std::size_t i, std::size_t j) const {
-    return i >= j ? products_[i][j] : products_[j][i];
+  Eigen::Map<const Eigen::MatrixXf> columns() const {
+    return {columns_.data(), static_cast<Eigen::Index>(dictionary_.rows), size()};
+  }
+  void append(std::size_t atom, float code) {
+    used_.push_back(atom);
+    codes_.push_back(code);
+    const std::span<const float> values = dictionary_.atom(atom);
+    columns_.insert(columns_.end(), values.begin(), values.end());
   }
 
   const Dictionary& dictionary_;
   Map signal_;
   const DescentSettings& settings_;
-  Vector weights_;
+  Vector weights_, targets_;
   std::vector<std::size_t> used_;
-  std::vector<float> codes_, targets_;
-  std::vector<Vector> rows_;                  // weighted atoms in use
-  std::vector<std::vector<float>> products_;  // lower triangle of their Gram matrix
+  std::vector<float> codes_, columns_;  // of the atoms in use; these, one behind the other
+  Eigen::MatrixXf products_;            // their Gram matrix under the weights
 };
 
 // Signals first to last of a problem.
@@ -225,7 +234,7 @@ class Batch {
     std::partial_sort(steep.begin(), steep.begin() + static_cast<std::ptrdiff_t>(many),
                       steep.end());
     bool added = false;
-    for (std::size_t i = 0; i < many; ++i) added |= descents_[s].use(steep[i].second, 0);
+    for (std::size_t i = 0; i < many; ++i) added |= descents_[s].use(steep[i].second);
     return added;
   }
 

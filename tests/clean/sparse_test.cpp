@@ -91,6 +91,14 @@ TEST(Sparse, LeavesACleanWalkNearlyAlone) {
   EXPECT_LT(geodesic_rms_deg(truth, clean_clip(truth, *make_sparse({}, joints())).clip), 0.05);
 }
 
+TEST(Sparse, LeavesNoiseWithAColourToAuto) {
+  Clip noisy = walk(9);
+  Random random(10);
+  apply_damage(noisy, "ar1", {{"std_deg", 2.0}, {"correlation", 0.9}}, random);
+  const Clip own = clean_clip(noisy, *make_sparse({}, joints())).clip;
+  EXPECT_EQ(own.local_rotations, clean_clip(noisy, *make_auto()).clip.local_rotations);
+}
+
 TEST(Sparse, FillsAMarkerFromTheOthersOfItsPoselet) {
   const MarkerClip truth = joint_markers(walk(8));
   MarkerClip gapped = truth;

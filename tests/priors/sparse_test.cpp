@@ -4,7 +4,11 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <fstream>
 #include <set>
+#include <string>
+#include <utility>
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/convert.hpp"
@@ -173,6 +177,73 @@ TEST(Poselets, OfMarkersGoByNamesOrByWhereTheyAre) {
   EXPECT_THAT(poselets[4].points, ::testing::ElementsAre(1));
 }
 
+BodyLayout layout_of_four() {
+  BodyLayout layout;
+  layout.names = {"Hips", "Spine", "LeftArm", "RightArm"};
+  return layout;
+}
+
+// Four joints, and the free ends of the two arms.
+SparsePoints points_of_four() {
+  SparsePoints points;
+  points.parents = {-1, 0, 1, 1, 2, 3};
+  points.offsets.resize(6);
+  return points;
+}
+
+TEST(PoseletFile, SaysWhichJointsArePartsOfWhat) {
+  const std::vector<SparsePoselet> poselets = parse_poselets(
+      "\xEF\xBB\xBF# of a puppet\r\n\n middle : Hips, spine\r\narms: *Arm, Spine # both", "own.txt",
+      layout_of_four(), points_of_four());
+  ASSERT_EQ(poselets.size(), 2u);
+  EXPECT_EQ(poselets[0].name, "middle");
+  EXPECT_THAT(poselets[0].points, ::testing::ElementsAre(0, 1));
+  EXPECT_EQ(poselets[1].name, "arms");
+  EXPECT_THAT(poselets[1].points, ::testing::ElementsAre(1, 2, 3, 4, 5));
+}
+
+TEST(PoseletFile, IsRefusedWithTheLineAndWhatIsWrongWithIt) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"all: *\nHips", "own.txt:2: expected \"poselet: name, name, ...\", found \"Hips\""},
+      {": Hips", "own.txt:1: expected the poselet's name before the colon"},
+      {"a:  # nothing", "own.txt:1: poselet \"a\" is empty"},
+      {"a: Hips,,Spine", "own.txt:1: a name is missing between two commas"},
+      {"a: Hips, Tail", "own.txt:1: no joint is named \"Tail\""},
+      {"a: *\n\na: *", "own.txt:3: poselet \"a\" stands in a line above already"},
+      {"# none", "own.txt: there are no poselets in it"},
+      {"a: Hips, LeftArm", "own.txt: in no poselet: Spine, RightArm"}};
+  for (const auto& [text, message] : cases) {
+    try {
+      parse_poselets(text, "own.txt", layout_of_four(), points_of_four());
+      ADD_FAILURE() << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.what(), message);
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+    }
+  }
+}
+
+TEST(SparseTraining, LearnsThePoseletsOfAFileAndKeepsThemInTheModel) {
+  const std::string path = ::testing::TempDir() + "poselets.txt";
+  std::ofstream(path) << "left: *Left*, Hips\nothers: *\n";
+  const Model model = trained(std::vector<Clip>{walk(1, 1)}, {{"poselets", path}});
+  const SparsePrior prior = sparse_prior_of(parse_model(write_model(model), "own"));
+  ASSERT_EQ(prior.poselets.size(), 2u);
+  EXPECT_EQ(prior.poselets[1].points.size(), prior.points.count());
+  for (const std::int32_t point : prior.poselets[0].points) {
+    const auto own = static_cast<std::size_t>(point);
+    const std::size_t track = own < model.layout.track_count()
+                                  ? own
+                                  : static_cast<std::size_t>(prior.points.parents[own]);
+    const std::string& name = model.layout.names[track];
+    EXPECT_TRUE(name == "Hips" || name.find("Left") != name.npos) << name;
+  }
+  std::remove(path.c_str());
+  EXPECT_THROW(trained(std::vector<Clip>{walk(1, 1)}, {{"poselets", path}}), Error);
+  EXPECT_THROW(trained(std::vector<Clip>{walk(1, 1)}, {{"poselets", path}, {"whole", true}}),
+               Error);
+}
+
 TEST(SparsePriorFile, ComesBackAndIsRefusedWhereItDoesNotFit) {
   const Model& model = joint_model();
   Model again = model;
@@ -273,6 +344,30 @@ TEST(SparseFilter, FillsMissingRowsFromTheOthers) {
     }
   }
   EXPECT_LT(take.error(), 1.5 * before);
+}
+
+TEST(SparseFilter, SolvesOnlyPoseletsOfWhichAPointIsWanted) {
+  const NoisyTake take = noisy_take(0.01, 0, 0.5);
+  std::vector<std::uint8_t> wanted(take.prior.points.count(), 0);
+  const std::vector<std::int32_t>& chosen = take.prior.poselets[1].points;
+  wanted[static_cast<std::size_t>(chosen.front())] = 1;
+  const SparseTake all{take.noisy, take.clean, take.observed, take.noise, 60};
+  SparseTake some = all;
+  some.wanted = wanted;
+  const PoseMatrix whole = sparse_filter(take.prior, all), part = sparse_filter(take.prior, some);
+  std::size_t solved = 0;
+  for (std::size_t p = 0; p < wanted.size(); ++p) {
+    const bool is_chosen =
+        std::find(chosen.begin(), chosen.end(), static_cast<std::int32_t>(p)) != chosen.end();
+    if (part(0, 3 * p) == take.clean(0, 3 * p)) continue;
+    ++solved;
+    // A point that another poselet has, too, is its mean with that elsewhere.
+    if (is_chosen) {
+      EXPECT_NEAR(part(0, 3 * p), whole(0, 3 * p), 0.01);
+    }
+  }
+  EXPECT_GE(solved, chosen.size());
+  EXPECT_LT(solved, wanted.size());
 }
 
 TEST(SparseFilter, TakesATakeOfOneFrame) {
