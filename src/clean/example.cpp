@@ -91,8 +91,7 @@ class ExampleCleaning {
 
   void filter(PriorWork& work) const {
     if (work.channels.poses.frames == 0) return;
-    if (!options_.robust || options_.lambda > 0 || options_.welsch_deg > 0)
-      take_whole(work);
+    if (!options_.robust || options_.lambda > 0 || options_.welsch_deg > 0) take_whole(work);
     const BodyChannels& channels = work.channels;
     const std::vector<double>& mean = prior_.bases.mean;
     PoseMatrix guess = first_guess(work, mean, tuning_.guesses_suspects && !is_papers());
