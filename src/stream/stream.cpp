@@ -98,8 +98,10 @@ void drop(MarkerClip& window, std::size_t frames) {
 template <class T>
 void copy_row(const std::vector<T>& values, std::size_t row, std::size_t width,
               std::vector<T>& result) {
+  result.clear();
+  if (values.empty()) return;
   const auto first = values.begin() + static_cast<std::ptrdiff_t>(row * width);
-  result.assign(first, values.empty() ? first : first + static_cast<std::ptrdiff_t>(width));
+  result.assign(first, first + static_cast<std::ptrdiff_t>(width));
 }
 
 // A frame as it came.
