@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "kinemend/error.hpp"
+#include "priors/network_numbers.hpp"
 
 namespace kinemend {
 
@@ -15,32 +15,6 @@ namespace {
 
 constexpr std::size_t most_layers = 16, most_stride = 64, most_reach = 256, head_count = 4;
 constexpr std::size_t axes = 3;
-
-[[noreturn]] void refuse(const std::string& what) {
-  throw Error(ErrorKind::unreadable_input, what);
-}
-
-std::size_t whole_number(const Model& model, const std::string& name, std::size_t least,
-                         std::size_t most) {
-  const double value = model.number(name);
-  if (!(value >= static_cast<double>(least) && value <= static_cast<double>(most)))
-    refuse(fmt::format("the model's {} is not between {} and {}", name, least, most));
-  return static_cast<std::size_t>(value);
-}
-
-std::vector<float> numbers(const Model& model, const char* name, std::size_t count,
-                           bool is_positive) {
-  std::vector<float> values = nn::floats_of(model.tensor(name, {count}));
-  if (is_positive && std::any_of(values.begin(), values.end(), [](float v) { return !(v > 0); }))
-    refuse(fmt::format("the model's {} is not positive everywhere", name));
-  return values;
-}
-
-void check_width(const std::string& layer, std::size_t found, std::size_t expected) {
-  if (found != expected)
-    refuse(
-        fmt::format("the model's layer {}: expected {} numbers, found {}", layer, expected, found));
-}
 
 // Every `stride`-th row from `phase` on.
 std::vector<float> rows_of_phase(std::span<const float> rows, std::size_t width, std::size_t phase,
@@ -201,9 +175,9 @@ FilterNetwork filter_network_of(const Model& model) {
   network.reach = whole_number(model, "reach", 0, most_reach);
   network.inputs = {whole_number(model, "roughness", 0, 1) == 1,
                     whole_number(model, "masks", 0, 1) == 1};
-  network.statistics = {numbers(model, "mean", channels, false),
-                        numbers(model, "deviation", channels, true),
-                        numbers(model, "turning", axes, true)};
+  network.statistics = {network_numbers(model, "mean", channels, false),
+                        network_numbers(model, "deviation", channels, true),
+                        network_numbers(model, "turning", axes, true)};
   std::size_t width = filter_feature_count(channels, network.inputs) * (2 * network.reach + 1);
   const auto read = [&](const std::string& name, bool is_last) {
     const nn::Activation activation = is_last ? nn::Activation::none : nn::Activation::tanh;
@@ -227,7 +201,7 @@ FilterNetwork filter_network_of(const Model& model) {
     network.recurrent.push_back(std::move(layer));
   }
   if (network.reach > 0 && encoders + layers > 0)
-    refuse("the model's reach belongs to a network of dense layers alone");
+    refuse_network("the model's reach belongs to a network of dense layers alone");
   const std::size_t decoders = whole_number(model, "decoders", 1, most_layers);
   for (std::size_t i = 0; i < decoders; ++i)
     network.decoder.push_back(read(fmt::format("decoder{}", i), i + 1 == decoders));

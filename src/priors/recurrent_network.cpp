@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "kinemend/error.hpp"
+#include "priors/network_numbers.hpp"
 
 namespace kinemend {
 
@@ -14,39 +14,15 @@ namespace {
 constexpr std::size_t most_blocks = 64;
 constexpr std::size_t most_dilation = 4096;
 
-[[noreturn]] void refuse(const std::string& what) {
-  throw Error(ErrorKind::unreadable_input, what);
-}
-
-std::size_t whole_number(const Model& model, const std::string& name, std::size_t least,
-                         std::size_t most) {
-  const double value = model.number(name);
-  if (!(value >= static_cast<double>(least) && value <= static_cast<double>(most)))
-    refuse(fmt::format("the model's {} is not between {} and {}", name, least, most));
-  return static_cast<std::size_t>(value);
-}
-
-std::vector<float> per_channel(const Model& model, const char* name, bool is_positive) {
-  std::vector<float> values = nn::floats_of(model.tensor(name, {model.layout.channel_count()}));
-  if (is_positive && std::any_of(values.begin(), values.end(), [](float v) { return !(v > 0); }))
-    refuse(fmt::format("the model's {} is not positive everywhere", name));
-  return values;
-}
-
-void check_width(const char* layer, std::size_t found, std::size_t expected) {
-  if (found != expected)
-    refuse(
-        fmt::format("the model's layer {}: expected {} numbers, found {}", layer, expected, found));
-}
-
 }  // namespace
 
 RecurrentNetwork recurrent_network_of(const Model& model) {
   const std::size_t channels = model.layout.channel_count();
   RecurrentNetwork network;
   network.rate_hz = model.rate_hz;
-  network.statistics = {per_channel(model, "mean", false), per_channel(model, "deviation", true),
-                        per_channel(model, "speed", true)};
+  network.statistics = {network_numbers(model, "mean", channels, false),
+                        network_numbers(model, "deviation", channels, true),
+                        network_numbers(model, "speed", channels, true)};
   network.mirror = mirror_of(model.layout);
   network.input = nn::read_dense(model.tensors, "input");
   check_width("input", network.input.inputs(), recurrent_feature_count(channels));

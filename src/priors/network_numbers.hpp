@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "kinemend/experimental/model.hpp"
+
+// What readers of networks ask of a model file. Errors of all: `ErrorKind::unreadable_input`.
+namespace kinemend {
+
+[[noreturn]] void refuse_network(const std::string& what);
+
+/// A number of the model, which is between these.
+std::size_t whole_number(const Model& model, const std::string& name, std::size_t least,
+                         std::size_t most);
+/// A tensor of `count` numbers, all above zero where they are to be positive.
+std::vector<float> network_numbers(const Model& model, const char* name, std::size_t count,
+                                   bool is_positive);
+void check_width(const std::string& layer, std::size_t found, std::size_t expected);
+
+}  // namespace kinemend
