@@ -35,10 +35,6 @@ struct KneeCircle {
 // The rotations that the knee's channels allow.
 enum class KneeTurn : std::uint8_t { none, first_axis, last_axis, free };
 
-Vec3 axis_vector(Axis axis) {
-  return {axis == Axis::x ? 1.0 : 0.0, axis == Axis::y ? 1.0 : 0.0, axis == Axis::z ? 1.0 : 0.0};
-}
-
 Vec3 first_axis(const LegPose& pose, const LegModel& model) {
   return rotate(pose.knee_parent * model.knee.rest, axis_vector(model.knee.order.axes[0]));
 }
@@ -175,6 +171,10 @@ class Leg {
 };
 
 }  // namespace
+
+Vec3 axis_vector(Axis axis) {
+  return {axis == Axis::x ? 1.0 : 0.0, axis == Axis::y ? 1.0 : 0.0, axis == Axis::z ? 1.0 : 0.0};
+}
 
 Quat within_channels(Quat rotation, const LegJoint& joint) {
   if (joint.order.count >= 3) return rotation;

@@ -7,6 +7,9 @@
 
 namespace kinemend::feet {
 
+/// Of length 1.
+Vec3 axis_vector(Axis axis);
+
 /// The nearest rotation that the channels of a joint allow.
 Quat within_channels(Quat rotation, const LegJoint& joint);
 

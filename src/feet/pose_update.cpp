@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "feet/leg_solver.hpp"
+
 namespace kinemend::feet {
 
 namespace {
@@ -33,14 +35,11 @@ Eigen::Matrix3d by_turn(Vec3 arm) {
 Eigen::Matrix3d free_axes(const LegJoint& joint, Quat parent, Quat own) {
   if (joint.order.count >= 3) return Eigen::Matrix3d::Identity();
   if (joint.order.count == 0) return Eigen::Matrix3d::Zero();
-  const auto unit = [](Axis axis) {
-    return Vec3{axis == Axis::x ? 1.0 : 0.0, axis == Axis::y ? 1.0 : 0.0,
-                axis == Axis::z ? 1.0 : 0.0};
-  };
-  const Eigen::Vector3d first = eigen(rotate(parent * joint.rest, unit(joint.order.axes[0])));
+  const Eigen::Vector3d first =
+      eigen(rotate(parent * joint.rest, axis_vector(joint.order.axes[0])));
   Eigen::Matrix3d projection = first * first.transpose();
   if (joint.order.count == 1) return projection;
-  Eigen::Vector3d last = eigen(rotate(own, unit(joint.order.axes[1])));
+  Eigen::Vector3d last = eigen(rotate(own, axis_vector(joint.order.axes[1])));
   last -= first.dot(last) * first;
   if (last.norm() > 0) projection += last * last.transpose() / last.squaredNorm();
   return projection;
