@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/parallel.hpp"
 #include "signal/leave_one_out_kernels.hpp"
 #include "signal/whittaker_kernels.hpp"
 
@@ -37,15 +37,21 @@ std::size_t memory_of(const SharedFactor& factor) {
 LeaveOneOut::LeaveOneOut(std::size_t frames, double frame_rate_hz, const CutoffGrid& cutoffs) {
   constexpr double largest_strength = 1e10, least_weight = 1e-3;
   if (frames <= order + 1) return;
+  std::vector<double> strengths;
   for (std::size_t i = 0; i < cutoffs.count; ++i) {
     const double strength =
         strength_of_cutoff(std::min(cutoffs.hz(i) / frame_rate_hz, 0.49), order);
-    if (strength > largest_strength) continue;
-    factors_.push_back(factor_shared(frames, order, strength));
-    memories_.push_back(memory_of(factors_.back()));
-    weights_.push_back(signal::weights_of_others(factors_.back()));
-    for (double& weight : weights_.back()) weight = std::max(weight, least_weight);
+    if (strength <= largest_strength) strengths.push_back(strength);
   }
+  factors_.resize(strengths.size());
+  memories_.resize(strengths.size());
+  weights_.resize(strengths.size());
+  for_each_parallel(strengths.size(), strengths.size() * frames, [&](std::size_t i) {
+    factors_[i] = factor_shared(frames, order, strengths[i]);
+    memories_[i] = memory_of(factors_[i]);
+    weights_[i] = signal::weights_of_others(factors_[i]);
+    for (double& weight : weights_[i]) weight = std::max(weight, least_weight);
+  });
 }
 
 // The backward recursion of a tile starts as many differences behind it as influence it, so that
@@ -78,16 +84,16 @@ void LeaveOneOut::fit(std::size_t smoother, const LaneBlock& y, const FitVisitor
 
 std::array<std::size_t, lane_tracks> LeaveOneOut::best_smoothers(const LaneBlock& y,
                                                                  const BlockRow& caps) const {
-  std::array<std::size_t, lane_tracks> best{};
-  BlockRow least;
-  least.fill(std::numeric_limits<double>::infinity());
-  for (std::size_t m = 0; m < smoothers(); ++m) {
-    BlockRow sums{};
+  std::vector<BlockRow> sums(smoothers());
+  for_each_parallel(smoothers(), smoothers() * y.values.size(), [&](std::size_t m) {
     fit(m, y, [&](std::size_t first, std::size_t count, const double* x) {
-      lanes_errors(count, y.row(first), x, weights_[m].data() + first, caps.data(), sums.data());
+      lanes_errors(count, y.row(first), x, weights_[m].data() + first, caps.data(), sums[m].data());
     });
+  });
+  std::array<std::size_t, lane_tracks> best{};
+  for (std::size_t m = 1; m < smoothers(); ++m) {
     for (std::size_t i = 0; i < lane_tracks; ++i) {
-      if (sums[i] < least[i]) least[i] = sums[i], best[i] = m;
+      if (sums[m][i] < sums[best[i]][i]) best[i] = m;
     }
   }
   return best;

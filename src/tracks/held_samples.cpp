@@ -65,28 +65,49 @@ bool moves(const std::vector<std::optional<double>>& sizes) {
   return moving * 2 * longest_step > sizes.size();
 }
 
-// How many tracks see each pattern of one join, step by step and phase by phase.
+// How many tracks see each pattern of one join, step by step and phase by phase, and how many see
+// none of a step.
 struct Votes {
   std::size_t moving = 0;
   std::array<std::array<std::size_t, longest_step>, longest_step + 1> votes{};
+  std::array<std::size_t, longest_step + 1> against{};
+
+  bool agree(std::size_t votes_for, std::size_t all) const {
+    return static_cast<double>(votes_for) >= agreeing_tracks * static_cast<double>(all);
+  }
+  // Whether the other ones of so many tracks may still agree on a step.
+  bool is_open(std::size_t step, std::size_t tracks) const {
+    return agree(tracks - against[step], tracks);
+  }
+  bool any_is_open(std::size_t tracks) const {
+    for (std::size_t step = 2; step <= longest_step; ++step) {
+      if (is_open(step, tracks)) return true;
+    }
+    return false;
+  }
 };
 
 SamplePattern elected(const VectorTracks& tracks, const SampleMarks& missing, SampleJoin join) {
   Votes count;
   for (std::size_t n = 0; n < tracks.tracks(); ++n) {
+    if (!count.any_is_open(tracks.tracks())) return {};
     const auto sizes = difference_sizes(tracks.track(n), missing.track(n), join);
     if (!moves(sizes)) continue;
     ++count.moving;
     for (std::size_t step = 2; step <= longest_step; ++step) {
-      if (const auto phase = lone_phase(sizes, step)) ++count.votes[step][*phase];
+      if (!count.is_open(step, tracks.tracks())) continue;
+      if (const auto phase = lone_phase(sizes, step)) {
+        ++count.votes[step][*phase];
+      } else {
+        ++count.against[step];
+      }
     }
   }
   // Samples held for four frames change at every second frame at most, too: the longest step is the
   // right one.
   for (std::size_t step = longest_step; step >= 2; --step) {
     for (std::size_t phase = 0; phase < step; ++phase) {
-      if (count.moving > 0 && static_cast<double>(count.votes[step][phase]) >=
-                                  agreeing_tracks * static_cast<double>(count.moving))
+      if (count.moving > 0 && count.agree(count.votes[step][phase], count.moving))
         return {join, step, phase};
     }
   }

@@ -61,10 +61,39 @@ Windows windows_of(std::size_t frames, std::size_t length, std::size_t most) {
 
 using Curve = std::array<double, strengths>;  // -2 log likelihood of each strength
 
-// Tracks and which of their samples are none.
-struct SeenTracks {
-  VectorTracks tracks;
-  SampleMarks missing;
+// The tracks that move, as they were before they were whitened and with marked samples filled, one
+// at a time: a copy of a long take would double its room.
+class MovingTracks {
+ public:
+  MovingTracks(const VectorTracks& tracks, const SampleMarks& marked,
+               std::span<const Whitening> whitenings)
+      : tracks_(tracks), marked_(marked), whitenings_(whitenings) {
+    // What stands still has no noise.
+    for (std::size_t n = 0; n < tracks.tracks(); ++n) {
+      const auto track = tracks.track(n);
+      if (std::any_of(track.begin(), track.end(),
+                      [&](Vec3 v) { return norm(v - track[0]) > least_motion; }))
+        numbers_.push_back(n);
+    }
+  }
+
+  std::size_t count() const { return numbers_.size(); }
+  std::size_t frames() const { return tracks_.frames(); }
+  std::size_t number(std::size_t i) const { return numbers_[i]; }
+  std::span<const std::uint8_t> marked(std::size_t i) const { return marked_.track(numbers_[i]); }
+  std::vector<Vec3> filled(std::size_t i) const {
+    const auto track = tracks_.track(numbers_[i]);
+    std::vector<Vec3> values(track.begin(), track.end());
+    if (!whitenings_.empty()) undo_whitening(values, whitenings_[numbers_[i]]);
+    fill_marked(values, marked(i));
+    return values;
+  }
+
+ private:
+  const VectorTracks& tracks_;
+  const SampleMarks& marked_;
+  std::span<const Whitening> whitenings_;
+  std::vector<std::size_t> numbers_;
 };
 
 // Of a few marked samples the line between their neighbours tells as much, and the noise's thread
@@ -81,14 +110,45 @@ void mark_long_runs(std::span<const std::uint8_t> marked, std::span<std::uint8_t
   }
 }
 
+// The windows of all tracks, those of one track behind each other.
+struct SeenWindows {
+  std::size_t tracks, frames, count;  // frames of a window, windows of a track
+  std::vector<Vec3> values;
+  std::vector<std::uint8_t> missing;
+
+  std::span<const Vec3> window(std::size_t track, std::size_t number) const {
+    return std::span(values).subspan((track * count + number) * frames, frames);
+  }
+  std::span<const std::uint8_t> missing_in(std::size_t track, std::size_t number) const {
+    return std::span(missing).subspan((track * count + number) * frames, frames);
+  }
+};
+
+SeenWindows look_at(const MovingTracks& tracks, const Windows& windows) {
+  const std::size_t count = windows.starts.size(), size = tracks.count() * count * windows.frames;
+  SeenWindows seen{tracks.count(), windows.frames, count, std::vector<Vec3>(size),
+                   std::vector<std::uint8_t>(size)};
+  for_each_parallel(tracks.count(), tracks.count() * tracks.frames(), [&](std::size_t i) {
+    const std::vector<Vec3> values = tracks.filled(i);
+    std::vector<std::uint8_t> missing(values.size());
+    mark_long_runs(tracks.marked(i), missing);
+    for (std::size_t w = 0; w < count; ++w) {
+      const auto from = static_cast<std::ptrdiff_t>(windows.starts[w]);
+      const auto to = static_cast<std::ptrdiff_t>((i * count + w) * windows.frames);
+      std::copy_n(values.begin() + from, windows.frames, seen.values.begin() + to);
+      std::copy_n(missing.begin() + from, windows.frames, seen.missing.begin() + to);
+    }
+  });
+  return seen;
+}
+
 // That of every track and axis under noise of one colour: each window has its likeliest motion. Of
 // windows with hardly a sample nothing is known.
-std::vector<Curve> misfit_curves(const SeenTracks& seen, const Windows& windows,
+std::vector<Curve> misfit_curves(const SeenWindows& seen,
                                  std::span<const signal::SmoothingModel> models,
                                  double correlation) {
   constexpr double fewest_samples = 12;
-  const VectorTracks& tracks = seen.tracks;
-  const std::size_t channels = 3 * tracks.tracks(), count = windows.starts.size();
+  const std::size_t channels = 3 * seen.tracks, count = seen.count;
   std::vector<Curve> of_lanes(channels * count);
   Curve inverse, logarithm;
   for (std::size_t s = 0; s < strengths; ++s) {
@@ -97,21 +157,19 @@ std::vector<Curve> misfit_curves(const SeenTracks& seen, const Windows& windows,
   }
   const std::size_t blocks =
       (of_lanes.size() + signal::block_channels - 1) / signal::block_channels;
-  for_each_parallel(blocks, of_lanes.size() * windows.frames * models.size(), [&](std::size_t b) {
+  for_each_parallel(blocks, of_lanes.size() * seen.frames * models.size(), [&](std::size_t b) {
     const std::size_t first = b * signal::block_channels;
     const std::size_t used = std::min(signal::block_channels, of_lanes.size() - first);
-    signal::ChannelBlock y(windows.frames);
-    signal::NoisePrecision precision(windows.frames);
+    signal::ChannelBlock y(seen.frames);
+    signal::NoisePrecision precision(seen.frames);
     std::array<std::uint8_t, signal::block_channels> known{};
     for (std::size_t i = 0; i < used; ++i) {
-      const std::size_t channel = (first + i) / count;
-      const auto track = tracks.track(channel / 3);
-      const std::size_t start = windows.starts[(first + i) % count];
-      const double origin = component(track[start], channel % 3);
-      for (std::size_t t = 0; t < windows.frames; ++t)
-        y(t, i) = component(track[start + t], channel % 3) - origin;
-      precision.set_channel(i, correlation,
-                            seen.missing.track(channel / 3).subspan(start, windows.frames));
+      const std::size_t channel = (first + i) / count, number = (first + i) % count;
+      const auto window = seen.window(channel / 3, number);
+      const double origin = component(window[0], channel % 3);
+      for (std::size_t t = 0; t < window.size(); ++t)
+        y(t, i) = component(window[t], channel % 3) - origin;
+      precision.set_channel(i, correlation, seen.missing_in(channel / 3, number));
       known[i] = precision.observed[i] >= fewest_samples ? 1 : 0;
       if (known[i] == 0) precision.set_channel(i, 0, {});
       of_lanes[first + i].fill(known[i] != 0 ? std::numeric_limits<double>::infinity() : 0);
@@ -143,12 +201,12 @@ struct Estimate {
   double agreement = 1;  // share of the tracks that are likelier under it than under white noise
 };
 
-Estimate estimate_of_colour(const SeenTracks& seen, const Windows& windows,
-                            std::span<const signal::SmoothingModel> models, double correlation) {
+Estimate estimate_of_colour(const SeenWindows& seen, std::span<const signal::SmoothingModel> models,
+                            double correlation) {
   Estimate found;
   found.correlation = correlation;
-  found.misfits.assign(seen.tracks.tracks(), 0);
-  for (const Curve& curve : misfit_curves(seen, windows, models, correlation)) {
+  found.misfits.assign(seen.tracks, 0);
+  for (const Curve& curve : misfit_curves(seen, models, correlation)) {
     const auto least = std::min_element(curve.begin(), curve.end());
     found.misfits[found.deviations.size() / 3] += *least;
     found.deviations.push_back(deviation_of(static_cast<std::size_t>(least - curve.begin())));
@@ -158,14 +216,12 @@ Estimate estimate_of_colour(const SeenTracks& seen, const Windows& windows,
 }
 
 // Of the colour among these that is likeliest.
-Estimate estimate(const SeenTracks& seen, const Windows& windows,
-                  std::span<const std::size_t> orders, std::span<const double> colours,
-                  double frame_rate_hz) {
-  const auto models =
-      signal::models_of_orders(orders, model_cutoffs, windows.frames, frame_rate_hz);
+Estimate estimate(const SeenWindows& seen, std::span<const std::size_t> orders,
+                  std::span<const double> colours, double frame_rate_hz) {
+  const auto models = signal::models_of_orders(orders, model_cutoffs, seen.frames, frame_rate_hz);
   Estimate best, white;
   for (const double correlation : colours) {
-    Estimate found = estimate_of_colour(seen, windows, models, correlation);
+    Estimate found = estimate_of_colour(seen, models, correlation);
     if (correlation == 0) white = found;
     if (found.misfit < best.misfit) best = std::move(found);
   }
@@ -177,11 +233,10 @@ Estimate estimate(const SeenTracks& seen, const Windows& windows,
   return best;
 }
 
-bool is_white(const SeenTracks& seen, const Windows& windows, std::span<const std::size_t> orders,
-              double frame_rate_hz) {
+bool is_white(const SeenWindows& seen, std::span<const std::size_t> orders, double frame_rate_hz) {
   // What is correlated by more is likelier with a little than with none, too.
   const auto colours = std::span(correlations).first(2);
-  return estimate(seen, windows, orders, colours, frame_rate_hz).correlation == 0;
+  return estimate(seen, orders, colours, frame_rate_hz).correlation == 0;
 }
 
 // Of a track: the root mean square along each axis of the velocity of means over 0.25 s.
@@ -256,47 +311,35 @@ std::vector<double> coloured_shares(const NoiseSpectrum& spectrum, double scale,
 
 NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& marked,
                                 double frame_rate_hz, TrackKind kind,
-                                std::optional<double> correlation) {
+                                std::optional<double> correlation,
+                                std::span<const Whitening> whitenings) {
   constexpr std::size_t fewest_frames = 24, fewest_tracks = 4, fewest_seconds = 4;
   NoiseSpectrum spectrum;
   const auto second = static_cast<std::size_t>(std::lround(window_rate_hz(frame_rate_hz)));
   // Markers may stand still, or go on alike, for a second or two.
   const std::size_t fewest = kind == TrackKind::positions ? fewest_seconds * second : 0;
   if (tracks.frames() < std::max(fewest_frames, fewest)) return spectrum;
-  // What stands still has no noise.
-  std::vector<std::size_t> moving;
-  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
-    const auto track = tracks.track(n);
-    if (std::any_of(track.begin(), track.end(),
-                    [&](Vec3 v) { return norm(v - track[0]) > least_motion; }))
-      moving.push_back(n);
-  }
-  if (moving.size() < fewest_tracks) return spectrum;
-  SeenTracks seen{VectorTracks(tracks.frames(), moving.size()),
-                  SampleMarks(tracks.frames(), moving.size())};
-  for (std::size_t i = 0; i < moving.size(); ++i) {
-    const auto track = tracks.track(moving[i]);
-    std::copy(track.begin(), track.end(), seen.tracks.track(i).begin());
-    fill_marked(seen.tracks.track(i), marked.track(moving[i]));
-    mark_long_runs(marked.track(moving[i]), seen.missing.track(i));
-  }
+  const MovingTracks moving(tracks, marked, whitenings);
+  if (moving.count() < fewest_tracks) return spectrum;
   constexpr std::size_t all_orders[] = {1, 2, 3}, smooth_order[] = {3};
-  const std::size_t most_windows = std::clamp<std::size_t>(most_lanes / (3 * moving.size()), 4, 24);
+  const std::size_t most_windows =
+      std::clamp<std::size_t>(most_lanes / (3 * moving.count()), 4, 24);
   const std::size_t window = std::max(fewest_frames, second);
   // White noise shows in a few windows already.
   const std::span<const double> colours =
       correlation ? std::span<const double>(&*correlation, 1) : std::span(correlations);
-  if (!correlation &&
-      is_white(seen, windows_of(tracks.frames(), window, few_windows), all_orders, frame_rate_hz))
+  const auto seen = [&](std::size_t length, std::size_t most) {
+    return look_at(moving, windows_of(tracks.frames(), length, most));
+  };
+  if (!correlation && is_white(seen(window, few_windows), all_orders, frame_rate_hz))
     return spectrum;
-  Estimate found = estimate(seen, windows_of(tracks.frames(), window, most_windows), all_orders,
-                            colours, frame_rate_hz);
+  Estimate found = estimate(seen(window, most_windows), all_orders, colours, frame_rate_hz);
   if (found.correlation == 0 || found.agreement < least_agreement) return spectrum;
 
   const double share = fast_share_of(found.correlation);
   std::vector<double> levels, times;
-  for (std::size_t i = 0; i < moving.size(); ++i) {
-    const Vec3 speeds = slow_speeds(seen.tracks.track(i), frame_rate_hz);
+  for (std::size_t i = 0; i < moving.count(); ++i) {
+    const Vec3 speeds = slow_speeds(moving.filled(i), frame_rate_hz);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double level = share * found.deviations[3 * i + axis];
       levels.push_back(level);
@@ -309,11 +352,8 @@ NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& m
   if (!spectrum.is_clear) return spectrum;
   spectrum.is_slow = kind == TrackKind::positions && found.correlation >= slow_correlation;
   if (spectrum.is_slow) {
-    Estimate whole =
-        estimate(seen,
-                 windows_of(tracks.frames(),
-                            static_cast<std::size_t>(longest_s * window_rate_hz(frame_rate_hz)), 2),
-                 smooth_order, colours, frame_rate_hz);
+    const auto longest = static_cast<std::size_t>(longest_s * window_rate_hz(frame_rate_hz));
+    Estimate whole = estimate(seen(longest, 2), smooth_order, colours, frame_rate_hz);
     const double most =
         most_of_quiet * fast_share_of(found.correlation) / fast_share_of(whole.correlation);
     for (std::size_t c = 0; c < whole.deviations.size(); ++c)
@@ -323,9 +363,9 @@ NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& m
   }
   spectrum.correlation = found.correlation;
   spectrum.deviations.assign(tracks.tracks(), {});
-  for (std::size_t i = 0; i < moving.size(); ++i) {
+  for (std::size_t i = 0; i < moving.count(); ++i) {
     const double* d = &found.deviations[3 * i];
-    spectrum.deviations[moving[i]] = {d[0], d[1], d[2]};
+    spectrum.deviations[moving.number(i)] = {d[0], d[1], d[2]};
   }
   return spectrum;
 }

@@ -76,9 +76,11 @@ bool may_be_coloured(std::vector<double> levels, double frame_rate_hz) {
 
 // Real noise of video and depth cameras has a tenth and more, also where a solver keeps bones
 // nearly at their lengths; clean markers that were taken for noisy have a hundredth at most.
-bool shows_in_distances(VectorTracks tracks, const std::vector<LinearTrend>& trends,
-                        const SampleMarks& missing, const NoiseSpectrum& spectrum) {
+bool shows_in_distances(VectorTracks tracks, const std::vector<Whitening>& whitenings,
+                        const std::vector<LinearTrend>& trends, const SampleMarks& missing,
+                        const NoiseSpectrum& spectrum) {
   constexpr double least = 0.03;
+  undo_whitening(tracks, whitenings);
   restore_trends(tracks, trends);
   return noise_in_distances(tracks, missing, spectrum.deviations, spectrum.correlation) > least;
 }
@@ -94,13 +96,14 @@ void leave_hardly_observed(const SampleMarks& missing, std::vector<double>& shar
 
 // The noise of tracks whose marked samples are `missing`; white where it shows no colour.
 NoiseSpectrum spectrum_of(const VectorTracks& tracks, const SampleMarks& missing,
+                          const std::vector<Whitening>& whitenings,
                           const std::vector<LinearTrend>& trends, double frame_rate_hz,
                           const TrackCleaningSettings& settings) {
-  NoiseSpectrum spectrum =
-      noise_spectrum_of(tracks, missing, frame_rate_hz, settings.kind, settings.correlation);
+  NoiseSpectrum spectrum = noise_spectrum_of(tracks, missing, frame_rate_hz, settings.kind,
+                                             settings.correlation, whitenings);
   if (settings.correlation || !spectrum.is_clear || settings.kind == TrackKind::rotations)
     return spectrum;
-  spectrum.is_clear = shows_in_distances(tracks, trends, missing, spectrum);
+  spectrum.is_clear = shows_in_distances(tracks, whitenings, trends, missing, spectrum);
   return spectrum;
 }
 
@@ -138,10 +141,8 @@ CleanedTracks clean_measurements(VectorTracks& tracks, const SampleMarks& spike_
                                     ? *settings.correlation > 0
                                     : may_be_coloured(cleaned.noise, frame_rate_hz);
   if (looks_for_colour) {
-    VectorTracks plain = tracks;
-    undo_whitening(plain, whitenings);
-    cleaned.spectrum = spectrum_of(plain, missing, trends, frame_rate_hz, settings);
-    if (cleaned.spectrum.is_clear) tracks = std::move(plain);
+    cleaned.spectrum = spectrum_of(tracks, missing, whitenings, trends, frame_rate_hz, settings);
+    if (cleaned.spectrum.is_clear) undo_whitening(tracks, whitenings);
   }
   if (cleaned.spectrum.is_clear) cleaned.noise = cleaned.spectrum.strengths();
   take_known(settings.noise, cleaned);

@@ -53,16 +53,17 @@ Whitening whitening_of(const VectorTracks& tracks, const SampleMarks& missing, s
           axes * (deviations / mean).asDiagonal()};
 }
 
+void map_track(std::span<Vec3> track, const Eigen::Matrix3d& matrix) {
+  for (Vec3& v : track) {
+    const Eigen::Vector3d mapped = matrix * Eigen::Vector3d(v.x, v.y, v.z);
+    v = {mapped.x(), mapped.y(), mapped.z()};
+  }
+}
+
 void map_tracks(VectorTracks& tracks, std::span<const Whitening> whitenings,
                 Eigen::Matrix3d Whitening::*map) {
   for_each_parallel(tracks.tracks(), tracks.values.size(), [&](std::size_t n) {
-    if (whitenings[n].is_identity) return;
-    const Eigen::Matrix3d matrix = whitenings[n].*map;
-    for (std::size_t t = 0; t < tracks.frames(); ++t) {
-      const Vec3 v = tracks.at(t, n);
-      const Eigen::Vector3d mapped = matrix * Eigen::Vector3d(v.x, v.y, v.z);
-      tracks.set(t, n, {mapped.x(), mapped.y(), mapped.z()});
-    }
+    if (!whitenings[n].is_identity) map_track(tracks.track(n), whitenings[n].*map);
   });
 }
 
@@ -88,6 +89,10 @@ void whiten(VectorTracks& tracks, std::span<const Whitening> whitenings) {
 void undo_whitening(VectorTracks& tracks, std::span<const Whitening> whitenings) {
   std::fill(tracks.is_whitened.begin(), tracks.is_whitened.end(), std::uint8_t{0});
   map_tracks(tracks, whitenings, &Whitening::inverse);
+}
+
+void undo_whitening(std::span<Vec3> track, const Whitening& whitening) {
+  if (!whitening.is_identity) map_track(track, whitening.inverse);
 }
 
 }  // namespace kinemend

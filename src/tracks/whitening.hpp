@@ -26,5 +26,7 @@ std::vector<Whitening> estimate_whitening(const VectorTracks& tracks, const Samp
 /// Maps the tracks in place.
 void whiten(VectorTracks& tracks, std::span<const Whitening> whitenings);
 void undo_whitening(VectorTracks& tracks, std::span<const Whitening> whitenings);
+/// The same of one track.
+void undo_whitening(std::span<Vec3> track, const Whitening& whitening);
 
 }  // namespace kinemend
