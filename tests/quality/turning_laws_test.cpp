@@ -91,13 +91,17 @@ class OfAnyMethod : public testing::TestWithParam<std::string> {
   double position_limit() const {
     for (const char* name : {"butterworth", "hampel", "kalman"})
       if (GetParam() == name) return 1.02;
-    return GetParam() == "weighted-mean" ? 1.6 : 1.25;
+    for (const char* name : {"nonlocal", "wiener"})
+      if (GetParam() == name) return 1.15;
+    return GetParam() == "weighted-mean" ? 1.45 : 1.1;
   }
 };
 
 // About an axis through the take, as a person turns who walks in a circle. A position that goes
-// round is on a curve, which an average over a window cuts, and which strengths chosen by evidence
-// follow: the walk is up to two metres from the axis.
+// round is another motion: who walks at 1.2 m/s and is turned by 60 degrees a second is accelerated
+// by 2.5 m/s^2, as much as by each step. An average over a window cuts that curve, and strengths
+// chosen by evidence follow it; over many seeds the error of `auto` changes by -5 to 9 % a motion,
+// less and more alike.
 TEST_P(OfAnyMethod, TheErrorDoesNotDependOnHowTheTakeTurns) {
   Squares still;
   std::vector<Clip> truths = {about_its_middle(take("walk", 3)), about_its_middle(take("wave", 2)),
