@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "checkpoint.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/corrupt.hpp"
 #include "kinemend/experimental/signal.hpp"
@@ -419,25 +420,11 @@ Model FilterTrainer::model() const {
 }
 
 std::string FilterTrainer::checkpoint() const {
-  TensorFile state = network_->state();
-  state.metadata["batch"] = fmt::format("{}", batch_);
-  state.metadata["seed"] = fmt::format("{}", settings_.seed);
-  return write_tensors(state);
+  return write_checkpoint(*network_, batch_, settings_.seed);
 }
 
 void FilterTrainer::resume(std::string_view bytes, std::string_view name) {
-  const TensorFile state = parse_tensors(bytes, name);
-  const auto number = [&](const char* key) -> std::size_t {
-    const auto found = state.metadata.find(key);
-    if (found == state.metadata.end())
-      throw Error(ErrorKind::unreadable_input, fmt::format("{}: is no checkpoint", name));
-    return std::stoull(found->second);
-  };
-  if (number("seed") != settings_.seed)
-    throw Error(ErrorKind::usage, fmt::format("{}: is of a training with seed {}, not {}", name,
-                                              number("seed"), settings_.seed));
-  network_->set_state(state);
-  batch_ = number("batch");
+  batch_ = read_checkpoint(bytes, name, settings_.seed, *network_);
 }
 
 void FilterTrainer::begin_with(const Model& model) {

@@ -18,13 +18,10 @@ namespace kinemend::train {
 
 namespace {
 
+constexpr double rate_hz = 120;
+
 struct Arguments {
-  std::vector<std::string> takes;
-  std::string list, validation, output, checkpoint;
-  bool resume = false;
-  double rate_hz = 120;
-  double report_s = 60;
-  ModelCard card;
+  Run run;
   RecurrentTraining training;
 };
 
@@ -80,53 +77,32 @@ std::string validation_text(const RecurrentTrainer& trainer,
   return text.empty() ? text : "  of auto's error:" + text;
 }
 
-void save(const Arguments& arguments, const RecurrentTrainer& trainer,
-          const TrainingSequences& sequences) {
-  if (!arguments.checkpoint.empty()) write_file(arguments.checkpoint, trainer.checkpoint());
+void save(const Run& run, const RecurrentTrainer& trainer, const TrainingSequences& sequences) {
+  if (!run.checkpoint.empty()) write_file(run.checkpoint, trainer.checkpoint());
   Model model = trainer.model();
-  model.card = arguments.card;
+  model.card = run.card;
   model.takes = sequences.takes;
   for (const TrainingSequences::Entry& entry : sequences.entries)
     model.seconds += entry.weight * static_cast<double>(entry.frames) / sequences.rate_hz;
-  write_file(arguments.output, write_model(model));
+  write_file(run.output, write_model(model));
 }
 
-void run(const Arguments& arguments) {
-  std::vector<std::string> paths = arguments.takes;
-  if (!arguments.list.empty()) {
-    const std::vector<std::string> more = lines_of(arguments.list);
-    paths.insert(paths.end(), more.begin(), more.end());
-  }
+void train(const Arguments& arguments) {
+  const Run& run = arguments.run;
   TrainSettings settings;
   settings.seed = arguments.training.seed;
-  const TrainingSequences sequences = encode_takes(takes_of(paths), settings, arguments.rate_hz);
+  const TrainingSequences sequences = encode_takes(takes_of(run.paths()), settings, rate_hz);
   fmt::print("{} takes, {} sequences, {} channels\n", sequences.takes, sequences.entries.size(),
              sequences.layout.channel_count());
   RecurrentTrainer trainer(sequences, arguments.training);
-  if (arguments.resume) trainer.resume(file_bytes(arguments.checkpoint), arguments.checkpoint);
+  if (run.resume) trainer.resume(file_bytes(run.checkpoint), run.checkpoint);
   const std::vector<ValidationSet> sets =
-      arguments.validation.empty() ? std::vector<ValidationSet>{}
-                                   : validation_sets(lines_of(arguments.validation), sequences);
-  const Clock clock;
-  const std::size_t first = trainer.batch();
-  double loss = 0, weight = 0, reported_s = 0;
-  while (trainer.batch() < arguments.training.batches) {
-    constexpr double memory = 0.995;
-    loss = memory * loss + (1 - memory) * trainer.step();
-    weight = memory * weight + (1 - memory);
-    const bool ends = trainer.batch() == arguments.training.batches;
-    if (!ends && clock.seconds() - reported_s < arguments.report_s) continue;
-    reported_s = clock.seconds();
-    const double each = reported_s / static_cast<double>(trainer.batch() - first);
-    const auto left = static_cast<double>(arguments.training.batches - trainer.batch());
-    fmt::print("{} of {}  loss {:.4f}  {:.0f} s, {:.0f} s left{}\n", trainer.batch(),
-               arguments.training.batches, loss / weight, reported_s, each * left,
-               validation_text(trainer, sets));
-    std::fflush(stdout);
-    save(arguments, trainer, sequences);
-  }
-  // A training that was done already: the model once more, with the card as it is said now.
-  if (trainer.batch() == first) save(arguments, trainer, sequences);
+      run.validation.empty() ? std::vector<ValidationSet>{}
+                             : validation_sets(lines_of(run.validation), sequences);
+  run_steps(
+      {trainer.batch(), arguments.training.batches, 0.995, [&] { return trainer.step(); },
+       [&] { return validation_text(trainer, sets); }, [&] { save(run, trainer, sequences); }},
+      run.report_s);
 }
 
 int start(int count, char** values) {
@@ -138,13 +114,7 @@ int start(int count, char** values) {
       "Trains the network of the method recurrent. `kinemend-train paper`: the networks of "
       "Mall et al. 2017.",
       "kinemend-train"};
-  app.add_option("takes", arguments.takes, "clean takes");
-  app.add_option("--list", arguments.list, "file with further takes, one a line");
-  app.add_option("--validate", arguments.validation,
-                 "file with takes, one a line, to measure the model on as training goes on");
-  app.add_option("-o,--output", arguments.output, "the model")->required();
-  app.add_option("--checkpoint", arguments.checkpoint, "file to go on from");
-  app.add_flag("--resume", arguments.resume, "goes on from the checkpoint, to the same result");
+  add_run_options(app, arguments.run, training.descent);
   app.add_option("--seed", training.seed)->capture_default_str();
   app.add_option("--batches", training.batches, "steps of the training")->capture_default_str();
   app.add_option("--batch", training.batch, "samples a step")->capture_default_str();
@@ -158,20 +128,9 @@ int start(int count, char** values) {
       ->capture_default_str();
   app.add_option("--most-scale", training.most_scale, "of their motion")->capture_default_str();
   app.add_option("--rate", training.rate, "of learning, at its highest")->capture_default_str();
-  app.add_option("--dropout", training.descent.dropout)->capture_default_str();
-  app.add_option("--weight-decay", training.descent.weight_decay)->capture_default_str();
-  app.add_option("--average", training.descent.average_decay)->capture_default_str();
-  app.add_option("--report-s", arguments.report_s, "seconds between reports")
-      ->capture_default_str();
-  app.add_option("--title", arguments.card.title, "of the card");
-  app.add_option("--data", arguments.card.data, "of the card");
-  app.add_option("--licence", arguments.card.licence, "of the card");
-  app.add_option("--command", arguments.card.command, "of the card");
-  app.add_option("--figures", arguments.card.figures, "of the card");
-  CLI11_PARSE(app, count, values);
-  if (arguments.resume && arguments.checkpoint.empty())
-    throw Error(ErrorKind::usage, "--resume wants --checkpoint");
-  run(arguments);
+  int exit_code = 0;
+  if (!parse(app, count, values, arguments.run, exit_code)) return exit_code;
+  train(arguments);
   return 0;
 }
 

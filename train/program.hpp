@@ -1,8 +1,13 @@
 #pragma once
 
-#include <chrono>
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
+
+#include "kinemend/experimental/model.hpp"
+#include "sequence_network.hpp"
 
 // What the programs that train have in common.
 namespace kinemend::train {
@@ -13,15 +18,36 @@ std::vector<std::string> lines_of(const std::string& path);
 /// `ErrorKind::cannot_write`.
 void write_file(const std::string& path, const std::string& bytes);
 
-class Clock {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
+/// What is learned from, what is written and how often.
+struct Run {
+  std::vector<std::string> takes;
+  std::string list;        ///< file with further takes, one a line
+  std::string validation;  ///< file with takes, one a line; empty: none
+  std::string output, checkpoint;
+  bool resume = false;
+  double report_s = 60;
+  ModelCard card;
 
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::vector<std::string> paths() const;  ///< of all takes
 };
+
+void add_run_options(CLI::App& app, Run& run, DescentSettings& descent);
+/// Parses the command line. Returns false where it has been answered already, with the exit code.
+/// Errors: `ErrorKind::usage` for `--resume` without a checkpoint.
+bool parse(CLI::App& app, int count, char** values, const Run& run, int& exit_code);
+
+/// A training, a step at a time.
+struct Steps {
+  std::size_t first = 0, last = 0;  ///< batches done before, and at the end
+  double memory = 0;                ///< of the running mean of the loss, a step
+  std::function<double()> step;     ///< returns the loss
+  std::function<std::string()> validation;
+  std::function<void()> save;  ///< checkpoint and model
+};
+
+/// Goes through the steps; every `report_s` seconds and at the end it prints the loss and the time
+/// left, and saves. Without a step to do it saves once more, with the card as it is said now.
+void run_steps(const Steps& steps, double report_s);
 
 /// `kinemend-train paper ...`: the networks of Mall et al. 2017. Returns the exit code.
 int paper_program(int count, char** values);

@@ -7,10 +7,8 @@
 #include <iostream>
 #include <string>
 
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/experimental/tensor.hpp"
 #include "priors/filter_network.hpp"
-#include "sequence_network.hpp"
+#include "reference_network.hpp"
 
 using namespace kinemend;
 
@@ -35,28 +33,8 @@ train::BidirectionalShape shape_of(const std::string& kind) {
 }
 
 void write_network(const std::string& folder, const std::string& kind) {
-  constexpr std::size_t steps = 19;
-  const train::BidirectionalShape shape = shape_of(kind);
-  train::SequenceNetwork network(shape, {}, 3);
-  // The last layer begins with zeros.
-  Random random(5);
-  TensorFile state = network.state();
-  for (auto& [name, tensor] : state.tensors) {
-    if (name.rfind("means.", 0) != 0) continue;
-    for (double& value : tensor.values)
-      value = static_cast<double>(static_cast<float>(0.4 * random.normal()));
-  }
-  network.set_state(state);
-  std::vector<float> features(steps * shape.inputs);
-  for (float& value : features) value = static_cast<float>(random.normal());
-  const std::vector<float> outputs = network.run(features);
-  TensorFile file;
-  file.tensors = network.averages();
-  file.tensors["features"] = {
-      TensorType::f32, {steps, shape.inputs}, {features.begin(), features.end()}};
-  file.tensors["outputs"] = {
-      TensorType::f32, {steps, shape.outputs}, {outputs.begin(), outputs.end()}};
-  file.metadata["made by"] = "train/reference_filter_network.cpp";
+  const TensorFile file =
+      train::reference_network(shape_of(kind), 19, 0.4, "train/reference_filter_network.cpp");
   std::ofstream(folder + "/filter_" + kind + ".safetensors", std::ios::binary)
       << write_tensors(file);
 }

@@ -6,10 +6,8 @@
 #include <fstream>
 #include <iostream>
 
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/experimental/tensor.hpp"
 #include "priors/recurrent_input.hpp"
-#include "sequence_network.hpp"
+#include "reference_network.hpp"
 
 using namespace kinemend;
 
@@ -24,25 +22,7 @@ int main(int count, char** values) {
   shape.hidden = 10;
   shape.outputs = recurrent_output_count(channels);
   shape.dilations = {1, 4};
-  train::SequenceNetwork network(shape, {}, 3);
-  // The last layer begins with zeros.
-  Random random(5);
-  TensorFile state = network.state();
-  for (auto& [name, tensor] : state.tensors) {
-    if (name.rfind("means.", 0) != 0) continue;
-    for (double& value : tensor.values)
-      value = static_cast<double>(static_cast<float>(0.3 * random.normal()));
-  }
-  network.set_state(state);
-  std::vector<float> features(steps * shape.inputs);
-  for (float& value : features) value = static_cast<float>(random.normal());
-  const std::vector<float> outputs = network.run(features);
-  TensorFile file;
-  file.tensors = network.averages();
-  file.tensors["features"] = {
-      TensorType::f32, {steps, shape.inputs}, {features.begin(), features.end()}};
-  file.tensors["outputs"] = {
-      TensorType::f32, {steps, shape.outputs}, {outputs.begin(), outputs.end()}};
-  file.metadata["made by"] = "train/reference_recurrent_network.cpp";
+  const TensorFile file =
+      train::reference_network(shape, steps, 0.3, "train/reference_recurrent_network.cpp");
   std::ofstream(values[1], std::ios::binary) << write_tensors(file);
 }

@@ -5,24 +5,15 @@
 #include <cmath>
 #include <vector>
 
-#include "kinemend/experimental/synth.hpp"
 #include "priors/auto_channels.hpp"
 #include "priors/sequence_damage.hpp"
+#include "synthetic_walks.hpp"
 
 namespace kinemend {
 namespace {
 
 const TrainingSequences& walks() {
-  static const TrainingSequences sequences = [] {
-    const TrainingTakes takes{
-        2, [](std::size_t index) -> std::optional<std::variant<Clip, MarkerClip>> {
-          SynthOptions options;
-          options.duration_s = 3;
-          options.seed = index + 1;
-          return synthesize(options);
-        }};
-    return encode_takes(takes, {}, 120);
-  }();
+  static const TrainingSequences sequences = encoded_walks(3);
   return sequences;
 }
 

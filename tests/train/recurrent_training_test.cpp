@@ -6,24 +6,15 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/synth.hpp"
 #include "priors/recurrent_network.hpp"
 #include "random_values.hpp"
+#include "synthetic_walks.hpp"
 
 namespace kinemend::train {
 namespace {
 
 const TrainingSequences& walks() {
-  static const TrainingSequences sequences = [] {
-    const TrainingTakes takes{
-        2, [](std::size_t index) -> std::optional<std::variant<Clip, MarkerClip>> {
-          SynthOptions options;
-          options.duration_s = 2;
-          options.seed = index + 1;
-          return synthesize(options);
-        }};
-    return encode_takes(takes, {}, 120);
-  }();
+  static const TrainingSequences sequences = encoded_walks(2);
   return sequences;
 }
 

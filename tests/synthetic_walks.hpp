@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <variant>
+
+#include "kinemend/experimental/synth.hpp"
+#include "priors/training_sequences.hpp"
+
+namespace kinemend {
+
+/// Walks of two bodies, encoded at 120 Hz.
+inline TrainingSequences encoded_walks(double duration_s) {
+  const TrainingTakes takes{
+      2, [duration_s](std::size_t index) -> std::optional<std::variant<Clip, MarkerClip>> {
+        SynthOptions options;
+        options.duration_s = duration_s;
+        options.seed = index + 1;
+        return synthesize(options);
+      }};
+  return encode_takes(takes, {}, 120);
+}
+
+}  // namespace kinemend
