@@ -160,14 +160,10 @@ class FeetCleaning {
     PoseUncertainty result;
     const double deviation = joint_deviation(parts, legs_.height);
     result.joint_rotation = deviation;
-    bool all = true;
-    for (const LegModel& model : legs_.models) {
+    for (const LegModel& model : legs_.models)
       result.legs.push_back(may_turn(model, limits_) ? 1 : 0);
-      all = all && result.legs.back() != 0;
-    }
     const Carrier& carrier = legs_.carrier;
-    if (!all || !carrier.found || carrier.track != 0) return result;
-    if (!limits_.joints.empty() && limits_.joints[carrier.joint] == 0) return result;
+    if (!may_move_carrier() || carrier.track != 0) return result;
     if (clip_.skeleton.rotation_order(carrier.joint).count == 3) result.root_rotation = deviation;
     if (limits_.root_position && clip_.skeleton.channels[carrier.joint].size() >= 6)
       result.root_position = root_share * legs_.height * deviation;
@@ -218,22 +214,26 @@ class FeetCleaning {
     return targets;
   }
 
-  // Lowering the body moves the feet of all legs, which only legs that may turn can undo.
-  bool may_lower() const {
+  // What carries the legs moves all feet, which only legs that may turn can undo.
+  bool may_move_carrier() const {
     const Carrier& carrier = legs_.carrier;
-    if (!carrier.found) return false;
+    return carrier.found && (limits_.joints.empty() || limits_.joints[carrier.joint] != 0) &&
+           std::all_of(legs_.models.begin(), legs_.models.end(),
+                       [&](const LegModel& model) { return may_turn(model, limits_); });
+  }
+
+  bool may_lower() const {
+    if (!may_move_carrier()) return false;
+    const Carrier& carrier = legs_.carrier;
     const bool is_root = carrier.track == 0;
     if (!(is_root ? limits_.root_position : limits_.translations)) return false;
-    if (!limits_.joints.empty() && limits_.joints[carrier.joint] == 0) return false;
     const auto& channels = clip_.skeleton.channels[carrier.joint];
     const auto has = [&](Axis axis) {
       return std::any_of(channels.begin(), channels.end(), [&](Channel channel) {
         return !is_rotation(channel) && axis_of(channel) == axis;
       });
     };
-    if (!(is_root ? has(up_.axis) : has(Axis::x) && has(Axis::y) && has(Axis::z))) return false;
-    return std::all_of(legs_.models.begin(), legs_.models.end(),
-                       [&](const LegModel& model) { return may_turn(model, limits_); });
+    return is_root ? has(up_.axis) : has(Axis::x) && has(Axis::y) && has(Axis::z);
   }
 
   void move(std::vector<FootTarget>& targets) {

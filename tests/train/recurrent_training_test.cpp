@@ -87,5 +87,14 @@ TEST(RecurrentTraining, TheNetworkOfTheLibraryGivesWhatLibTorchGives) {
   for (std::size_t i = 0; i < ours.size(); ++i) EXPECT_NEAR(ours[i], theirs[i], 2e-3);
 }
 
+TEST(Checkpoints, WithoutTheirNumbersAreRefused) {
+  RecurrentTrainer trainer(walks(), tiny());
+  TensorFile file = parse_tensors(trainer.checkpoint(), "good");
+  file.metadata["batch"] = "many";
+  EXPECT_THROW(trainer.resume(write_tensors(file), "damaged"), Error);
+  file.metadata.erase("batch");
+  EXPECT_THROW(trainer.resume(write_tensors(file), "damaged"), Error);
+}
+
 }  // namespace
 }  // namespace kinemend::train
