@@ -52,8 +52,9 @@ struct NoiseCharacter {
   /// Per axis, the median of the tracks that have some: degrees of rotations, else file units.
   double strength = 0;
   double correlation = 0;  ///< from one measurement to the next; 0: white
-  /// Frames for which there is one measurement: 4 where 30 Hz were brought to 120.
-  std::size_t frames_per_sample = 1;
+  /// Frames for which there is one measurement: 4 where 30 Hz were brought to 120, 2.5 where 24 Hz
+  /// were shown at 60.
+  double frames_per_sample = 1;
   bool is_interpolated = false;  ///< the frames between are on a line; else the sample is held
 
   /// The frequency below which a share of the noise's power lies (0..1), hertz, at the frame rate

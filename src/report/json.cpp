@@ -142,7 +142,7 @@ Json noise_json(const std::vector<NoiseCharacter>& characters, double frame_rate
          {"samples", noise.frames_per_sample == 1 ? "every_frame"
                      : noise.is_interpolated      ? "interpolated"
                                                   : "held"},
-         {"sample_rate_hz", frame_rate_hz / static_cast<double>(noise.frames_per_sample)}});
+         {"sample_rate_hz", frame_rate_hz / noise.frames_per_sample}});
   }
   return list;
 }

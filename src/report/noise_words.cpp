@@ -27,11 +27,11 @@ std::string noise_words(const NoiseCharacter& noise, TakeKind kind, std::string_
   std::string words = fmt::format("{}{} {} per axis, {}", lead, figure(noise.strength), shown_unit,
                                   colour_words(noise, frame_rate_hz));
   if (noise.frames_per_sample == 1) return words;
-  const double rate_hz = frame_rate_hz / static_cast<double>(noise.frames_per_sample);
+  const double rate_hz = frame_rate_hz / noise.frames_per_sample;
   if (noise.is_interpolated)
     return words + fmt::format("; {} Hz samples joined by lines", figure(rate_hz));
   return words + fmt::format("; {} Hz samples, each held for {} frames", figure(rate_hz),
-                             noise.frames_per_sample);
+                             figure(noise.frames_per_sample));
 }
 
 }  // namespace kinemend

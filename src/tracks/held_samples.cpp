@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -18,6 +19,7 @@ constexpr std::size_t longest_step = 8, fewest_samples = 8;
 constexpr double largest_ratio = 0.2;
 constexpr double least_difference = 1e-5;  // degrees: a track that does not move shows no pattern
 constexpr double agreeing_tracks = 0.9;
+constexpr double least_clock_step = 1.1;  // frames
 
 // Sizes of the differences of order 1 or 2 by the frame at which they show a new measurement.
 std::vector<std::optional<double>> difference_sizes(std::span<const Vec3> track,
@@ -65,6 +67,10 @@ bool moves(const std::vector<std::optional<double>>& sizes) {
   return moving * 2 * longest_step > sizes.size();
 }
 
+bool agree(std::size_t votes, std::size_t all) {
+  return static_cast<double>(votes) >= agreeing_tracks * static_cast<double>(all);
+}
+
 // How many tracks see each pattern of one join, step by step and phase by phase, and how many see
 // none of a step.
 struct Votes {
@@ -72,9 +78,6 @@ struct Votes {
   std::array<std::array<std::size_t, longest_step>, longest_step + 1> votes{};
   std::array<std::size_t, longest_step + 1> against{};
 
-  bool agree(std::size_t votes_for, std::size_t all) const {
-    return static_cast<double>(votes_for) >= agreeing_tracks * static_cast<double>(all);
-  }
   // Whether the other ones of so many tracks may still agree on a step.
   bool is_open(std::size_t step, std::size_t tracks) const {
     return agree(tracks - against[step], tracks);
@@ -107,11 +110,90 @@ SamplePattern elected(const VectorTracks& tracks, const SampleMarks& missing, Sa
   // right one.
   for (std::size_t step = longest_step; step >= 2; --step) {
     for (std::size_t phase = 0; phase < step; ++phase) {
-      if (count.moving > 0 && count.agree(count.votes[step][phase], count.moving))
-        return {join, step, phase};
+      if (count.moving > 0 && agree(count.votes[step][phase], count.moving))
+        return {join, static_cast<double>(step), static_cast<double>(phase)};
     }
   }
   return {};
+}
+
+// Frames, from the second on, that show something new on more than a tenth of the tracks that move;
+// nothing where no such track was seen in some frame, or none moves.
+std::vector<std::size_t> new_frames(const VectorTracks& tracks, const SampleMarks& missing) {
+  constexpr double nearly_all = 0.9, least_repeats = 0.5 * (1 - 1 / least_clock_step);
+  std::size_t against = 0;
+  std::vector<std::size_t> seen(tracks.frames()), repeats(tracks.frames());
+  std::vector<double> values;
+  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
+    const auto sizes = difference_sizes(tracks.track(n), missing.track(n), SampleJoin::held);
+    if (!moves(sizes)) continue;
+    values.clear();
+    for (const auto& size : sizes) {
+      if (size) values.push_back(*size);
+    }
+    const double large = quantile_of(values, nearly_all);
+    std::size_t repeated = 0;
+    for (std::size_t t = 1; t < sizes.size(); ++t) {
+      if (!sizes[t]) continue;
+      ++seen[t];
+      if (*sizes[t] > largest_ratio * large) continue;
+      ++repeats[t];
+      ++repeated;
+    }
+    if (static_cast<double>(repeated) < least_repeats * static_cast<double>(tracks.frames()))
+      ++against;
+    if (!agree(tracks.tracks() - against, tracks.tracks())) return {};
+  }
+  std::vector<std::size_t> frames;
+  for (std::size_t t = 1; t < tracks.frames(); ++t) {
+    if (seen[t] == 0) return {};
+    if (!agree(repeats[t], seen[t])) frames.push_back(t);
+  }
+  return frames;
+}
+
+// The times of a clock with this step, the k-th of which is at most a frame before frames[k]: room
+// between the latest and the earliest start, below 0 where there is none.
+struct ClockStart {
+  double earliest, latest;
+  double room() const { return latest - earliest; }
+};
+
+ClockStart start_of_clock(std::span<const std::size_t> frames, double step) {
+  ClockStart start{-std::numeric_limits<double>::infinity(),
+                   std::numeric_limits<double>::infinity()};
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const double rest = static_cast<double>(frames[k]) - step * static_cast<double>(k);
+    start.earliest = std::max(start.earliest, rest - 1);
+    start.latest = std::min(start.latest, rest);
+  }
+  return start;
+}
+
+// Samples that are held for a number of frames that is no whole one: all new frames are those of
+// one clock.
+SamplePattern uneven_hold(const VectorTracks& tracks, const SampleMarks& missing) {
+  const std::vector<std::size_t> frames = new_frames(tracks, missing);
+  if (frames.size() < fewest_samples || tracks.frames() < frames.size() + fewest_samples) return {};
+  const auto count = static_cast<double>(frames.size() - 1);
+  const double mean = static_cast<double>(frames.back() - frames.front()) / count;
+  if (mean < least_clock_step || mean > static_cast<double>(longest_step)) return {};
+  // The room is concave in the step.
+  double low = mean - 1 / count, high = mean + 1 / count;
+  for (int round = 0; round < 60; ++round) {
+    const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+    if (start_of_clock(frames, a).room() < start_of_clock(frames, b).room()) {
+      low = a;
+    } else {
+      high = b;
+    }
+  }
+  const double step = (low + high) / 2;
+  const ClockStart start = start_of_clock(frames, step);
+  if (start.room() <= 0) return {};
+  double first = (start.earliest + start.latest) / 2;
+  while (first - step > -1) first -= step;  // what the frames before the first new one show
+  return {SampleJoin::held, step, first};
 }
 
 // Second derivatives, per square of the samples' distance, of the natural cubic spline through
@@ -139,10 +221,9 @@ struct Place {
 };
 
 Place place_of(std::size_t frame, std::size_t samples, const SamplePattern& pattern) {
-  const std::size_t before = frame < pattern.first ? 0 : (frame - pattern.first) / pattern.step;
-  const std::size_t sample = std::min(before, samples - 2);
-  return {sample, (static_cast<double>(frame) - static_cast<double>(pattern.frame(sample))) /
-                      static_cast<double>(pattern.step)};
+  const std::size_t shown = pattern.samples(frame + 1);
+  const std::size_t sample = std::min(shown > 0 ? shown - 1 : 0, samples - 2);
+  return {sample, (static_cast<double>(frame) - pattern.time(sample)) / pattern.step};
 }
 
 Vec3 spline_at(std::span<const Vec3> samples, std::span<const Vec3> curvatures, Place place) {
@@ -171,8 +252,10 @@ bool follows_from_marked(std::span<const std::uint8_t> marked, SampleJoin join, 
 }  // namespace
 
 SamplePattern find_sample_pattern(const VectorTracks& tracks, const SampleMarks& missing) {
-  const SamplePattern held = elected(tracks, missing, SampleJoin::held);
-  return held.join != SampleJoin::none ? held : elected(tracks, missing, SampleJoin::linear);
+  SamplePattern pattern = elected(tracks, missing, SampleJoin::held);
+  if (pattern.join == SampleJoin::none) pattern = elected(tracks, missing, SampleJoin::linear);
+  if (pattern.join == SampleJoin::none) pattern = uneven_hold(tracks, missing);
+  return pattern;
 }
 
 VectorTracks measured_samples(const VectorTracks& tracks, const SamplePattern& pattern) {

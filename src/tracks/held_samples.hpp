@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -11,21 +12,33 @@ namespace kinemend {
 
 enum class SampleJoin { none, held, linear };
 
-/// Frames `first`, `first + step`, ... are measurements, those between repeat or interpolate them.
+/// Measurements were made at the times `first`, `first + step`, ... in frames; the frames between
+/// repeat or interpolate them. The step of held samples may be broken: 24 Hz at 60 are held for two
+/// and for three frames in turn.
 struct SamplePattern {
   SampleJoin join = SampleJoin::none;
-  std::size_t step = 1;
-  std::size_t first = 0;  ///< less than `step`
+  double step = 1;
+  double first = 0;  ///< above -1, and no later than a step after the first frame
 
-  std::size_t samples(std::size_t frames) const {
-    return frames > first ? 1 + (frames - 1 - first) / step : 0;
+  double time(std::size_t sample) const { return first + static_cast<double>(sample) * step; }
+  /// The first frame that shows a measurement.
+  std::size_t frame(std::size_t sample) const {
+    return static_cast<std::size_t>(std::ceil(time(sample) - same_time));
   }
-  std::size_t frame(std::size_t sample) const { return first + sample * step; }
+  /// How many measurements so many frames show; those before the first are of none of them.
+  std::size_t samples(std::size_t frames) const {
+    const double last = static_cast<double>(frames) - 1 - first + same_time;
+    return last < 0 ? 0 : 1 + static_cast<std::size_t>(last / step);
+  }
+
+  static constexpr double same_time = 1e-6;  ///< frames
 };
 
 /// The pattern that nine tenths of the tracks that move share; `join` is `none` without one. A
 /// held sample leaves differences of order 1 that all but vanish at every frame of a period of 2 to
-/// 8 but one, an interpolated one those of order 2. `missing` samples do not count.
+/// 8 but one, an interpolated one those of order 2. Else frames that repeat the one before on nine
+/// tenths of these tracks show a pattern if they are those of a clock of 1.1 to 8 frames, all of
+/// them. `missing` samples do not count.
 SamplePattern find_sample_pattern(const VectorTracks& tracks, const SampleMarks& missing);
 
 /// The measurements alone.

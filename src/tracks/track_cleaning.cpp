@@ -180,7 +180,7 @@ CleanedTracks clean_tracks(VectorTracks& tracks, const SampleMarks& spike_candid
   CleanedTracks cleaned =
       clean_measurements(samples, marks_of_samples(spike_candidates, pattern),
                          marks_of_samples(always_missing, pattern), nearby,
-                         frame_rate_hz / static_cast<double>(pattern.step), settings, progress);
+                         frame_rate_hz / pattern.step, settings, progress);
   cleaned.marked = spread_samples(samples, cleaned.marked, cleaned.shares, pattern, tracks);
   cleaned.pattern = pattern;
   return cleaned;

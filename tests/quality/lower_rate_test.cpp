@@ -53,5 +53,42 @@ INSTANTIATE_TEST_SUITE_P(Kinds, AutoOnALowerRate,
                                   (kind.param.is_held ? "Held" : "Interpolated");
                          });
 
+// Of each frame of `whole` the last sample of a take of a lower rate.
+Clip shown_in(Clip whole, const Clip& low) {
+  for (std::size_t f = 0; f < whole.frame_count(); ++f) {
+    const double time_s = static_cast<double>(f) / whole.frame_rate_hz;
+    const auto sample = std::min(static_cast<std::size_t>(time_s * low.frame_rate_hz + 1e-6),
+                                 low.frame_count() - 1);
+    for (std::size_t j = 0; j < whole.joint_count(); ++j)
+      whole.rotation(f, j) = low.rotation(sample, j);
+    whole.root_positions[f] = low.root_positions[sample];
+  }
+  return whole;
+}
+
+TEST(AutoOnABrokenRate, BeatsGaussiansOfAnyWidthAndSaysSo) {
+  struct Rates {
+    double low_hz, shown_hz;
+  };
+  for (const Rates rates : {Rates{50, 120}, Rates{25, 60}, Rates{100, 120}}) {
+    for (const char* motion : {"walk", "stroll"}) {
+      const Clip truth =
+          synthesize({.motion = motion, .duration_s = 5, .frame_rate_hz = rates.shown_hz});
+      const Clip low =
+          damaged(synthesize({.motion = motion, .duration_s = 5, .frame_rate_hz = rates.low_hz}),
+                  1.5, 0, 7);
+      const Clip noisy = shown_in(truth, low);
+      const CleanResult result = clean_clip(noisy, *make_cleaner("auto"));
+      ASSERT_FALSE(result.report.noise.empty()) << motion;
+      EXPECT_NEAR(result.report.noise[0].frames_per_sample, rates.shown_hz / rates.low_hz, 0.02);
+      const double ours = figures(truth, result.clip).rms;
+      for (const double width_s : {0.01, 0.02, 0.03, 0.045, 0.065, 0.09}) {
+        EXPECT_LT(ours, figures(truth, cleaned(noisy, "gaussian", {{"width_s", width_s}})).rms)
+            << motion << " " << rates.low_hz << " Hz, " << width_s << " s";
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kinemend::quality

@@ -32,13 +32,11 @@ VectorTracks noisy_curves(std::size_t frames, double rate_hz, double deviation,
 VectorTracks joined(const VectorTracks& samples, const SamplePattern& pattern, std::size_t frames) {
   VectorTracks tracks(frames, samples.tracks());
   for (std::size_t t = 0; t < frames; ++t) {
-    // The first measurement at or before the frame, counted from one before the take.
-    const std::size_t i = (t + pattern.step - pattern.first) / pattern.step;
+    // The last measurement at or before the frame, counted from one before the take.
+    const double place = (static_cast<double>(t) + pattern.step - pattern.first) / pattern.step;
+    const auto i = static_cast<std::size_t>(place + 1e-9);
     const double share =
-        pattern.join == SampleJoin::held
-            ? 0
-            : static_cast<double>((t + pattern.step - pattern.first) % pattern.step) /
-                  static_cast<double>(pattern.step);
+        pattern.join == SampleJoin::held ? 0 : std::max(0.0, place - static_cast<double>(i));
     for (std::size_t n = 0; n < samples.tracks(); ++n) {
       const Vec3 from = samples.at(i, n);
       tracks.set(t, n, share > 0 ? from + share * (samples.at(i + 1, n) - from) : from);
@@ -49,11 +47,12 @@ VectorTracks joined(const VectorTracks& samples, const SamplePattern& pattern, s
 
 TEST(SamplePattern, IsFoundAtEachStepAndPhase) {
   for (const SampleJoin join : {SampleJoin::held, SampleJoin::linear}) {
-    for (std::size_t step = 2; step <= 8; ++step) {
-      for (std::size_t first = 0; first < step; ++first) {
+    for (double step = 2; step <= 8; ++step) {
+      for (double first = 0; first < step; ++first) {
         for (const double deviation : {0.0, 1.5}) {
+          const auto seed = static_cast<std::uint64_t>(step);
           const VectorTracks tracks =
-              joined(noisy_curves(110, 20, deviation, step), {join, step, first}, 200);
+              joined(noisy_curves(110, 20, deviation, seed), {join, step, first}, 200);
           const SamplePattern found = find_sample_pattern(tracks, SampleMarks(200, 4));
           EXPECT_EQ(found.join, join);
           EXPECT_EQ(found.step, step);
@@ -62,6 +61,38 @@ TEST(SamplePattern, IsFoundAtEachStepAndPhase) {
       }
     }
   }
+}
+
+// 24 Hz at 60, 50 at 120, 25 at 120, 100 at 120, 48 at 60.
+TEST(SamplePattern, IsFoundWhereSamplesAreHeldForABrokenNumberOfFrames) {
+  for (const double step : {2.5, 2.4, 4.8, 1.2, 1.25}) {
+    for (const double first : {0.0, 0.3, 0.95}) {
+      const SamplePattern made{SampleJoin::held, step, first};
+      const VectorTracks tracks = joined(noisy_curves(420, 50, 1.5, 4), made, 480);
+      const SamplePattern found = find_sample_pattern(tracks, SampleMarks(480, 4));
+      ASSERT_EQ(found.join, SampleJoin::held) << step << " " << first;
+      EXPECT_NEAR(found.step, step, 0.01);
+      EXPECT_NEAR(std::remainder(found.first - first, step), 0, 0.5);
+      for (std::size_t i = 0; i < found.samples(480); ++i) {
+        const std::size_t frame = found.frame(i);
+        ASSERT_LT(frame, 480U);
+        if (i == 0) continue;
+        EXPECT_NE(tracks.at(frame, 1), tracks.at(frame - 1, 1)) << frame;
+        EXPECT_GT(frame, found.frame(i - 1));
+      }
+    }
+  }
+}
+
+TEST(SamplePattern, IsNoneWhereFramesRepeatWithoutAClock) {
+  const VectorTracks samples = noisy_curves(480, 60, 1.5, 4);
+  VectorTracks tracks(480, 4);
+  Random random(8);
+  for (std::size_t t = 0, i = 0; t < 480; ++t) {
+    i += t > 0 && random.uniform() < 0.6 ? 1 : 0;
+    for (std::size_t n = 0; n < 4; ++n) tracks.set(t, n, samples.at(i, n));
+  }
+  EXPECT_EQ(find_sample_pattern(tracks, SampleMarks(480, 4)).join, SampleJoin::none);
 }
 
 TEST(SamplePattern, IsNoneWhereEveryFrameIsMeasured) {
@@ -118,19 +149,20 @@ TEST(SpreadSamples, ChangesOnlyWhatFollowsFromMarkedSamplesOfAQuietTrack) {
 TEST(CleanTracks, TakeSamplesOfALowerRateForWhatTheyAre) {
   const std::vector<std::vector<std::size_t>> nearby(4);
   for (const SamplePattern pattern :
-       {SamplePattern{SampleJoin::held, 2, 0}, SamplePattern{SampleJoin::linear, 4, 0}}) {
-    const double low_rate_hz = 120 / static_cast<double>(pattern.step);
+       {SamplePattern{SampleJoin::held, 2, 0}, SamplePattern{SampleJoin::linear, 4, 0},
+        SamplePattern{SampleJoin::held, 2.4, 0}}) {
+    const double low_rate_hz = 120 / pattern.step;
     VectorTracks low = noisy_curves(300, low_rate_hz, 1.5, 3);
     // One before the take, which is not used.
     VectorTracks shifted(301, 4);
     for (std::size_t i = 0; i < 300; ++i) {
       for (std::size_t n = 0; n < 4; ++n) shifted.set(i + 1, n, low.at(i, n));
     }
-    const std::size_t frames = 290 * pattern.step + 1;
+    const auto frames = static_cast<std::size_t>(290 * pattern.step) + 1;
     VectorTracks tracks = joined(shifted, pattern, frames);
     const SampleMarks none(frames, 4);
     const CleanedTracks verdicts = clean_tracks(tracks, none, none, nearby, 120, {});
-    EXPECT_EQ(verdicts.pattern.step, pattern.step);
+    EXPECT_NEAR(verdicts.pattern.step, pattern.step, 0.005);
     double error = 0;
     for (std::size_t t = 0; t < frames; ++t) {
       for (std::size_t n = 0; n < 4; ++n) {
