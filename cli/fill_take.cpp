@@ -118,8 +118,8 @@ FillRun fill_run_of(const Arguments& arguments) {
   check_single_use({run.input, gap_file, plan_file},
                    {run.dry_run ? std::string() : run.output, run.report_path, run.plan_out_path},
                    run.json);
-  check_is_no_input("--report", run.report_path,
-                    {run.input, gap_file, plan_file, run.plan_out_path, run.output});
+  check_report(run.report_path, {run.input, gap_file, plan_file, run.plan_out_path, run.output,
+                                 arguments.text("asf")});
   check_is_no_input("--plan-out", run.plan_out_path, {run.input, gap_file, plan_file, run.output});
   check_is_no_input("--output", run.output, {gap_file, plan_file});
   if (!run.dry_run) check_free(run.output, run.force);

@@ -137,6 +137,7 @@ Json session_json(const ViewFiles& files) {
           {"contacts", files.contacts},
           {"plan", files.plan},
           {"gaps", files.gaps},
+          {"with_gaps", files.with_gaps},
           {"methods", methods_json()},
           {"fill_methods", fill_methods_json()}};
 }

@@ -22,7 +22,7 @@ struct ViewFiles {
   bool of_joints = true;             ///< what the input holds
   std::string cleaned, filled;       ///< where "save as" goes, of clean and of fill
   std::string contacts, plan, gaps;  ///< side files
-  bool with_gaps = false;            ///< what `gaps` names is missing from the start
+  bool with_gaps = false;            ///< what `gaps` lists is missing from the start
   std::vector<std::string> reading;  ///< flags of the input, as they were given: "--asf=..."
   bool force = false;                ///< replace files that another run has made
 };

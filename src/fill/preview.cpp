@@ -182,12 +182,23 @@ GapCurves curves_of(const AnyClip& clip, std::span<const PlannedGap> plan, std::
   made.axes = axes_of(clip, plan[row]);
   const Tried own(clip, plan, check);
   std::vector<PlannedGap> asked(plan.begin(), plan.end());
+  const auto add = [&](const Tried<AnyClip>& other, GapPreview preview) {
+    made.curves.push_back({std::move(preview), other.outcomes.at(key_of(plan[row])).expected_error,
+                           values_of(other.clip, plan[row], made.first_frame, made.last_frame)});
+  };
   for (const std::string& method : methods_of(clip)) {
     asked[row] = with_method(plan[row], method);
     const Tried other(clip, asked, check);
-    made.curves.push_back({compared(method, own, other, plan[row]),
-                           other.outcomes.at(key_of(plan[row])).expected_error,
-                           values_of(other.clip, plan[row], made.first_frame, made.last_frame)});
+    GapPreview preview = compared(method, own, other, plan[row]);
+    if (preview.filled || asked[row].verdict == GapVerdict::refuse) {
+      add(other, std::move(preview));
+      continue;
+    }
+    asked[row].verdict = GapVerdict::force;
+    const Tried forced(clip, asked, check);
+    // Where the method can make nothing at all, another would be forced in its place.
+    const bool is_own = method == "auto" || forced.outcomes.at(key_of(plan[row])).method == method;
+    add(is_own ? forced : other, std::move(preview));
   }
   return made;
 }

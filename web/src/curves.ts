@@ -21,6 +21,9 @@ interface Line {
 const axisColours = ['axis-1', 'axis-2', 'axis-3'];
 const superscript = '\u00b2';
 
+/** Ticks stand at frames. */
+export const frameSteps = [1, 2, 5].flatMap((digit) => Array.from({ length: 9 }, (_, power) => digit * 10 ** power)).sort((a, b) => a - b);
+
 /** Short enough for its place beside the panel. */
 function tickText(tick: number): string {
   const rounded = Number(tick.toPrecision(10));
@@ -136,6 +139,10 @@ export class Curves {
     for (const plot of this.plots) plot.destroy();
     this.plots = [];
     this.holder.replaceChildren();
+    if (this.take.told === 0) {
+      this.holder.append(element('p', { class: 'empty' }, 'The take has no frames.'));
+      return;
+    }
     if (this.player.chosen.length === 0) {
       const noun = this.take.isJoints ? 'joint' : 'marker';
       this.holder.append(element('p', { class: 'empty' }, `Choose a ${noun} in the table to see its curves.`));
@@ -151,6 +158,10 @@ export class Curves {
     const name = this.take.data.names[track] || `(no name, ${track + 1})`;
     if (signal.names.length === 0) {
       this.holder.append(element('p', { class: 'empty' }, `${name} has no rotation in this take.`));
+      return;
+    }
+    if (this.take.takes.every((which) => signal.of(which).every((values) => values.every((value) => value === null)))) {
+      this.holder.append(element('p', { class: 'empty' }, `${isolated(name)} is missing throughout.`));
       return;
     }
     const order: Kind[] = ['values', 'difference', 'speed', 'acceleration', 'spectrum'];
@@ -180,11 +191,11 @@ export class Curves {
     const x = Array.from({ length: this.take.told }, (_, f) => this.take.number(f));
     const options: uPlot.Options = {
       ...size,
-      padding: [6, 10, 0, 0],
+      padding: [6, 22, 0, 0],
       scales: { x: { time: false } },
       cursor: { y: false, sync: { key: 'kinemend' }, drag: { x: true, y: false, setScale: true }, points: { show: false } },
       series: [{ label: 'frame' }, ...lines.map((line) => ({ label: line.label, stroke: colour(line.colour), width: line.width, points: { show: this.take.told < 3 } }))],
-      axes: [{ ...axis, size: 30 }, { ...axis, size: 68, values: (_plot, ticks) => ticks.map(tickText) }],
+      axes: [{ ...axis, size: 30, incrs: frameSteps }, { ...axis, size: 68, values: (_plot, ticks) => ticks.map(tickText) }],
       hooks: {
         setScale: [(plot, key) => { if (key === 'x') this.takeZoom(plot); }],
         draw: [(plot) => this.cursorIn(plot)],
@@ -263,7 +274,7 @@ export class Curves {
     }));
     const plot = new uPlot({
       ...size,
-      padding: [6, 10, 0, 0],
+      padding: [6, 22, 0, 0],
       scales: { x: { time: false }, y: { distr: 3 } },
       cursor: { y: false, points: { show: false } },
       series: [{ label: 'Hz' }, ...series],

@@ -88,7 +88,8 @@ void preview_methods(const MarkerClip& clip, std::vector<PlannedGap>& plan,
 struct GapCurve {
   GapPreview preview;
   double expected_error = 0;  ///< as `GapOutcome::expected_error`
-  /// A value an axis for each frame of the window; none where the sample stays missing.
+  /// A value an axis for each frame of the window; none where the sample stays missing. Of a method
+  /// whose rules refuse the gap, what it makes where it is forced to, if anything.
   std::vector<std::optional<Vec3>> values;
 };
 
