@@ -53,8 +53,6 @@ TEST_F(Files, AReportNeverReplacesAnInput) {
            {"clean", "walk.bvh", "-o", "out.bvh", "--noise", "gaps.csv", "--report", "gaps.csv"},
            {"clean", "walk.bvh", "-o", "out.bvh", "--feet=auto", "--map=gaps.csv",
             "--report=gaps.csv"},
-           {"clean", "walk.bvh", "-o", "out.bvh", "--method=sparse", "--model=gaps.csv",
-            "--report=gaps.csv"},
            {"clean", "walk.bvh", "-o", "out.bvh", "--asf", "gaps.csv", "--report", "gaps.csv"},
            {"batch", "walk.bvh", "-o", "out", "--config", "lab.toml", "--report", "lab.toml"},
            {"batch", "walk.bvh", "-o", "out", "--report", "walk.bvh"},

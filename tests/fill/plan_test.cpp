@@ -177,18 +177,18 @@ TEST(GapPlan, ShowsTheCurvesThatTheRowsMethodsWouldMakeOfMarkers) {
   const MarkerClip damaged = markers_with_gaps();
   MarkerClip clip = damaged;
   const std::vector<PlannedGap> plan = fill_with_plan(clip, FillSettings{}).plan;
-  const std::size_t marker = track_of(clip, "LeftLeg_b");
+  const std::size_t marker = track_of(clip, "LeftLeg_c");
   std::size_t row = 0;
-  while (plan[row].gap.track != marker || plan[row].gap.first_frame != 200) ++row;
+  while (plan[row].gap.track != marker || plan[row].gap.first_frame != 210) ++row;
   const GapCurves made = preview_curves(damaged, plan, row);
-  EXPECT_EQ(made.first_frame, 200u - 24u);
-  EXPECT_EQ(made.last_frame, 223u + 24u);
+  EXPECT_EQ(made.first_frame, 210u - 41u);
+  EXPECT_EQ(made.last_frame, 250u + 41u);
   EXPECT_EQ(made.axes, (std::vector<std::string>{"X", "Y", "Z"}));
   std::size_t drawn = 0, forced = 0;
   for (const GapCurve& curve : made.curves) {
     const std::string& method = curve.preview.method;
     if (method == "pattern") {
-      EXPECT_FALSE(curve.values[24 + 4]) << "no donor, no curve";
+      EXPECT_FALSE(curve.values[41 + 4]) << "no donor, no curve";
       continue;
     }
     const GapVerdict verdict = curve.preview.filled ? GapVerdict::fill : GapVerdict::force;
@@ -197,11 +197,11 @@ TEST(GapPlan, ShowsTheCurvesThatTheRowsMethodsWouldMakeOfMarkers) {
     for (std::size_t i = 0; i < curve.values.size(); ++i) {
       if (!curve.values[i]) continue;
       EXPECT_EQ(*curve.values[i], other.position(made.first_frame + i, marker)) << method;
-      drawn += i == 24 + 4;
+      drawn += i == 41 + 4;
     }
-    forced += !curve.preview.filled && curve.values[24 + 4];
+    forced += !curve.preview.filled && curve.values[41 + 4];
     // What may be filled is shown.
-    EXPECT_TRUE(!curve.preview.filled || curve.values[24 + 4]) << method;
+    EXPECT_TRUE(!curve.preview.filled || curve.values[41 + 4]) << method;
   }
   EXPECT_GT(drawn, 5u);
   EXPECT_GT(forced, 0u) << "a long gap that a short method is forced to fill";

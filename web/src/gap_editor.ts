@@ -91,9 +91,9 @@ export class GapEditor {
     }
   }
 
-  private setMethod(gap: PlannedGap, method: string, isForced = false): void {
+  private setMethod(gap: PlannedGap, method: string, isForced?: boolean): void {
     gap.method = method;
-    if (isForced) gap.verdict = 'force';
+    if (isForced !== undefined) gap.verdict = isForced ? 'force' : 'fill';
     else if (gap.verdict === 'refuse') gap.verdict = 'fill';
     this.change();
   }

@@ -109,7 +109,7 @@ step('play, pause, scrub and jump', async () => {
   assert.equal(await frame(page), stopped);
   await page.fill('.transport input[type=range]', '500');
   assert.equal(await frame(page), 500);
-  assert.equal(await page.inputValue('.number'), '501');
+  assert.equal(await page.inputValue('.transport .number'), '501');
   assert.ok((await inView(page)) > 0.99, 'the camera does not follow');
   await page.click('button:has-text("Follow")');
   await page.fill('.transport input[type=range]', '900');

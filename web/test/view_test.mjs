@@ -22,7 +22,7 @@ writeFileSync(join(output, 'walk.bvh'), readFileSync(join(takes, 'noisy_walk.bvh
 
 fourMarkers(join(output, 'markers.trc'));
 // So many gaps that to fill them takes a while.
-markers(join(output, 'gaps.trc'), Array.from({ length: 80 }, (_, m) => `M${m}`), 3000, (f, m) => ((f + 37 * m) % 101 < 30 && f > 50 && f < 2950 ? null
+markers(join(output, 'gaps.trc'), Array.from({ length: 40 }, (_, m) => `M${m}`), 1500, (f, m) => ((f + 37 * m) % 101 < 30 && f > 50 && f < 1450 ? null
   : [300 * Math.cos(m) + f / 5 + Math.sin(f * 1.7 + m), 900 + 10 * m + 30 * Math.sin(f / 20 + m), 300 * Math.sin(m)]));
 
 const servers = [];
@@ -98,7 +98,7 @@ step('a method is changed, and what is saved has the bytes of the command line',
   const first = await page.textContent('.verdict');
   await page.click('button:has-text("Play")');
   await page.click('button:has-text("Pause")');
-  await page.fill('.number', '200');
+  await page.fill('.transport .number', '200');
   await page.keyboard.press('Tab');
   const frame = await page.evaluate(() => window.kinemend.player.shown);
   await after(page, () => page.selectOption('[data-flag=method]:visible', 'butterworth'));
@@ -202,6 +202,7 @@ step('gaps are looked at, refused and given another method, and the plan is save
   kinemend('fill', 'markers.trc', '--plan', 'plan.csv', '-o', 'cli_filled.trc');
   assert.deepEqual(bytes('filled.trc'), bytes('cli_filled.trc'));
   assert.match(bytes('plan.csv').toString(), /\nB,position,101,108,8,0.08,fill,pchip,/);
+  await page.locator('[data-gap=verdict]').nth(0).focus();
   await after(page, () => page.locator('[data-gap=verdict]').nth(0).selectOption('refuse'));
   assert.match(await page.textContent('.verdict'), /1 filled, 1 refused/);
   assert.equal(await page.evaluate(() => document.activeElement?.dataset.gap), 'verdict', 'the focus is lost');
@@ -243,13 +244,13 @@ step('samples are marked as missing, filled and saved as the file that clean and
   const page = await open(address);
   await after(page, () => page.selectOption('[data-flag=command]:visible', 'fill'));
   await page.click('summary:has-text("Missing samples")');
-  await page.click('.tracks tbody tr >> nth=0 >> button');
+  await page.click('tr.chosen button');
   await page.click('.tracks tbody tr:has-text("LeftForeArm") button');
-  await page.fill('.number', '200');
+  await page.fill('.transport .number', '200');
   await page.keyboard.press('Tab');
   await after(page, () => page.click('[data-action=missing]'));
   assert.match(await page.inputValue('textarea:visible'), /^LeftForeArm,200,200\n$/m);
-  await page.fill('.number', '220');
+  await page.fill('.transport .number', '220');
   await page.keyboard.press('Tab');
   await after(page, () => page.click('button:has-text("Ends here"):visible'));
   assert.match(await page.inputValue('textarea:visible'), /^LeftForeArm,200,220$/m);
@@ -334,12 +335,10 @@ step('strange names are text', async () => {
   assert.equal(await page.textContent('h1'), file);
   assert.ok((await page.$$eval('.tracks tbody th', (cells) => cells.map((cell) => cell.textContent))).includes(strange));
   await page.click('summary:has-text("Missing samples")');
-  await page.click('.tracks tbody tr >> nth=0 >> button');
-  await page.click('.tracks tbody tr >> nth=1 >> button');
-  const chosen = await page.evaluate(() => window.kinemend.player.chosen.map((track) => window.kinemend.take.data.names[track]));
-  if (!chosen.includes(strange)) await page.click('.tracks tbody tr >> nth=0 >> button');
+  await page.click('tr.chosen button');
+  for (const row of await page.$$('.tracks tbody tr')) if ((await row.textContent()).includes(strange)) await (await row.$('button')).click();
   await after(page, () => page.selectOption('[data-flag=command]:visible', 'fill'));
-  await page.fill('.number', '5');
+  await page.fill('.transport .number', '5');
   await page.keyboard.press('Tab');
   await after(page, () => page.click('[data-action=missing]'));
   await page.click('summary:has-text("Gap plan")');
