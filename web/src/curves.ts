@@ -18,6 +18,8 @@ interface Line {
   dash?: number[];
 }
 
+/** Nobody reads numbers that change faster. */
+const restOfLegend_ms = 100;
 const axisColours = ['axis-1', 'axis-2', 'axis-3'];
 const superscript = '\u00b2';
 
@@ -207,6 +209,8 @@ export class Curves {
 
   /** A click sets the time, the wheel zooms, a double click shows all. */
   private listen(plot: uPlot): void {
+    plot.over.append(element('i', { class: 'time-cursor' }));
+    this.cursorIn(plot);
     let from = 0;
     plot.over.addEventListener('mousedown', (event) => { from = event.clientX; });
     plot.over.addEventListener('click', (event) => {
@@ -237,27 +241,25 @@ export class Curves {
     queueMicrotask(() => queueMicrotask(() => { this.isZooming = false; }));
   }
 
+  /** Puts the line of the time where it belongs: to draw all curves anew for each frame would take too long. */
   private cursorIn(plot: uPlot): void {
-    const x = plot.valToPos(this.take.number(this.player.shown), 'x', true);
-    const { left, top, width, height } = plot.bbox;
-    if (x < left || x > left + width) return;
-    const context = plot.ctx;
-    context.save();
-    context.strokeStyle = colour('cursor');
-    context.lineWidth = 1.5 * devicePixelRatio;
-    context.beginPath();
-    context.moveTo(x, top);
-    context.lineTo(x, top + height);
-    context.stroke();
-    context.restore();
+    const line = plot.over.querySelector<HTMLElement>('.time-cursor');
+    if (line === null) return;
+    const x = plot.valToPos(this.take.number(this.player.shown), 'x');
+    line.hidden = !(x >= 0 && x <= plot.over.clientWidth);
+    if (!line.hidden) line.style.transform = `translateX(${x}px)`;
   }
   private drawCursor(): void {
+    for (const plot of this.plots) this.cursorIn(plot);
+    const now = performance.now();
+    if (this.player.playing && now - this.told < restOfLegend_ms) return;
+    this.told = now;
     for (const plot of this.plots) {
-      plot.redraw(false, false);
       // The legend tells values where the time is, or where the mouse is.
       queueMicrotask(() => { if ((plot.cursor.left ?? -1) < 0) plot.setLegend({ idx: this.player.shown }, false); });
     }
   }
+  private told = 0;
 
   private addSpectrum(panel: HTMLElement, signal: Signal): void {
     const { axis, ...size } = this.common(this.width);
