@@ -112,6 +112,7 @@ void preview(const AnyClip& clip, std::vector<PlannedGap>& plan, const FillCheck
   const Tried own(clip, plan, check);
   for (const std::string& method : methods_of(clip)) {
     std::vector<PlannedGap> asked;
+    asked.reserve(plan.size());
     for (const PlannedGap& row : plan) asked.push_back(with_method(row, method));
     const Tried other(clip, asked, check);
     for (PlannedGap& row : plan) row.previews.push_back(compared(method, own, other, row));
