@@ -41,6 +41,9 @@ export class GapEditor {
   private readonly words = element('p', { class: 'empty' });
   private readonly looked: GapPreview;
   private take: Take | null = null;
+  /** The first row that is shown, and what shows others. */
+  private from = 0;
+  private readonly pages = element('span', { class: 'controls', hidden: true });
 
   /** `curves`: asks the server what every method makes of a row of the plan; null where another was asked for since. */
   constructor(private readonly session: Session, private readonly isJoints: boolean, private readonly goTo: (track: string, frame: number) => void,
@@ -52,10 +55,11 @@ export class GapEditor {
       again();
     });
     tried.dataset.action = 'preview';
+    this.pages.append(button('\u2039', 'the gaps before these', () => this.turn(-mostRows)), button('\u203a', 'the gaps behind these', () => this.turn(mostRows)));
     this.element.append(element('div', { class: 'head' }, tried, button('Forget edits', 'back to what the controls above ask for', () => {
       this.edited = false;
       again();
-    }), this.words), element('div', { class: 'scroll', tabindex: '0' },
+    }), this.words, this.pages), element('div', { class: 'scroll', tabindex: '0' },
       element('table', {}, element('thead', {}, element('tr', {}, ...columns.map((text, i) => element('th', { scope: 'col', class: i === columns.length - 1 ? 'words' : '' }, text)))), this.body)), this.looked.element);
   }
 
@@ -64,16 +68,31 @@ export class GapEditor {
   show(plan: GapPlan, take: Take): void {
     this.plan = plan;
     this.take = take;
-    this.words.textContent = plan.gaps.length === 0 ? 'The take has no gaps.' : plan.gaps.length > mostRows ? `the first ${grouped(mostRows)} of ${grouped(plan.gaps.length)} gaps` : '';
-    // Who works by keyboard goes on where they were.
-    const focused = (document.activeElement as HTMLElement | null)?.dataset;
-    this.body.replaceChildren(...plan.gaps.slice(0, mostRows).map((gap, row) => this.row(gap, row)));
-    if (focused?.gap !== undefined) this.body.querySelector<HTMLElement>(`[data-gap="${focused.gap}"][data-row="${focused.row}"]`)?.focus();
+    this.list();
     const open = this.looked.open;
     if (open === null) return;
     const row = plan.gaps.findIndex((gap) => gap.name === open.name && gap.quantity === open.quantity && gap.first_frame === open.first_frame && gap.last_frame === open.last_frame);
     if (row < 0) this.looked.hide();
     else void this.look(row);
+  }
+
+  /** As many rows on. */
+  private turn(by: number): void {
+    this.from += by;
+    this.list();
+  }
+
+  private list(): void {
+    const { gaps } = this.plan;
+    const last = Math.floor(Math.max(0, gaps.length - 1) / mostRows) * mostRows;
+    this.from = Math.max(0, Math.min(last, this.from));
+    const end = Math.min(gaps.length, this.from + mostRows);
+    this.pages.hidden = gaps.length <= mostRows;
+    this.words.textContent = gaps.length === 0 ? 'The take has no gaps.' : this.pages.hidden ? '' : `gaps ${grouped(this.from + 1)} to ${grouped(end)} of ${grouped(gaps.length)}`;
+    // Who works by keyboard goes on where they were.
+    const focused = (document.activeElement as HTMLElement | null)?.dataset;
+    this.body.replaceChildren(...gaps.slice(this.from, end).map((gap, i) => this.row(gap, this.from + i)));
+    if (focused?.gap !== undefined) this.body.querySelector<HTMLElement>(`[data-gap="${focused.gap}"][data-row="${focused.row}"]`)?.focus();
   }
 
   /** Also after a change of the theme. */

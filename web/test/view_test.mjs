@@ -300,6 +300,26 @@ step('fills that are overtaken, and those of a tab that is closed, are given up'
   assert.ok((await third).ended - left.begun < 0.6 * long);
 });
 
+step('of hundreds of gaps those behind the first are reached', async () => {
+  const { address } = await serve('gaps.trc');
+  const page = await open(address);
+  await after(page, () => page.selectOption('[data-flag=command]:visible', 'fill'));
+  await page.click('summary:has-text("Gap plan")');
+  const told = /gaps 1 to 300 of (\d+)/.exec(await page.textContent('.editor:has([data-action=preview])'));
+  assert.equal(await page.locator('.editor tbody tr').count(), 300);
+  const behind = Number(told[1]) - 300;
+  assert.ok(behind > 0 && behind < 300, told[0]);
+  await page.click('.editor button[title="the gaps behind these"]');
+  assert.equal(await page.locator('.editor tbody tr').count(), behind);
+  await after(page, () => page.locator('[data-gap=verdict]').last().selectOption('refuse'));
+  assert.equal(await page.locator('.editor tbody tr').count(), behind, 'the rows that were looked at are gone');
+  assert.equal(await page.locator('[data-gap=verdict]').last().inputValue(), 'refuse');
+  await page.click('.editor button[title="the gaps behind these"]');
+  assert.equal(await page.locator('.editor tbody tr').count(), behind);
+  await page.click('.editor button[title="the gaps before these"]');
+  assert.equal(await page.locator('.editor tbody tr').count(), 300);
+});
+
 step('two tabs do not overtake each other', async () => {
   const { address } = await serve('walk.bvh', '-o', 'tabs.bvh');
   const [one, other] = [await open(address), await open(address)];
