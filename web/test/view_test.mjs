@@ -175,6 +175,7 @@ step('gaps are looked at, refused and given another method, and the plan is save
   await after(page, () => page.selectOption('[data-flag=command]:visible', 'fill'));
   await page.click('summary:has-text("Gap plan")');
   assert.equal(await page.locator('.editor tbody tr').count(), 2);
+  assert.equal(await page.isVisible('[title="the gaps behind these"]'), false, 'there are no more');
   await after(page, () => page.click('[data-action=preview]'));
   assert.match(await page.textContent('[data-gap=method]'), /off\)/);
   await shot(page, 'gaps');
