@@ -69,7 +69,7 @@ papers-quick: setup $(BUILD)/dev/.built
 	KINEMEND_DATA= tools/run_papers $(BUILD)/dev --quick
 	tools/check_figures build/papers --quick
 
-pictures: setup $(BUILD)/dev/.built ## the pictures of docs/report-html.md and docs/view.md again, from takes that ship
+pictures: setup $(BUILD)/dev/.built ## every picture of README.md and docs again, by the program from takes that ship
 	tools/make_pictures $(BUILD)/dev
 
 fuzz: setup ## fuzz each reader for a minute (FUZZ_SECONDS=60)

@@ -358,9 +358,10 @@ void plan_index(const Arguments& arguments, const std::vector<std::string>& inpu
         ErrorKind::usage,
         "batch: --report FILE.html is a page; rows.jsonl and summary.json are written anyway");
   check_page(batch.index, 1);
-  check_is_no_input("--report", batch.index, inputs);
-  check_is_no_input("--report", batch.index,
-                    {arguments.text("list"), arguments.text("config"), arguments.text("gaps")});
+  check_report(batch.index, inputs);
+  check_report(batch.index,
+               {arguments.text("list"), arguments.text("config"), arguments.text("gaps"),
+                arguments.text("asf"), arguments.text("noise")});
   check_free(batch.index, batch.plan.force || is_our_page(batch.index));
   batch.plan.report_path = batch.index;
   batch.plan.page = page_settings(arguments);

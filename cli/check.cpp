@@ -55,8 +55,8 @@ void check_outputs(const Arguments& arguments) {
     throw Error(ErrorKind::usage, "--gaps-out takes the spans of one take, not of several");
   check_is_no_input("--gaps-out", gaps_out, inputs);
   check_is_no_input("--gaps-out", gaps_out, {arguments.text("map")});
-  check_is_no_input("--report", report, inputs);
-  check_is_no_input("--report", report, {arguments.text("map"), gaps_out});
+  check_report(report, inputs);
+  check_report(report, {arguments.text("map"), arguments.text("asf"), gaps_out});
   if (!gaps_out.empty()) check_free(gaps_out, force);
   if (!report.empty()) check_free(report, force);
 }

@@ -228,7 +228,12 @@ CleanPlan make_clean_plan(const Arguments& arguments) {
   check_single_use(inputs, outputs, plan.json);
   // What a dry run would write is not replaced by its report either.
   for (const CleanJob& job : plan.jobs) inputs.push_back(job.output);
-  check_is_no_input("--report", plan.report_path, inputs);
+  for (const std::string& file :
+       {arguments.text("asf"), arguments.text("noise"), map_path(arguments, plan.options)})
+    inputs.push_back(file);
+  for (const std::string& file : option_files(find_method(plan.method), plan.options))
+    inputs.push_back(file);
+  check_report(plan.report_path, inputs);
   return plan;
 }
 

@@ -153,7 +153,7 @@ int run(const Arguments& arguments) {
   const bool json = arguments.flag("json"), force = arguments.flag("force");
   check_page(report_path, 1);
   check_single_use({reference_name, other_name}, {report_path}, json);
-  check_is_no_input("--report", report_path, {reference_name, other_name});
+  check_report(report_path, {reference_name, other_name, arguments.text("asf")});
   if (!report_path.empty()) check_free(report_path, force);
   const Compared both = compared(arguments);
   const Report& report = both.report;

@@ -7,7 +7,6 @@
 #include <variant>
 
 #include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/experimental/gap_plan.hpp"
 #include "kinemend/gaps.hpp"
 #include "page_report.hpp"
 #include "takes.hpp"
@@ -57,13 +56,15 @@ bool is_json(const std::string& path) { return std::filesystem::path(path).exten
 
 /// Fills the gaps of the clip in place.
 template <class AnyClip>
-PlannedFill fill_clip(AnyClip& clip, const FillSettings& settings, const FillRun& run) {
-  if (!run.plan) return fill_with_plan(clip, settings);
-  return fill_with_plan(clip, parse_plan(run.plan->first, run.plan->second, clip));
+PlannedFill fill_clip(AnyClip& clip, const FillSettings& settings, const FillRun& run,
+                      const FillCheck& check) {
+  if (!run.plan) return fill_with_plan(clip, settings, check);
+  return fill_with_plan(clip, parse_plan(run.plan->first, run.plan->second, clip), check);
 }
 
 /// Also says the plan as the text that --plan-out asks for.
-FillOutcome fill_in_place(Take& take, const FillRun& run, std::string& plan_text) {
+FillOutcome fill_in_place(Take& take, const FillRun& run, const FillCheck& check,
+                          std::string& plan_text) {
   FillSettings settings = run.settings;
   return std::visit(
       [&](auto& clip) {
@@ -72,9 +73,9 @@ FillOutcome fill_in_place(Take& take, const FillRun& run, std::string& plan_text
                                      first_frame_number(clip));
         std::optional<std::decay_t<decltype(clip)>> before;
         if (run.preview) before = clip;
-        PlannedFill filled = fill_clip(clip, settings, run);
+        PlannedFill filled = fill_clip(clip, settings, run, check);
         FillOutcome outcome{std::move(filled.report)};
-        if (before) preview_methods(*before, filled.plan);
+        if (before) preview_methods(*before, filled.plan, check);
         if (!run.plan_out_path.empty()) {
           plan_text = is_json(run.plan_out_path) ? plan_json(clip, filled.plan)
                                                  : plan_csv(clip, filled.plan);
@@ -117,8 +118,8 @@ FillRun fill_run_of(const Arguments& arguments) {
   check_single_use({run.input, gap_file, plan_file},
                    {run.dry_run ? std::string() : run.output, run.report_path, run.plan_out_path},
                    run.json);
-  check_is_no_input("--report", run.report_path,
-                    {run.input, gap_file, plan_file, run.plan_out_path, run.output});
+  check_report(run.report_path, {run.input, gap_file, plan_file, run.plan_out_path, run.output,
+                                 arguments.text("asf")});
   check_is_no_input("--plan-out", run.plan_out_path, {run.input, gap_file, plan_file, run.output});
   check_is_no_input("--output", run.output, {gap_file, plan_file});
   if (!run.dry_run) check_free(run.output, run.force);
@@ -129,19 +130,31 @@ FillRun fill_run_of(const Arguments& arguments) {
   return run;
 }
 
-FilledTake fill_take(const FillRun& run, bool with_before) {
+FilledTake fill_take(const FillRun& run, bool with_before, const FillCheck& check) {
   TakeResult read = read_take(std::filesystem::path(run.input), run.reading);
   FilledTake filled;
   for (const Diagnostic& entry : read.diagnostics.entries())
     filled.warnings.push_back(diagnostic_line(source_of(read.take), entry));
   mark_given_gaps(read.take, run);
   if (with_before) filled.before = read.take;
-  FillOutcome outcome = fill_in_place(read.take, run, filled.plan_text);
+  FillOutcome outcome = fill_in_place(read.take, run, check, filled.plan_text);
   for (const std::string& warning : outcome.report.warnings)
     filled.warnings.push_back(fmt::format("{}: {}", input_name(run.input), warning));
   filled.report = {facts_of(read.take, run.input, std::move(read.diagnostics)), std::move(outcome)};
   filled.after = std::move(read.take);
   return filled;
+}
+
+GapCurves gap_curves(const FillRun& run, std::size_t row, const FillCheck& check) {
+  if (!run.plan) throw Error(ErrorKind::usage, "fill: there is no plan");
+  TakeResult read = read_take(std::filesystem::path(run.input), run.reading);
+  mark_given_gaps(read.take, run);
+  return std::visit(
+      [&](const auto& clip) {
+        const auto plan = parse_plan(run.plan->first, run.plan->second, clip);
+        return preview_curves(clip, plan, row, check);
+      },
+      read.take);
 }
 
 }  // namespace kinemend::cli

@@ -7,6 +7,7 @@
 
 #include "command.hpp"
 #include "frame_range.hpp"
+#include "kinemend/experimental/gap_plan.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"
@@ -39,6 +40,10 @@ struct FilledTake {
 };
 
 /// Reads the take and fills its gaps; writes nothing. `before` is kept where `with_before` is set.
-FilledTake fill_take(const FillRun& run, bool with_before);
+/// What `check` throws ends it.
+FilledTake fill_take(const FillRun& run, bool with_before, const FillCheck& check = {});
+/// What every method would make of the gap of one row of the run's plan. Errors: as of
+/// `fill_take`; `ErrorKind::usage` for a run without a plan.
+GapCurves gap_curves(const FillRun& run, std::size_t row, const FillCheck& check);
 
 }  // namespace kinemend::cli

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "kinemend/error.hpp"
+#include "takes.hpp"
 
 namespace kinemend::cli {
 
@@ -23,12 +24,17 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-}  // namespace
-
-bool is_page(const std::string& path) {
+std::string lower_extension(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+}  // namespace
+
+bool is_page(const std::string& path) {
+  const std::string extension = lower_extension(path);
   return extension == ".html" || extension == ".htm";
 }
 
@@ -41,6 +47,15 @@ void check_page(const std::string& path, std::size_t takes) {
   }
   if (takes > 1)
     throw Error(ErrorKind::usage, "--report: a page is of one take; FILE.json holds several");
+}
+
+void check_report(const std::string& path, const std::vector<std::string>& others) {
+  check_is_no_input("--report", path, others);
+  if (!path.empty() && lower_extension(path) == ".asf") {
+    throw Error(ErrorKind::usage,
+                "--report: a file that ends in .asf is the skeleton of takes; reports are "
+                "FILE.html or FILE.json");
+  }
 }
 
 std::string command_line_of(const Arguments& arguments) {

@@ -16,6 +16,9 @@ bool is_page(const std::string& path);
 /// Refuses a page that this build cannot make, or of several takes, before work is spent on it.
 /// JSON is fine. Errors: `ErrorKind::usage`.
 void check_page(const std::string& path, std::size_t takes);
+/// Refuses a report that would replace what the run reads or writes, also by --force: `others` and,
+/// as AMC files find theirs without a word, any skeleton. Errors: `ErrorKind::usage`.
+void check_report(const std::string& path, const std::vector<std::string>& others);
 /// How the program was called, quoted as a shell needs it.
 std::string command_line_of(const Arguments& arguments);
 PageSettings page_settings(const Arguments& arguments);

@@ -46,7 +46,8 @@ ViewFiles files_of(const Arguments& arguments) {
   files.cleaned = given("output", output_beside(files.input, "clean"));
   files.filled = given("output", output_beside(files.input, "filled"));
   files.contacts = given("contacts", beside(files.input, "contacts"));
-  files.gaps = arguments.text("gaps");
+  files.gaps = given("gaps", beside(files.input, "gaps.csv"));
+  files.with_gaps = arguments.given("gaps");
   files.plan = given("plan", beside(files.input, "plan.csv"));
   check_is_no_input("--output", files.cleaned,
                     {files.input, files.contacts, files.plan, files.gaps});
@@ -55,6 +56,7 @@ ViewFiles files_of(const Arguments& arguments) {
   check_is_no_input("--contacts", files.contacts,
                     {files.input, files.filled, files.plan, files.gaps});
   check_is_no_input("--plan", files.plan, {files.input, files.filled, files.gaps});
+  check_is_no_input("--gaps", files.gaps, {files.input});
   for (const char* flag : {"from", "asf"}) {
     if (arguments.given(flag))
       files.reading.push_back(fmt::format("--{}={}", flag, arguments.text(flag)));
@@ -86,7 +88,7 @@ bool open_in_browser(const std::string& address) {
 }
 
 int run(const Arguments& arguments) {
-  const ViewFiles files = files_of(arguments);
+  ViewFiles files = files_of(arguments);
   if (!has_report_page())
     throw Error(ErrorKind::usage,
                 "view: this kinemend was built without its page (KINEMEND_WEB=OFF)");
@@ -94,7 +96,10 @@ int run(const Arguments& arguments) {
   for (const std::string& input : arguments.positionals) {
     const TakeResult read = read_take(std::filesystem::path(input), read_options(arguments));
     warn_of_repairs(source_of(read.take), read.diagnostics);
+    if (input == files.input) files.of_joints = std::holds_alternative<Clip>(read.take);
   }
+  // A file of gaps that is named is there; the page would only say so later.
+  if (files.with_gaps) read_file(files.gaps);
   // The children that open the browser are nobody's business.
   std::signal(SIGCHLD, SIG_IGN);
   ViewSession session(files);
@@ -120,7 +125,9 @@ Flag file_flag(std::string name, std::string help) {
 }
 
 Flag gaps_flag() {
-  Flag flag = file_flag("gaps", "samples that count as missing: lines name,first,last");
+  Flag flag = file_flag("gaps",
+                        "samples that count as missing: lines name,first,last (default: none; "
+                        "those that are marked in the page are saved as walk.gaps.csv)");
   flag.group = "Input";
   return flag;
 }

@@ -64,10 +64,10 @@ class EndSignals {
     action.sa_handler = hear;
     for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &action, &before_[i]);
     waiting_ = std::thread([this] {
-      char byte = 0;
-      while (read(pipe_[0], &byte, 1) < 0 && errno == EINTR) {
-      }
-      if (byte != 0) end_();
+      if (next() == 0) return;
+      end_();
+      // Who asks twice does not want to wait for what is under way; no file is left half.
+      if (const int signal = next(); signal != 0) _exit(128 + signal);
     });
   }
   ~EndSignals() {
@@ -81,6 +81,14 @@ class EndSignals {
   EndSignals& operator=(const EndSignals&) = delete;
 
  private:
+  // The signal that comes next; 0: there is none any more.
+  int next() const {
+    char byte = 0;
+    while (read(pipe_[0], &byte, 1) < 0 && errno == EINTR) {
+    }
+    return byte;
+  }
+
   static constexpr std::array signals = {SIGINT, SIGTERM};
 
   std::function<void()> end_;
@@ -107,7 +115,10 @@ void serve_view(int port, const Answer& answer,
   const int bound =
       port == 0 ? server.bind_to_any_port(host) : (server.bind_to_port(host, port) ? port : -1);
   if (bound <= 0)
-    throw Error(ErrorKind::cannot_write, fmt::format("view: port {} cannot be had", port));
+    throw Error(ErrorKind::cannot_write,
+                fmt::format("view: port {} cannot be had: another program has it, or it is not for "
+                            "everybody; without --port one that is free is taken",
+                            port));
   const ViewAccess access(random_token(), bound);
   const auto handle = [&](const httplib::Request& request, httplib::Response& response) {
     reply_to(request, response, access, answer);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <variant>
@@ -24,8 +25,6 @@
 namespace kinemend::cli {
 
 namespace {
-
-constexpr std::string_view overtaken = "another run was asked for";
 
 /// Flags that the page may set; what reads or writes a file is not among them.
 constexpr std::array clean_flags = {
@@ -86,6 +85,21 @@ ViewReply failure(int status, std::string_view words) {
   return {status, "application/json", json_text({{"error", words}})};
 }
 
+/// Without flags that begin so, and what they say.
+std::vector<std::string> without(std::vector<std::string> words,
+                                 std::initializer_list<std::string_view> flags) {
+  std::erase_if(words, [&](const std::string& word) {
+    return std::any_of(flags.begin(), flags.end(),
+                       [&](std::string_view flag) { return word.starts_with(flag); });
+  });
+  return words;
+}
+
+std::string tab_of(const Json& asked) {
+  constexpr std::size_t longest = 64;
+  return text_in(asked, "tab").value_or("").substr(0, longest);
+}
+
 Json methods_json() {
   Json list = Json::array();
   for (const Method& method : methods()) {
@@ -114,26 +128,77 @@ Json fill_methods_json() {
   return list;
 }
 
+Json session_json(const ViewFiles& files) {
+  return {{"input", files.input},
+          {"other", files.other},
+          {"kind", files.of_joints ? "joints" : "markers"},
+          {"cleaned", files.cleaned},
+          {"filled", files.filled},
+          {"contacts", files.contacts},
+          {"plan", files.plan},
+          {"gaps", files.gaps},
+          {"with_gaps", files.with_gaps},
+          {"methods", methods_json()},
+          {"fill_methods", fill_methods_json()}};
+}
+
+// Of one axis, frame by frame; null where the sample stays missing.
+Json values_json(const std::vector<std::optional<Vec3>>& values, std::size_t axis) {
+  // Curves are drawn, not measured.
+  constexpr double finest = 1e-5;
+  Json list = Json::array();
+  for (const std::optional<Vec3>& value : values) {
+    if (!value) {
+      list.push_back(nullptr);
+      continue;
+    }
+    const std::array<double, 3> at = {value->x, value->y, value->z};
+    list.push_back(std::round(at[axis] / finest) * finest);
+  }
+  return list;
+}
+
+Json json_of(const GapCurves& curves) {
+  Json list = Json::array();
+  for (const GapCurve& curve : curves.curves) {
+    const GapPreview& preview = curve.preview;
+    Json values = Json::array();
+    for (std::size_t axis = 0; axis < curves.axes.size(); ++axis)
+      values.push_back(values_json(curve.values, axis));
+    Json entry = {{"method", preview.method},  {"filled", preview.filled},
+                  {"reason", preview.reason},  {"distance", nullptr},
+                  {"expected_error", nullptr}, {"values", std::move(values)}};
+    if (preview.distance) entry["distance"] = *preview.distance;
+    if (preview.filled && curve.expected_error > 0) entry["expected_error"] = curve.expected_error;
+    list.push_back(std::move(entry));
+  }
+  return {{"first", curves.first_frame},
+          {"last", curves.last_frame},
+          {"axes", curves.axes},
+          {"curves", std::move(list)}};
+}
+
+constexpr const char* html = "text/html; charset=utf-8";
+constexpr const char* plain = "text/plain; charset=utf-8";
+
 }  // namespace
 
 ViewReply ViewSession::answer(std::string_view method, std::string_view action,
                               const std::string& body) {
   constexpr int bad_request = 400, not_found = 404, gone = 409, internal = 500;
   try {
-    if (method == "GET" && action.empty()) return page(Json::object(), ++latest_);
-    if (method != "POST" || !files_.other.empty())
+    if (method == "GET" && action.empty()) return first_page();
+    if (method != "POST" || (!files_.other.empty() && action != "run" && action != "leave"))
       return failure(not_found, "there is nothing here");
     const Json asked = Json::parse(body);
     if (!asked.is_object()) return failure(bad_request, "expected an object");
-    if (action == "run") return page(asked, ++latest_);
-    if (action == "save") return save(asked);
-    if (action == "contacts") return contacts();
-    return failure(not_found, "there is nothing here");
+    ViewReply reply = act(action, asked);
+    return reply.body.empty() && reply.type.empty() ? failure(not_found, "there is nothing here")
+                                                    : reply;
   } catch (const Json::exception&) {
     return failure(bad_request, "this is no request of the page");
   } catch (const Error& error) {
-    if (error.what() == overtaken) return failure(gone, overtaken);
-    return failure(bad_request, error.what());
+    return failure(std::string_view(error.what()) == overtaken ? gone : bad_request, error.what());
   } catch (const std::bad_alloc&) {
     return failure(internal, "out of memory");
   } catch (const std::exception& error) {
@@ -141,11 +206,43 @@ ViewReply ViewSession::answer(std::string_view method, std::string_view action,
   }
 }
 
+ViewReply ViewSession::act(std::string_view action, const Json& asked) {
+  const std::string tab = tab_of(asked);
+  if (action == "run") return run(asked, turns_.begin(tab, ViewTurn::run));
+  if (action == "curves") return curves(asked, turns_.begin(tab, ViewTurn::curves));
+  if (action == "save") return save(asked);
+  if (action == "contacts") return contacts();
+  if (action == "gaps") return gaps();
+  if (action == "progress") return progress();
+  if (action != "leave") return {404, "", ""};
+  turns_.leave(tab);
+  return {200, "application/json", json_text(Json::object())};
+}
+
+ViewReply ViewSession::first_page() const {
+  const std::string name = std::filesystem::path(files_.input).filename().string();
+  const std::array<std::pair<std::string, std::string>, 1> parts = {
+      {{"view", json_text(session_json(files_))}}};
+  return {200, html, served_page(name + ": kinemend view", "reading " + name, parts)};
+}
+
+void ViewSession::tell(const Turn& turn, std::string_view stage, double done) {
+  turn.check();
+  const std::lock_guard lock(telling_);
+  stage_ = stage;
+  done_ = done;
+}
+
+ViewReply ViewSession::progress() {
+  const std::lock_guard lock(telling_);
+  return {200, "application/json", json_text({{"stage", stage_}, {"done", done_}})};
+}
+
 std::vector<std::string> ViewSession::words_of(const Json& asked) const {
   const bool fills = is_fill(asked);
   std::vector<std::string> words = {fills ? "fill" : "clean", files_.input};
   words.insert(words.end(), files_.reading.begin(), files_.reading.end());
-  if (!files_.gaps.empty()) words.push_back("--gaps=" + files_.gaps);
+  if (files_.with_gaps || text_in(asked, "gaps")) words.push_back("--gaps=" + files_.gaps);
   const Json flags = asked.value("flags", Json::object());
   for (const auto& [name, value] : flags.items()) {
     check_flag(fills, flags, name);
@@ -157,12 +254,12 @@ std::vector<std::string> ViewSession::words_of(const Json& asked) const {
   return words;
 }
 
-ViewReply ViewSession::page(const Json& asked, std::uint64_t turn) {
-  constexpr const char* html = "text/html; charset=utf-8";
+ViewReply ViewSession::run(const Json& asked, const Turn& turn) {
+  tell(turn, "waiting", 0);
   const std::lock_guard lock(work_);
-  if (turn != latest_) throw Error(ErrorKind::usage, std::string(overtaken));
+  tell(turn, "reading", 0);
   if (!files_.other.empty()) return {200, html, comparison()};
-  return {200, html, is_fill(asked) ? fill_page(asked) : clean_page(asked, turn)};
+  return {200, html, is_fill(asked) ? fill_page(asked, turn) : clean_page(asked, turn)};
 }
 
 std::string ViewSession::comparison() const {
@@ -171,12 +268,12 @@ std::string ViewSession::comparison() const {
   return comparison_page(parsed(words), true);
 }
 
-std::string ViewSession::clean_page(const Json& asked, std::uint64_t turn) {
+std::string ViewSession::clean_page(const Json& asked, const Turn& turn) {
   const std::vector<std::string> words = words_of(asked);
-  std::vector<std::string> without_side = words;
-  std::erase_if(without_side,
-                [](const std::string& word) { return word.starts_with("--contacts="); });
-  CleanPlan plan = make_clean_plan(parsed(without_side));
+  const auto gaps = text_in(asked, "gaps");
+  CleanPlan plan = make_clean_plan(
+      parsed(gaps ? without(words, {"--contacts=", "--gaps="}) : without(words, {"--contacts="})));
+  if (gaps) plan.gaps.emplace(*gaps, "gaps");
   if (const auto text = text_in(asked, "contacts")) {
     if (!plan.settings.feet) plan.settings.feet.emplace();
     plan.contacts.emplace(*text, "contacts");
@@ -187,47 +284,56 @@ std::string ViewSession::clean_page(const Json& asked, std::uint64_t turn) {
   plan.page->command = "clean";
   plan.page->command_line = line_of(words);
   plan.page->is_served = true;
-  plan.page->parts = {{"view", session_json()}};
-  Outcome outcome = try_take(plan.jobs.front(), plan, [&](std::string_view, double) {
-    if (turn != latest_) throw Error(ErrorKind::quality_limit, std::string(overtaken));
-  });
-  if (turn != latest_) throw Error(ErrorKind::usage, std::string(overtaken));
+  plan.page->check = [&] { tell(turn, "drawing", 0); };
+  Outcome outcome = try_take(plan.jobs.front(), plan,
+                             [&](std::string_view stage, double done) { tell(turn, stage, done); });
+  turn.check();
   if (outcome.code != 0) throw Error(ErrorKind::usage, outcome.error);
   return std::move(outcome.report);
 }
 
-std::string ViewSession::fill_page(const Json& asked) {
-  const std::vector<std::string> words = words_of(asked);
-  std::vector<std::string> own = words;
-  std::erase_if(own, [](const std::string& word) { return word.starts_with("--plan="); });
-  own.emplace_back("--dry-run");
-  FillRun run = fill_run_of(parsed(own));
-  if (const auto text = text_in(asked, "plan")) run.plan.emplace(*text, "plan");
+FillRun ViewSession::fill_run(const Json& asked) const {
+  const auto plan = text_in(asked, "plan"), gaps = text_in(asked, "gaps");
+  std::vector<std::string> words = without(words_of(asked), {"--plan="});
+  if (gaps) words = without(std::move(words), {"--gaps="});
+  words.emplace_back("--dry-run");
+  FillRun run = fill_run_of(parsed(words));
+  if (plan) run.plan.emplace(*plan, "plan");
+  if (gaps) run.gaps.emplace(*gaps, "gaps");
+  return run;
+}
+
+std::string ViewSession::fill_page(const Json& asked, const Turn& turn) {
+  FillRun run = fill_run(asked);
   run.plan_out_path = "plan.json";
   run.preview = asked.value("preview", false);
-  const FilledTake filled = fill_take(run, true);
+  run.reading.progress = [&](double done) { tell(turn, "reading", done); };
+  const FilledTake filled = fill_take(run, true, [&] { tell(turn, "filling", 0); });
   PageSettings settings;
   settings.command = "fill";
-  settings.command_line = line_of(words);
+  settings.command_line = line_of(words_of(asked));
   settings.is_served = true;
-  settings.parts = {{"view", session_json()}, {"plan", filled.plan_text}};
+  settings.parts = {{"plan", filled.plan_text}};
+  settings.check = [&] { tell(turn, "drawing", 0); };
   return page_of(filled.report, filled.before, &filled.after, settings);
 }
 
-std::string ViewSession::session_json() const {
-  std::error_code ignored;
-  Json json = {{"input", files_.input},
-               {"cleaned", files_.cleaned},
-               {"filled", files_.filled},
-               {"contacts", files_.contacts},
-               {"plan", files_.plan},
-               {"methods", methods_json()},
-               {"fill_methods", fill_methods_json()}};
-  return json_text(json);
+ViewReply ViewSession::curves(const Json& asked, const Turn& turn) {
+  const std::lock_guard lock(work_);
+  turn.check();
+  FillRun run = fill_run(asked);
+  run.reading.progress = [&](double) { turn.check(); };
+  const GapCurves found =
+      gap_curves(run, asked.at("row").get<std::size_t>(), [&] { tell(turn, "filling", 0); });
+  return {200, "application/json", json_of(found).dump()};
+}
+
+bool ViewSession::may_replace(const std::string& path) const {
+  return files_.force || written_.count(path) > 0;
 }
 
 void ViewSession::write_side(const std::string& path, std::string_view bytes, Json& written) {
-  write_output(path, bytes, files_.force || written_.count(path) > 0);
+  write_output(path, bytes, may_replace(path));
   written_.insert(path);
   written.push_back(path);
 }
@@ -237,25 +343,25 @@ ViewReply ViewSession::save(const Json& asked) {
   Json written = Json::array();
   std::vector<std::string> words = words_of(asked);
   const std::string line = line_of(words);
-  const std::string output = is_fill(asked) ? files_.filled : files_.cleaned;
-  const bool force = files_.force || written_.count(output) > 0;
-  // Before any side file is made.
-  check_free(output, force);
-  const auto contacts = text_in(asked, "contacts");
-  const auto plan = text_in(asked, "plan");
-  if (!is_fill(asked) && contacts) write_side(files_.contacts, *contacts, written);
-  if (is_fill(asked) && plan) {
-    std::vector<std::string> own = words;
-    std::erase_if(own, [](const std::string& word) { return word.starts_with("--plan="); });
-    own.emplace_back("--dry-run");
-    FillRun run = fill_run_of(parsed(own));
-    run.plan.emplace(*plan, "plan");
-    run.plan_out_path = files_.plan;
-    write_side(files_.plan, fill_take(run, false).plan_text, written);
+  const bool fills = is_fill(asked);
+  const std::string output = fills ? files_.filled : files_.cleaned;
+  const auto gaps = text_in(asked, "gaps"), plan = text_in(asked, fills ? "plan" : "contacts");
+  const std::string side = fills ? files_.plan : files_.contacts;
+  // All of them before any is made.
+  check_free(output, may_replace(output));
+  if (plan) check_free(side, may_replace(side));
+  if (gaps) check_free(files_.gaps, may_replace(files_.gaps));
+  if (gaps) write_side(files_.gaps, *gaps, written);
+  if (plan && !fills) write_side(side, *plan, written);
+  if (plan && fills) {
+    FillRun run = fill_run(asked);
+    run.plan_out_path = side;
+    write_side(side, fill_take(run, false).plan_text, written);
   }
+  const bool force = may_replace(output);
   if (force) words.emplace_back("--force");
   const Arguments arguments = parsed(words);
-  if (is_fill(asked)) {
+  if (fills) {
     const FillRun run = fill_run_of(arguments);
     const FilledTake filled = fill_take(run, false);
     write_take_output(run.output, filled.after, format_for(run.output, source_of(filled.after)),
@@ -276,13 +382,19 @@ ViewReply ViewSession::contacts() {
   words.insert(words.end(), files_.reading.begin(), files_.reading.end());
   std::error_code ignored;
   if (std::filesystem::is_regular_file(files_.contacts, ignored))
-    return {200, "text/plain; charset=utf-8", read_file(files_.contacts)};
+    return {200, plain, read_file(files_.contacts)};
   TakeResult read = read_take(std::filesystem::path(files_.input), read_options(parsed(words)));
   Clip* clip = std::get_if<Clip>(&read.take);
   if (clip == nullptr) throw Error(ErrorKind::usage, "contacts are of takes of joints");
   Clip copy = *clip;
   const FeetReport report = clean_feet(copy);
-  return {200, "text/plain; charset=utf-8", contacts_text(*clip, report)};
+  return {200, plain, contacts_text(*clip, report)};
+}
+
+ViewReply ViewSession::gaps() {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(files_.gaps, ignored)) return {200, plain, ""};
+  return {200, plain, read_file(files_.gaps)};
 }
 
 }  // namespace kinemend::cli

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <atomic>
-#include <cstdint>
 #include <mutex>
 #include <set>
 #include <string>
@@ -9,7 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "fill_take.hpp"
 #include "json.hpp"
+#include "view_turns.hpp"
 
 // What the page of `view` asks for: runs of other commands on one take, by the code that the
 // command line runs.
@@ -18,10 +18,11 @@ namespace kinemend::cli {
 /// The files that a session reads and writes; no others are touched, whatever is asked.
 struct ViewFiles {
   std::string input;
-  std::string other;            ///< compared with it, and nothing else; empty: none
-  std::string cleaned, filled;  ///< where "save as" goes, of clean and of fill
-  std::string gaps;  ///< side file of gaps that the take's format cannot hold; empty: none
-  std::string contacts, plan;        ///< side files
+  std::string other;                 ///< compared with it, and nothing else; empty: none
+  bool of_joints = true;             ///< what the input holds
+  std::string cleaned, filled;       ///< where "save as" goes, of clean and of fill
+  std::string contacts, plan, gaps;  ///< side files
+  bool with_gaps = false;            ///< what `gaps` lists is missing from the start
   std::vector<std::string> reading;  ///< flags of the input, as they were given: "--asf=..."
   bool force = false;                ///< replace files that another run has made
 };
@@ -36,29 +37,46 @@ class ViewSession {
  public:
   explicit ViewSession(ViewFiles files) : files_(std::move(files)) {}
 
-  /// Of the page's address. `action`: "" for the page, "run", "save", "contacts". Never throws:
+  /// Of the page's address. `action`: "" for the page before there is anything in it; "run" for the
+  /// data of a run, "curves" of what every method makes of a gap, "save", "contacts" and "gaps" for
+  /// side files, "progress" for how far a run is, "leave" of a tab that is closed. Never throws:
   /// what goes wrong is a reply with the status 4xx or 5xx and {"error": words}. A run that is
-  /// overtaken by another is given up: 409. May be called from several threads.
+  /// overtaken by another of its tab is given up: 409. May be called from several threads.
   ViewReply answer(std::string_view method, std::string_view action, const std::string& body);
   /// Gives up what is running.
-  void stop() { ++latest_; }
+  void stop() { turns_.stop(); }
 
  private:
-  ViewReply page(const Json& asked, std::uint64_t turn);
+  using Turn = ViewTurns::Turn;
+
+  ViewReply first_page() const;
+  ViewReply act(std::string_view action, const Json& asked);
+  ViewReply run(const Json& asked, const Turn& turn);
+  ViewReply curves(const Json& asked, const Turn& turn);
   ViewReply save(const Json& asked);
   ViewReply contacts();
-  std::string clean_page(const Json& asked, std::uint64_t turn);
-  std::string fill_page(const Json& asked);
+  ViewReply gaps();
+  ViewReply progress();
+  std::string clean_page(const Json& asked, const Turn& turn);
+  std::string fill_page(const Json& asked, const Turn& turn);
   std::string comparison() const;
-  std::string session_json() const;
+  /// As asked, with plans and gaps of the page in place of those in files.
+  FillRun fill_run(const Json& asked) const;
   /// "kinemend clean walk.bvh ...": what the same run is on a command line.
   std::vector<std::string> words_of(const Json& asked) const;
+  /// Says how far the run is, and ends it where another has overtaken it.
+  void tell(const Turn& turn, std::string_view stage, double done);
+  /// Whether the page may replace a file.
+  bool may_replace(const std::string& path) const;
   void write_side(const std::string& path, std::string_view bytes, Json& written);
 
   ViewFiles files_;
-  std::mutex work_;                       // one run at a time
-  std::atomic<std::uint64_t> latest_{0};  // turn of the last run that was asked for
-  std::set<std::string> written_;         // by this session, which may replace them
+  ViewTurns turns_;
+  std::mutex work_;                // one run at a time
+  std::set<std::string> written_;  // by this session, which may replace them
+  std::mutex telling_;
+  std::string stage_;  // of the run, and how far it is
+  double done_ = 0;
 };
 
 }  // namespace kinemend::cli

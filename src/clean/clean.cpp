@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <mutex>
 #include <string_view>
 #include <utility>
 
@@ -33,6 +34,8 @@ class Stage {
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
   void finish() const { tell(1); }
+  /// Says again that it goes on, so that whoever listens may end it by throwing.
+  void ask() const { tell(0); }
   /// What the work itself may tell: nothing where nobody listens.
   std::function<void(double)> shares() const {
     if (!settings_.progress) return {};
@@ -236,8 +239,14 @@ void clean_whole(AnyClip& motion, const Cleaner& cleaner, const Work& work, Clea
   cleaning.finish();
   if (settings.fill) {
     const Stage stage(settings, "filling");
-    report.fill =
-        fill_step(motion, cleaner, work.selection, work.weights, *settings.fill, trace, cleaned);
+    // Gaps are filled in several threads: one at a time asks whether anybody still waits.
+    std::mutex asking;
+    const FillCheck check = [&] {
+      const std::lock_guard lock(asking);
+      stage.ask();
+    };
+    report.fill = fill_step(motion, cleaner, work.selection, work.weights, *settings.fill, trace,
+                            cleaned, check);
     for (GapOutcome& outcome : report.fill.gaps) {
       outcome.gap.first_frame += work.first;
       outcome.gap.last_frame += work.first;

@@ -84,10 +84,10 @@ void drop_unselected(FillReport& report, const std::vector<std::uint8_t>& select
 
 FillReport fill_step(const Clip& measured, const Cleaner& cleaner, const Selection& selection,
                      const std::vector<double>& weights, const FillSettings& settings,
-                     const InPlaceTrace& trace, Clip& cleaned) {
+                     const InPlaceTrace& trace, Clip& cleaned, const FillCheck& check) {
   if (find_gaps(measured).empty() && find_position_gaps(measured).empty()) return {};
   Clip filled = evidence_of(measured, cleaner, selection, trace, cleaned);
-  FillReport report = fill_gaps(filled, settings);
+  FillReport report = fill_with_plan(filled, settings, check).report;
   drop_unselected(report, selection.owners);
   for_each_filled(measured.observed, filled.observed, selection.owners, weights,
                   [&](std::size_t i) {
@@ -100,10 +100,10 @@ FillReport fill_step(const Clip& measured, const Cleaner& cleaner, const Selecti
 
 FillReport fill_step(const MarkerClip& measured, const Cleaner& cleaner, const Selection& selection,
                      const std::vector<double>& weights, const FillSettings& settings,
-                     const InPlaceTrace& trace, MarkerClip& cleaned) {
+                     const InPlaceTrace& trace, MarkerClip& cleaned, const FillCheck& check) {
   if (find_gaps(measured).empty()) return {};
   MarkerClip filled = evidence_of(measured, cleaner, selection, trace, cleaned);
-  FillReport report = fill_gaps(filled, settings);
+  FillReport report = fill_with_plan(filled, settings, check).report;
   drop_unselected(report, selection.owners);
   for_each_filled(measured.observed, filled.observed, selection.owners, weights,
                   [&](std::size_t i) {

@@ -4,6 +4,7 @@
 
 #include "kinemend/cleaner.hpp"
 #include "kinemend/clip.hpp"
+#include "kinemend/experimental/gap_plan.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/marker_clip.hpp"
 
@@ -18,9 +19,9 @@ namespace kinemend {
 /// is selected.
 FillReport fill_step(const Clip& measured, const Cleaner& cleaner, const Selection& selection,
                      const std::vector<double>& weights, const FillSettings& settings,
-                     const InPlaceTrace& trace, Clip& cleaned);
+                     const InPlaceTrace& trace, Clip& cleaned, const FillCheck& check = {});
 FillReport fill_step(const MarkerClip& measured, const Cleaner& cleaner, const Selection& selection,
                      const std::vector<double>& weights, const FillSettings& settings,
-                     const InPlaceTrace& trace, MarkerClip& cleaned);
+                     const InPlaceTrace& trace, MarkerClip& cleaned, const FillCheck& check = {});
 
 }  // namespace kinemend

@@ -56,8 +56,8 @@ Filling fill_gap(const GappedTake& take, const OpenGap& gap) {
 
 class Rounds {
  public:
-  Rounds(GappedTake& take, const std::vector<OpenGap>& gaps)
-      : take_(take), gaps_(gaps), fillings_(gaps.size()) {}
+  Rounds(GappedTake& take, const std::vector<OpenGap>& gaps, const Check& check)
+      : take_(take), gaps_(gaps), check_(check), fillings_(gaps.size()) {}
 
   // Until a round fills nothing.
   void run() {
@@ -101,8 +101,10 @@ class Rounds {
   void try_gaps(const std::vector<std::size_t>& chosen) {
     take_.begin_round();
     std::vector<Filling> found(chosen.size());
-    tbb::parallel_for(std::size_t{0}, chosen.size(),
-                      [&](std::size_t i) { found[i] = fill_gap(take_, gaps_[chosen[i]]); });
+    tbb::parallel_for(std::size_t{0}, chosen.size(), [&](std::size_t i) {
+      if (check_) check_();
+      found[i] = fill_gap(take_, gaps_[chosen[i]]);
+    });
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       Filling& before = fillings_[chosen[i]];
       // A second look never takes back what the first has found.
@@ -116,13 +118,15 @@ class Rounds {
 
   GappedTake& take_;
   const std::vector<OpenGap>& gaps_;
+  const Check& check_;
   std::vector<Filling> fillings_;
 };
 
 }  // namespace
 
-std::vector<FilledGap> fill_take(GappedTake& take, const std::vector<OpenGap>& gaps) {
-  Rounds rounds(take, gaps);
+std::vector<FilledGap> fill_take(GappedTake& take, const std::vector<OpenGap>& gaps,
+                                 const Check& check) {
+  Rounds rounds(take, gaps, check);
   rounds.run();
   rounds.refine();
   return rounds.finish();

@@ -57,8 +57,13 @@ struct FilledGap {
   std::vector<std::size_t> markers_used = {};
 };
 
+/// Called before each gap that is tried, from several threads; what it throws ends the run before
+/// anything is stored.
+using Check = std::function<void()>;
+
 /// Fills the gaps in rounds: what one round fills may be evidence for the next. By gap.
-std::vector<FilledGap> fill_take(GappedTake& take, const std::vector<OpenGap>& gaps);
+std::vector<FilledGap> fill_take(GappedTake& take, const std::vector<OpenGap>& gaps,
+                                 const Check& check);
 FillReport report_of(const std::vector<FilledGap>& gaps);
 
 /// Says what is asked for a gap of the take, frames as the take counts them; null: the gap is left
@@ -67,8 +72,9 @@ using RequestOf = std::function<const GapRequest*(const Gap& gap, bool is_positi
 
 /// The gaps of a take for which something is asked. Those in the calibration pose are gaps of their
 /// own, which nothing fills.
-std::vector<FilledGap> fill_asked(Clip& clip, const RequestOf& request_of);
-std::vector<FilledGap> fill_asked(MarkerClip& clip, const RequestOf& request_of);
+std::vector<FilledGap> fill_asked(Clip& clip, const RequestOf& request_of, const Check& check);
+std::vector<FilledGap> fill_asked(MarkerClip& clip, const RequestOf& request_of,
+                                  const Check& check);
 /// All gaps of a take with the frames as it counts them, in the order in which they are filled; the
 /// track among tracks and the request are not set.
 std::vector<OpenGap> open_gaps(const Clip& clip);

@@ -190,11 +190,12 @@ class JointTake : public GappedTake {
   std::vector<Track> tracks_;
 };
 
-std::vector<FilledGap> fill_motion(Clip& clip, const RequestOf& request_of, std::size_t first) {
+std::vector<FilledGap> fill_motion(Clip& clip, const RequestOf& request_of, std::size_t first,
+                                   const Check& check) {
   const JointGaps found = gaps_of(clip, request_of, first);
   if (found.gaps.empty()) return {};
   JointTake take(clip, found.sources);
-  return fill_take(take, found.gaps);
+  return fill_take(take, found.gaps, check);
 }
 
 }  // namespace
@@ -217,11 +218,11 @@ std::vector<OpenGap> open_gaps(const Clip& clip) {
   return gaps;
 }
 
-std::vector<FilledGap> fill_asked(Clip& clip, const RequestOf& request_of) {
+std::vector<FilledGap> fill_asked(Clip& clip, const RequestOf& request_of, const Check& check) {
   const std::size_t calibration = leading_calibration_frames(clip);
   std::vector<FilledGap> found;
   on_motion(clip, calibration,
-            [&](Clip& motion) { found = fill_motion(motion, request_of, calibration); });
+            [&](Clip& motion) { found = fill_motion(motion, request_of, calibration, check); });
   if (calibration > 0) {
     for (FilledGap& filled : found) {
       filled.outcome.gap.first_frame += calibration;

@@ -133,14 +133,15 @@ std::vector<OpenGap> open_gaps(const MarkerClip& clip) {
   return gaps;
 }
 
-std::vector<FilledGap> fill_asked(MarkerClip& clip, const RequestOf& request_of) {
+std::vector<FilledGap> fill_asked(MarkerClip& clip, const RequestOf& request_of,
+                                  const Check& check) {
   std::vector<OpenGap> gaps;
   for (const Gap& gap : find_gaps(clip)) {
     if (const GapRequest* request = request_of(gap, false))
       gaps.push_back({gap, false, gap.track, request});
   }
   MarkerTake take(clip, gaps);
-  return fill_take(take, gaps);
+  return fill_take(take, gaps, check);
 }
 
 }  // namespace kinemend::fill

@@ -22,6 +22,16 @@ void check_is_built() {
               "written as FILE.json");
 }
 
+std::string elements_of(const Parts& parts) {
+  std::string html;
+  for (const auto& [name, bytes] : parts) {
+    html += fmt::format("<script type=\"application/octet-stream\" id=\"data-{}\">", name);
+    html += base64(deflated(bytes));
+    html += "</script>\n";
+  }
+  return html;
+}
+
 std::string document(std::string_view title, std::string_view summary, const Parts& parts,
                      bool is_served) {
   check_is_built();
@@ -36,11 +46,7 @@ std::string document(std::string_view title, std::string_view summary, const Par
       "<noscript><p>This page needs JavaScript to show the motion.</p></noscript></main>\n",
       is_served ? "; connect-src 'self'" : "", version(), xml_escaped(title), style,
       xml_escaped(summary));
-  for (const auto& [name, bytes] : parts) {
-    html += fmt::format("<script type=\"application/octet-stream\" id=\"data-{}\">", name);
-    html += base64(deflated(bytes));
-    html += "</script>\n";
-  }
+  html += elements_of(parts);
   html += "<script>";
   html += script;
   html += "</script>\n</body>\n</html>\n";
@@ -48,5 +54,10 @@ std::string document(std::string_view title, std::string_view summary, const Par
 }
 
 }  // namespace page
+
+std::string served_page(std::string_view title, std::string_view summary,
+                        std::span<const std::pair<std::string, std::string>> parts) {
+  return page::document(title, summary, {parts.begin(), parts.end()}, true);
+}
 
 }  // namespace kinemend

@@ -75,8 +75,14 @@ std::string take_page(const Report& report, const Take& before, const Take* afte
                       const PageSettings& settings) {
   page::check_is_built();
   if (after != nullptr) check_pair(before, *after);
+  const auto check = [&] {
+    if (settings.check) settings.check();
+  };
+  check();
   const Stage stage = stage_for(after != nullptr ? *after : before, report);
+  check();
   const Channels channels = fine_channels(before, after, stage.height, settings.is_served);
+  check();
   Json take = page::take_json(before, after, channels, stage);
   take["command_line"] = settings.command_line;
   take["labels"] = {settings.before_label, settings.after_label};
@@ -88,8 +94,10 @@ std::string take_page(const Report& report, const Take& before, const Take* afte
                        {"first", page::first_part(channels.samples, stride)}};
   if (stride > 1) parts.emplace_back("second", page::second_part(channels.samples, stride));
   for (const auto& [part, json] : settings.parts) parts.emplace_back(part, json);
+  check();
+  if (settings.is_served) return page::elements_of(parts);
   return page::document(fmt::format("{}: kinemend {}", name, settings.command),
-                        fmt::format("{}: {}", name, verdict_of(report)), parts, settings.is_served);
+                        fmt::format("{}: {}", name, verdict_of(report)), parts);
 }
 
 }  // namespace

@@ -44,7 +44,18 @@ TEST_F(Files, AReportNeverReplacesAnInput) {
            {"fill", "walk.bvh", "-o", "out.bvh", "--report", "walk.bvh"},
            {"fill", "walk.bvh", "-o", "out.bvh", "--report", "out.bvh"},
            {"fill", "walk.bvh", "-o", "out.bvh", "--gaps", "gaps.csv", "--report", "gaps.csv"},
+           {"fill", "walk.bvh", "-o", "out.bvh", "--report", "plan.csv", "--plan-out", "plan.csv"},
            {"check", "walk.bvh", "--gaps-out", "walk.bvh"},
+           {"check", "walk.bvh", "--report", "same.bvh"},
+           {"check", "walk.bvh", "--map", "gaps.csv", "--report", "gaps.csv"},
+           {"compare", "walk.bvh", "same.bvh", "--report", "walk.bvh"},
+           {"compare", "walk.bvh", "same.bvh", "--report", "./same.bvh"},
+           {"clean", "walk.bvh", "-o", "out.bvh", "--noise", "gaps.csv", "--report", "gaps.csv"},
+           {"clean", "walk.bvh", "-o", "out.bvh", "--feet=auto", "--map=gaps.csv",
+            "--report=gaps.csv"},
+           {"clean", "walk.bvh", "-o", "out.bvh", "--asf", "gaps.csv", "--report", "gaps.csv"},
+           {"batch", "walk.bvh", "-o", "out", "--config", "lab.toml", "--report", "lab.toml"},
+           {"batch", "walk.bvh", "-o", "out", "--report", "walk.bvh"},
            {"contacts", "walk.bvh", "-o", "walk.bvh"},
            {"train", "example", "walk.bvh", "-o", "walk.bvh"}}) {
     std::vector<std::string> forced = words;

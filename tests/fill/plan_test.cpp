@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <atomic>
 #include <string>
 
 #include "fill/made_gaps.hpp"
@@ -159,6 +160,97 @@ TEST(GapPlan, PreviewsEveryMethodBesideWhatFillsTheGap) {
     EXPECT_NEAR(*preview.distance, rms_error(clip, other, report.gaps[0].gap), 1e-9);
   }
   EXPECT_GT(seen, 4u);
+}
+
+// What the plan makes of the take once the row has that method.
+template <class AnyClip>
+AnyClip filled_with(const AnyClip& damaged, std::vector<PlannedGap> plan, std::size_t row,
+                    const std::string& method, GapVerdict verdict) {
+  plan[row].method = method;
+  plan[row].verdict = verdict;
+  AnyClip clip = damaged;
+  fill_with_plan(clip, plan);
+  return clip;
+}
+
+TEST(GapPlan, ShowsTheCurvesThatTheRowsMethodsWouldMakeOfMarkers) {
+  const MarkerClip damaged = markers_with_gaps();
+  MarkerClip clip = damaged;
+  const std::vector<PlannedGap> plan = fill_with_plan(clip, FillSettings{}).plan;
+  const std::size_t marker = track_of(clip, "LeftLeg_c");
+  std::size_t row = 0;
+  while (plan[row].gap.track != marker || plan[row].gap.first_frame != 210) ++row;
+  const GapCurves made = preview_curves(damaged, plan, row);
+  EXPECT_EQ(made.first_frame, 210u - 41u);
+  EXPECT_EQ(made.last_frame, 250u + 41u);
+  EXPECT_EQ(made.axes, (std::vector<std::string>{"X", "Y", "Z"}));
+  std::size_t drawn = 0, forced = 0;
+  for (const GapCurve& curve : made.curves) {
+    const std::string& method = curve.preview.method;
+    if (method == "pattern") {
+      EXPECT_FALSE(curve.values[41 + 4]) << "no donor, no curve";
+      continue;
+    }
+    const GapVerdict verdict = curve.preview.filled ? GapVerdict::fill : GapVerdict::force;
+    const MarkerClip other = filled_with(damaged, plan, row, method, verdict);
+    ASSERT_EQ(curve.values.size(), made.last_frame - made.first_frame + 1);
+    for (std::size_t i = 0; i < curve.values.size(); ++i) {
+      if (!curve.values[i]) continue;
+      EXPECT_EQ(*curve.values[i], other.position(made.first_frame + i, marker)) << method;
+      drawn += i == 41 + 4;
+    }
+    forced += !curve.preview.filled && curve.values[41 + 4];
+    // What may be filled is shown.
+    EXPECT_TRUE(!curve.preview.filled || curve.values[41 + 4]) << method;
+  }
+  EXPECT_GT(drawn, 5u);
+  EXPECT_GT(forced, 0u) << "a long gap that a short method is forced to fill";
+  EXPECT_THROW(preview_curves(damaged, plan, plan.size()), Error);
+}
+
+TEST(GapPlan, ShowsTheCurvesOfAJointAsAnglesOfTheFileWithoutJumps) {
+  const Clip damaged = joints_with_gaps();
+  Clip clip = damaged;
+  const std::vector<PlannedGap> plan = fill_with_plan(clip, FillSettings{}).plan;
+  std::size_t row = 0;
+  while (plan[row].is_position || plan[row].gap.length() != 8) ++row;
+  const std::size_t joint = plan[row].gap.track;
+  const RotationOrder order = damaged.skeleton.rotation_order(joint);
+  const GapCurves made = preview_curves(damaged, plan, row);
+  ASSERT_EQ(made.axes.size(), order.count);
+  std::size_t filled = 0;
+  for (const GapCurve& curve : made.curves) {
+    if (!curve.preview.filled) continue;
+    ++filled;
+    const Clip other = filled_with(damaged, plan, row, curve.preview.method, GapVerdict::fill);
+    for (std::size_t i = 0; i < curve.values.size(); ++i) {
+      const Vec3 angles = (1 / degrees_per_radian) * curve.values[i].value();
+      const Quat turned = from_euler({angles.x, angles.y, angles.z}, order);
+      EXPECT_LT(angle_between(turned, other.rotation(made.first_frame + i, joint)), 1e-9);
+      if (i == 0) continue;
+      EXPECT_LT(norm(*curve.values[i] - *curve.values[i - 1]), 90);
+    }
+  }
+  EXPECT_GT(filled, 2u);
+}
+
+TEST(GapPlan, LeavesTheTakeAsItWasWhereARunIsEnded) {
+  struct Ended {};
+  for (const std::size_t calls : {0, 1, 2}) {
+    MarkerClip markers = markers_with_gaps();
+    Clip joints = joints_with_gaps();
+    const MarkerClip markers_before = markers;
+    const Clip joints_before = joints;
+    std::atomic<std::size_t> seen = 0;
+    const FillCheck check = [&] {
+      if (seen++ >= calls) throw Ended{};
+    };
+    EXPECT_THROW(fill_with_plan(markers, FillSettings{}, check), Ended);
+    EXPECT_TRUE(are_same(markers, markers_before));
+    seen = 0;
+    EXPECT_THROW(fill_with_plan(joints, FillSettings{}, check), Ended);
+    EXPECT_TRUE(are_same(joints, joints_before));
+  }
 }
 
 TEST(GapPlan, NamesTheLineOfWhatIsWrong) {

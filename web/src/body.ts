@@ -345,6 +345,7 @@ export class Body {
   private drawAxes(): void {
     const turn = this.camera.quaternion.clone().invert();
     this.gizmo.replaceChildren();
+    const named: [number, number][] = [];
     for (const [name, axis] of Object.entries(axes)) {
       const seen = axis.clone().applyQuaternion(turn);
       const add = (kind: string, attributes: Record<string, number | string>, text = ''): void => {
@@ -354,7 +355,11 @@ export class Body {
         this.gizmo.append(part);
       };
       add('line', { x1: 0, y1: 0, x2: 17 * seen.x, y2: -17 * seen.y });
-      if (Math.hypot(seen.x, seen.y) > 0.15) add('text', { x: 23 * seen.x, y: -23 * seen.y }, name.toUpperCase());
+      const [x, y] = [23 * seen.x, -23 * seen.y];
+      // An axis that points at the viewer has no room for its name, nor has one that lies on another.
+      if (Math.hypot(seen.x, seen.y) < 0.15 || named.some((at) => Math.hypot(at[0] - x, at[1] - y) < 10)) continue;
+      named.push([x, y]);
+      add('text', { x, y }, name.toUpperCase());
     }
   }
 

@@ -18,8 +18,13 @@ interface Line {
   dash?: number[];
 }
 
+/** Nobody reads numbers that change faster. */
+const restOfLegend_ms = 100;
 const axisColours = ['axis-1', 'axis-2', 'axis-3'];
 const superscript = '\u00b2';
+
+/** Ticks stand at frames. */
+export const frameSteps = [1, 2, 5].flatMap((digit) => Array.from({ length: 9 }, (_, power) => digit * 10 ** power)).sort((a, b) => a - b);
 
 /** Short enough for its place beside the panel. */
 function tickText(tick: number): string {
@@ -136,6 +141,10 @@ export class Curves {
     for (const plot of this.plots) plot.destroy();
     this.plots = [];
     this.holder.replaceChildren();
+    if (this.take.told === 0) {
+      this.holder.append(element('p', { class: 'empty' }, 'The take has no frames.'));
+      return;
+    }
     if (this.player.chosen.length === 0) {
       const noun = this.take.isJoints ? 'joint' : 'marker';
       this.holder.append(element('p', { class: 'empty' }, `Choose a ${noun} in the table to see its curves.`));
@@ -151,6 +160,10 @@ export class Curves {
     const name = this.take.data.names[track] || `(no name, ${track + 1})`;
     if (signal.names.length === 0) {
       this.holder.append(element('p', { class: 'empty' }, `${name} has no rotation in this take.`));
+      return;
+    }
+    if (this.take.takes.every((which) => signal.of(which).every((values) => values.every((value) => value === null)))) {
+      this.holder.append(element('p', { class: 'empty' }, `${isolated(name)} is missing throughout.`));
       return;
     }
     const order: Kind[] = ['values', 'difference', 'speed', 'acceleration', 'spectrum'];
@@ -180,11 +193,11 @@ export class Curves {
     const x = Array.from({ length: this.take.told }, (_, f) => this.take.number(f));
     const options: uPlot.Options = {
       ...size,
-      padding: [6, 10, 0, 0],
+      padding: [6, 22, 0, 0],
       scales: { x: { time: false } },
       cursor: { y: false, sync: { key: 'kinemend' }, drag: { x: true, y: false, setScale: true }, points: { show: false } },
       series: [{ label: 'frame' }, ...lines.map((line) => ({ label: line.label, stroke: colour(line.colour), width: line.width, points: { show: this.take.told < 3 } }))],
-      axes: [{ ...axis, size: 30 }, { ...axis, size: 68, values: (_plot, ticks) => ticks.map(tickText) }],
+      axes: [{ ...axis, size: 30, incrs: frameSteps }, { ...axis, size: 68, values: (_plot, ticks) => ticks.map(tickText) }],
       hooks: {
         setScale: [(plot, key) => { if (key === 'x') this.takeZoom(plot); }],
         draw: [(plot) => this.cursorIn(plot)],
@@ -196,6 +209,8 @@ export class Curves {
 
   /** A click sets the time, the wheel zooms, a double click shows all. */
   private listen(plot: uPlot): void {
+    plot.over.append(element('i', { class: 'time-cursor' }));
+    this.cursorIn(plot);
     let from = 0;
     plot.over.addEventListener('mousedown', (event) => { from = event.clientX; });
     plot.over.addEventListener('click', (event) => {
@@ -226,27 +241,25 @@ export class Curves {
     queueMicrotask(() => queueMicrotask(() => { this.isZooming = false; }));
   }
 
+  /** Puts the line of the time where it belongs: to draw all curves anew for each frame would take too long. */
   private cursorIn(plot: uPlot): void {
-    const x = plot.valToPos(this.take.number(this.player.shown), 'x', true);
-    const { left, top, width, height } = plot.bbox;
-    if (x < left || x > left + width) return;
-    const context = plot.ctx;
-    context.save();
-    context.strokeStyle = colour('cursor');
-    context.lineWidth = 1.5 * devicePixelRatio;
-    context.beginPath();
-    context.moveTo(x, top);
-    context.lineTo(x, top + height);
-    context.stroke();
-    context.restore();
+    const line = plot.over.querySelector<HTMLElement>('.time-cursor');
+    if (line === null) return;
+    const x = plot.valToPos(this.take.number(this.player.shown), 'x');
+    line.hidden = !(x >= 0 && x <= plot.over.clientWidth);
+    if (!line.hidden) line.style.transform = `translateX(${x}px)`;
   }
   private drawCursor(): void {
+    for (const plot of this.plots) this.cursorIn(plot);
+    const now = performance.now();
+    if (this.player.playing && now - this.told < restOfLegend_ms) return;
+    this.told = now;
     for (const plot of this.plots) {
-      plot.redraw(false, false);
       // The legend tells values where the time is, or where the mouse is.
       queueMicrotask(() => { if ((plot.cursor.left ?? -1) < 0) plot.setLegend({ idx: this.player.shown }, false); });
     }
   }
+  private told = 0;
 
   private addSpectrum(panel: HTMLElement, signal: Signal): void {
     const { axis, ...size } = this.common(this.width);
@@ -263,7 +276,7 @@ export class Curves {
     }));
     const plot = new uPlot({
       ...size,
-      padding: [6, 10, 0, 0],
+      padding: [6, 22, 0, 0],
       scales: { x: { time: false }, y: { distr: 3 } },
       cursor: { y: false, points: { show: false } },
       series: [{ label: 'Hz' }, ...series],

@@ -1,6 +1,8 @@
 // The gap plan as a table: a row a gap, with its method and verdict to choose.
 
 import { button, choice, element, figure, grouped, toggle } from './dom';
+import { GapPreview, type GapCurves } from './gap_preview';
+import type { Take } from './take';
 import type { Session } from './view';
 
 /** As `kinemend.gap-plan/1` has it (docs/methods/gap-plan.md). */
@@ -37,27 +39,82 @@ export class GapEditor {
   private plan: GapPlan = { schema: '', gaps: [] };
   private readonly body = element('tbody');
   private readonly words = element('p', { class: 'empty' });
+  private readonly looked: GapPreview;
+  private take: Take | null = null;
+  /** The first row that is shown, and what shows others. */
+  private from = 0;
+  private readonly pages = element('span', { class: 'controls', hidden: true });
 
-  constructor(private readonly session: Session, private readonly isJoints: boolean, private readonly goTo: (track: string, frame: number) => void, private readonly again: () => void) {
-    const columns = [isJoints ? 'joint' : 'marker', 'frames', 'length', 'verdict', 'method', 'filled by', 'expected error', 'why refused'];
+  /** `curves`: asks the server what every method makes of a row of the plan; null where another was asked for since. */
+  constructor(private readonly session: Session, private readonly isJoints: boolean, private readonly goTo: (track: string, frame: number) => void,
+    private readonly again: () => void, private readonly curves: (plan: string, row: number) => Promise<GapCurves | null>) {
+    this.looked = new GapPreview((gap, method, isForced) => this.setMethod(gap, method, isForced), () => this.body.querySelector<HTMLElement>('[data-gap=curves]')?.focus());
+    const columns = [isJoints ? 'joint' : 'marker', 'frames', 'length', 'verdict', 'method', 'curves', 'filled by', 'expected error', 'why refused'];
     const tried = toggle('Try every method', 'how far each method would be from what fills the gap', false, (on) => {
       this.preview = on;
       again();
     });
     tried.dataset.action = 'preview';
+    this.pages.append(button('\u2039', 'the gaps before these', () => this.turn(-mostRows)), button('\u203a', 'the gaps behind these', () => this.turn(mostRows)));
     this.element.append(element('div', { class: 'head' }, tried, button('Forget edits', 'back to what the controls above ask for', () => {
       this.edited = false;
       again();
-    }), this.words), element('div', { class: 'scroll', tabindex: '0' },
-      element('table', {}, element('thead', {}, element('tr', {}, ...columns.map((text, i) => element('th', { scope: 'col', class: i === columns.length - 1 ? 'words' : '' }, text)))), this.body)));
+    }), this.words, this.pages), element('div', { class: 'scroll', tabindex: '0' },
+      element('table', {}, element('thead', {}, element('tr', {}, ...columns.map((text, i) => element('th', { scope: 'col', class: i === columns.length - 1 ? 'words' : '' }, text)))), this.body)), this.looked.element);
   }
 
   text(): string { return JSON.stringify(this.plan); }
 
-  show(plan: GapPlan, _first: number): void {
+  show(plan: GapPlan, take: Take): void {
     this.plan = plan;
-    this.words.textContent = plan.gaps.length === 0 ? 'The take has no gaps.' : plan.gaps.length > mostRows ? `the first ${grouped(mostRows)} of ${grouped(plan.gaps.length)} gaps` : '';
-    this.body.replaceChildren(...plan.gaps.slice(0, mostRows).map((gap) => this.row(gap)));
+    this.take = take;
+    this.list();
+    const open = this.looked.open;
+    if (open === null) return;
+    const row = plan.gaps.findIndex((gap) => gap.name === open.name && gap.quantity === open.quantity && gap.first_frame === open.first_frame && gap.last_frame === open.last_frame);
+    if (row < 0) this.looked.hide();
+    else void this.look(row);
+  }
+
+  /** As many rows on. */
+  private turn(by: number): void {
+    this.from += by;
+    this.list();
+  }
+
+  private list(): void {
+    const { gaps } = this.plan;
+    const last = Math.floor(Math.max(0, gaps.length - 1) / mostRows) * mostRows;
+    this.from = Math.max(0, Math.min(last, this.from));
+    const end = Math.min(gaps.length, this.from + mostRows);
+    this.pages.hidden = gaps.length <= mostRows;
+    this.words.textContent = gaps.length === 0 ? 'The take has no gaps.' : this.pages.hidden ? '' : `gaps ${grouped(this.from + 1)} to ${grouped(end)} of ${grouped(gaps.length)}`;
+    // Who works by keyboard goes on where they were.
+    const focused = (document.activeElement as HTMLElement | null)?.dataset;
+    this.body.replaceChildren(...gaps.slice(this.from, end).map((gap, i) => this.row(gap, this.from + i)));
+    if (focused?.gap !== undefined) this.body.querySelector<HTMLElement>(`[data-gap="${focused.gap}"][data-row="${focused.row}"]`)?.focus();
+  }
+
+  /** Also after a change of the theme. */
+  redraw(): void { this.looked.redraw(); }
+
+  /** The curves of every method over the gap of a row. */
+  private async look(row: number): Promise<void> {
+    const gap = this.plan.gaps[row];
+    this.looked.wait(gap);
+    try {
+      const curves = await this.curves(this.text(), row);
+      if (curves !== null && this.take !== null && this.looked.open === gap) this.looked.show(curves, this.take);
+    } catch (error) {
+      this.looked.say(error instanceof TypeError ? 'kinemend view has ended' : error instanceof Error ? error.message : String(error));
+    }
+  }
+
+  private setMethod(gap: PlannedGap, method: string, isForced?: boolean): void {
+    gap.method = method;
+    if (isForced !== undefined) gap.verdict = isForced ? 'force' : 'fill';
+    else if (gap.verdict === 'refuse') gap.verdict = 'fill';
+    this.change();
   }
 
   private change(): void {
@@ -65,7 +122,7 @@ export class GapEditor {
     this.again();
   }
 
-  private row(gap: PlannedGap): HTMLTableRowElement {
+  private row(gap: PlannedGap, row: number): HTMLTableRowElement {
     const where = button(gap.name, 'go there', () => this.goTo(gap.name, gap.first_frame));
     const verdict = choice(`verdict of ${gap.name}, frames ${gap.first_frame} to ${gap.last_frame}`, [['fill', 'fill'], ['force', 'force'], ['refuse', 'refuse']], gap.verdict, (value) => {
       gap.verdict = value;
@@ -75,14 +132,14 @@ export class GapEditor {
     });
     verdict.dataset.gap = 'verdict';
     const methods = this.session.fill_methods.filter((one) => (this.isJoints ? one.joints : one.markers)).map(({ name }): [string, string] => [name, this.told(gap, name)]);
-    const method = choice(`method of ${gap.name}, frames ${gap.first_frame} to ${gap.last_frame}`, methods, gap.method, (value) => {
-      gap.method = value;
-      if (gap.verdict === 'refuse') gap.verdict = 'fill';
-      this.change();
-    });
+    const method = choice(`method of ${gap.name}, frames ${gap.first_frame} to ${gap.last_frame}`, methods, gap.method, (value) => this.setMethod(gap, value));
     method.dataset.gap = 'method';
+    const curves = button('Compare', `the curves of every method over ${gap.name}, frames ${gap.first_frame} to ${gap.last_frame}`, () => void this.look(row));
+    curves.dataset.gap = 'curves';
+    for (const control of [where, verdict, method, curves]) control.dataset.row = String(row);
+    where.dataset.gap = 'name';
     const error = gap.expected_error === null ? '\u2013' : `${figure(gap.expected_error)} ${gap.unit}`.trim();
-    const cells = [`${gap.first_frame}\u2013${gap.last_frame}`, `${grouped(gap.length_frames)} (${figure(gap.length_s)} s)`, verdict, method, gap.verdict === 'refuse' ? '\u2013' : gap.filled_by, error, gap.reason];
+    const cells = [`${gap.first_frame}\u2013${gap.last_frame}`, `${grouped(gap.length_frames)} (${figure(gap.length_s)} s)`, verdict, method, curves, gap.verdict === 'refuse' ? '\u2013' : gap.filled_by, error, gap.reason];
     const name = element('th', { scope: 'row' }, where, gap.quantity === 'position' && this.isJoints ? ' (position)' : '');
     const made = element('tr', { class: gap.reason === '' ? '' : 'failed' }, name, ...cells.map((cell, i) => element('td', { class: i === cells.length - 1 ? 'words' : '' }, cell)));
     if (gap.evidence.length > 0) made.title = `filled from ${gap.evidence.join(', ')}`;

@@ -14,11 +14,11 @@ async function start(): Promise<void> {
   try {
     const batch = await jsonOf<Batch>('batch');
     if (batch !== null) return showBatch(page, batch);
+    const view = await jsonOf<Session>('view');
+    if (view !== null) return startView(page, view);
     const report = await jsonOf<ReportDocument>('report');
     const take = await jsonOf<TakeData>('take');
     if (report === null || take === null) throw new Error('the page holds no report');
-    const view = await jsonOf<Session>('view');
-    if (view !== null) return await startView(page, view, report, take);
     await showTake(page, report, take);
   } catch (error) {
     page.replaceChildren(element('h1', {}, 'This report cannot be shown'), element('p', {}, String(error)),

@@ -139,14 +139,19 @@ export class Take {
   }
 
   /** The first frame in which a point is seen; the first of all where none ever is. */
-  firstSeen(): number {
+  firstSeen(): number { return Math.max(0, this.findSeen()); }
+  /** Whether anything is seen in any frame. */
+  get isEverSeen(): boolean { return this.findSeen() >= 0; }
+
+  private findSeen(): number {
+    if (this.told === 0 || this.points === 0) return -1;
     if (this.isJoints) return 0;
     for (let f = 0; f < this.told; ++f) {
       for (let m = 0; m < this.points; ++m) {
         if (this.isShown(m) && !this.isMissing(m, f, this.last)) return f;
       }
     }
-    return 0;
+    return -1;
   }
 
   /** The axes a joint is turned about; empty for one that never turns. */

@@ -28,8 +28,8 @@ function addBody(take: Take, player: Player): [HTMLElement, Body | null] {
   const [made, head] = section('Motion', 'body');
   const view = element('div', { class: 'view' });
   made.append(view);
-  if (take.told === 0 || take.points === 0) {
-    view.append(element('p', { class: 'empty' }, take.told === 0 ? 'The take has no frames.' : 'The take holds no positions.'));
+  if (!take.isEverSeen) {
+    view.append(element('p', { class: 'empty' }, take.told === 0 ? 'The take has no frames.' : take.points === 0 ? 'The take holds no positions.' : 'No marker is seen in any frame.'));
     return [made, null];
   }
   const renderer = makeRenderer();
@@ -160,8 +160,16 @@ function warningsOf(entry: TakeEntry, names: string[]): Finding[] {
   });
 }
 
-/** `panel`: what stands below the title, of a page with controls. `before`: what was shown until now. */
-export async function showTake(page: HTMLElement, document_: ReportDocument, data: TakeData, panel: HTMLElement[] = [], before: Shown | null = null): Promise<Shown> {
+export interface Around {
+  /** What stands below the title, of a page with controls. */
+  panel?: HTMLElement[];
+  /** What was shown until now. */
+  before?: Shown | null;
+  /** Also draws anew when light and dark change. */
+  onTheme?: () => void;
+}
+
+export async function showTake(page: HTMLElement, document_: ReportDocument, data: TakeData, { panel = [], before = null, onTheme }: Around = {}): Promise<Shown> {
   const ended = new AbortController();
   const entry = document_.takes[0];
   const take = await Take.load(data);
@@ -189,6 +197,7 @@ export async function showTake(page: HTMLElement, document_: ReportDocument, dat
     body?.paint();
     timeline.draw();
     curves.rebuild();
+    onTheme?.();
   }, ended.signal);
   const header = element('header', {}, element('div', {}, title, verdict), loading, theme);
   const parts = [

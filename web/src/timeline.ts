@@ -28,11 +28,14 @@ export function textOf(finding: Finding): string {
 
 export class Timeline {
   selected = -1;
+  /** Of the canvas: to ask for it is slow. */
+  private width = 1;
   readonly shown: Finding[];
   private readonly kinds: string[];
   private readonly hidden = new Set<string>();
   private readonly canvas = element('canvas', { tabindex: '0', role: 'slider', 'aria-label': 'Timeline: arrow keys go from finding to finding' });
   private readonly lanes = element('div', { class: 'lanes' });
+  private readonly cursor = element('i', { class: 'time-cursor' });
   private readonly words = element('p', { class: 'selected', role: 'status' });
   private readonly list = element('ol', { class: 'findings' });
   private readonly all: Finding[];
@@ -50,7 +53,7 @@ export class Timeline {
     }
     const previous = button('\u2039', 'previous finding (,)', () => this.go(-1));
     const next = button('\u203a', 'next finding (.)', () => this.go(1));
-    holder.append(element('div', { class: 'timeline' }, this.lanes, this.canvas), element('div', { class: 'finding' }, previous, next, this.words),
+    holder.append(element('div', { class: 'timeline' }, this.lanes, element('div', { class: 'lane-field' }, this.canvas, this.cursor)), element('div', { class: 'finding' }, previous, next, this.words),
       element('details', {}, element('summary', {}, 'List of findings'), this.list));
     this.addLanes();
     this.filter();
@@ -65,7 +68,7 @@ export class Timeline {
       event.stopPropagation();
       this.go(event.key === 'ArrowRight' ? 1 : -1);
     });
-    player.onMove(() => this.draw());
+    player.onMove(() => this.drawCursor());
     player.onZoom(() => this.draw());
     new ResizeObserver(() => this.draw()).observe(this.canvas.parentElement as HTMLElement);
     this.describe();
@@ -131,7 +134,7 @@ export class Timeline {
   }
 
   private x(frame: number): number {
-    return ((frame - this.player.from) / (this.player.to - this.player.from)) * this.canvas.clientWidth;
+    return ((frame - this.player.from) / (this.player.to - this.player.from)) * this.width;
   }
   private span(finding: Finding): [number, number] {
     const { step, first_frame } = this.take.data;
@@ -171,6 +174,7 @@ export class Timeline {
   draw(): void {
     const { clientWidth, clientHeight } = this.canvas;
     if (clientWidth === 0) return;
+    this.width = clientWidth;
     const scale = devicePixelRatio;
     this.canvas.width = clientWidth * scale;
     this.canvas.height = clientHeight * scale;
@@ -185,16 +189,22 @@ export class Timeline {
       context.stroke();
     }
     const paints = this.kinds.map((kind) => colour(`kind-${kind}`) || colour('kind-other'));
+    const laneOf = new Map(this.kinds.map((kind, lane) => [kind, lane]));
     for (const finding of this.all) {
       const [from, to] = this.span(finding);
       if (to < 0 || from > clientWidth) continue;
-      const lane = this.kinds.indexOf(finding.kind);
+      const lane = laneOf.get(finding.kind) ?? 0;
       const chosen = finding === this.shown[this.selected];
       this.bar(context, from, lane * laneHeight + 3, to - from, paints[lane], finding.verdict === 'refused', chosen);
     }
+    this.drawCursor();
+  }
+
+  /** Alone: there may be thousands of bars. */
+  private drawCursor(): void {
     const x = this.x(this.player.shown);
-    context.fillStyle = colour('cursor');
-    context.fillRect(x - 0.75, 0, 1.5, clientHeight);
+    this.cursor.hidden = !(x >= 0 && x <= this.width);
+    if (!this.cursor.hidden) this.cursor.style.transform = `translateX(${x}px)`;
   }
 
   /** What was refused is an outline. */

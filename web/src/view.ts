@@ -4,8 +4,12 @@ import { jsonOf } from './codec';
 import { button, choice, element, toggle } from './dom';
 import { ContactEditor } from './contact_editor';
 import { GapEditor, type GapPlan } from './gap_editor';
+import type { GapCurves } from './gap_preview';
+import type { Sight } from './line_editor';
+import { MissingEditor } from './missing_editor';
 import type { ReportDocument, TakeData } from './report';
 import { showTake, type Shown } from './take_page';
+import { themeButton } from './theme';
 
 export interface Option {
   name: string;
@@ -17,13 +21,17 @@ export interface Option {
   minimum?: number;
   maximum?: number;
 }
-/** What src/page puts in of `kinemend view`: cli/view_session.cpp writes it. */
+/** What the page of `kinemend view` holds before there is a take: cli/view_session.cpp writes it. */
 export interface Session {
   input: string;
+  other: string;
+  kind: 'joints' | 'markers';
   cleaned: string;
   filled: string;
   contacts: string;
   plan: string;
+  gaps: string;
+  with_gaps: boolean;
   methods: { name: string; summary: string; options: Option[] }[];
   fill_methods: { name: string; summary: string; joints: boolean; markers: boolean }[];
 }
@@ -35,10 +43,56 @@ interface Asked {
   flags: Record<string, Value>;
   contacts?: string;
   plan?: string;
+  gaps?: string;
   preview?: boolean;
 }
 
 const restMs = 150;
+/** After so long a run says how far it is, and again and again. */
+const tellMs = 600;
+
+/** What this tab calls itself: a run overtakes those of its own tab. */
+const tab = Array.from(crypto.getRandomValues(new Uint32Array(4)), (word) => word.toString(16)).join('-');
+
+function ask(action: string, asked: object = {}): Promise<Response> {
+  return fetch(action, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ tab, ...asked }) });
+}
+
+/** Says what the server is at until it is told to stop. */
+function tellProgress(say: (words: string) => void): () => void {
+  const timer = window.setInterval(() => {
+    void ask('progress').then((reply) => reply.json()).then(({ stage, done }: { stage: string; done: number }) => {
+      if (!ended && stage !== '') say(done > 0 ? `${stage}, ${Math.round(100 * done)} %` : `${stage}\u2026`);
+    }).catch(() => undefined);
+  }, tellMs);
+  let ended = false;
+  return () => {
+    ended = true;
+    window.clearInterval(timer);
+  };
+}
+
+function inWords(error: unknown): string {
+  return error instanceof TypeError ? 'kinemend view has ended' : error instanceof Error ? error.message : String(error);
+}
+
+/** Takes the data of a run out of the server's reply. */
+async function dataOf(html: string): Promise<[ReportDocument, TakeData]> {
+  const made = new DOMParser().parseFromString(html, 'text/html');
+  for (const old of document.querySelectorAll('[id^="data-"]')) old.remove();
+  for (const part of made.querySelectorAll('[id^="data-"]')) document.body.append(document.adoptNode(part));
+  const report = await jsonOf<ReportDocument>('report');
+  const take = await jsonOf<TakeData>('take');
+  if (report === null || take === null) throw new Error('the reply holds no report');
+  return [report, take];
+}
+
+/** Before anything is there: the take's name, and what the server is at. */
+function emptyPage(page: HTMLElement, session: Session, ...parts: HTMLElement[]): void {
+  const name = session.input.split(/[\\/]/).pop() ?? session.input;
+  page.replaceChildren(element('header', {}, element('div', {}, element('h1', {}, name)), themeButton(() => undefined)), ...parts);
+  page.dataset.ready = 'running';
+}
 
 function field(label: string, title: string, control: HTMLElement): HTMLElement {
   return element('label', { class: 'field', title }, element('span', {}, label), control);
@@ -72,7 +126,9 @@ class Controls {
   private readonly general: Record<'clean' | 'fill', Record<string, Value>> = { clean: {}, fill: {} };
   private method = 'auto';
   private readonly options: Record<string, Record<string, Value>> = {};
-  private readonly status = element('p', { class: 'status', role: 'status' }, 'done');
+  private readonly status = element('p', { class: 'status', role: 'status' }, 'reading\u2026');
+  /** The same where the page is empty still. */
+  private readonly first = element('section', {}, element('p', { class: 'empty' }, 'The take is read and cleaned; what comes of it is shown here.'));
   private readonly line = element('code', { class: 'line', tabindex: '0' });
   private readonly rows = { clean: element('div', { class: 'fields' }), fill: element('div', { class: 'fields' }) };
   private readonly optionRow = element('div', { class: 'fields own' });
@@ -80,15 +136,22 @@ class Controls {
   private readonly saved = element('p', { class: 'saved', role: 'status' });
   private readonly contacts: ContactEditor | null;
   private readonly gaps: GapEditor;
+  private readonly missing: MissingEditor;
   private readonly contactBox: HTMLElement;
   private readonly gapBox: HTMLElement;
   private timer = 0;
   private turn = 0;
+  private shown: Shown | null = null;
+  private readonly isJoints: boolean;
 
-  constructor(private readonly page: HTMLElement, private readonly session: Session, private readonly isJoints: boolean, private shown: Shown | null) {
+  constructor(private readonly page: HTMLElement, private readonly session: Session) {
+    this.isJoints = session.kind === 'joints';
     const again = (): void => this.later();
-    this.contacts = isJoints ? new ContactEditor(() => this.shown?.take ?? null, () => this.shown?.player ?? null, () => this.ask('contacts', {}), again) : null;
-    this.gaps = new GapEditor(session, isJoints, (track, frame) => this.goTo(track, frame), again);
+    const sight = (): Sight | null => this.shown;
+    this.contacts = this.isJoints ? new ContactEditor(sight, () => ask('contacts'), again) : null;
+    this.missing = new MissingEditor(sight, () => ask('gaps'), () => this.afterMarking(), this.isJoints ? 'joint' : 'marker');
+    if (session.with_gaps) void this.missing.start(ask('gaps'));
+    this.gaps = new GapEditor(session, this.isJoints, (track, frame) => this.goTo(track, frame), again, (plan, row) => this.curves(plan, row));
     const commands = choice('what to do', [['clean', 'Clean'], ['fill', 'Fill gaps only']], 'clean', (value) => {
       this.command = value as 'clean' | 'fill';
       this.draw();
@@ -100,10 +163,12 @@ class Controls {
     const save = button('Save as', `write ${session.cleaned} or ${session.filled}`, () => void this.save());
     save.dataset.action = 'save';
     this.element.append(element('div', { class: 'head' }, element('h2', {}, 'Controls'), commands, save, element('span', { class: 'gap' }), this.status),
-      this.rows.clean, this.rows.fill, this.contactBox, this.gapBox, this.line, this.saved);
+      this.rows.clean, this.rows.fill, this.contactBox, element('details', { class: 'editor' }, element('summary', {}, 'Missing samples'), this.missing.element), this.gapBox, this.line, this.saved);
     this.addClean();
     this.addFill();
     this.draw();
+    emptyPage(page, session, this.element, this.first);
+    void this.run();
   }
 
   private set(command: 'clean' | 'fill', name: string, value: Value | undefined): void {
@@ -184,17 +249,29 @@ class Controls {
   }
 
   private asked(): Asked {
+    const gaps = this.missing.edited ? this.missing.text() : undefined;
     if (this.command === 'fill') {
       const plan = this.gaps.edited ? this.gaps.text() : undefined;
-      return { command: 'fill', flags: plan === undefined ? this.general.fill : {}, plan, preview: this.gaps.preview };
+      return { command: 'fill', flags: plan === undefined ? this.general.fill : {}, plan, gaps, preview: this.gaps.preview };
     }
     const flags: Record<string, Value> = { ...this.general.clean, ...this.options[this.method] };
     if (this.method !== 'auto') flags.method = this.method;
-    return { command: 'clean', flags, contacts: this.contacts?.edited ? this.contacts.text() : undefined };
+    return { command: 'clean', flags, gaps, contacts: this.contacts?.edited ? this.contacts.text() : undefined };
   }
 
-  private ask(action: string, asked: object): Promise<Response> {
-    return fetch(action, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(asked) });
+  private async curves(plan: string, row: number): Promise<GapCurves | null> {
+    const { gaps } = this.asked();
+    const reply = await ask('curves', { command: 'fill', flags: {}, plan, row, gaps });
+    if (reply.status === 409) return null;
+    const told = await reply.json();
+    if (!reply.ok) throw new Error(told.error);
+    return told as GapCurves;
+  }
+
+  /** Other gaps: a plan of those that were there is none of these. */
+  private afterMarking(): void {
+    this.gaps.edited = false;
+    this.later();
   }
 
   /** Runs when nothing has been changed for a moment; a run that is under way is overtaken. */
@@ -210,47 +287,42 @@ class Controls {
     this.status.classList.add('error');
     this.page.dataset.ready = 'error';
     this.page.dataset.runs = String(this.turn);
+    if (this.shown === null) this.first.replaceChildren(element('p', { class: 'empty' }, 'There is nothing to show: the controls say why.'));
   }
 
   private async run(): Promise<void> {
     const turn = ++this.turn;
     const begun = performance.now();
     const since = (from: number): string => ((performance.now() - from) / 1000).toFixed(2);
+    const ended = tellProgress((words) => { if (turn === this.turn) this.status.textContent = words; });
     try {
-      const reply = await this.ask('run', this.asked());
+      const reply = await ask('run', this.asked());
       if (turn !== this.turn) return;
       if (!reply.ok) return this.fail((await reply.json()).error);
       const html = await reply.text();
       if (turn !== this.turn) return;
       const answered = since(begun);
-      await this.show(html);
+      ended();
+      const [report, take] = await dataOf(html);
+      await this.take(report, take);
       this.status.classList.remove('error');
       this.status.textContent = 'done';
       this.page.dataset.runs = String(turn);
       this.status.title = `in ${since(begun)} s, ${answered} s until the answer was here`;
     } catch (error) {
-      if (turn === this.turn) this.fail(error instanceof TypeError ? 'kinemend view has ended' : String(error));
+      if (turn === this.turn) this.fail(inWords(error));
+    } finally {
+      ended();
     }
   }
 
-  /** Takes the data out of a page that the server made. */
-  private async show(html: string): Promise<void> {
-    const made = new DOMParser().parseFromString(html, 'text/html');
-    for (const old of document.querySelectorAll('[id^="data-"]')) old.remove();
-    for (const part of made.querySelectorAll('[id^="data-"]')) document.body.append(document.adoptNode(part));
-    const report = await jsonOf<ReportDocument>('report');
-    const take = await jsonOf<TakeData>('take');
-    if (report === null || take === null) throw new Error('the reply holds no report');
-    await this.take(report, take);
-  }
-
-  async take(report: ReportDocument, take: TakeData): Promise<void> {
+  private async take(report: ReportDocument, take: TakeData): Promise<void> {
     this.line.textContent = take.command_line;
     const plan = await jsonOf<GapPlan>('plan');
     const scrolled = window.scrollY;
-    this.shown = await showTake(this.page, report, take, [this.element], this.shown);
+    this.shown = await showTake(this.page, report, take, { panel: [this.element], before: this.shown, onTheme: () => this.gaps.redraw() });
     if (plan !== null) {
-      this.gaps.show(plan, take.first_frame);
+      this.gaps.show(plan, this.shown.take);
       this.draw();
     }
     window.scrollTo(0, scrolled);
@@ -267,19 +339,40 @@ class Controls {
     this.saved.textContent = 'saving\u2026';
     this.saved.classList.remove('error');
     try {
-      const reply = await this.ask('save', this.asked());
+      const reply = await ask('save', this.asked());
       const told = await reply.json();
       this.saved.classList.toggle('error', !reply.ok);
       this.saved.textContent = reply.ok ? `saved ${told.written.join(', ')}` : told.error;
       if (reply.ok) this.line.textContent = told.command_line;
     } catch (error) {
       this.saved.classList.add('error');
-      this.saved.textContent = error instanceof TypeError ? 'kinemend view has ended' : String(error);
+      this.saved.textContent = inWords(error);
     }
   }
 }
 
-export async function startView(page: HTMLElement, session: Session, report: ReportDocument, take: TakeData): Promise<void> {
-  const controls = new Controls(page, session, take.kind === 'joints', null);
-  await controls.take(report, take);
+/** Two takes beside each other, without controls. */
+async function showComparison(page: HTMLElement, session: Session): Promise<void> {
+  const status = element('p', { class: 'empty', role: 'status' }, 'reading\u2026');
+  emptyPage(page, session, element('section', {}, status));
+  const ended = tellProgress((words) => { status.textContent = words; });
+  try {
+    const reply = await ask('run');
+    if (!reply.ok) throw new Error((await reply.json()).error);
+    const [report, take] = await dataOf(await reply.text());
+    ended();
+    await showTake(page, report, take);
+  } catch (error) {
+    status.textContent = inWords(error);
+    page.dataset.ready = 'error';
+  } finally {
+    ended();
+  }
+}
+
+export function startView(page: HTMLElement, session: Session): void {
+  // A run that nobody waits for any more is given up.
+  window.addEventListener('pagehide', () => navigator.sendBeacon('leave', new Blob([JSON.stringify({ tab })], { type: 'application/json' })));
+  if (session.other !== '') void showComparison(page, session);
+  else new Controls(page, session);
 }

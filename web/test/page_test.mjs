@@ -8,6 +8,7 @@ import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
+import { arm as makeArm, faintTexts, fourMarkers, launchArgs, manyJoints, markers, strange } from './support.mjs';
 
 const { chromium } = createRequire(join(process.cwd(), 'package.json'))('playwright-core');
 const [program, executablePath, output, takes] = process.argv.slice(2);
@@ -17,15 +18,7 @@ function kinemend(...words) {
   execFileSync(program, words, { cwd: output, stdio: 'ignore' });
 }
 
-const strange = '"\'<script>window.broken=1</script>&\u202e\u00e9\u{1f600}';
-
-/** Two joints in closed form: a forearm that turns about Z by 9 degrees a frame at the end of an arm of 30. */
-function arm(name, frames) {
-  const rows = Array.from({ length: frames }, (_, f) => `1 2 3 0 0 0 ${9 * f} 0 0`);
-  writeFileSync(join(output, name), `HIERARCHY\nROOT ${strange}\n{\n  OFFSET 0 0 0\n  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n`
-    + '  JOINT Elbow\n  {\n    OFFSET 30 0 0\n    CHANNELS 3 Zrotation Xrotation Yrotation\n    End Site\n    {\n      OFFSET 20 0 0\n    }\n  }\n}\n'
-    + `MOTION\nFrames: ${frames}\nFrame Time: 0.01\n${rows.join('\n')}\n`);
-}
+const arm = (name, frames, options) => makeArm(join(output, name), frames, options);
 
 function makePages() {
   const walk = join(takes, 'walk.bvh');
@@ -48,31 +41,24 @@ function makePages() {
     assert.equal(error.status, 3);
   }
   // Markers with a gap that is filled and one that is refused.
-  const rows = Array.from({ length: 300 }, (_, f) => {
-    const marker = (m) => (m === 1 && f >= 100 && f < 108) || (m === 2 && f >= 40 && f < 260) ? '\t\t' : `${(100 * Math.sin(f / 30 + m)).toFixed(3)}\t${900 + 100 * m}\t${(3 * f).toFixed(3)}`;
-    return `${f + 1}\t${(f / 100).toFixed(3)}\t${[0, 1, 2, 3].map(marker).join('\t')}`;
-  });
-  writeFileSync(join(output, 'markers.trc'), `PathFileType\t4\t(X/Y/Z)\tmarkers.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames\n`
-    + `100\t100\t300\t4\tmm\t100\t1\t300\nFrame#\tTime\t<b>A</b>\t\t\tB\t\t\tC\t\t\tD\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\tX3\tY3\tZ3\tX4\tY4\tZ4\n\n${rows.join('\n')}\n`);
+  fourMarkers(join(output, 'markers.trc'));
   // Nothing is seen in the first five frames.
   writeFileSync(join(output, 'late.trc'), readFileSync(join(output, 'markers.trc'), 'utf8').split('\n')
     .map((line) => (/^[1-5]\t/.test(line) ? line.split('\t').map((cell, i) => (i < 2 ? cell : '')).join('\t') : line)).join('\n'));
   kinemend('check', 'late.trc', '--report', 'late.html', '--force');
   kinemend('fill', 'markers.trc', '-o', 'filled.trc', '--report', 'fill.html', '--force');
-}
-
-/** Contrast of text and what is behind it, after WCAG 2. */
-function contrast(a, b) {
-  const light = (text) => {
-    const parts = text.match(/[\d.]+/g).slice(0, 3).map((part) => Number(part) / 255).map((c) => (c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
-    return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2];
-  };
-  const [x, y] = [light(a), light(b)].sort((p, q) => q - p);
-  return (x + 0.05) / (y + 0.05);
+  markers(join(output, 'unseen.trc'), ['A', 'B'], 20, () => null);
+  kinemend('check', 'unseen.trc', '--report', 'unseen.html', '--force');
+  manyJoints(join(output, 'many.bvh'), 400, 120);
+  kinemend('clean', 'many.bvh', '-o', 'many.clean.bvh', '--report', 'many.html', '--force');
+  // An hour, of which every eighth frame comes first.
+  arm('hour.bvh', 432000, { rate: 120, turn: 0.01 });
+  kinemend('clean', 'hour.bvh', '--dry-run', '--method', 'gaussian', '--report', 'hour.html', '--force');
 }
 
 makePages();
-const browser = await chromium.launch({ executablePath, args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'] });
+const only = process.env.STEPS ? new RegExp(process.env.STEPS) : /./;
+const browser = await chromium.launch({ executablePath, args: launchArgs });
 const steps = [];
 const pages = [];
 const step = (name, run) => steps.push([name, run]);
@@ -123,7 +109,7 @@ step('play, pause, scrub and jump', async () => {
   assert.equal(await frame(page), stopped);
   await page.fill('.transport input[type=range]', '500');
   assert.equal(await frame(page), 500);
-  assert.equal(await page.inputValue('.number'), '501');
+  assert.equal(await page.inputValue('.transport .number'), '501');
   assert.ok((await inView(page)) > 0.99, 'the camera does not follow');
   await page.click('button:has-text("Follow")');
   await page.fill('.transport input[type=range]', '900');
@@ -236,13 +222,10 @@ step('a frame in which nothing is seen says so', async () => {
 step('dark, narrow, and with enough contrast', async () => {
   for (const scheme of ['light', 'dark']) {
     const page = await open('clean.html', { colorScheme: scheme });
-    const texts = await page.evaluate(() => ['h1', '.verdict', '.lanes button', 'dt', 'thead button', 'button[aria-pressed="true"]', '.time', 'figcaption'].map((selector) => {
-      const node = document.querySelector(selector);
-      let behind = node;
-      while (/rgba\(.*, 0\)|transparent/.test(getComputedStyle(behind).backgroundColor)) behind = behind.parentElement;
-      return [selector, getComputedStyle(node).color, getComputedStyle(behind).backgroundColor];
-    }));
-    for (const [selector, text, behind] of texts) assert.ok(contrast(text, behind) >= 4.5, `${scheme} ${selector}: ${text} on ${behind}`);
+    for (const kind of ['Speed', 'Acceleration', 'Spectrum']) await page.click(`.curves button:has-text("${kind}")`);
+    await page.click('summary');
+    await page.keyboard.press('.');
+    assert.deepEqual(await faintTexts(page), [], scheme);
     if (scheme === 'dark') await shot(page, 'dark');
   }
   const page = await open('clean.html', { viewport: { width: 360, height: 740 } });
@@ -258,6 +241,33 @@ step('empty takes say so', async () => {
   const one = await open('one.html');
   assert.ok((await inView(one)) > 0.99);
   await shot(one, 'one_frame');
+  const unseen = await open('unseen.html');
+  assert.match(await unseen.textContent('.view'), /No marker is seen/);
+  assert.match(await unseen.textContent('.curves'), /missing throughout/);
+  await shot(unseen, 'unseen');
+});
+
+step('four hundred joints are all there', async () => {
+  const page = await open('many.html');
+  assert.equal(await page.locator('.tracks tbody tr').count(), 400);
+  assert.ok((await inView(page)) > 0.9, 'the body is out of view');
+  await page.keyboard.press('End');
+  assert.equal(await frame(page), 119);
+  await shot(page, 'many');
+});
+
+step('an hour is there, coarse at first, then to the last frame', async () => {
+  const begun = Date.now();
+  const page = await open('hour.html');
+  console.log(`  an hour of two joints is open in ${Date.now() - begun} ms`);
+  assert.equal(await page.evaluate(() => window.kinemend.take.data.stride), 8);
+  for (const f of [3, 200001, 431999]) {
+    const angle = await page.evaluate((at) => window.kinemend.take.angle(1, 0, at, 'before'), f);
+    assert.ok(Math.abs(angle - 0.01 * f) < 0.05, `frame ${f}: ${angle}`);
+  }
+  await page.keyboard.press('End');
+  assert.equal(await frame(page), 431999);
+  await shot(page, 'hour');
 });
 
 step('a comparison calls its takes by their names', async () => {
@@ -294,7 +304,7 @@ step('a damaged file says so', async () => {
 });
 
 let failed = 0;
-for (const [name, run] of steps) {
+for (const [name, run] of steps.filter(([one]) => only.test(one))) {
   const begun = Date.now();
   try {
     await run();

@@ -5,7 +5,8 @@ import { createRequire } from 'node:module';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 
-// A page is a file or an address; a KEY with a = sets a control of `kinemend view`, one with a ? opens the details of that name.
+// A page is a file or an address; a KEY with a = sets a control of `kinemend view`, `gap=N` compares the curves of a gap, one with a ? opens the
+// details of that name.
 
 const { chromium } = createRequire(join(process.cwd(), 'package.json'))('playwright-core');
 const [executablePath, html, picture, colorScheme = 'light', ...keys] = process.argv.slice(2);
@@ -15,7 +16,10 @@ await page.goto(/^http:/.test(html) ? html : pathToFileURL(resolve(html)).href);
 await page.waitForSelector('#page[data-ready="true"]');
 for (const key of keys) {
   const [, flag, value] = /^(\w+)=(.*)$/.exec(key) ?? [];
-  if (flag) {
+  if (flag === 'gap') {
+    await page.locator('[data-gap=curves]').nth(Number(value)).click();
+    await page.waitForSelector('.gap-plots canvas');
+  } else if (flag) {
     const before = await page.getAttribute('#page', 'data-runs');
     const control = page.locator(`[data-flag=${flag}]:visible`);
     if ((await control.evaluate((one) => one.tagName)) === 'SELECT') await control.selectOption(value);

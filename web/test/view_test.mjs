@@ -4,10 +4,11 @@
 //   node view_test.mjs PROGRAM CHROMIUM OUTPUT TAKES       (the working folder holds playwright-core)
 import assert from 'node:assert/strict';
 import { execFileSync, spawn } from 'node:child_process';
-import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { request as ask } from 'node:http';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
+import { arm, faintTexts, fourMarkers, launchArgs, manyJoints, markers, strange } from './support.mjs';
 
 const { chromium } = createRequire(join(process.cwd(), 'package.json'))('playwright-core');
 const [program, executablePath, screenshots, takes] = process.argv.slice(2);
@@ -19,16 +20,10 @@ const kinemend = (...words) => execFileSync(program, words, { cwd: output, stdio
 const bytes = (name) => readFileSync(join(output, name));
 writeFileSync(join(output, 'walk.bvh'), readFileSync(join(takes, 'noisy_walk.bvh')));
 
-/** Markers with a gap of eight frames and a long one. */
-function markers(name, count, shown) {
-  const rows = Array.from({ length: count }, (_, f) => {
-    const cells = shown.map((m) => ((m === 1 && f >= 100 && f < 108) || (m === 2 && f >= 40 && f < 260) ? '\t\t' : `${(100 * Math.sin(f / 30 + m)).toFixed(3)}\t${900 + 100 * m}\t${(3 * f).toFixed(3)}`));
-    return `${f + 1}\t${(f / 100).toFixed(3)}\t${cells.join('\t')}`;
-  });
-  writeFileSync(join(output, name), `PathFileType\t4\t(X/Y/Z)\t${name}\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames\n`
-    + `100\t100\t${count}\t4\tmm\t100\t1\t${count}\nFrame#\tTime\t<b>A</b>\t\t\tB\t\t\tC\t\t\tD\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\tX3\tY3\tZ3\tX4\tY4\tZ4\n\n${rows.join('\n')}\n`);
-}
-markers('markers.trc', 300, [0, 1, 2, 3]);
+fourMarkers(join(output, 'markers.trc'));
+// So many gaps that to fill them takes a while.
+markers(join(output, 'gaps.trc'), Array.from({ length: 40 }, (_, m) => `M${m}`), 1500, (f, m) => ((f + 37 * m) % 101 < 30 && f > 50 && f < 1450 ? null
+  : [300 * Math.cos(m) + f / 5 + Math.sin(f * 1.7 + m), 900 + 10 * m + 30 * Math.sin(f / 20 + m), 300 * Math.sin(m)]));
 
 const servers = [];
 /** Starts the program; its address. */
@@ -60,7 +55,8 @@ function status(address, { path, method = 'GET', headers = {}, body } = {}) {
   });
 }
 
-const browser = await chromium.launch({ executablePath, args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'] });
+const only = process.env.STEPS ? new RegExp(process.env.STEPS) : /./;
+const browser = await chromium.launch({ executablePath, args: launchArgs });
 const pages = [];
 async function open(address, options = {}) {
   const page = await browser.newPage({ viewport: { width: 1100, height: 900 }, ...options });
@@ -102,7 +98,7 @@ step('a method is changed, and what is saved has the bytes of the command line',
   const first = await page.textContent('.verdict');
   await page.click('button:has-text("Play")');
   await page.click('button:has-text("Pause")');
-  await page.fill('.number', '200');
+  await page.fill('.transport .number', '200');
   await page.keyboard.press('Tab');
   const frame = await page.evaluate(() => window.kinemend.player.shown);
   await after(page, () => page.selectOption('[data-flag=method]:visible', 'butterworth'));
@@ -179,10 +175,27 @@ step('gaps are looked at, refused and given another method, and the plan is save
   await after(page, () => page.selectOption('[data-flag=command]:visible', 'fill'));
   await page.click('summary:has-text("Gap plan")');
   assert.equal(await page.locator('.editor tbody tr').count(), 2);
+  assert.equal(await page.isVisible('[title="the gaps behind these"]'), false, 'there are no more');
   await after(page, () => page.click('[data-action=preview]'));
   assert.match(await page.textContent('[data-gap=method]'), /off\)/);
   await shot(page, 'gaps');
-  await after(page, () => page.locator('[data-gap=method]').nth(0).selectOption('pchip'));
+  // The curves of all methods over the gap; a click on one makes it the gap's method.
+  await page.locator('[data-gap=curves]').nth(0).click();
+  await page.waitForSelector('.gap-methods button');
+  const methods = await page.$$eval('[data-gap=method] >> nth=0', (selects) => [...selects[0].options].map((one) => one.value));
+  assert.deepEqual(await page.$$eval('.gap-methods button', (all) => all.map((one) => one.dataset.method)), methods);
+  assert.equal(await page.locator('.gap-plots canvas').count(), 3);
+  assert.equal(await page.getAttribute('.gap-methods [data-method=auto]', 'aria-pressed'), 'true');
+  await shot(page, 'curves');
+  await after(page, () => page.click('.gap-methods [data-method=cyclic]'));
+  assert.equal(await page.locator('[data-gap=method]').nth(0).inputValue(), 'cyclic');
+  await page.waitForSelector('.gap-methods [data-method=cyclic][aria-pressed=true]');
+  // By keyboard: the focus stays where it is while all is drawn anew.
+  await page.focus('.gap-methods [data-method=pchip]');
+  await after(page, () => page.keyboard.press('Enter'));
+  assert.equal(await page.evaluate(() => document.activeElement?.dataset.method), 'pchip');
+  assert.equal(await page.locator('[data-gap=method]').nth(0).inputValue(), 'pchip');
+  assert.equal(await page.locator('[data-gap=verdict]').nth(0).inputValue(), 'fill');
   await after(page, () => page.locator('[data-gap=verdict]').nth(1).selectOption('force'));
   assert.match(await page.textContent('.verdict'), /2 filled, 0 refused/);
   await page.click('[data-action=save]');
@@ -190,8 +203,218 @@ step('gaps are looked at, refused and given another method, and the plan is save
   kinemend('fill', 'markers.trc', '--plan', 'plan.csv', '-o', 'cli_filled.trc');
   assert.deepEqual(bytes('filled.trc'), bytes('cli_filled.trc'));
   assert.match(bytes('plan.csv').toString(), /\nB,position,101,108,8,0.08,fill,pchip,/);
+  await page.locator('[data-gap=verdict]').nth(0).focus();
   await after(page, () => page.locator('[data-gap=verdict]').nth(0).selectOption('refuse'));
   assert.match(await page.textContent('.verdict'), /1 filled, 1 refused/);
+  assert.equal(await page.evaluate(() => document.activeElement?.dataset.gap), 'verdict', 'the focus is lost');
+  // What the rules refuse is drawn, too, and taken by force.
+  await page.locator('[data-gap=curves]').nth(1).click();
+  await page.waitForSelector('.gap-methods [data-method=spline][data-filled=false]');
+  await after(page, () => page.click('.gap-methods [data-method=spline]'));
+  assert.equal(await page.locator('[data-gap=verdict]').nth(1).inputValue(), 'force');
+  await page.click('.gap-preview button:has-text("Close")');
+  assert.equal(await page.isVisible('.gap-preview'), false);
+});
+
+step('a click on a curve takes its method', async () => {
+  const { address } = await serve('markers.trc', '-o', 'clicked.trc', '--plan', 'clicked.csv');
+  const page = await open(address);
+  await after(page, () => page.selectOption('[data-flag=command]:visible', 'fill'));
+  await page.click('summary:has-text("Gap plan")');
+  await page.locator('[data-gap=curves]').nth(0).click();
+  await page.waitForSelector('.gap-plots .u-over');
+  const over = page.locator('.gap-plots .u-over').nth(0);
+  await over.scrollIntoViewIfNeeded();
+  const box = await over.boundingBox();
+  // Somewhere on the way down through the middle of the gap there is a curve.
+  let chosen = false;
+  for (let y = 4; y < box.height && !chosen; y += 8) {
+    const runs = await page.getAttribute('#page', 'data-runs');
+    await page.mouse.move(box.x + box.width / 2, box.y + y);
+    await page.mouse.click(box.x + box.width / 2, box.y + y);
+    await page.waitForTimeout(220);
+    chosen = (await page.getAttribute('#page', 'data-ready')) === 'running' || (await page.getAttribute('#page', 'data-runs')) !== runs;
+  }
+  assert.ok(chosen, 'no click did anything');
+  await ready(page);
+  assert.match(await page.textContent('.line'), /--plan=clicked\.csv/);
+});
+
+step('samples are marked as missing, filled and saved as the file that clean and fill read', async () => {
+  const { address } = await serve('walk.bvh', '-o', 'marked.bvh');
+  const page = await open(address);
+  await after(page, () => page.selectOption('[data-flag=command]:visible', 'fill'));
+  await page.click('summary:has-text("Missing samples")');
+  await page.click('tr.chosen button');
+  await page.click('.tracks tbody tr:has-text("LeftForeArm") button');
+  await page.fill('.transport .number', '200');
+  await page.keyboard.press('Tab');
+  await after(page, () => page.click('[data-action=missing]'));
+  assert.match(await page.inputValue('textarea:visible'), /^LeftForeArm,200,200\n$/m);
+  await page.fill('.transport .number', '220');
+  await page.keyboard.press('Tab');
+  await after(page, () => page.click('button:has-text("Ends here"):visible'));
+  assert.match(await page.inputValue('textarea:visible'), /^LeftForeArm,200,220$/m);
+  assert.match(await page.textContent('.verdict'), /1 filled/);
+  await shot(page, 'missing');
+  await page.click('[data-action=save]');
+  await page.waitForSelector('.saved:has-text("saved walk.gaps.csv, marked.bvh")');
+  kinemend('fill', 'walk.bvh', '--gaps', 'walk.gaps.csv', '-o', 'cli_marked.bvh');
+  assert.deepEqual(bytes('marked.bvh'), bytes('cli_marked.bvh'));
+  // A side file that somebody else has made stays.
+  const other = await serve('walk.bvh', '-o', 'marked2.bvh');
+  assert.equal(await status(other.address, { path: `${new URL(other.address).pathname}save`, method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ command: 'fill', flags: {}, gaps: 'Head,1,2\n' }) }), 400);
+  assert.equal(existsSync(join(output, 'marked2.bvh')), false);
+  assert.match(bytes('walk.gaps.csv').toString(), /LeftForeArm/);
+});
+
+/** Asks as a page would; status, milliseconds. */
+async function asked(address, action, body) {
+  const begun = Date.now();
+  const code = await status(address, { path: `${new URL(address).pathname}${action}`, method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(body) });
+  return { code, begun, ended: Date.now() };
+}
+const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+
+step('fills that are overtaken, and those of a tab that is closed, are given up', async () => {
+  const { address } = await serve('gaps.trc');
+  const fill = { command: 'fill', flags: {}, tab: 'one' };
+  const whole = await asked(address, 'run', fill);
+  const long = whole.ended - whole.begun;
+  assert.equal(whole.code, 200);
+  const first = asked(address, 'run', fill);
+  await pause(long / 5);
+  const second = asked(address, 'run', { command: 'clean', flags: { method: 'gaussian' }, tab: 'one' });
+  const given_up = await first;
+  assert.equal(given_up.code, 409);
+  const late = given_up.ended - (await second).begun;
+  console.log(`  to fill takes ${long} ms; given up ${late} ms after the next was asked for`);
+  assert.ok(late < 0.6 * long, `${late} of ${long} ms`);
+  assert.equal((await second).code, 200);
+  // Curves beside it, and a tab that goes.
+  const plan = JSON.stringify({ schema: 'kinemend.gap-plan/1', gaps: [] });
+  assert.equal((await asked(address, 'curves', { ...fill, plan, row: 0 })).code, 400);
+  const third = asked(address, 'run', fill);
+  await pause(long / 5);
+  const left = await asked(address, 'leave', { tab: 'one' });
+  assert.equal((await third).code, 409);
+  assert.ok((await third).ended - left.begun < 0.6 * long);
+});
+
+step('of hundreds of gaps those behind the first are reached', async () => {
+  const { address } = await serve('gaps.trc');
+  const page = await open(address);
+  await after(page, () => page.selectOption('[data-flag=command]:visible', 'fill'));
+  await page.click('summary:has-text("Gap plan")');
+  const told = /gaps 1 to 300 of (\d+)/.exec(await page.textContent('.editor:has([data-action=preview])'));
+  assert.equal(await page.locator('.editor tbody tr').count(), 300);
+  const behind = Number(told[1]) - 300;
+  assert.ok(behind > 0 && behind < 300, told[0]);
+  await page.click('.editor button[title="the gaps behind these"]');
+  assert.equal(await page.locator('.editor tbody tr').count(), behind);
+  await after(page, () => page.locator('[data-gap=verdict]').last().selectOption('refuse'));
+  assert.equal(await page.locator('.editor tbody tr').count(), behind, 'the rows that were looked at are gone');
+  assert.equal(await page.locator('[data-gap=verdict]').last().inputValue(), 'refuse');
+  await page.click('.editor button[title="the gaps behind these"]');
+  assert.equal(await page.locator('.editor tbody tr').count(), behind);
+  await page.click('.editor button[title="the gaps before these"]');
+  assert.equal(await page.locator('.editor tbody tr').count(), 300);
+});
+
+step('two tabs do not overtake each other', async () => {
+  const { address } = await serve('walk.bvh', '-o', 'tabs.bvh');
+  const [one, other] = [await open(address), await open(address)];
+  await Promise.all([after(one, () => one.selectOption('[data-flag=method]:visible', 'median')), after(other, () => other.selectOption('[data-flag=method]:visible', 'gaussian'))]);
+  assert.match(await one.textContent('.line'), /median/);
+  assert.match(await other.textContent('.line'), /gaussian/);
+  await one.close();
+  await after(other, () => other.selectOption('[data-flag=method]:visible', 'hampel'));
+});
+
+step('odd takes are shown, or said to have nothing', async () => {
+  arm(join(output, 'one.bvh'), 1);
+  arm(join(output, 'none.bvh'), 0);
+  markers(join(output, 'unseen.trc'), ['A', 'B'], 20, () => null);
+  manyJoints(join(output, 'many.bvh'), 400, 120);
+  for (const [name, words] of [['one.bvh', null], ['none.bvh', /no frames/], ['unseen.trc', /No marker is seen/], ['many.bvh', null]]) {
+    const { address } = await serve(name);
+    const page = await open(address);
+    assert.equal(await page.getAttribute('#page', 'data-ready'), 'true', name);
+    if (words) assert.match(await page.textContent('.view'), words, name);
+    else assert.ok(await page.evaluate(() => window.kinemend.body.seen(0) !== null), name);
+    await after(page, () => page.selectOption('[data-flag=method]:visible', 'gaussian'));
+    if (name === 'many.bvh') assert.equal(await page.locator('.tracks tbody tr').count(), 400);
+    await shot(page, name.replace(/\W/g, '_'));
+  }
+});
+
+step('strange names are text', async () => {
+  const file = `<img src=x onerror=alert(1)> & '\u00e9\u{1f600}.bvh`;
+  arm(join(output, file), 21);
+  const { address } = await serve(file);
+  const page = await open(address);
+  assert.equal(await page.textContent('h1'), file);
+  assert.ok((await page.$$eval('.tracks tbody th', (cells) => cells.map((cell) => cell.textContent))).includes(strange));
+  await page.click('summary:has-text("Missing samples")');
+  await page.click('tr.chosen button');
+  for (const row of await page.$$('.tracks tbody tr')) if ((await row.textContent()).includes(strange)) await (await row.$('button')).click();
+  await after(page, () => page.selectOption('[data-flag=command]:visible', 'fill'));
+  await page.fill('.transport .number', '5');
+  await page.keyboard.press('Tab');
+  await after(page, () => page.click('[data-action=missing]'));
+  await page.click('summary:has-text("Gap plan")');
+  assert.ok((await page.$$eval('.editor tbody th', (cells) => cells.map((cell) => cell.textContent))).some((text) => text.includes(strange)));
+  await page.locator('[data-gap=curves]').nth(0).click();
+  await page.waitForSelector('.gap-methods button');
+  assert.ok((await page.textContent('.gap-preview h3')).includes(strange));
+  assert.equal(await page.evaluate(() => window.broken), undefined);
+  assert.equal(await page.locator('img').count(), 0);
+  await shot(page, 'strange');
+});
+
+step('all texts have enough contrast', async () => {
+  const { address } = await serve('markers.trc');
+  for (const colorScheme of ['light', 'dark']) {
+    const page = await open(address, { colorScheme });
+    assert.deepEqual(await faintTexts(page), [], colorScheme);
+    await after(page, () => page.selectOption('[data-flag=command]:visible', 'fill'));
+    for (const summary of ['Gap plan', 'Missing samples', 'List of findings']) await page.click(`summary:has-text("${summary}")`);
+    await page.locator('[data-gap=curves]').nth(0).click();
+    await page.waitForSelector('.gap-methods button');
+    assert.deepEqual(await faintTexts(page), [], colorScheme);
+    await page.fill('[data-flag=range]:visible', '9999:');
+    await page.waitForSelector('#page[data-ready="error"]');
+    assert.deepEqual(await faintTexts(page), [], colorScheme);
+    // In a window that is narrow nothing is cut off.
+    if (colorScheme === 'dark') {
+      await page.setViewportSize({ width: 360, height: 740 });
+      await page.waitForTimeout(100);
+      assert.ok((await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth)) <= 0);
+      await shot(page, 'narrow_gaps');
+    }
+  }
+});
+
+step('a take that goes away is said to be gone, and one that comes back is shown', async () => {
+  writeFileSync(join(output, 'gone.bvh'), bytes('walk.bvh'));
+  const { address } = await serve('gone.bvh');
+  rmSync(join(output, 'gone.bvh'));
+  const page = await open(address);
+  assert.match(await page.textContent('.view-controls .error'), /gone\.bvh/);
+  assert.match(await page.textContent('#page'), /nothing to show/);
+  await shot(page, 'gone');
+  writeFileSync(join(output, 'gone.bvh'), bytes('walk.bvh'));
+  await after(page, () => page.fill('[data-flag=strength]:visible', '0.5'));
+  assert.match(await page.textContent('.verdict'), /./);
+});
+
+step('a port that is taken is said to be', async () => {
+  const { address } = await serve('walk.bvh');
+  const told = spawn(program, ['view', '--no-open', 'walk.bvh', '--port', new URL(address).port], { cwd: output });
+  let words = '';
+  told.stderr.on('data', (text) => { words += text; });
+  assert.equal(await new Promise((resolve) => told.on('exit', resolve)), 4);
+  assert.match(words, /^kinemend: view: port \d+ cannot be had: another program has it[^\n]*\n$/);
 });
 
 step('requests of others are refused', async () => {
@@ -200,6 +423,7 @@ step('requests of others are refused', async () => {
   const json = { 'Content-Type': 'application/json', Host: url.host };
   const body = JSON.stringify({ command: 'clean', flags: {} });
   const run = `${url.pathname}run`;
+  const files = readdirSync(output).sort();
   assert.equal(await status(address, { path: '/' }), 403);
   assert.equal(await status(address, { path: '/run', method: 'POST', headers: json, body }), 403);
   assert.equal(await status(address, { headers: { Host: `localhost:${url.port}` } }), 403);
@@ -208,11 +432,23 @@ step('requests of others are refused', async () => {
   assert.equal(await status(address, { path: run, method: 'POST', headers: { Host: url.host, 'Content-Type': 'text/plain' }, body }), 415);
   assert.equal(await status(address, { path: `${url.pathname}../../etc/passwd` }), 404);
   assert.equal(await status(address, { path: `${url.pathname}walk.bvh` }), 404);
+  for (const path of ['%2e%2e/%2e%2e/etc/passwd', '/etc/passwd', '..%2fwalk.bvh', '%00', 'run%00', 'run/', 'run?x=../walk.bvh'])
+    assert.notEqual(await status(address, { path: url.pathname + path }), 200, path);
+  for (const method of ['PUT', 'DELETE', 'PATCH', 'OPTIONS', 'TRACE', 'MOVE'])
+    assert.notEqual(await status(address, { path: `${url.pathname}walk.bvh`, method, headers: { Host: url.host }, body: 'x' }), 200, method);
+  assert.equal(await status(address, { path: run, method: 'POST', headers: { ...json, Origin: 'null' }, body }), 403);
+  assert.equal(await status(address, { path: run, method: 'POST', headers: { ...json, 'Sec-Fetch-Site': 'cross-site' }, body }), 403);
+  assert.equal(await status(address, { path: run, method: 'POST', headers: json, body: '['.repeat(200000) }), 400);
+  for (const action of ['curves', 'save', 'contacts', 'gaps', 'progress', 'leave'])
+    assert.equal(await status(address, { path: `${url.pathname}${action}`, method: 'POST', headers: { ...json, Origin: 'http://evil.example' }, body }), 403, action);
   for (const flags of [{ output: '/tmp/x.bvh' }, { config: '/etc/passwd' }, { method: 'sparse', model: '/etc/passwd' }, { gaps: 'x' }, { 'joints=a --output': 'y' }])
     assert.equal(await status(address, { path: run, method: 'POST', headers: json, body: JSON.stringify({ command: 'clean', flags }) }), 400, JSON.stringify(flags));
   assert.equal(await status(address, { path: run, method: 'POST', headers: json, body: 'x' }), 400);
   assert.equal(await status(address, { path: run, method: 'POST', headers: json, body }), 200);
-  assert.equal(existsSync(join(output, 'other.bvh')), false);
+  // Paths in a request are not looked at.
+  for (const path of ['contacts', 'gaps', 'plan', 'output', 'input', 'cleaned'])
+    assert.equal(await status(address, { path: run, method: 'POST', headers: json, body: JSON.stringify({ command: 'clean', flags: {}, [`${path}_path`]: '/etc/passwd', tab: '../../x' }) }), 200, path);
+  assert.deepEqual(readdirSync(output).sort(), files, 'something was written');
 });
 
 step('two takes are compared', async () => {
@@ -248,8 +484,21 @@ step('Ctrl-C ends it, and the page says so', async () => {
   await page.waitForSelector('.view-controls .error:has-text("has ended")');
 });
 
+step('Ctrl-C ends it in the midst of a fill', async () => {
+  const { address, child } = await serve('gaps.trc');
+  const begun = Date.now();
+  const running = asked(address, 'run', { command: 'fill', flags: {} }).catch(() => ({ code: 0 }));
+  await pause(400);
+  child.removeAllListeners('exit');
+  const ended = new Promise((resolve) => child.on('exit', resolve));
+  child.kill('SIGINT');
+  assert.equal(await Promise.race([ended, pause(8000).then(() => 'still there')]), 0);
+  assert.notEqual((await running).code, 200);
+  console.log(`  ended ${Date.now() - begun - 400} ms after Ctrl-C`);
+});
+
 let failed = 0;
-for (const [name, run] of steps) {
+for (const [name, run] of steps.filter(([one]) => only.test(one))) {
   const begun = Date.now();
   try {
     await run();

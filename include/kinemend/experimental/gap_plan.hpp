@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -59,21 +60,57 @@ struct PlannedFill {
   std::vector<PlannedGap> plan;  ///< a row for each gap of the report, in its order
 };
 
+/// Called now and then while gaps are filled, before each at least, from several threads at once.
+/// What it throws ends the run, and the take is as it was.
+using FillCheck = std::function<void()>;
+
 /// Fills the take as `fill_gaps` does, and says it as a plan: applied to the take as it was, it
 /// gives the same samples to the bit.
-PlannedFill fill_with_plan(Clip& clip, const FillSettings& settings);
-PlannedFill fill_with_plan(MarkerClip& clip, const FillSettings& settings);
+PlannedFill fill_with_plan(Clip& clip, const FillSettings& settings, const FillCheck& check = {});
+PlannedFill fill_with_plan(MarkerClip& clip, const FillSettings& settings,
+                           const FillCheck& check = {});
 /// Fills the gaps that rows name as these say, all in one run, and leaves others alone. Errors:
 /// `ErrorKind::usage` for a row that names no gap of the take, a gap that another row names, a
 /// method or a donor that there is not.
-PlannedFill fill_with_plan(Clip& clip, std::span<const PlannedGap> plan);
-PlannedFill fill_with_plan(MarkerClip& clip, std::span<const PlannedGap> plan);
+PlannedFill fill_with_plan(Clip& clip, std::span<const PlannedGap> plan,
+                           const FillCheck& check = {});
+PlannedFill fill_with_plan(MarkerClip& clip, std::span<const PlannedGap> plan,
+                           const FillCheck& check = {});
 
 /// Fills `previews` of each row: what every method of this kind of take (`pattern` where the row
 /// names a donor), by its rules, would make of the gap if it had to fill all gaps of the plan.
 /// `clip` is the take before it is filled. Errors: as of `fill_with_plan`.
-void preview_methods(const Clip& clip, std::vector<PlannedGap>& plan);
-void preview_methods(const MarkerClip& clip, std::vector<PlannedGap>& plan);
+void preview_methods(const Clip& clip, std::vector<PlannedGap>& plan, const FillCheck& check = {});
+void preview_methods(const MarkerClip& clip, std::vector<PlannedGap>& plan,
+                     const FillCheck& check = {});
+
+/// What one method would make of a gap, frame by frame.
+struct GapCurve {
+  GapPreview preview;
+  double expected_error = 0;  ///< as `GapOutcome::expected_error`
+  /// A value an axis for each frame of the window; none where the sample stays missing. Of a method
+  /// whose rules refuse the gap, what it makes where it is forced to, if anything.
+  std::vector<std::optional<Vec3>> values;
+};
+
+/// What every method would make of one gap, with the samples around it.
+struct GapCurves {
+  std::size_t first_frame = 0;  ///< of the window: the gap and up to half a second on either side
+  std::size_t last_frame = 0;   ///< inclusive
+  /// What the values are along or about, the file's own order of a joint's angles: "Z", "X", "Y".
+  /// Positions are in file units, angles in degrees, without jumps of whole turns.
+  std::vector<std::string> axes;
+  std::vector<GapCurve> curves;  ///< a method each, in the order of `fill_methods()`
+};
+
+/// Tries every method of this kind of take on the gap of one row, by its rules, and fills all
+/// others as the plan says: a curve is what the plan makes of the gap once the row has that method.
+/// `clip` is the take before it is filled. Errors: as of `fill_with_plan`; `ErrorKind::usage` for a
+/// row that there is not.
+GapCurves preview_curves(const Clip& clip, std::span<const PlannedGap> plan, std::size_t row,
+                         const FillCheck& check = {});
+GapCurves preview_curves(const MarkerClip& clip, std::span<const PlannedGap> plan, std::size_t row,
+                         const FillCheck& check = {});
 
 /// The plan as a file, frames as the file of the take counts them: a table with a heading, or JSON
 /// of the schema `kinemend.gap-plan/1`. docs/methods/gap-plan.md describes both.

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,7 +25,10 @@ struct PageSettings {
   std::string after_label = "after";
   /// Further data of the page's program: name and JSON, as `kinemend view` has them.
   std::vector<std::pair<std::string, std::string>> parts{};
-  bool is_served = false;  ///< by a server that it may ask; a page in a file asks nobody
+  /// For a page that is there already (`served_page`): the data alone, without the program.
+  bool is_served = false;
+  /// Called now and then while the page is made; what it throws ends the work.
+  std::function<void()> check{};
 };
 
 /// The page: HTML in one file that needs nothing beside it, no network and no server. It holds the
@@ -38,6 +43,11 @@ std::string report_page(const Report& report, const Clip& before, const Clip* af
                         const PageSettings& settings);
 std::string report_page(const Report& report, const MarkerClip& before, const MarkerClip* after,
                         const PageSettings& settings);
+
+/// The page of `kinemend view` before there is anything to show: the program, which may ask the
+/// server that it came from, and `parts` (name and JSON). Errors: as of `report_page`.
+std::string served_page(std::string_view title, std::string_view summary,
+                        std::span<const std::pair<std::string, std::string>> parts);
 
 /// A take of a batch and its own page.
 struct BatchPageRow {

@@ -1,0 +1,66 @@
+// Figures of docs/report-html.md: how much a page holds of takes of 31 joints at 120 Hz.
+#include "kinemend/clean.hpp"
+#include "kinemend/experimental/page.hpp"
+#include "kinemend/methods.hpp"
+#include "kinemend/report.hpp"
+#include "page.hpp"
+
+namespace kinemend::papers {
+namespace {
+
+template <class Value>
+void repeat(std::vector<Value>& values, std::size_t times) {
+  const std::vector<Value> once = values;
+  for (std::size_t i = 1; i < times; ++i) values.insert(values.end(), once.begin(), once.end());
+}
+
+// The take over and over.
+Clip repeated(Clip clip, std::size_t times) {
+  repeat(clip.local_rotations, times);
+  repeat(clip.root_positions, times);
+  repeat(clip.joint_translations, times);
+  repeat(clip.observed, times);
+  repeat(clip.observed_positions, times);
+  clip.validate();
+  return clip;
+}
+
+// The data alone: the page's program is the same for all takes, and changes by itself.
+double megabytes(const Report& report, const Clip& before, const Clip* after) {
+  const std::size_t program = served_page("", "", {}).size();
+  return static_cast<double>(report_page(report, before, after, {}).size() - program) / 1e6;
+}
+
+// Jitter of 1.5 degrees and spikes, cleaned by `auto`.
+void sizes_of_pages(const Arguments& arguments) {
+  struct Length {
+    const char* name;
+    double synth_s;
+    std::size_t times;
+  };
+  std::vector<Length> lengths = {{"a minute", 60, 1}};
+  if (!arguments.quick) {
+    lengths.push_back({"ten minutes", 600, 1});
+    lengths.push_back({"an hour", 600, 6});
+  }
+  Table table(arguments, "page_report.csv", "take,frames,clean_mb,check_mb");
+  for (const Length& length : lengths) {
+    const Clip take =
+        noisy(repeated(synthesize({.duration_s = length.synth_s}), length.times), 1.5, 0.004, 1);
+    const auto cleaner = make_cleaner("auto", {});
+    CleanResult cleaned = clean_clip(take, *cleaner, {}, "auto");
+    const Report report{take_facts(take), CleanOutcome{std::move(cleaned.report), {}, {}, {}}};
+    table.add({length.name, fmt::format("{}", take.frame_count()),
+               figure(megabytes(report, take, &cleaned.clip)),
+               figure(megabytes(report, take, nullptr))});
+  }
+  table.close();
+}
+
+}  // namespace
+}  // namespace kinemend::papers
+
+int main(int count, char** values) {
+  if (!kinemend::has_report_page()) return 0;
+  return kinemend::papers::run(count, values, kinemend::papers::sizes_of_pages);
+}

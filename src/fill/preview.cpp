@@ -1,0 +1,226 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "kinemend/error.hpp"
+#include "kinemend/experimental/gap_plan.hpp"
+
+// What every method would make of the gaps of a plan.
+namespace kinemend {
+
+namespace {
+
+constexpr bool is_joints(const Clip& /*clip*/) { return true; }
+constexpr bool is_joints(const MarkerClip& /*clip*/) { return false; }
+
+using RowKey = std::tuple<std::size_t, bool, std::size_t>;
+RowKey key_of(const Gap& gap, bool is_position) {
+  return {gap.track, is_position, gap.first_frame};
+}
+RowKey key_of(const PlannedGap& row) { return key_of(row.gap, row.is_position); }
+
+// Which of the clip's positions is that of the joint: 0 of joint 0, k + 1 of translated joint k.
+std::size_t position_index(const Clip& clip, std::size_t joint) {
+  for (std::size_t k = 0; joint > 0 && k < clip.translated_joints.size(); ++k) {
+    if (static_cast<std::size_t>(clip.translated_joints[k]) == joint) return k + 1;
+  }
+  return 0;
+}
+
+Vec3 position_of(const Clip& clip, std::size_t frame, std::size_t index) {
+  if (index == 0) return clip.root_positions[frame];
+  return clip.joint_translations[frame * clip.translated_joints.size() + index - 1];
+}
+
+double distance_in(const Clip& a, const Clip& b, const PlannedGap& row, std::size_t frame) {
+  const std::size_t joint = row.gap.track;
+  if (!row.is_position)
+    return angle_between(a.rotation(frame, joint), b.rotation(frame, joint)) * degrees_per_radian;
+  const std::size_t index = position_index(a, joint);
+  return norm(position_of(a, frame, index) - position_of(b, frame, index));
+}
+double distance_in(const MarkerClip& a, const MarkerClip& b, const PlannedGap& row,
+                   std::size_t frame) {
+  return norm(a.position(frame, row.gap.track) - b.position(frame, row.gap.track));
+}
+
+template <class AnyClip>
+double rms_distance(const AnyClip& a, const AnyClip& b, const PlannedGap& row) {
+  double sum = 0;
+  for (std::size_t f = row.gap.first_frame; f <= row.gap.last_frame; ++f) {
+    const double distance = distance_in(a, b, row, f);
+    sum += distance * distance;
+  }
+  return std::sqrt(sum / static_cast<double>(row.gap.length()));
+}
+
+// The gap by another method and its rules.
+PlannedGap with_method(const PlannedGap& row, std::string_view method) {
+  PlannedGap asked;
+  asked.gap = row.gap;
+  asked.is_position = row.is_position;
+  asked.method = method;
+  asked.donor = row.donor;
+  if (method == "pattern" && row.donor.empty()) {
+    asked.verdict = GapVerdict::refuse;
+    asked.reason = "the row names no donor";
+  }
+  return asked;
+}
+
+template <class AnyClip>
+std::vector<std::string> methods_of(const AnyClip& clip) {
+  std::vector<std::string> names;
+  for (const FillMethod& method : fill_methods()) {
+    if (is_joints(clip) ? method.joints : method.markers) names.emplace_back(method.name);
+  }
+  return names;
+}
+
+// A take that was filled, and what became of each gap.
+template <class AnyClip>
+struct Tried {
+  AnyClip clip;
+  std::map<RowKey, GapOutcome> outcomes = {};
+
+  Tried(const AnyClip& gapped, std::span<const PlannedGap> plan, const FillCheck& check)
+      : clip(gapped) {
+    for (GapOutcome& gap : fill_with_plan(clip, plan, check).report.gaps)
+      outcomes.emplace(key_of(gap.gap, gap.is_position), std::move(gap));
+  }
+};
+
+// What `other` made of the row's gap, beside what the row's own method does.
+template <class AnyClip>
+GapPreview compared(std::string_view method, const Tried<AnyClip>& own, const Tried<AnyClip>& other,
+                    const PlannedGap& row) {
+  const GapOutcome& outcome = other.outcomes.at(key_of(row));
+  GapPreview preview{std::string(method), outcome.filled, outcome.reason, std::nullopt};
+  if (outcome.filled && own.outcomes.at(key_of(row)).filled)
+    preview.distance = rms_distance(own.clip, other.clip, row);
+  return preview;
+}
+
+template <class AnyClip>
+void preview(const AnyClip& clip, std::vector<PlannedGap>& plan, const FillCheck& check) {
+  for (PlannedGap& row : plan) row.previews.clear();
+  const Tried own(clip, plan, check);
+  for (const std::string& method : methods_of(clip)) {
+    std::vector<PlannedGap> asked;
+    asked.reserve(plan.size());
+    for (const PlannedGap& row : plan) asked.push_back(with_method(row, method));
+    const Tried other(clip, asked, check);
+    for (PlannedGap& row : plan) row.previews.push_back(compared(method, own, other, row));
+  }
+}
+
+// ---- curves of one gap
+
+using Values = std::vector<std::optional<Vec3>>;
+
+RotationOrder order_of(const Clip& clip, std::size_t joint) {
+  const RotationOrder order = clip.skeleton.rotation_order(joint);
+  return order.count > 0 ? order : parse_rotation_order("ZXY");
+}
+
+std::vector<std::string> axes_of(const Clip& clip, const PlannedGap& row) {
+  if (row.is_position) return {"X", "Y", "Z"};
+  std::vector<std::string> axes;
+  for (const char axis : to_string(order_of(clip, row.gap.track))) axes.emplace_back(1, axis);
+  return axes;
+}
+std::vector<std::string> axes_of(const MarkerClip& /*clip*/, const PlannedGap& /*row*/) {
+  return {"X", "Y", "Z"};
+}
+
+Values values_of(const Clip& clip, const PlannedGap& row, std::size_t first, std::size_t last) {
+  Values values;
+  const std::size_t joint = row.gap.track, index = position_index(clip, joint);
+  const RotationOrder order = order_of(clip, joint);
+  std::array<double, 3> angles{};
+  for (std::size_t f = first; f <= last; ++f) {
+    const bool is_seen =
+        row.is_position ? clip.is_position_observed(f, index) : clip.is_observed(f, joint);
+    if (!is_seen) {
+      values.emplace_back();
+    } else if (row.is_position) {
+      values.emplace_back(position_of(clip, f, index));
+    } else {
+      angles = to_euler_near(clip.rotation(f, joint), order, angles);
+      values.emplace_back(degrees_per_radian * Vec3{angles[0], angles[1], angles[2]});
+    }
+  }
+  return values;
+}
+Values values_of(const MarkerClip& clip, const PlannedGap& row, std::size_t first,
+                 std::size_t last) {
+  Values values;
+  for (std::size_t f = first; f <= last; ++f) {
+    values.emplace_back();
+    if (clip.is_observed(f, row.gap.track)) values.back() = clip.position(f, row.gap.track);
+  }
+  return values;
+}
+
+template <class AnyClip>
+GapCurves curves_of(const AnyClip& clip, std::span<const PlannedGap> plan, std::size_t row,
+                    const FillCheck& check) {
+  constexpr double around_s = 0.5;
+  constexpr std::size_t least_around = 8;  // frames
+  if (row >= plan.size())
+    throw Error(ErrorKind::usage, fmt::format("fill: the plan has {} rows", plan.size()));
+  const Gap& gap = plan[row].gap;
+  const auto half_second = static_cast<std::size_t>(around_s * clip.frame_rate_hz);
+  const std::size_t around = std::max(least_around, std::min(gap.length(), half_second));
+  GapCurves made;
+  made.first_frame = gap.first_frame - std::min(gap.first_frame, around);
+  made.last_frame = std::min(clip.frame_count() - 1, gap.last_frame + around);
+  made.axes = axes_of(clip, plan[row]);
+  const Tried own(clip, plan, check);
+  std::vector<PlannedGap> asked(plan.begin(), plan.end());
+  const auto add = [&](const Tried<AnyClip>& other, GapPreview preview) {
+    made.curves.push_back({std::move(preview), other.outcomes.at(key_of(plan[row])).expected_error,
+                           values_of(other.clip, plan[row], made.first_frame, made.last_frame)});
+  };
+  for (const std::string& method : methods_of(clip)) {
+    asked[row] = with_method(plan[row], method);
+    const Tried other(clip, asked, check);
+    GapPreview preview = compared(method, own, other, plan[row]);
+    if (preview.filled || asked[row].verdict == GapVerdict::refuse) {
+      add(other, std::move(preview));
+      continue;
+    }
+    asked[row].verdict = GapVerdict::force;
+    const Tried forced(clip, asked, check);
+    // Where the method can make nothing at all, another would be forced in its place.
+    const bool is_own = method == "auto" || forced.outcomes.at(key_of(plan[row])).method == method;
+    add(is_own ? forced : other, std::move(preview));
+  }
+  return made;
+}
+
+}  // namespace
+
+void preview_methods(const Clip& clip, std::vector<PlannedGap>& plan, const FillCheck& check) {
+  preview(clip, plan, check);
+}
+void preview_methods(const MarkerClip& clip, std::vector<PlannedGap>& plan,
+                     const FillCheck& check) {
+  preview(clip, plan, check);
+}
+
+GapCurves preview_curves(const Clip& clip, std::span<const PlannedGap> plan, std::size_t row,
+                         const FillCheck& check) {
+  return curves_of(clip, plan, row, check);
+}
+GapCurves preview_curves(const MarkerClip& clip, std::span<const PlannedGap> plan, std::size_t row,
+                         const FillCheck& check) {
+  return curves_of(clip, plan, row, check);
+}
+
+}  // namespace kinemend

@@ -1,0 +1,107 @@
+// The lines of a side file, to be edited: what the editors of contacts and of gaps share.
+
+import { button, element } from './dom';
+import type { Player } from './player';
+import type { Take } from './take';
+
+/** What is shown now; null before there is anything. */
+export interface Sight {
+  take: Take;
+  player: Player;
+}
+
+export interface LineForm {
+  /** Of the whole of a line that is no comment. */
+  line: RegExp;
+  /** In words, for a line that is not like that. */
+  expected: string;
+  /** Of the text field. */
+  label: string;
+  /** Which groups of `line` are the first and the last frame. */
+  first: number;
+  last: number;
+  /** A line of so many parts, the groups of `line`. */
+  joined: (parts: string[]) => string;
+}
+
+export class LineEditor {
+  readonly element = element('div');
+  /** Whether runs go by these lines. */
+  edited = false;
+  protected readonly area: HTMLTextAreaElement;
+  protected readonly words = element('p', { class: 'status', role: 'status' });
+  protected readonly head = element('div', { class: 'head' });
+
+  constructor(private readonly form: LineForm, protected readonly sight: () => Sight | null, private readonly again: () => void) {
+    this.area = element('textarea', { rows: '6', spellcheck: 'false', 'aria-label': form.label });
+    let timer = 0;
+    this.area.addEventListener('input', () => {
+      window.clearTimeout(timer);
+      timer = window.setTimeout(() => this.changed(), 300);
+    });
+    this.element.append(this.head, this.area);
+  }
+
+  text(): string { return this.area.value.endsWith('\n') || this.area.value === '' ? this.area.value : `${this.area.value}\n`; }
+
+  protected changed(): void {
+    const lines = this.area.value.split('\n');
+    const wrong = lines.findIndex((line) => !/^\s*(#|$)/.test(line) && !this.form.line.test(line));
+    this.words.textContent = wrong < 0 ? '' : `line ${wrong + 1}: expected ${this.form.expected}`;
+    if (wrong >= 0) return;
+    this.edited = true;
+    this.again();
+  }
+
+  /** Lines that were fetched take the place of what is there. */
+  protected async load(fetched: Promise<Response>): Promise<void> {
+    try {
+      const reply = await fetched;
+      if (!reply.ok) {
+        this.words.textContent = (await reply.json()).error;
+        return;
+      }
+      this.area.disabled = false;
+      this.area.value = await reply.text();
+      this.changed();
+    } catch {
+      this.words.textContent = 'kinemend view has ended';
+    }
+  }
+
+  protected dropButton(title: string): HTMLButtonElement {
+    return button('Leave out', title, () => {
+      this.edited = false;
+      this.area.value = '';
+      this.words.textContent = '';
+      this.again();
+    });
+  }
+  protected endButton(title: string): HTMLButtonElement {
+    return button('Ends here', title, () => this.put(this.form.last));
+  }
+
+  /** The frame that is shown, into a place of the line with the cursor. */
+  protected put(place: number): void {
+    const sight = this.sight();
+    if (sight === null) return;
+    const before = this.area.value.slice(0, this.area.selectionStart).split('\n').length - 1;
+    const lines = this.area.value.split('\n');
+    const parts = this.form.line.exec(lines[before] ?? '');
+    if (parts === null) {
+      this.words.textContent = 'put the cursor into the line that is meant';
+      return;
+    }
+    parts[place] = String(sight.take.number(sight.player.shown));
+    lines[before] = this.form.joined(parts.slice(1));
+    this.area.value = lines.join('\n');
+    this.cursorTo(before);
+    this.changed();
+  }
+
+  protected cursorTo(line: number): void {
+    const before = this.area.value.split('\n').slice(0, line).join('\n');
+    const at = before.length + (line > 0 ? 1 : 0);
+    this.area.setSelectionRange(at, at);
+  }
+}
