@@ -5,6 +5,8 @@ PYTHON ?= /usr/bin/python3
 BUILD := build
 # What `build`, `demo` and `install-test` use: `dev` has the same code in it, with tests and benchmarks beside it.
 PRESET ?= release
+# What tests, benchmarks and papers use: `dev`, or `ci`, which is quicker as a whole and slower after an edit.
+TESTS ?= dev
 KINEMEND := $(BUILD)/$(PRESET)/cli/kinemend
 DEMO := build/demo
 
@@ -20,7 +22,10 @@ build: setup ## the command line and the library, as they ship
 	cmake --preset $(PRESET) >/dev/null
 	cmake --build --preset $(PRESET) -j $(JOBS)
 
-demo: build ## clean the noisy take that ships with the project
+# The program and no more; where a build of the whole is wanted, `make build` goes on from here.
+demo: setup ## clean the noisy take that ships with the project
+	cmake --preset $(PRESET) >/dev/null
+	cmake --build --preset $(PRESET) -j $(JOBS) --target kinemend_cli
 	@mkdir -p $(DEMO)
 	@echo
 	@echo "A noisy walk, examples/takes/noisy_walk.bvh, cleaned by: kinemend clean noisy_walk.bvh"
@@ -35,13 +40,13 @@ demo: build ## clean the noisy take that ships with the project
 	@echo
 	@echo "The clean take is $(DEMO)/noisy_walk.clean.bvh"
 
-$(BUILD)/dev/.built: FORCE
-	cmake --preset dev
-	cmake --build --preset dev -j $(JOBS)
+$(BUILD)/$(TESTS)/.built: FORCE
+	cmake --preset $(TESTS)
+	cmake --build --preset $(TESTS) -j $(JOBS)
 FORCE:
 
-test: setup $(BUILD)/dev/.built ## build and run every test (real takes too where KINEMEND_DATA names a folder)
-	ctest --preset dev -j $(JOBS)
+test: setup $(BUILD)/$(TESTS)/.built ## build and run every test (real takes too where KINEMEND_DATA names a folder)
+	ctest --preset $(TESTS) -j $(JOBS)
 
 asan: setup ## the tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	cmake --preset asan
@@ -54,23 +59,23 @@ lint: setup ## formatting, static analysis and the direction of includes (tools/
 format: ## rewrite every source file in the project's format
 	git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
 
-bench: setup $(BUILD)/dev/.built ## the speed tables, beside SciPy's figures of the same run
-	tools/run_benchmarks $(BUILD)/dev
+bench: setup $(BUILD)/$(TESTS)/.built ## the speed tables, beside SciPy's figures of the same run
+	tools/run_benchmarks $(BUILD)/$(TESTS)
 
-bench-quick: setup $(BUILD)/dev/.built
-	tools/run_benchmarks $(BUILD)/dev --quick
+bench-quick: setup $(BUILD)/$(TESTS)/.built
+	tools/run_benchmarks $(BUILD)/$(TESTS) --quick
 
-papers: setup $(BUILD)/dev/.built ## the papers' own experiments, and the figures of pages, under build/papers (CHECK=1: compared with the stored ones)
-	tools/run_papers $(BUILD)/dev
+papers: setup $(BUILD)/$(TESTS)/.built ## the papers' own experiments, and the figures of pages, under build/papers (CHECK=1: compared with the stored ones)
+	tools/run_papers $(BUILD)/$(TESTS)
 	$(if $(CHECK),tools/check_figures build/papers)
 
 # On takes that the project makes itself, so that the figures are the same everywhere.
-papers-quick: setup $(BUILD)/dev/.built
-	KINEMEND_DATA= tools/run_papers $(BUILD)/dev --quick
+papers-quick: setup $(BUILD)/$(TESTS)/.built
+	KINEMEND_DATA= tools/run_papers $(BUILD)/$(TESTS) --quick
 	tools/check_figures build/papers --quick
 
-pictures: setup $(BUILD)/dev/.built ## the pictures of docs/report-html.md and docs/view.md again, from takes that ship
-	tools/make_pictures $(BUILD)/dev
+pictures: setup $(BUILD)/$(TESTS)/.built ## the pictures of docs/report-html.md and docs/view.md again, from takes that ship
+	tools/make_pictures $(BUILD)/$(TESTS)
 
 fuzz: setup ## fuzz each reader for a minute (FUZZ_SECONDS=60)
 	tools/run_fuzzers $${FUZZ_SECONDS:-60}
