@@ -1,3 +1,5 @@
+#include <tbb/task_group.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -222,12 +224,16 @@ void learn_dictionaries(const SparseTraining& options, std::size_t windows,
     const std::optional<sparse::KsvdState> start =
         restored(stages.kept(stage), sample.values(i).size(), rows);
     const auto keep = [&](const sparse::KsvdState& state) {
+      // Where another poselet has failed, what this one did last was cut off half way.
+      if (tbb::is_current_task_group_canceling()) return false;
       if (state.objective.size() == learning.iterations || stages.is_due(stage))
         stages.keep(stage, stored(state));
+      return !stages.is_stopping();
     };
     poselet.dictionary =
         sparse::ksvd(sample.values(i), rows, learning, keep, start ? &*start : nullptr).dictionary;
   });
+  stages.stop_if_asked();
 }
 
 // `text` is what the file of poselets says.

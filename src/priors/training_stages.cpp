@@ -124,7 +124,7 @@ std::string_view TrainingStages::kept(const std::string& stage) const {
 
 bool TrainingStages::is_due(const std::string& stage) const {
   if (!checkpoint_.keep && !checkpoint_.stop) return false;
-  if (checkpoint_.stop && checkpoint_.stop()) return true;
+  if (is_stopping()) return true;
   const std::lock_guard lock(mutex_);
   const auto last = times_.find(stage);
   return last == times_.end() ||
@@ -132,13 +132,16 @@ bool TrainingStages::is_due(const std::string& stage) const {
 }
 
 void TrainingStages::keep(const std::string& stage, std::string state) {
-  {
-    const std::lock_guard lock(mutex_);
-    states_[stage] = std::move(state);
-    if (checkpoint_.keep) checkpoint_.keep(bytes());
-    times_[stage] = Clock::now();
-  }
-  if (checkpoint_.stop && checkpoint_.stop()) throw TrainingStopped();
+  const std::lock_guard lock(mutex_);
+  states_[stage] = std::move(state);
+  if (checkpoint_.keep) checkpoint_.keep(bytes());
+  times_[stage] = Clock::now();
+}
+
+bool TrainingStages::is_stopping() const { return checkpoint_.stop && checkpoint_.stop(); }
+
+void TrainingStages::stop_if_asked() const {
+  if (is_stopping()) throw TrainingStopped();
 }
 
 }  // namespace kinemend

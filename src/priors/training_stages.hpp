@@ -94,8 +94,12 @@ class TrainingStages {
   std::string_view kept(const std::string& stage) const;
   /// Whether the state of a stage that goes on should be kept now.
   bool is_due(const std::string& stage) const;
-  /// Errors: as of `TrainCheckpoint::keep`; `TrainingStopped` where the training is to end.
+  /// Errors: as of `TrainCheckpoint::keep`.
   void keep(const std::string& stage, std::string state);
+  /// Whether the training is to end, when all stages that run have kept their states.
+  bool is_stopping() const;
+  /// Errors: `TrainingStopped` where it is.
+  void stop_if_asked() const;
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -206,8 +206,10 @@ WienerPrior WienerFit::finish(TrainingStages* stages) const {
   std::optional<MixtureState> start;
   if (stages != nullptr) start = restored_mixture(stages->kept(stage), prior_.rank());
   const auto keep = [&](const MixtureState& state) {
-    if (stages != nullptr && (state.rounds == settings_.rounds || stages->is_due(stage)))
+    if (stages == nullptr) return;
+    if (state.rounds == settings_.rounds || stages->is_due(stage))
       stages->keep(stage, stored_mixture(state));
+    stages->stop_if_asked();
   };
   prior.components = fit_mixture(
       points, {settings_.components, settings_.rounds, settings_.pooling, settings_.seed}, keep,

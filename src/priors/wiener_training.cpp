@@ -68,6 +68,7 @@ double find_windows(const TrainingSequences& sequences, const TrainSettings& set
   writer.value(seconds);
   writer.values(std::span<const char>(fit.stored()));
   settings.stages->keep(stage, writer.take());
+  settings.stages->stop_if_asked();
   return seconds;
 }
 

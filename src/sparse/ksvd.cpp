@@ -256,12 +256,12 @@ class Learning {
 }  // namespace
 
 KsvdResult ksvd(std::span<const float> signals, std::size_t rows, const KsvdSettings& settings,
-                const std::function<void(const KsvdState&)>& after_each, const KsvdState* start) {
+                const std::function<bool(const KsvdState&)>& after_each, const KsvdState* start) {
   Learning learning = start != nullptr ? Learning(signals, rows, settings, *start)
                                        : Learning(signals, rows, settings);
   while (!learning.is_done()) {
     learning.iterate();
-    if (after_each) after_each(learning.state());
+    if (after_each && !after_each(learning.state())) break;
   }
   return learning.finish();
 }

@@ -43,10 +43,10 @@ struct KsvdState {
 /// hardly used, and twins, become the signals that are coded worst; where the objective is none the
 /// better for it they stay. The result does not depend on the number of threads. Errors: none;
 /// fewer signals that are not zero than atoms give fewer atoms. `after_each` sees the state after
-/// each iteration; with one as `start`, of the same signals and settings, the result is as if the
-/// iterations before had been done here.
+/// each iteration, and ends the work where it returns false; with one as `start`, of the same
+/// signals and settings, the result is as if the iterations before had been done here.
 KsvdResult ksvd(std::span<const float> signals, std::size_t rows, const KsvdSettings& settings,
-                const std::function<void(const KsvdState&)>& after_each = {},
+                const std::function<bool(const KsvdState&)>& after_each = {},
                 const KsvdState* start = nullptr);
 
 }  // namespace kinemend::sparse

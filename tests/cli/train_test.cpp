@@ -318,7 +318,7 @@ TEST_F(Train, ShippedModelsBearChecksums) {
 class BrokenOffTraining : public Train {
  protected:
   const std::vector<std::string> words = {"train", "sparse",   "a.bvh",        "b.bvh",
-                                          "-o",    "m.kmodel", "--iterations", "400",
+                                          "-o",    "m.kmodel", "--iterations", "100",
                                           "-q",    "--title",  "Two walks"};
 
   Ran broken_off() {
@@ -346,7 +346,7 @@ TEST_F(BrokenOffTraining, LeavesACheckpointFromWhichTheSameModelComes) {
   EXPECT_EQ(broken.code, 128 + SIGINT);
   EXPECT_EQ(broken.err,
             "stopped; m.kmodel.checkpoint keeps what was done, and this goes on with it:\n"
-            "  kinemend train sparse a.bvh b.bvh -o m.kmodel --iterations 400 -q --title "
+            "  kinemend train sparse a.bvh b.bvh -o m.kmodel --iterations 100 -q --title "
             "'Two walks' --resume\n");
   EXPECT_THAT(files(), ElementsAre("a.bvh", "b.bvh", "m.kmodel.checkpoint"));
 
@@ -357,12 +357,12 @@ TEST_F(BrokenOffTraining, LeavesACheckpointFromWhichTheSameModelComes) {
             "with it, --force begins anew\n");
 
   std::vector<std::string> others = words;
-  others[7] = "401";
+  others[7] = "101";
   others.emplace_back("--resume");
   const Ran refused = run(others);
   EXPECT_EQ(refused.code, 2);
   EXPECT_THAT(refused.err, HasSubstr("m.kmodel.checkpoint: is of another training: iterations was "
-                                     "400, and is 401"));
+                                     "100, and is 101"));
 
   std::vector<std::string> on = words;
   on.emplace_back("--resume");

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <functional>
 #include <string>
 #include <utility>
@@ -100,8 +101,12 @@ TEST_P(EveryCase, GoesOnAfterItWasStoppedTimeAndAgain) {
   std::size_t stops = 0;
   for (; stops < 100; ++stops) {
     TrainCheckpoint checkpoint = starting_at(kept);
-    checkpoint.keep = [&](const std::string& bytes) { kept = bytes; };
-    checkpoint.stop = [] { return true; };
+    std::atomic<bool> got_on = false;
+    checkpoint.keep = [&](const std::string& bytes) {
+      kept = bytes;
+      got_on = true;
+    };
+    checkpoint.stop = [&] { return got_on.load(); };
     try {
       EXPECT_TRUE(trained(GetParam(), checkpoint) == whole);
       break;
