@@ -119,8 +119,7 @@ TEST(PatternPenalty, GoesByFrequenciesWhereThereAreManyBasesAndManyProducts) {
 
 TEST(PatternPenalty, TakesOrthonormalBasesAsTheyAre) {
   WindowBases bases = random_bases(6, 1, 3, 4, 7);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(matrix_of(bases));
-  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(18, 4);
+  const Eigen::MatrixXd q = test::orthonormal(matrix_of(bases));
   for (std::size_t i = 0; i < bases.values.size(); ++i) bases.values[i] = q(i / 4, i % 4);
   const std::vector<double> ones(3, 1.0), others(3, 2.0);
   for (const std::vector<double>& weights : {ones, others}) {

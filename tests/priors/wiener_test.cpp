@@ -399,8 +399,7 @@ TEST(WienerOutliers, AreFoundWhereTheyAreDense) {
 TEST(WienerPrior, TurnsItsChannels) {
   Random random(6);
   const WienerPrior prior = random_prior(random, 1);
-  const Eigen::Matrix3d turn =
-      Eigen::HouseholderQR<Eigen::Matrix3d>(random_matrix(random, 3, 3)).householderQ();
+  const Eigen::Matrix3d turn = test::orthonormal(random_matrix(random, 3, 3));
   const WienerPrior turned = with_turned_channels(prior, std::vector{turn});
   const auto windows_of = [](const VectorXd& x) {
     return MatrixXd(Eigen::Map<const MatrixXd>(x.data(), coefficients, channels));

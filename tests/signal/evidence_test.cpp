@@ -24,8 +24,7 @@ double dense_misfit(const Eigen::VectorXd& y, const SmoothingModel& model, doubl
       variance *
       (d * d.transpose() + Eigen::MatrixXd::Identity(d.rows(), d.rows()) / model.strength);
   const Eigen::VectorXd dy = d * y;
-  return dy.dot(test::solve_symmetric(covariance, dy).col(0)) +
-         test::log_determinant(covariance);
+  return dy.dot(test::solve_symmetric(covariance, dy).col(0)) + test::log_determinant(covariance);
 }
 
 PoseMatrix random_walks(std::size_t frames, std::size_t channels, Random& random) {
