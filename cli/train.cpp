@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -43,7 +44,7 @@ struct Training {
   ReadOptions reading;
   std::string fill;  ///< a method of `fill_methods()`; empty: none
   std::string output, card;
-  std::string checkpoint;  ///< the file; empty: none, as the model goes to standard output
+  std::string checkpoint;  ///< the file; empty: none, as the model goes into no file
   bool kept = false;       ///< this training has written it
   bool force = false, json = false, quiet = false, skip_unreadable = false;
 };
@@ -146,7 +147,10 @@ std::vector<std::string> training_inputs_of(const Arguments& arguments) {
 /// Its file, and with --resume its bytes.
 void find_checkpoint(const Arguments& arguments, Training& training) {
   const bool goes_on = arguments.flag("resume");
-  if (training.output == "-") {
+  std::error_code ignored;
+  const bool is_device = std::filesystem::exists(training.output, ignored) &&
+                         !std::filesystem::is_regular_file(training.output, ignored);
+  if (training.output == "-" || is_device) {
     if (goes_on) throw Error(ErrorKind::usage, "train: --resume needs an --output that is a file");
     return;
   }
@@ -218,9 +222,13 @@ Json summary_json(const ModelFile& file, double training_s) {
 
 /// The command that goes on with this training.
 std::string resuming_command(const Arguments& arguments) {
+  std::vector<std::string> words = arguments.words;
+  // What follows -- is no option.
+  if (!arguments.flag("resume"))
+    words.insert(std::find(words.begin(), words.end(), "--"), "--resume");
   std::string text = "kinemend";
-  for (const std::string& word : arguments.words) text += " " + shell_word(word);
-  return arguments.flag("resume") ? text : text + " --resume";
+  for (const std::string& word : words) text += " " + shell_word(word);
+  return text;
 }
 
 /// While it lives, the first SIGINT or SIGTERM is noted; a second one ends the program.
@@ -250,7 +258,8 @@ class StopRequest {
   }
 
  private:
-  static inline volatile std::sig_atomic_t signal_ = 0;
+  static inline std::atomic<int> signal_ = 0;
+  static_assert(std::atomic<int>::is_always_lock_free);  // as handlers ask
   struct sigaction old_[2] = {};
 };
 

@@ -1,5 +1,7 @@
 #include "priors/training_stages.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 
@@ -53,7 +55,7 @@ void check_same(const std::string& checkpoint, const TrainingFacts& kept,
     for (const auto& [name, value] : *facts) {
       const std::string then = value_of(kept, name), here = value_of(now, name);
       if (then == here) continue;
-      refuse_other(checkpoint, name + " was " + then + ", and is " + here);
+      refuse_other(checkpoint, fmt::format("{} was {}, and is {}", name, then, here));
     }
   }
 }
