@@ -3,10 +3,14 @@ SHELL := /bin/bash
 JOBS ?= $(shell nproc)
 PYTHON ?= /usr/bin/python3
 BUILD := build
-# What `build`, `demo` and `install-test` use: `dev` has the same code in it, with tests and benchmarks beside it.
+# What `build` and `install-test` use: `dev` has the same code in it, with tests and benchmarks beside it.
 PRESET ?= release
-KINEMEND := $(BUILD)/$(PRESET)/cli/kinemend
-DEMO := build/demo
+# What tests, benchmarks and papers use: `dev`, or `ci`, which is quicker as a whole and slower after an edit.
+TESTS ?= dev
+# What `demo` uses, which compiles in two thirds of the time; continuous integration has a program already.
+FIRST ?= demo
+KINEMEND := $(BUILD)/$(FIRST)/cli/kinemend
+DEMO := build/demo_takes
 
 .PHONY: help setup build demo test asan lint format bench bench-quick papers papers-quick pictures fuzz install-test clean
 
@@ -20,7 +24,9 @@ build: setup ## the command line and the library, as they ship
 	cmake --preset $(PRESET) >/dev/null
 	cmake --build --preset $(PRESET) -j $(JOBS)
 
-demo: build ## clean the noisy take that ships with the project
+demo: setup ## clean the noisy take that ships with the project
+	cmake --preset $(FIRST) >/dev/null
+	cmake --build --preset $(FIRST) -j $(JOBS) --target kinemend_cli
 	@mkdir -p $(DEMO)
 	@echo
 	@echo "A noisy walk, examples/takes/noisy_walk.bvh, cleaned by: kinemend clean noisy_walk.bvh"
@@ -35,13 +41,13 @@ demo: build ## clean the noisy take that ships with the project
 	@echo
 	@echo "The clean take is $(DEMO)/noisy_walk.clean.bvh"
 
-$(BUILD)/dev/.built: FORCE
-	cmake --preset dev
-	cmake --build --preset dev -j $(JOBS)
+$(BUILD)/$(TESTS)/.built: FORCE
+	cmake --preset $(TESTS)
+	cmake --build --preset $(TESTS) -j $(JOBS)
 FORCE:
 
-test: setup $(BUILD)/dev/.built ## build and run every test (real takes too where KINEMEND_DATA names a folder)
-	ctest --preset dev -j $(JOBS)
+test: setup $(BUILD)/$(TESTS)/.built ## build and run every test (real takes too where KINEMEND_DATA names a folder)
+	ctest --preset $(TESTS) -j $(JOBS)
 
 asan: setup ## the tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	cmake --preset asan
@@ -54,23 +60,23 @@ lint: setup ## formatting, static analysis and the direction of includes (tools/
 format: ## rewrite every source file in the project's format
 	git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
 
-bench: setup $(BUILD)/dev/.built ## the speed tables, beside SciPy's figures of the same run
-	tools/run_benchmarks $(BUILD)/dev
+bench: setup $(BUILD)/$(TESTS)/.built ## the speed tables, beside SciPy's figures of the same run
+	tools/run_benchmarks $(BUILD)/$(TESTS)
 
-bench-quick: setup $(BUILD)/dev/.built
-	tools/run_benchmarks $(BUILD)/dev --quick
+bench-quick: setup $(BUILD)/$(TESTS)/.built
+	tools/run_benchmarks $(BUILD)/$(TESTS) --quick
 
-papers: setup $(BUILD)/dev/.built ## the papers' own experiments, and the figures of pages, under build/papers (CHECK=1: compared with the stored ones)
-	tools/run_papers $(BUILD)/dev
+papers: setup $(BUILD)/$(TESTS)/.built ## the papers' own experiments, and the figures of pages, under build/papers (CHECK=1: compared with the stored ones)
+	tools/run_papers $(BUILD)/$(TESTS)
 	$(if $(CHECK),tools/check_figures build/papers)
 
 # On takes that the project makes itself, so that the figures are the same everywhere.
-papers-quick: setup $(BUILD)/dev/.built
-	KINEMEND_DATA= tools/run_papers $(BUILD)/dev --quick
+papers-quick: setup $(BUILD)/$(TESTS)/.built
+	KINEMEND_DATA= tools/run_papers $(BUILD)/$(TESTS) --quick
 	tools/check_figures build/papers --quick
 
-pictures: setup $(BUILD)/dev/.built ## every picture of README.md and docs again, by the program from takes that ship
-	tools/make_pictures $(BUILD)/dev
+pictures: setup $(BUILD)/$(TESTS)/.built ## every picture of README.md and docs again, by the program from takes that ship
+	tools/make_pictures $(BUILD)/$(TESTS)
 
 fuzz: setup ## fuzz each reader for a minute (FUZZ_SECONDS=60)
 	tools/run_fuzzers $${FUZZ_SECONDS:-60}

@@ -369,7 +369,7 @@ void plan_index(const Arguments& arguments, const std::vector<std::string>& inpu
   batch.plan.page->command = "clean";
 }
 
-int run(const Arguments& arguments) {
+int run_batch(const Arguments& arguments) {
   Batch batch;
   batch.folder = arguments.text("output_dir");
   if (batch.folder.empty())
@@ -481,7 +481,7 @@ Command batch_command() {
       {"kinemend batch raw -o clean", "every take below raw, to the same place below clean"},
       {"kinemend batch raw -o clean --shard 3/8", "one of eight jobs of a scheduler"},
       {"find raw -name '*.c3d' | kinemend batch --list - -o clean", "a list of takes"}};
-  command.run = run;
+  command.run = run_batch;
   return command;
 }
 

@@ -61,7 +61,7 @@ void check_outputs(const Arguments& arguments) {
   if (!report.empty()) check_free(report, force);
 }
 
-int run(const Arguments& arguments) {
+int run_check(const Arguments& arguments) {
   const bool json = arguments.flag("json"), force = arguments.flag("force");
   const std::string gaps_out = arguments.text("gaps_out"), report_path = arguments.text("report");
   check_outputs(arguments);
@@ -101,7 +101,7 @@ Flag without_default(Flag flag) {
   return flag;
 }
 
-std::vector<Flag> flags() {
+std::vector<Flag> check_flags() {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Flag gaps_out = text_flag(
       "gaps_out", "FILE", "Output", "write frozen and bridged spans as a side file of gaps",
@@ -147,12 +147,12 @@ Command check_command() {
       "finds or that never stand, passes none. --map names feet whose names are not known; of "
       "several people in a file of markers (Ann:LTOE, Bob:LTOE) each is judged by itself.";
   command.positionals = {{"FILE", "take to check; - is standard input", 1, 1000000, {}}};
-  command.flags = flags();
+  command.flags = check_flags();
   command.examples = {
       {"kinemend check walk.c3d", "what is wrong with it"},
       {"kinemend check *.bvh --max-spikes 0 --max-gap-s 0.2", "as a check in a script"},
       {"kinemend check walk.bvh --gaps-out gaps.csv", "the spans that were made up"}};
-  command.run = run;
+  command.run = run_check;
   return command;
 }
 

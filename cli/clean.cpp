@@ -127,7 +127,7 @@ int print_config(const Arguments& arguments) {
   return 0;
 }
 
-int run(const Arguments& arguments) {
+int run_clean(const Arguments& arguments) {
   if (arguments.flag("print_config")) return print_config(arguments);
   if (arguments.positionals.empty())
     throw Error(ErrorKind::usage, "clean: IN is missing (see kinemend clean -h)");
@@ -174,7 +174,7 @@ Command clean_command() {
       {"kinemend clean - < in.bvh > out.bvh", "in a pipeline"},
       {"kinemend clean --preset biomech --print-config > lab.toml",
        "a file of settings to keep and change"}};
-  command.run = run;
+  command.run = run_clean;
   return command;
 }
 

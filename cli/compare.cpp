@@ -133,7 +133,7 @@ Compared compared(const Arguments& arguments) {
   return {std::move(reference), std::move(other), {std::move(facts), std::move(outcome)}};
 }
 
-std::string page_of(const Compared& both, PageSettings settings) {
+std::string comparison_page(const Compared& both, PageSettings settings) {
   const auto& [reference, other, report] = both;
   settings.before_label = "reference";
   settings.after_label = "other";
@@ -146,7 +146,7 @@ std::string page_of(const Compared& both, PageSettings settings) {
                      &shown, settings);
 }
 
-int run(const Arguments& arguments) {
+int run_compare(const Arguments& arguments) {
   const std::string reference_name = arguments.positionals[0];
   const std::string other_name = arguments.positionals[1];
   const std::string report_path = arguments.text("report");
@@ -161,7 +161,8 @@ int run(const Arguments& arguments) {
   const std::string document = report_document("compare", takes);
   if (!report_path.empty()) {
     write_output(report_path,
-                 is_page(report_path) ? page_of(both, page_settings(arguments)) : document, force);
+                 is_page(report_path) ? comparison_page(both, page_settings(arguments)) : document,
+                 force);
   }
   if (json) {
     write_out(document);
@@ -181,7 +182,7 @@ Flag number_without_default(std::string name, std::string unit, double minimum, 
   return flag;
 }
 
-std::vector<Flag> flags() {
+std::vector<Flag> compare_flags() {
   Flag up = text_flag("up", "", "Figures", "vertical axis, for foot_slide (default y)");
   up.spec.choices = {"x", "y", "z"};
   Flag fit = text_flag("fit", "", "Markers", "bring REFERENCE to OTHER first",
@@ -234,7 +235,7 @@ std::vector<Flag> flags() {
 std::string comparison_page(const Arguments& arguments, bool is_served) {
   PageSettings settings = page_settings(arguments);
   settings.is_served = is_served;
-  return page_of(compared(arguments), std::move(settings));
+  return comparison_page(compared(arguments), std::move(settings));
 }
 
 Command compare_command() {
@@ -248,13 +249,13 @@ Command compare_command() {
       "code is 1.";
   command.positionals = {{"REFERENCE", "the truth; - is standard input", 1, 1, {}},
                          {"OTHER", "the take to judge", 1, 1, {}}};
-  command.flags = flags();
+  command.flags = compare_flags();
   command.examples = {{"kinemend compare truth.bvh cleaned.bvh", "all figures"},
                       {"kinemend compare truth.bvh cleaned.bvh --max-geodesic-rms-deg 1.2",
                        "as a check in a script"},
                       {"kinemend compare optical.c3d video.trc --fit gain-offset --per-joint",
                        "one motion seen by two systems: error by frequency, velocity, lag"}};
-  command.run = run;
+  command.run = run_compare;
   return command;
 }
 

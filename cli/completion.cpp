@@ -244,7 +244,7 @@ std::string fish_script() {
   return text;
 }
 
-int run(const Arguments& arguments) {
+int run_completion(const Arguments& arguments) {
   const std::string& shell = arguments.positionals[0];
   if (shell == "bash") {
     write_out(bash_script());
@@ -269,7 +269,7 @@ Command completion_command() {
       "For bash, load it with eval \"$(kinemend completion bash)\"; for zsh, put it into a folder "
       "of $fpath as _kinemend; for fish, into ~/.config/fish/completions/kinemend.fish.";
   command.positionals = {{"SHELL", "bash, zsh or fish", 1, 1, {"bash", "zsh", "fish"}}};
-  command.run = run;
+  command.run = run_completion;
   return command;
 }
 

@@ -111,7 +111,7 @@ class Reader {
   std::string_view name_;
 };
 
-std::string quoted(std::string_view text) {
+std::string toml_quoted(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') {
@@ -128,7 +128,7 @@ std::string quoted(std::string_view text) {
 
 std::string toml_text(const OptionValue& value) {
   const auto* text = std::get_if<std::string>(&value);
-  return text ? quoted(*text) : to_string(value);
+  return text ? toml_quoted(*text) : to_string(value);
 }
 
 std::string comment(std::string_view text) {
@@ -153,7 +153,7 @@ std::string setting_text(const OptionSpec& spec, const std::string& details,
 std::string list_text(const std::vector<std::string>& list) {
   std::vector<std::string> parts;
   parts.reserve(list.size());
-  for (const std::string& part : list) parts.push_back(quoted(part));
+  for (const std::string& part : list) parts.push_back(toml_quoted(part));
   return fmt::format("[{}]", fmt::join(parts, ", "));
 }
 

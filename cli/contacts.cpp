@@ -25,7 +25,7 @@ Clip read_joints(const std::string& input, const ReadOptions& options) {
       fmt::format("{}: contacts are of takes of joints, and these are markers", input_name(input)));
 }
 
-int run(const Arguments& arguments) {
+int run_contacts(const Arguments& arguments) {
   const std::string input = arguments.positionals.front();
   std::string output = arguments.text("output");
   const bool json = arguments.flag("json"), force = arguments.flag("force");
@@ -81,7 +81,7 @@ Command contacts_command() {
       {"kinemend contacts rig.bvh --map names.csv -o rig.contacts",
        "joints whose names are not known"},
       {"kinemend clean dance.bvh --contacts dance.contacts", "holds what it lists"}};
-  command.run = run;
+  command.run = run_contacts;
   return command;
 }
 

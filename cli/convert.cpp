@@ -28,7 +28,7 @@ const Format& format_named(std::string_view name) {
 }
 
 /// OUT, or --output.
-std::string output_of(const Arguments& arguments) {
+std::string converted_output_of(const Arguments& arguments) {
   std::string named = arguments.text("output");
   if (arguments.positionals.size() == 1) {
     if (!named.empty()) return named;
@@ -153,9 +153,9 @@ void check_has_place(const Take& take, const Format& format, const std::string& 
               "convert: AMC needs a skeleton file beside it; name an output file");
 }
 
-int run(const Arguments& arguments) {
+int run_convert(const Arguments& arguments) {
   const std::string input = arguments.positionals[0];
-  const std::string output = output_of(arguments);
+  const std::string output = converted_output_of(arguments);
   const bool force = arguments.flag("force");
   check_free(output, force);
   TakeResult read = read_take(fs::path(input), read_options(arguments));
@@ -241,7 +241,7 @@ Command convert_command() {
       {"kinemend convert 35_01.amc 35_01.bvh", "with the skeleton of 35.asf beside it"},
       {"kinemend convert walk.c3d walk.trc --up y --unit m", "for OpenSim"},
       {"kinemend convert walk.bvh walk.glb", "for viewers and game engines"}};
-  command.run = run;
+  command.run = run_convert;
   return command;
 }
 

@@ -122,7 +122,7 @@ void check_holds_joints(const std::string& name, const std::string& format) {
   }
 }
 
-int run(const Arguments& arguments) {
+int run_corrupt(const Arguments& arguments) {
   const std::string input = arguments.positionals[0];
   const std::string output = arguments.text("output");
   const bool json = arguments.flag("json");
@@ -192,7 +192,7 @@ Command corrupt_command() {
   command.examples = {
       {"kinemend corrupt walk.bvh -o noisy.bvh --damage gaussian:std_deg=1.5 --seed 7",
        "jitter on every joint"}};
-  command.run = run;
+  command.run = run_corrupt;
   return command;
 }
 

@@ -18,7 +18,7 @@ namespace kinemend::cli {
 
 namespace {
 
-void say_outcome(const Report& report, const FillRun& run, const std::string& document) {
+void say_filling(const Report& report, const FillRun& run, const std::string& document) {
   if (run.json) return write_out(document);
   if (run.quiet) return;
   const bool out_is_taken =
@@ -59,14 +59,14 @@ int run_fill(const Arguments& arguments) {
                   : document,
         run.force);
   }
-  say_outcome(filled.report, run, document);
+  say_filling(filled.report, run, document);
   if (!failed) return 0;
   say_error(fmt::format("{}: {} refused, which --strict does not allow; nothing is written", name,
                         counted(refused, "gap")));
   return static_cast<int>(ErrorKind::quality_limit);
 }
 
-Flag method_flag() {
+Flag fill_method_flag() {
   Flag method = text_flag("method", "NAME", "Work", "how to fill", "The methods are listed below.");
   method.letter = 'm';
   method.spec.default_value = std::string("auto");
@@ -75,7 +75,7 @@ Flag method_flag() {
   return method;
 }
 
-Flag gaps_flag() {
+Flag fill_gaps_flag() {
   Flag gaps = text_flag(
       "gaps", "FILE", "Input", "gaps that the take's own format cannot hold",
       "Lines NAME,FIRST,LAST: a joint or marker (* for all), and frames as the "
@@ -85,7 +85,7 @@ Flag gaps_flag() {
   return gaps;
 }
 
-Flag file_flag(std::string name, std::string group, std::string help, std::string details) {
+Flag fill_file_flag(std::string name, std::string group, std::string help, std::string details) {
   Flag flag =
       text_flag(std::move(name), "FILE", std::move(group), std::move(help), std::move(details));
   flag.completion = Completion::file;
@@ -114,7 +114,7 @@ std::vector<Flag> fill_flags() {
       json_flag("print what was done as JSON"),
       lettered('v', switch_flag("verbose", "Output", "list every gap")),
       lettered('q', switch_flag("quiet", "Output", "print warnings and errors only")),
-      method_flag(),
+      fill_method_flag(),
       names,
       text_flag("range", "FIRST:LAST", "Work",
                 "fill gaps within frames 121:240, as the file numbers them, or seconds 1s:2.5s",
@@ -123,15 +123,16 @@ std::vector<Flag> fill_flags() {
       longest,
       switch_flag("fill_all", "Work", "also fill what the rules refuse",
                   "By the best guess there is."),
-      file_flag("plan", "Work", "do what a gap plan says, and nothing else",
-                "A row a gap, as --plan-out writes them: its verdict is fill, force (also what the "
-                "rules refuse) or refuse. Gaps without a row stay."),
-      file_flag("plan_out", "Work",
-                "write the gap plan of this run: a row a gap, to look at and edit",
-                "A table, or FILE.json. With --dry-run no take is written."),
+      fill_file_flag(
+          "plan", "Work", "do what a gap plan says, and nothing else",
+          "A row a gap, as --plan-out writes them: its verdict is fill, force (also what the "
+          "rules refuse) or refuse. Gaps without a row stay."),
+      fill_file_flag("plan_out", "Work",
+                     "write the gap plan of this run: a row a gap, to look at and edit",
+                     "A table, or FILE.json. With --dry-run no take is written."),
       switch_flag("preview", "Work", "into the plan also what every method would make of each gap",
                   "The distance, over the gap, from what the row's own method fills."),
-      gaps_flag()};
+      fill_gaps_flag()};
   append(flags, reading_flags("what needs a repair, and a gap that is refused, is an error"));
   return flags;
 }

@@ -22,7 +22,7 @@ std::string topic_help(const std::string& name) {
                      description_text(found->text));
 }
 
-int run(const Arguments& arguments) {
+int run_help(const Arguments& arguments) {
   if (arguments.positionals.empty()) {
     write_out(program_help(true));
     return 0;
@@ -72,7 +72,7 @@ Command help_command(const std::vector<Command>& others) {
   command.positionals = {std::move(positional)};
   command.examples = {{"kinemend help butterworth", "a method, with its options"},
                       {"kinemend help frames", "how frames are counted"}};
-  command.run = run;
+  command.run = run_help;
   return command;
 }
 

@@ -346,7 +346,7 @@ void measure_noise(Looked& subject) {
     subject.noise.push_back({track.name, track.noise, track.frames_repaired});
 }
 
-int run(const Arguments& arguments) {
+int run_info(const Arguments& arguments) {
   const bool json = arguments.flag("json");
   check_single_use(arguments.positionals, {}, json);
   Json takes = Json::array();
@@ -400,7 +400,7 @@ Command info_command() {
   command.examples = {{"kinemend info walk.bvh --tree", "the skeleton too"},
                       {"kinemend info trial.c3d", "markers, gaps, analog channels, events"},
                       {"kinemend info *.bvh --json", "for programs"}};
-  command.run = run;
+  command.run = run_info;
   return command;
 }
 

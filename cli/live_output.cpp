@@ -17,7 +17,7 @@ namespace kinemend::cli {
 namespace {
 
 constexpr double least_s = 1e-6, buckets_per_factor = 50;  // of e
-constexpr std::chrono::seconds between_attempts{1};
+constexpr std::chrono::seconds between_connections{1};
 constexpr std::size_t most_datagram = 60000;
 
 #ifdef MSG_NOSIGNAL
@@ -102,14 +102,14 @@ void LiveOutput::try_again() {
   next_attempt_.reset();
   socket_ = begin_connection(address_, Transport::tcp);
   is_connected_ = false;
-  if (!socket_) next_attempt_ = LiveClock::now() + between_attempts;
+  if (!socket_) next_attempt_ = LiveClock::now() + between_connections;
 }
 
 void LiveOutput::write_some() {
   if (!is_connected_) {
     if (connection_error(socket_) != 0) {
       socket_.close();
-      next_attempt_ = LiveClock::now() + between_attempts;
+      next_attempt_ = LiveClock::now() + between_connections;
       return;
     }
     is_connected_ = true;
@@ -184,7 +184,7 @@ void LiveOutput::written() {
 void LiveOutput::client_gone() {
   say(fmt::format("{}: the client has gone; it is looked for again", to_string(address_)));
   socket_.close();
-  next_attempt_ = LiveClock::now() + between_attempts;
+  next_attempt_ = LiveClock::now() + between_connections;
   is_connected_ = false;
   offset_ = 0;
   // It will be given the last header before all else.

@@ -41,7 +41,7 @@ std::string text_of_method(const Method& method) {
   return text + table.text();
 }
 
-int run(const Arguments& arguments) {
+int run_methods(const Arguments& arguments) {
   std::vector<const Method*> chosen;
   for (const std::string& name : arguments.positionals) chosen.push_back(&find_method(name));
   if (chosen.empty()) {
@@ -73,7 +73,7 @@ Command methods_command() {
       "range. They are options of kinemend clean.";
   command.positionals = {{"NAME", "method to tell of (default all)", 0, 100, method_names()}};
   command.flags = {json_flag("print JSON instead of text")};
-  command.run = run;
+  command.run = run_methods;
   return command;
 }
 

@@ -76,7 +76,7 @@ int write_map(const std::string& model_name, const Arguments& arguments) {
   return 0;
 }
 
-int run(const Arguments& arguments) {
+int run_models(const Arguments& arguments) {
   const std::string exported = arguments.text("export"), mapped = arguments.text("map");
   if (!exported.empty() && !mapped.empty())
     throw Error(ErrorKind::usage, "models: --export and --map are two things (give one)");
@@ -87,7 +87,7 @@ int run(const Arguments& arguments) {
   return list_models(arguments.flag("json"));
 }
 
-std::vector<Flag> flags() {
+std::vector<Flag> models_flags() {
   Flag exported = text_flag("export", "METHOD", "Work", "write the model that ships for METHOD",
                             "To --output.");
   Flag map = text_flag("map", "MODEL", "Work",
@@ -112,12 +112,12 @@ Command models_command() {
       "Of each model that is part of the program: what it was learned from, under which licence, "
       "by which command, and its checksum. kinemend info tells the same of a model file.";
   command.positionals = {{"TAKE", "take for --map; - is standard input", 0, 1, {}}};
-  command.flags = flags();
+  command.flags = models_flags();
   command.examples = {
       {"kinemend models", "what ships"},
       {"kinemend models --export wiener -o wiener.kmodel", "as a file"},
       {"kinemend models --map walk.kmodel take.bvh -o names.csv", "names to complete by hand"}};
-  command.run = run;
+  command.run = run_models;
   return command;
 }
 

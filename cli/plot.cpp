@@ -129,7 +129,7 @@ Take read(const std::string& input, const Arguments& arguments) {
   return std::move(result.take);
 }
 
-int run(const Arguments& arguments) {
+int run_plot(const Arguments& arguments) {
   const std::vector<std::string>& inputs = arguments.positionals;
   std::string output = arguments.text("output");
   if (output.empty())
@@ -190,7 +190,7 @@ Command plot_command() {
       {"kinemend plot raw.bvh clean.bvh -o curves.svg --track LeftForeArm", "before and after"},
       {"kinemend plot walk.bvh -o strip.svg --what strip", "the motion on one line"},
       {"kinemend plot trial.c3d filled.c3d -o gaps.svg --what gaps", "what was filled"}};
-  command.run = run;
+  command.run = run_plot;
   return command;
 }
 

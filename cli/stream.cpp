@@ -91,7 +91,7 @@ LiveOptions options_of(const Arguments& arguments, const Method& method) {
   return options;
 }
 
-std::unique_ptr<LiveOutput> output_of(const Arguments& arguments) {
+std::unique_ptr<LiveOutput> live_output_of(const Arguments& arguments) {
   const bool tcp = arguments.given("to_tcp"), udp = arguments.given("to_udp");
   if (tcp && udp) throw Error(ErrorKind::usage, "stream: --to-tcp and --to-udp exclude each other");
   const auto queue = static_cast<std::size_t>(arguments.whole("queue"));
@@ -127,12 +127,12 @@ void tell_summary(const LiveSession& session, const LiveOutput& output) {
                   1000 * output.latency().most_s(), delay_ms));
 }
 
-int run(const Arguments& arguments) {
+int run_stream(const Arguments& arguments) {
   const Method& method = find_method(arguments.text("method"));
   const auto cleaner = live_cleaner(method, parse_method_options(method, arguments.group_texts));
   LivePlan plan = plan_of(arguments);
   const LiveOptions options = options_of(arguments, method);
-  const auto output = output_of(arguments);
+  const auto output = live_output_of(arguments);
   LiveClock::time_point came = LiveClock::now();
   if (!plan.quiet) say(fmt::format("method {}", method.name));
   LiveSession session(*cleaner, options, [&](const LivePiece& piece) {
@@ -250,7 +250,7 @@ Command stream_command() {
                        "connects to a server whose lines begin with frame numbers"},
                       {"kinemend stream --udp 7001 --skeleton suit.bvh --method kalman",
                        "a sender without a header"}};
-  command.run = run;
+  command.run = run_stream;
   return command;
 }
 

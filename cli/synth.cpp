@@ -13,7 +13,7 @@ namespace kinemend::cli {
 
 namespace {
 
-int run(const Arguments& arguments) {
+int run_synth(const Arguments& arguments) {
   const std::string output = arguments.text("output");
   if (output.empty())
     throw Error(ErrorKind::usage, "synth: --output is missing (see kinemend synth -h)");
@@ -53,7 +53,7 @@ Command synth_command() {
       switch_flag("t_pose_first", "Work", "put a T-pose before the motion, as in the CMU files"),
       seed_flag("seed of the performer's build and strides")};
   command.examples = {{"kinemend synth walk -o walk.bvh", "six seconds of walking at 120 Hz"}};
-  command.run = run;
+  command.run = run_synth;
   return command;
 }
 

@@ -3,13 +3,19 @@
 #include "kinemend/experimental/train.hpp"
 
 #include <fmt/format.h>
+#include <signal.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <system_error>
 #include <variant>
 
 #include "batch_list.hpp"
@@ -38,6 +44,8 @@ struct Training {
   ReadOptions reading;
   std::string fill;  ///< a method of `fill_methods()`; empty: none
   std::string output, card;
+  std::string checkpoint;  ///< the file; empty: none, as the model goes into no file
+  bool kept = false;       ///< this training has written it
   bool force = false, json = false, quiet = false, skip_unreadable = false;
 };
 
@@ -99,8 +107,8 @@ std::string shell_word(const std::string& word) {
 
 /// The command as it stands on the card, without what has no influence on the model.
 std::string command_text(const Arguments& arguments) {
-  static constexpr std::array<std::string_view, 9> aside = {
-      "force", "json", "quiet", "card", "title", "data", "licence", "figures", "jobs"};
+  static constexpr std::array<std::string_view, 10> aside = {
+      "force", "json", "quiet", "card", "title", "data", "licence", "figures", "jobs", "resume"};
   std::string text = "kinemend train";
   for (const Flag& flag : arguments.command->flags) {
     const std::string& name = flag.spec.name;
@@ -125,7 +133,7 @@ std::string command_text(const Arguments& arguments) {
   return text;
 }
 
-std::vector<std::string> inputs_of(const Arguments& arguments) {
+std::vector<std::string> training_inputs_of(const Arguments& arguments) {
   std::vector<std::string> inputs(arguments.positionals.begin() + 1, arguments.positionals.end());
   if (const std::string list = arguments.text("list"); !list.empty()) {
     const std::vector<std::string> listed = listed_inputs(read_file(list));
@@ -134,6 +142,34 @@ std::vector<std::string> inputs_of(const Arguments& arguments) {
   if (inputs.empty())
     throw Error(ErrorKind::usage, "train: TAKE or --list is missing (see kinemend train -h)");
   return takes_below(inputs);
+}
+
+/// Its file, and with --resume its bytes.
+void find_checkpoint(const Arguments& arguments, Training& training) {
+  const bool goes_on = arguments.flag("resume");
+  std::error_code ignored;
+  const bool is_device = std::filesystem::exists(training.output, ignored) &&
+                         !std::filesystem::is_regular_file(training.output, ignored);
+  if (training.output == "-" || is_device) {
+    if (goes_on) throw Error(ErrorKind::usage, "train: --resume needs an --output that is a file");
+    return;
+  }
+  training.checkpoint = training.output + ".checkpoint";
+  const bool is_there = std::filesystem::exists(training.checkpoint);
+  if (goes_on) {
+    if (!is_there)
+      throw Error(ErrorKind::unreadable_input,
+                  fmt::format("{}: there is no such checkpoint; without --resume the training "
+                              "begins anew",
+                              training.checkpoint));
+    training.settings.checkpoint.name = training.checkpoint;
+    training.settings.checkpoint.start = read_file(training.checkpoint);
+  } else if (is_there && !training.force) {
+    throw Error(ErrorKind::cannot_write,
+                fmt::format("{}: an unfinished training left this; --resume goes on with it, "
+                            "--force begins anew",
+                            training.checkpoint));
+  }
 }
 
 Training training_of(const Arguments& arguments) {
@@ -162,7 +198,7 @@ Training training_of(const Arguments& arguments) {
   training.settings.card = {
       arguments.text("title"), arguments.text("data"), arguments.text("licence"),
       command.empty() ? command_text(arguments) : command, arguments.text("figures")};
-  training.takes = inputs_of(arguments);
+  training.takes = training_inputs_of(arguments);
   const std::string list = arguments.text("list");
   std::vector<std::string> read = training.takes;
   read.push_back(list);
@@ -172,6 +208,7 @@ Training training_of(const Arguments& arguments) {
     check_is_no_input("--card", training.card, inputs);
   }
   check_is_no_input("--card", training.card, {training.output});
+  find_checkpoint(arguments, training);
   return training;
 }
 
@@ -183,18 +220,101 @@ Json summary_json(const ModelFile& file, double training_s) {
   return summary;
 }
 
-int run(const Arguments& arguments) {
+/// The command that goes on with this training.
+std::string resuming_command(const Arguments& arguments) {
+  std::vector<std::string> words = arguments.words;
+  // What follows -- is no option.
+  if (!arguments.flag("resume"))
+    words.insert(std::find(words.begin(), words.end(), "--"), "--resume");
+  std::string text = "kinemend";
+  for (const std::string& word : words) text += " " + shell_word(word);
+  return text;
+}
+
+/// While it lives, the first SIGINT or SIGTERM is noted; a second one ends the program.
+class StopRequest {
+ public:
+  StopRequest() {
+    struct sigaction action = {};
+    action.sa_handler = [](int number) { signal_ = number; };
+    action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
+    sigaction(SIGINT, &action, &old_[0]);
+    sigaction(SIGTERM, &action, &old_[1]);
+  }
+  ~StopRequest() {
+    sigaction(SIGINT, &old_[0], nullptr);
+    sigaction(SIGTERM, &old_[1], nullptr);
+  }
+  StopRequest(const StopRequest&) = delete;
+  StopRequest& operator=(const StopRequest&) = delete;
+
+  static bool came() { return signal_ != 0; }
+  /// Ends the program as the signal would have.
+  [[noreturn]] static void obey() {
+    const int number = signal_;
+    std::signal(number, SIG_DFL);
+    std::raise(number);
+    std::_Exit(128 + number);
+  }
+
+ private:
+  static inline std::atomic<int> signal_ = 0;
+  static_assert(std::atomic<int>::is_always_lock_free);  // as handlers ask
+  struct sigaction old_[2] = {};
+};
+
+/// What the user is told of a training that was stopped.
+void say_stopped(const Training& training, const Arguments& arguments) {
+  if (!training.checkpoint.empty() && std::filesystem::exists(training.checkpoint)) {
+    write_err(fmt::format("stopped; {} keeps what was done, and this goes on with it:\n  {}\n",
+                          training.checkpoint, resuming_command(arguments)));
+  } else {
+    write_err("stopped, with nothing done yet that could be kept\n");
+  }
+}
+
+void remove_checkpoint(const Training& training) {
+  std::error_code ignored;
+  if (!training.checkpoint.empty()) std::filesystem::remove(training.checkpoint, ignored);
+}
+
+Model trained_model(Training& training, ProgressLine& progress) {
+  training.settings.progress = [&](std::string_view stage, double done) {
+    if (StopRequest::came()) throw TrainingStopped();
+    if (!training.quiet) progress.show(stage, done);
+  };
+  TrainCheckpoint& checkpoint = training.settings.checkpoint;
+  checkpoint.stop = StopRequest::came;
+  if (!training.checkpoint.empty()) {
+    checkpoint.keep = [&](const std::string& bytes) {
+      write_file(training.checkpoint, bytes, true);
+      training.kept = true;
+    };
+  }
+  return train_model(training.method, takes_of(training, progress), training.options,
+                     training.settings);
+}
+
+int run_train(const Arguments& arguments) {
   Training training = training_of(arguments);
   std::optional<tbb::global_control> limit;
   if (const auto jobs = static_cast<std::size_t>(arguments.whole("jobs")); jobs > 0)
     limit.emplace(tbb::global_control::max_allowed_parallelism, jobs);
   const auto begin = std::chrono::steady_clock::now();
   ProgressLine progress;
-  training.settings.progress = [&](std::string_view stage, double done) {
-    if (!training.quiet) progress.show(stage, done);
-  };
-  const Model model = train_model(training.method, takes_of(training, progress), training.options,
-                                  training.settings);
+  const StopRequest stop_request;
+  Model model;
+  try {
+    model = trained_model(training, progress);
+  } catch (const TrainingStopped&) {
+    progress.clear();
+    say_stopped(training, arguments);
+    StopRequest::obey();
+  } catch (const Error& error) {
+    // What has no model as it is needs no going on; what could not be written does.
+    if (error.kind() == ErrorKind::usage && training.kept) remove_checkpoint(training);
+    throw;
+  }
   progress.clear();
   const std::string bytes = write_model(model);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
@@ -202,6 +322,7 @@ int run(const Arguments& arguments) {
   write_output(training.output, bytes, training.force);
   const ModelFile file = model_file_of(bytes, training.output);
   if (!training.card.empty()) write_output(training.card, card_markdown(file), training.force);
+  remove_checkpoint(training);
   if (training.json) {
     write_out(json_text(summary_json(file, spent.count())));
   } else if (!training.quiet) {
@@ -220,7 +341,7 @@ Flag names_flag(std::string name, std::string help) {
   return flag;
 }
 
-Flag fill_flag() {
+Flag train_fill_flag() {
   Flag flag = text_flag("fill", "METHOD", "Work", "fill gaps of the takes first",
                         "What the method refuses stays missing, and is not learned from.");
   flag.spec.default_value = std::string("auto");
@@ -230,7 +351,7 @@ Flag fill_flag() {
   return flag;
 }
 
-std::vector<Flag> flags() {
+std::vector<Flag> train_flags() {
   Flag list = text_flag("list", "FILE", "Input", "further takes and folders, one a line",
                         "Blank lines and lines that start with # are left out; - is standard "
                         "input.");
@@ -247,7 +368,7 @@ std::vector<Flag> flags() {
       quiet,
       names_flag("joints", "joints to learn (default all that move)"),
       names_flag("markers", "the same for markers"),
-      fill_flag(),
+      train_fill_flag(),
       seed_flag("seed of all that is drawn at random"),
       jobs_flag(),
       text_flag("title", "TEXT", "Card", "what the model is, in a line"),
@@ -257,7 +378,10 @@ std::vector<Flag> flags() {
       text_flag("figures", "TEXT", "Card", "measured quality"),
       list,
       switch_flag("skip_unreadable", "Input", "leave takes out that cannot be read",
-                  "Without it the first of them ends the training, with exit code 3.")};
+                  "Without it the first of them ends the training, with exit code 3."),
+      switch_flag("resume", "Output", "go on with a training that was broken off",
+                  "From the checkpoint beside the output, with the same takes and options, to the "
+                  "same bytes. Takes are read again.")};
   append(all, reading_flags("what needs a repair becomes an error"));
   return all;
 }
@@ -281,10 +405,12 @@ Command train_command() {
       "out.\n\n"
       "Takes are read one at a time and once. What is learned from is kept in memory up to half a "
       "gigabyte, then in the temporary folder (TMPDIR). The same takes and options give the same "
-      "bytes.";
+      "bytes. While it works, FILE.checkpoint beside the output keeps what is done; Ctrl-C leaves "
+      "it "
+      "and says the command that goes on.";
   command.positionals = {{"METHOD", "which model, see below", 1, 1, train_method_names()},
                          {"TAKE", "take, or folder in which all takes are meant", 0, 1000000, {}}};
-  command.flags = flags();
+  command.flags = train_flags();
   for (const LearnedMethod& method : learned_methods())
     command.groups.push_back({method.name, method.summary, "", method.options});
   command.group_heading = "Options of %";
@@ -294,7 +420,7 @@ Command train_command() {
       {"kinemend train wiener takes -o mine.kmodel --card mine.md --licence CC0",
        "all takes in a folder"},
       {"kinemend clean noisy.bvh --method example --model walk.kmodel", "what it is for"}};
-  command.run = run;
+  command.run = run_train;
   return command;
 }
 

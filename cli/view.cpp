@@ -87,7 +87,7 @@ bool open_in_browser(const std::string& address) {
   return failed == 0;
 }
 
-int run(const Arguments& arguments) {
+int run_view(const Arguments& arguments) {
   ViewFiles files = files_of(arguments);
   if (!has_report_page())
     throw Error(ErrorKind::usage,
@@ -118,16 +118,16 @@ int run(const Arguments& arguments) {
   return 0;
 }
 
-Flag file_flag(std::string name, std::string help) {
+Flag view_file_flag(std::string name, std::string help) {
   Flag flag = text_flag(std::move(name), "FILE", "Output", std::move(help));
   flag.completion = Completion::file;
   return flag;
 }
 
-Flag gaps_flag() {
-  Flag flag = file_flag("gaps",
-                        "samples that count as missing: lines name,first,last (default: none; "
-                        "those that are marked in the page are saved as walk.gaps.csv)");
+Flag view_gaps_flag() {
+  Flag flag = view_file_flag("gaps",
+                             "samples that count as missing: lines name,first,last (default: none; "
+                             "those that are marked in the page are saved as walk.gaps.csv)");
   flag.group = "Input";
   return flag;
 }
@@ -153,9 +153,10 @@ Command view_command() {
   open.spec.default_value = true;
   command.flags = {
       output_flag("where to save the take (default walk.clean.bvh or walk.filled.bvh)"),
-      gaps_flag(),
-      file_flag("contacts", "where to save contacts (default walk.contacts); read where it exists"),
-      file_flag("plan", "where to save the gap plan (default walk.plan.csv)"),
+      view_gaps_flag(),
+      view_file_flag("contacts",
+                     "where to save contacts (default walk.contacts); read where it exists"),
+      view_file_flag("plan", "where to save the gap plan (default walk.plan.csv)"),
       force_flag(),
       whole_flag("port", 0, 0, 65535, "Page", "port of 127.0.0.1; 0: one that is free"),
       open};
@@ -164,7 +165,7 @@ Command view_command() {
                       {"kinemend view walk.bvh walk.clean.bvh", "two takes on one time cursor"},
                       {"kinemend view trial.c3d --no-open --port 8080 -o trial.filled.c3d",
                        "prints the address only"}};
-  command.run = run;
+  command.run = run_view;
   return command;
 }
 

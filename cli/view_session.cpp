@@ -27,11 +27,12 @@ namespace kinemend::cli {
 namespace {
 
 /// Flags that the page may set; what reads or writes a file is not among them.
-constexpr std::array clean_flags = {
+constexpr std::array cleaning_flags = {
     "method",   "strength",      "max_change_deg", "max_change",      "fill",
     "fill_all", "feet",          "fix_swaps",      "peak_loss_limit", "joints",
     "exclude",  "root_position", "range",          "preset"};
-constexpr std::array fill_flags = {"method", "names", "range", "donor", "longest_gap", "fill_all"};
+constexpr std::array filling_flags = {"method", "names",       "range",
+                                      "donor",  "longest_gap", "fill_all"};
 
 const Method* method_of(const Json& flags) {
   const auto named = flags.find("method");
@@ -50,7 +51,7 @@ void check_flag(bool is_fill, const Json& flags, const std::string& name) {
     return std::find(list.begin(), list.end(), name) != list.end();
   };
   const bool known =
-      is_fill ? among(fill_flags) : among(clean_flags) || is_option(method_of(flags), name);
+      is_fill ? among(filling_flags) : among(cleaning_flags) || is_option(method_of(flags), name);
   if (!known) throw Error(ErrorKind::usage, fmt::format("view: the page may not set \"{}\"", name));
 }
 

@@ -20,7 +20,7 @@ namespace kinemend {
 
 namespace {
 
-const OptionTable<AutoOptions>& table() {
+const OptionTable<AutoOptions>& auto_table() {
   static const auto options =
       OptionTable<AutoOptions>()
           .number(&AutoOptions::sensitivity, "sensitivity", "", 0, 4,
@@ -206,7 +206,7 @@ class Auto final : public Cleaner {
 }  // namespace
 
 std::unique_ptr<Cleaner> make_auto(const AutoOptions& options) {
-  table().validate(options);
+  auto_table().validate(options);
   return std::make_unique<Auto>(options);
 }
 
@@ -214,8 +214,8 @@ Method auto_method() {
   return {"auto",
           "measures each joint's noise, repairs spikes, smooths as much as the noise asks and "
           "leaves clean takes alone",
-          "Kinemend; smoothing by evidence after Eilers 2003 and Wahba 1985", table().specs(),
-          [](const OptionValues& values) { return make_auto(table().parse(values)); }};
+          "Kinemend; smoothing by evidence after Eilers 2003 and Wahba 1985", auto_table().specs(),
+          [](const OptionValues& values) { return make_auto(auto_table().parse(values)); }};
 }
 
 }  // namespace kinemend

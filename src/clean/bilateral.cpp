@@ -15,7 +15,7 @@ namespace kinemend {
 
 namespace {
 
-const OptionTable<BilateralOptions>& table() {
+const OptionTable<BilateralOptions>& bilateral_table() {
   static const OptionTable<BilateralOptions> result =
       OptionTable<BilateralOptions>()
           .number(&BilateralOptions::sigma_t_s, "sigma_t_s", "s", 0.001, 1, "temporal width")
@@ -90,7 +90,7 @@ class BilateralStep {
 class BilateralCleaner final : public WindowedCleaner {
  public:
   explicit BilateralCleaner(const BilateralOptions& options) : options_(options) {
-    table().validate(options);
+    bilateral_table().validate(options);
   }
 
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
@@ -162,9 +162,10 @@ std::unique_ptr<Cleaner> make_bilateral(const BilateralOptions& options) {
 }
 
 Method bilateral_method() {
-  return {"bilateral", "edge-preserving filter on the rotations themselves",
-          "Courty 2008, Bilateral Human Motion Filtering", table().specs(),
-          [](const OptionValues& values) { return make_bilateral(table().parse(values)); }};
+  return {
+      "bilateral", "edge-preserving filter on the rotations themselves",
+      "Courty 2008, Bilateral Human Motion Filtering", bilateral_table().specs(),
+      [](const OptionValues& values) { return make_bilateral(bilateral_table().parse(values)); }};
 }
 
 }  // namespace kinemend

@@ -14,7 +14,7 @@ namespace kinemend {
 
 namespace {
 
-const OptionTable<ButterworthOptions>& table() {
+const OptionTable<ButterworthOptions>& butterworth_table() {
   static const auto options =
       OptionTable<ButterworthOptions>()
           .integer(&ButterworthOptions::order, "order", "", 1, 12, "order of one direction")
@@ -105,14 +105,16 @@ class Butterworth final : public Cleaner {
 }  // namespace
 
 std::unique_ptr<Cleaner> make_butterworth(const ButterworthOptions& options) {
-  table().validate(options);
+  butterworth_table().validate(options);
   return std::make_unique<Butterworth>(options);
 }
 
 Method butterworth_method() {
   return {"butterworth", "low-pass filter without delay: fixed cutoff, flat below it",
-          "Butterworth 1930; the usual filter of biomechanics (Winter 1974)", table().specs(),
-          [](const OptionValues& values) { return make_butterworth(table().parse(values)); }};
+          "Butterworth 1930; the usual filter of biomechanics (Winter 1974)",
+          butterworth_table().specs(), [](const OptionValues& values) {
+            return make_butterworth(butterworth_table().parse(values));
+          }};
 }
 
 }  // namespace kinemend

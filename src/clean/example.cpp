@@ -26,7 +26,7 @@ constexpr double tolerance_of_gaps = 1e-3;
 // The paper's p and lambda (sections 3.2 and 3.3), for the paper's solver, whose steps are short.
 constexpr double papers_welsch_deg = 3, papers_lambda = 0.1, tolerance_of_papers = 1e-4;
 
-const OptionTable<ExampleOptions>& table() {
+const OptionTable<ExampleOptions>& example_table() {
   static const auto options =
       OptionTable<ExampleOptions>()
           .text(&ExampleOptions::model, "model",
@@ -205,7 +205,7 @@ std::unique_ptr<Cleaner> make_example(const ExampleOptions& options,
 std::unique_ptr<Cleaner> make_tuned_example(const ExampleOptions& options,
                                             std::shared_ptr<const Model> model,
                                             const ExampleTuning& tuning) {
-  table().validate(options);
+  example_table().validate(options);
   model = model_for("example", options.model, std::move(model));
   return make_prior_cleaner(model, options.map, options.fill,
                             [cleaning = ExampleCleaning(options, model, tuning)](PriorWork& work) {
@@ -217,8 +217,8 @@ Method example_method() {
   return {"example",
           "keeps what patterns learned from clean clips can express",
           "Lou & Chai 2010, Example-based Human Motion Denoising",
-          table().specs(),
-          [](const OptionValues& values) { return make_example(table().parse(values)); },
+          example_table().specs(),
+          [](const OptionValues& values) { return make_example(example_table().parse(values)); },
           true};
 }
 

@@ -14,10 +14,10 @@ namespace kinemend {
 
 namespace {
 
-constexpr double least_noise_deg = 0.05;
+constexpr double least_error_deg = 0.05;
 constexpr double least_variance = 1e-6;  // square degrees: less is rounding
 constexpr double least_strangeness = 1;
-constexpr double rejected_weight = 0.01;
+constexpr double least_rest_weight = 0.01;
 constexpr double known_motion = 1.5, unknown_motion = 5;  // strangeness
 constexpr double believable_rejected = 0.2, unbelievable_rejected = 0.35;
 // Median of what the filter leaves of the measurements within this time, in deviations of the
@@ -88,11 +88,11 @@ std::vector<double> example_noise(const PriorWork& work, double most_kept) {
     const double most = most_kept * taken_away(work, part);
     for (std::size_t c = part_channels * part; c < part_channels * (part + 1); ++c) {
       if (work.noise[c] <= 0) continue;
-      levels[c] = std::max(std::min(work.noise[c], most), least_noise_deg);
+      levels[c] = std::max(std::min(work.noise[c], most), least_error_deg);
       known.push_back(levels[c]);
     }
   }
-  const double typical = std::max(median_of(known), least_noise_deg);
+  const double typical = std::max(median_of(known), least_error_deg);
   for (double& level : levels) level = level > 0 ? level : typical;
   return levels;
 }
@@ -148,7 +148,7 @@ void smooth_rest(const PriorWork& work, const PoseMatrix& weights, const PoseMat
     rest.values[i] = weight * measured + (1 - weight) * cleaned.values[i] - expressed.values[i];
     // In a gap there is nothing outside of what the bases express; a curve that crosses it freely
     // would be no better than one without bases.
-    missing[i] = work.channels.observed[i] != 0 && weight < rejected_weight ? 1 : 0;
+    missing[i] = work.channels.observed[i] != 0 && weight < least_rest_weight ? 1 : 0;
     seen[i % rest.channels] += missing[i] == 0 ? 1 : 0;
   }
   // Of a channel that is mostly rejected the filter's result is all there is.

@@ -16,7 +16,7 @@ namespace {
 // Beyond this many standard deviations the mask is cut.
 constexpr double mask_reach = 4;
 
-const OptionTable<GaussianOptions>& table() {
+const OptionTable<GaussianOptions>& gaussian_table() {
   static const OptionTable<GaussianOptions> result = OptionTable<GaussianOptions>().number(
       &GaussianOptions::width_s, "width_s", "s", 0, 1, "standard deviation of the mask");
   return result;
@@ -153,7 +153,7 @@ class GaussianStep {
 class GaussianCleaner final : public WindowedCleaner {
  public:
   explicit GaussianCleaner(const GaussianOptions& options) : options_(options) {
-    table().validate(options);
+    gaussian_table().validate(options);
   }
 
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
@@ -196,8 +196,8 @@ std::unique_ptr<Cleaner> make_gaussian(const GaussianOptions& options) {
 
 Method gaussian_method() {
   return {"gaussian", "orientation filter with a Gaussian mask",
-          "Lee & Shin 2002; Courty 2008, eq. 2-3", table().specs(),
-          [](const OptionValues& values) { return make_gaussian(table().parse(values)); }};
+          "Lee & Shin 2002; Courty 2008, eq. 2-3", gaussian_table().specs(),
+          [](const OptionValues& values) { return make_gaussian(gaussian_table().parse(values)); }};
 }
 
 }  // namespace kinemend

@@ -14,7 +14,7 @@ namespace kinemend {
 
 namespace {
 
-const OptionTable<HampelOptions>& table() {
+const OptionTable<HampelOptions>& hampel_table() {
   static const auto options =
       OptionTable<HampelOptions>()
           .number(&HampelOptions::window_s, "window_s", "s", 0.01, 5, "length of the whole window")
@@ -32,12 +32,12 @@ struct Rule {
 };
 
 template <class Sample>
-using Track = std::span<const Sample>;
+using SampleTrack = std::span<const Sample>;
 
 template <class Sample>
 class Despiker {
  public:
-  Despiker(Track<Sample> track, const Rule& rule)
+  Despiker(SampleTrack<Sample> track, const Rule& rule)
       : track_(track), rule_(rule), medoids_(track, 2 * rule.half + 1) {}
 
   /// Puts the median of the samples about `t` into `sample` if the one at `t` is a spike. `t` only
@@ -78,7 +78,7 @@ class Despiker {
     return medoids_.distance(beside, t) >= own / 2;
   }
 
-  Track<Sample> track_;
+  SampleTrack<Sample> track_;
   Rule rule_;
   MovingMedoid<Sample> medoids_;
   std::vector<Vec3> scratch_;
@@ -97,7 +97,7 @@ class HampelStep {
 
   Sample step(Sample newest) {
     window_.push(newest);
-    const Track<Sample> samples = window_.samples();
+    const SampleTrack<Sample> samples = window_.samples();
     const Sample own = samples[rule_.half];
     const std::size_t middle = medoid(samples, sums_);
     const double distance = chord(samples[middle], own);
@@ -171,14 +171,14 @@ class Hampel final : public WindowedCleaner {
 }  // namespace
 
 std::unique_ptr<Cleaner> make_hampel(const HampelOptions& options) {
-  table().validate(options);
+  hampel_table().validate(options);
   return std::make_unique<Hampel>(options);
 }
 
 Method hampel_method() {
   return {"hampel", "finds spikes, replaces them, and leaves every other sample alone",
-          "Hampel 1974; Davies & Gather 1993", table().specs(),
-          [](const OptionValues& values) { return make_hampel(table().parse(values)); }};
+          "Hampel 1974; Davies & Gather 1993", hampel_table().specs(),
+          [](const OptionValues& values) { return make_hampel(hampel_table().parse(values)); }};
 }
 
 }  // namespace kinemend

@@ -11,7 +11,7 @@ namespace kinemend {
 
 namespace {
 
-const OptionTable<KalmanOptions>& table() {
+const OptionTable<KalmanOptions>& kalman_table() {
   static const auto options =
       OptionTable<KalmanOptions>()
           .choice(&KalmanOptions::model, "model", {"position", "velocity"},
@@ -163,14 +163,15 @@ class Kalman final : public Cleaner {
 }  // namespace
 
 std::unique_ptr<Cleaner> make_kalman(const KalmanOptions& options) {
-  table().validate(options);
+  kalman_table().validate(options);
   return std::make_unique<Kalman>(options);
 }
 
 Method kalman_method() {
   return {"kalman", "model of steady motion, as smoother or as live filter",
-          "Kalman 1960; Rauch, Tung & Striebel 1965; baseline of Lou & Chai 2010", table().specs(),
-          [](const OptionValues& values) { return make_kalman(table().parse(values)); }};
+          "Kalman 1960; Rauch, Tung & Striebel 1965; baseline of Lou & Chai 2010",
+          kalman_table().specs(),
+          [](const OptionValues& values) { return make_kalman(kalman_table().parse(values)); }};
 }
 
 }  // namespace kinemend

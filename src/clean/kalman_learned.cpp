@@ -15,7 +15,7 @@ namespace kinemend {
 
 namespace {
 
-const OptionTable<KalmanLearnedOptions>& table() {
+const OptionTable<KalmanLearnedOptions>& kalman_learned_table() {
   static const auto options =
       OptionTable<KalmanLearnedOptions>()
           .text(&KalmanLearnedOptions::model, "model",
@@ -46,7 +46,8 @@ std::vector<double> noise_with_spikes(const PriorWork& work) {
   return noise;
 }
 
-void filter(PriorWork& work, const KalmanLearnedOptions& options, const LinearDynamics& learned) {
+void filter_learned(PriorWork& work, const KalmanLearnedOptions& options,
+                    const LinearDynamics& learned) {
   BodyChannels& channels = work.channels;
   std::vector<double> noise = noise_with_spikes(work);
   if (options.noise_deg > 0) {
@@ -67,11 +68,11 @@ void filter(PriorWork& work, const KalmanLearnedOptions& options, const LinearDy
 
 std::unique_ptr<Cleaner> make_kalman_learned(const KalmanLearnedOptions& options,
                                              std::shared_ptr<const Model> model) {
-  table().validate(options);
+  kalman_learned_table().validate(options);
   model = model_for("kalman-learned", options.model, std::move(model));
   return make_prior_cleaner(model, options.map, options.fill,
                             [options, dynamics = dynamics_of(*model)](PriorWork& work) {
-                              filter(work, options, dynamics);
+                              filter_learned(work, options, dynamics);
                             });
 }
 
@@ -79,8 +80,10 @@ Method kalman_learned_method() {
   return {"kalman-learned",
           "how poses follow each other, learned from clips, as Kalman smoother",
           "data-driven Kalman filter of Lou & Chai 2010, section 4.2",
-          table().specs(),
-          [](const OptionValues& values) { return make_kalman_learned(table().parse(values)); },
+          kalman_learned_table().specs(),
+          [](const OptionValues& values) {
+            return make_kalman_learned(kalman_learned_table().parse(values));
+          },
           true};
 }
 

@@ -11,18 +11,18 @@ namespace kinemend {
 
 namespace {
 
-const OptionTable<MedianOptions>& table() {
+const OptionTable<MedianOptions>& median_table() {
   static const auto options = OptionTable<MedianOptions>().number(
       &MedianOptions::window_s, "window_s", "s", 0.001, 2, "length of the whole window");
   return options;
 }
 
 template <class Sample>
-using Track = std::span<const Sample>;
+using SampleTrack = std::span<const Sample>;
 
 // Median of the window about `t`, which shrinks towards the ends and stays centred.
 template <class Sample>
-Sample inner_median(Track<Sample> track, std::size_t t, std::size_t half,
+Sample inner_median(SampleTrack<Sample> track, std::size_t t, std::size_t half,
                     std::vector<Vec3>& scratch) {
   const std::size_t h = std::min({half, t, track.size() - 1 - t});
   if (h == 0) return track[t];
@@ -40,12 +40,13 @@ Vec3 extrapolated(Vec3 near, Vec3 far) { return near + 2.0 * (near - far); }
 template <class Sample>
 Sample end_median(Sample end, Sample near, Sample far, std::vector<Vec3>& scratch) {
   const Sample three[3] = {end, near, extrapolated(near, far)};
-  const Track<Sample> samples(three);
+  const SampleTrack<Sample> samples(three);
   return l1_median(samples, medoid(samples), scratch);
 }
 
 template <class Sample>
-Sample median_at(Track<Sample> track, std::size_t t, std::size_t half, std::vector<Vec3>& scratch) {
+Sample median_at(SampleTrack<Sample> track, std::size_t t, std::size_t half,
+                 std::vector<Vec3>& scratch) {
   const std::size_t last = track.size() - 1;
   if (track.size() < 4 || half == 0 || (t > 0 && t < last)) {
     return inner_median(track, t, half, scratch);
@@ -57,7 +58,7 @@ Sample median_at(Track<Sample> track, std::size_t t, std::size_t half, std::vect
 
 template <class Sample>
 std::vector<Sample> median_track(const std::vector<Sample>& samples, std::size_t half) {
-  const Track<Sample> track(samples);
+  const SampleTrack<Sample> track(samples);
   std::vector<Vec3> scratch;
   MovingMedoid<Sample> medoids(track, 2 * half + 1);
   std::vector<Sample> result(track.size());
@@ -143,14 +144,15 @@ class Median final : public WindowedCleaner {
 }  // namespace
 
 std::unique_ptr<Cleaner> make_median(const MedianOptions& options) {
-  table().validate(options);
+  median_table().validate(options);
   return std::make_unique<Median>(options);
 }
 
 Method median_method() {
   return {"median", "running median: removes short spikes and keeps edges",
-          "Tukey 1977; the median of rotations is Hartley et al.'s L1 mean (2011)", table().specs(),
-          [](const OptionValues& values) { return make_median(table().parse(values)); }};
+          "Tukey 1977; the median of rotations is Hartley et al.'s L1 mean (2011)",
+          median_table().specs(),
+          [](const OptionValues& values) { return make_median(median_table().parse(values)); }};
 }
 
 }  // namespace kinemend

@@ -23,7 +23,7 @@ constexpr double causal_noise_share = 0.8;
 // elsewhere.
 const double travel_window_s = NonlocalOptions{}.window_s;
 
-const OptionTable<NonlocalOptions>& table() {
+const OptionTable<NonlocalOptions>& nonlocal_table() {
   static const OptionTable<NonlocalOptions> result =
       OptionTable<NonlocalOptions>()
           .number(&NonlocalOptions::window_s, "window_s", "s", 0, 60,
@@ -60,7 +60,7 @@ std::size_t radius_frames(double seconds, double frame_rate_hz, std::size_t leas
 class NonlocalCleaner final : public Cleaner {
  public:
   explicit NonlocalCleaner(const NonlocalOptions& options) : options_(options) {
-    table().validate(options);
+    nonlocal_table().validate(options);
     if (options.causal && options.window_s == 0) {
       throw Error(ErrorKind::usage, "window_s: 0 (the whole take) is not to be had with causal");
     }
@@ -216,8 +216,9 @@ std::unique_ptr<Cleaner> make_nonlocal(const NonlocalOptions& options) {
 
 Method nonlocal_method() {
   return {"nonlocal", "averages poses whose surroundings in time are alike",
-          "Dean 2016, Non-local Pose Means for Denoising Motion Capture Data", table().specs(),
-          [](const OptionValues& values) { return make_nonlocal(table().parse(values)); }};
+          "Dean 2016, Non-local Pose Means for Denoising Motion Capture Data",
+          nonlocal_table().specs(),
+          [](const OptionValues& values) { return make_nonlocal(nonlocal_table().parse(values)); }};
 }
 
 }  // namespace kinemend

@@ -7,7 +7,7 @@ namespace kinemend {
 
 namespace {
 
-const OptionTable<OneEuroOptions>& table() {
+const OptionTable<OneEuroOptions>& one_euro_table() {
   static const auto options =
       OptionTable<OneEuroOptions>()
           .number(&OneEuroOptions::min_cutoff_hz, "min_cutoff_hz", "Hz", 0.01, 100,
@@ -77,14 +77,14 @@ class OneEuro final : public Cleaner {
 }  // namespace
 
 std::unique_ptr<Cleaner> make_one_euro(const OneEuroOptions& options) {
-  table().validate(options);
+  one_euro_table().validate(options);
   return std::make_unique<OneEuro>(options);
 }
 
 Method one_euro_method() {
   return {"one-euro", "live filter that smooths at rest and follows in motion",
-          "Casiez, Roussel & Vogel 2012", table().specs(),
-          [](const OptionValues& values) { return make_one_euro(table().parse(values)); }};
+          "Casiez, Roussel & Vogel 2012", one_euro_table().specs(),
+          [](const OptionValues& values) { return make_one_euro(one_euro_table().parse(values)); }};
 }
 
 }  // namespace kinemend

@@ -10,7 +10,7 @@ namespace kinemend {
 
 namespace {
 
-constexpr std::size_t part_channels = 3;
+constexpr std::size_t channels_of_part = 3;
 constexpr double mostly_own = 0.5;     // need
 constexpr double most_deviations = 1;  // of the noise, from what `auto` makes of a sample
 
@@ -52,15 +52,15 @@ std::vector<double> shares_within_noise(const PriorWork& work) {
   const std::size_t parts = work.needs.size();
   std::vector<double> shares(poses.frames * parts, 1);
   for (std::size_t part = 0; part < parts; ++part) {
-    const std::size_t first = part_channels * part;
+    const std::size_t first = channels_of_part * part;
     double noise = 0;
-    for (std::size_t c = first; c < first + part_channels; ++c)
+    for (std::size_t c = first; c < first + channels_of_part; ++c)
       noise += work.noise[c] * work.noise[c];
     const double farthest = most_deviations * most_deviations * noise;
     for (std::size_t f = 0; f < poses.frames; ++f) {
       double change = 0;
       bool counts = true;
-      for (std::size_t c = first; c < first + part_channels; ++c) {
+      for (std::size_t c = first; c < first + channels_of_part; ++c) {
         const std::size_t i = f * poses.channels + c;
         counts = counts && work.channels.observed[i] != 0 && work.suspect[i] == 0;
         change += std::pow(poses(f, c) - work.fallback(f, c), 2);
@@ -98,7 +98,7 @@ void hold_to_needs(PriorWork& work) {
   std::vector<double> offsets(frames);
   std::vector<std::uint8_t> held(frames);
   for (std::size_t c = 0; c < poses.channels; ++c) {
-    const std::size_t part = c / part_channels;
+    const std::size_t part = c / channels_of_part;
     for (std::size_t f = 0; f < frames; ++f) {
       const std::size_t i = f * poses.channels + c;
       const double need = work.needs[part] * shares[f * parts + part];
@@ -140,7 +140,7 @@ bool is_left_alone(const PriorWork& work, std::size_t part, bool fill) {
   if (!fill) return true;
   const std::size_t channels = work.channels.poses.channels;
   for (std::size_t f = 0; f < work.channels.poses.frames; ++f) {
-    if (work.channels.observed[f * channels + part_channels * part] == 0) return false;
+    if (work.channels.observed[f * channels + channels_of_part * part] == 0) return false;
   }
   return true;
 }

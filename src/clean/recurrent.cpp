@@ -18,7 +18,7 @@ namespace kinemend {
 
 namespace {
 
-const OptionTable<RecurrentOptions>& table() {
+const OptionTable<RecurrentOptions>& recurrent_table() {
   static const auto options =
       OptionTable<RecurrentOptions>()
           .text(&RecurrentOptions::model, "model",
@@ -28,7 +28,7 @@ const OptionTable<RecurrentOptions>& table() {
   return options;
 }
 
-void filter(PriorWork& work, const RecurrentNetwork& network, const BodyLayout& layout) {
+void filter_recurrent(PriorWork& work, const RecurrentNetwork& network, const BodyLayout& layout) {
   const std::vector<std::uint8_t>& observed = work.channels.observed;
   std::vector<std::uint8_t> missing = work.suspect;
   for (std::size_t i = 0; i < missing.size(); ++i) {
@@ -70,7 +70,7 @@ void filter_as_in_the_paper(PriorWork& work, const FilterNetwork& network,
 PriorFilter filter_of(const std::shared_ptr<const Model>& model) {
   if (!is_filter_network(*model)) {
     auto network = std::make_shared<const RecurrentNetwork>(recurrent_network_of(*model));
-    return [network, model](PriorWork& work) { filter(work, *network, model->layout); };
+    return [network, model](PriorWork& work) { filter_recurrent(work, *network, model->layout); };
   }
   auto network = std::make_shared<const FilterNetwork>(filter_network_of(*model));
   if (network->inputs.has_masks)
@@ -84,18 +84,19 @@ PriorFilter filter_of(const std::shared_ptr<const Model>& model) {
 
 std::unique_ptr<Cleaner> make_recurrent(const RecurrentOptions& options,
                                         std::shared_ptr<const Model> model) {
-  table().validate(options);
+  recurrent_table().validate(options);
   model = model_for("recurrent", options.model, std::move(model));
   return make_prior_cleaner(model, options.map, options.fill, filter_of(model));
 }
 
 Method recurrent_method() {
-  return {"recurrent",
-          "a network trained on damaged motion corrects what auto makes of the take",
-          "after Mall et al. 2017",
-          table().specs(),
-          [](const OptionValues& values) { return make_recurrent(table().parse(values)); },
-          true};
+  return {
+      "recurrent",
+      "a network trained on damaged motion corrects what auto makes of the take",
+      "after Mall et al. 2017",
+      recurrent_table().specs(),
+      [](const OptionValues& values) { return make_recurrent(recurrent_table().parse(values)); },
+      true};
 }
 
 }  // namespace kinemend

@@ -20,10 +20,10 @@ namespace {
 
 constexpr double outlier_deviations = 5;  // of the noise of a channel
 constexpr double many_outliers = 0.02;
-constexpr double least_noise_deg = 0.05;
-constexpr double least_noise = 2e-4;  // body heights
+constexpr double least_channel_noise_deg = 0.05;
+constexpr double least_point_noise = 2e-4;  // body heights
 
-const OptionTable<SparseOptions>& table() {
+const OptionTable<SparseOptions>& sparse_table() {
   static const auto options =
       OptionTable<SparseOptions>()
           .text(&SparseOptions::model, "model",
@@ -60,7 +60,7 @@ PoseMatrix guess_of(const PriorWork& work, BodyKind kind) {
 // Standard deviation of each point's noise, the same for its axes: median distance from the guide.
 std::vector<double> point_noise(const PoseMatrix& positions, const PoseMatrix& guide,
                                 const std::vector<std::uint8_t>& observed) {
-  std::vector<double> noise(positions.channels, least_noise);
+  std::vector<double> noise(positions.channels, least_point_noise);
   for (std::size_t first = 0; first + 2 < positions.channels; first += 3) {
     std::vector<double> sizes;
     for (std::size_t f = 0; f < positions.frames; ++f) {
@@ -69,7 +69,7 @@ std::vector<double> point_noise(const PoseMatrix& positions, const PoseMatrix& g
         if (observed[i] != 0) sizes.push_back(std::abs(positions.values[i] - guide.values[i]));
       }
     }
-    const double level = std::max(least_noise, deviations_per_median * median_of(sizes));
+    const double level = std::max(least_point_noise, deviations_per_median * median_of(sizes));
     std::fill_n(noise.begin() + static_cast<std::ptrdiff_t>(first), 3, level);
   }
   return noise;
@@ -92,7 +92,7 @@ std::vector<double> noise_about(const PriorWork& work, const PoseMatrix& cleaned
   const std::vector<double> scatter =
       point_noise(work.channels.poses, cleaned, work.channels.observed);
   for (std::size_t c = 0; c < noise.size(); ++c)
-    noise[c] = std::min(noise[c], std::max(scatter[c], least_noise_deg));
+    noise[c] = std::min(noise[c], std::max(scatter[c], least_channel_noise_deg));
   return noise;
 }
 
@@ -150,8 +150,8 @@ PoseMatrix counted(const PriorWork& work) {
   return counts;
 }
 
-void filter(PriorWork& work, const SparseOptions& options, const SparsePrior& prior,
-            const BodyLayout& layout) {
+void filter_sparse(PriorWork& work, const SparseOptions& options, const SparsePrior& prior,
+                   const BodyLayout& layout) {
   if (work.channels.poses.frames == 0) return;
   SparseSettings settings;
   settings.loss = loss_of(options);
@@ -191,11 +191,11 @@ void filter(PriorWork& work, const SparseOptions& options, const SparsePrior& pr
 
 std::unique_ptr<Cleaner> make_sparse(const SparseOptions& options,
                                      std::shared_ptr<const Model> model) {
-  table().validate(options);
+  sparse_table().validate(options);
   model = model_for("sparse", options.model, std::move(model));
   return make_prior_cleaner(model, options.map, options.fill,
                             [options, model, prior = sparse_prior_of(*model)](PriorWork& work) {
-                              filter(work, options, prior, model->layout);
+                              filter_sparse(work, options, prior, model->layout);
                             });
 }
 
@@ -203,8 +203,8 @@ Method sparse_method() {
   return {"sparse",
           "parts of the body as sums of few learned pieces of motion",
           "Xiao et al. 2015, Sparse motion bases selection for human motion denoising",
-          table().specs(),
-          [](const OptionValues& values) { return make_sparse(table().parse(values)); },
+          sparse_table().specs(),
+          [](const OptionValues& values) { return make_sparse(sparse_table().parse(values)); },
           true};
 }
 

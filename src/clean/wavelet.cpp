@@ -14,7 +14,7 @@ std::vector<std::string> families() {
   return names;
 }
 
-const OptionTable<WaveletCleanerOptions>& table() {
+const OptionTable<WaveletCleanerOptions>& wavelet_table() {
   static const auto options =
       OptionTable<WaveletCleanerOptions>()
           .choice(&WaveletCleanerOptions::family, "family", families(),
@@ -55,14 +55,14 @@ class Wavelet final : public Cleaner {
 }  // namespace
 
 std::unique_ptr<Cleaner> make_wavelet(const WaveletCleanerOptions& options) {
-  table().validate(options);
+  wavelet_table().validate(options);
   return std::make_unique<Wavelet>(options);
 }
 
 Method wavelet_method() {
   return {"wavelet", "wavelet shrinkage: adapts to the noise and to sudden motion",
-          "Donoho & Johnstone 1994, 1995", table().specs(),
-          [](const OptionValues& values) { return make_wavelet(table().parse(values)); }};
+          "Donoho & Johnstone 1994, 1995", wavelet_table().specs(),
+          [](const OptionValues& values) { return make_wavelet(wavelet_table().parse(values)); }};
 }
 
 }  // namespace kinemend

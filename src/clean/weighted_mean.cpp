@@ -9,7 +9,7 @@ namespace kinemend {
 
 namespace {
 
-const OptionTable<WeightedMeanOptions>& table() {
+const OptionTable<WeightedMeanOptions>& weighted_mean_table() {
   static const auto options =
       OptionTable<WeightedMeanOptions>().integer(&WeightedMeanOptions::passes, "passes", "", 1, 100,
                                                  "how many times the five-frame mean is taken");
@@ -85,14 +85,16 @@ class WeightedMean final : public WindowedCleaner {
 }  // namespace
 
 std::unique_ptr<Cleaner> make_weighted_mean(const WeightedMeanOptions& options) {
-  table().validate(options);
+  weighted_mean_table().validate(options);
   return std::make_unique<WeightedMean>(options);
 }
 
 Method weighted_mean_method() {
   return {"weighted-mean", "weighted moving mean of five frames, as animators smooth keys",
-          "Smooth Keys of Blender's graph editor", table().specs(),
-          [](const OptionValues& values) { return make_weighted_mean(table().parse(values)); }};
+          "Smooth Keys of Blender's graph editor", weighted_mean_table().specs(),
+          [](const OptionValues& values) {
+            return make_weighted_mean(weighted_mean_table().parse(values));
+          }};
 }
 
 }  // namespace kinemend

@@ -20,7 +20,7 @@ namespace kinemend {
 
 namespace {
 
-const OptionTable<WienerOptions>& table() {
+const OptionTable<WienerOptions>& wiener_table() {
   static const auto options =
       OptionTable<WienerOptions>()
           .text(&WienerOptions::model, "model",
@@ -143,7 +143,7 @@ void filter(PriorWork& work, const WienerOptions& options, const WienerPrior& kn
 
 std::unique_ptr<Cleaner> make_wiener(const WienerOptions& options,
                                      std::shared_ptr<const Model> model) {
-  table().validate(options);
+  wiener_table().validate(options);
   model = model_for("wiener", options.model, std::move(model));
   return make_prior_cleaner(model, options.map, options.fill,
                             [options, prior = wiener_prior_of(*model)](PriorWork& work) {
@@ -155,8 +155,8 @@ Method wiener_method() {
   return {"wiener",
           "posterior mean of short windows under learned covariances, by their evidence",
           "a stronger linear prior than Lou & Chai 2010",
-          table().specs(),
-          [](const OptionValues& values) { return make_wiener(table().parse(values)); },
+          wiener_table().specs(),
+          [](const OptionValues& values) { return make_wiener(wiener_table().parse(values)); },
           true};
 }
 

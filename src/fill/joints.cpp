@@ -19,7 +19,7 @@ namespace {
 // radius of a marker's body.
 constexpr double largest_error_deg = 12.5, largest_error_of_height = 0.0625;
 // What is nearer to a filling than so many of these is no spike. Not swept.
-constexpr double spike_errors = 1.6;
+constexpr double joint_spike_errors = 1.6;
 
 // A track of the take with gaps: joint 0's position is 0, that of translated joint k is k + 1.
 struct Source {
@@ -83,7 +83,7 @@ class JointTake : public GappedTake {
   }
 
   double spike_size(const OpenGap& gap) const override {
-    return spike_errors * largest_error(gap.is_position);
+    return joint_spike_errors * largest_error(gap.is_position);
   }
 
   Filling fill(const OpenGap& gap, FrameSpan span) const override {

@@ -7,7 +7,7 @@ namespace kinemend::fill {
 namespace {
 
 // Of the donor's movement beside the gap. Not swept.
-constexpr double beside_s = 0.3;
+constexpr double pattern_beside_s = 0.3;
 constexpr std::size_t least_beside = 16;
 
 }  // namespace
@@ -18,7 +18,7 @@ Filling fill_by_pattern(const Samples& samples, const MarkerGap& gap,
   const std::size_t donor = request.donor;
   if (donor == gap.marker) return Filling::refused(name, "the marker is its own donor");
   // The donor's frames without a break that hold the gap, and as many beside it as ends need.
-  const std::size_t reach = samples.frames_in(beside_s, least_beside);
+  const std::size_t reach = samples.frames_in(pattern_beside_s, least_beside);
   std::size_t first = gap.span.first, last = gap.span.last;
   for (std::size_t f = first; f <= last; ++f) {
     if (samples.sees(f, donor)) continue;

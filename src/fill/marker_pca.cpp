@@ -15,7 +15,7 @@ namespace {
 constexpr double weight_radius = 0.45;
 constexpr double least_weight = 0.02;
 constexpr std::size_t least_frames = 30;
-constexpr std::size_t most_frames = 1024;  // for speed
+constexpr std::size_t most_pca_frames = 1024;  // for speed
 // Components are kept until they hold this share of the weighted variance.
 constexpr double kept_variance = 0.9999;
 
@@ -96,7 +96,7 @@ Filling fill_by_pca(const Samples& samples, const MarkerGap& gap, const MarkerRe
   constexpr std::string_view name = "pca";
   const std::vector<std::size_t> helpers = helpers_of(samples, gap);
   const std::vector<std::size_t> frames =
-      evenly(frames_showing(samples, gap, helpers), most_frames);
+      evenly(frames_showing(samples, gap, helpers), most_pca_frames);
   if (helpers.size() < least_companions || frames.size() < least_frames) {
     return Filling::refused(
         name,

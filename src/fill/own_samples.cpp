@@ -14,7 +14,8 @@ namespace {
 // Not swept.
 constexpr double longest_curve_s = 0.25;  // of markers
 constexpr std::size_t least_cycles_of_joints = 1, least_cycles_of_markers = 2;
-constexpr std::size_t most_companions = 12, most_shape_frames = 128;  // of the body of a cycle
+constexpr std::size_t most_cycle_companions = 12,
+                      most_cycle_shape_frames = 128;  // of the body of a cycle
 
 }  // namespace
 
@@ -81,14 +82,15 @@ Filling fill_marker_by_cycles(const Samples& samples, const MarkerGap& gap, cons
   constexpr std::string_view name = "cyclic";
   std::vector<std::size_t> markers;
   for (const Companion& companion : companions_of(samples, gap, helpers_of(samples, gap))) {
-    if (markers.size() < most_companions) markers.push_back(companion.marker);
+    if (markers.size() < most_cycle_companions) markers.push_back(companion.marker);
   }
   MarkerGroup body(markers, std::vector<double>(markers.size(), 1.0));
   std::vector<std::size_t> whole;
   for (std::size_t f = 0; f < samples.frames; ++f) {
     if (samples.sees(f, markers)) whole.push_back(f);
   }
-  if (!markers.empty() && !whole.empty()) body.fit_shape(samples, evenly(whole, most_shape_frames));
+  if (!markers.empty() && !whole.empty())
+    body.fit_shape(samples, evenly(whole, most_cycle_shape_frames));
   std::vector<Placement> placements(samples.frames);
   Track track{std::vector<Vec3>(samples.frames), std::vector<std::uint8_t>(samples.frames)};
   for (const std::size_t f : whole) {

@@ -25,8 +25,8 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view schema = "kinemend.gap-plan/1";
 constexpr std::string_view preview_prefix = "preview_";
 
-const std::vector<std::string>& names_of(const Clip& clip) { return clip.skeleton.names; }
-const std::vector<std::string>& names_of(const MarkerClip& clip) { return clip.names; }
+const std::vector<std::string>& track_names_of(const Clip& clip) { return clip.skeleton.names; }
+const std::vector<std::string>& track_names_of(const MarkerClip& clip) { return clip.names; }
 
 std::string_view quantity_of(const Clip& /*clip*/, const PlannedGap& row) {
   return row.is_position ? "position" : "rotation";
@@ -67,7 +67,7 @@ std::string csv_of(const AnyClip& clip, std::span<const PlannedGap> plan) {
   const auto cell = [](std::string_view words) { return words.empty() ? "" : cell_of(words); };
   for (const PlannedGap& row : plan) {
     text += fmt::format("{},{},{},{},{},{:.6g},{},{},{},{},{},{},{},{},{}",
-                        cell_of(names_of(clip)[row.gap.track]), quantity_of(clip, row),
+                        cell_of(track_names_of(clip)[row.gap.track]), quantity_of(clip, row),
                         frame_number(row.gap.first_frame, first),
                         frame_number(row.gap.last_frame, first), row.gap.length(),
                         static_cast<double>(row.gap.length()) / clip.frame_rate_hz,
@@ -84,7 +84,7 @@ std::string csv_of(const AnyClip& clip, std::span<const PlannedGap> plan) {
 template <class AnyClip>
 Json json_of(const AnyClip& clip, const PlannedGap& row) {
   const std::int64_t first = first_frame_number(clip);
-  Json entry = {{"name", names_of(clip)[row.gap.track]},
+  Json entry = {{"name", track_names_of(clip)[row.gap.track]},
                 {"quantity", quantity_of(clip, row)},
                 {"first_frame", frame_number(row.gap.first_frame, first)},
                 {"last_frame", frame_number(row.gap.last_frame, first)},

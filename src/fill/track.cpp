@@ -11,7 +11,7 @@ namespace {
 
 // Not swept. Of a whole turn more in a gap: it has to agree so much better with the velocities,
 // taken over this window, than the shortest way does.
-constexpr double clearly = 0.5;
+constexpr double clearly_shorter = 0.5;
 constexpr double turn_window_s = 0.05;
 
 // Mean angular velocity (radians a frame) over the observed steps from `frame` in one direction.
@@ -41,7 +41,7 @@ Vec3 turn_through(std::span<const Quat> rotations, std::span<const std::uint8_t>
                                mean_velocity(rotations, observed, behind, true, window));
   const Vec3 expected = static_cast<double>(behind - before) * velocity;
   Vec3 best = shortest;
-  double least = clearly * norm(expected - shortest);
+  double least = clearly_shorter * norm(expected - shortest);
   for (const double turns : {-1.0, 1.0}) {
     const Vec3 longer = ((angle + turns * 2 * pi) / angle) * shortest;
     if (norm(expected - longer) >= least) continue;

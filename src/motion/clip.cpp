@@ -9,19 +9,11 @@
 #include "base/quantiles.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
+#include "motion/clip_checks.hpp"
 
 namespace kinemend {
 
 namespace {
-
-bool finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-void check_length(std::size_t actual, std::size_t expected, const char* what) {
-  if (actual != expected) {
-    throw Error(ErrorKind::usage,
-                fmt::format("{}: {} values, expected {}", what, actual, expected));
-  }
-}
 
 struct Turn {
   double mean = 0, largest = 0;  // over joints
@@ -81,7 +73,7 @@ void Clip::validate() const {
     }
   }
   for (std::size_t f = 0; f < frames; ++f) {
-    if (!finite(root_positions[f]))
+    if (!is_finite(root_positions[f]))
       throw Error(ErrorKind::usage, fmt::format("frame {}: root position is not finite", f));
     for (std::size_t j = 0; j < joints; ++j) {
       if (!(std::fabs(norm(rotation(f, j)) - 1) <= 1e-6)) {
@@ -91,7 +83,7 @@ void Clip::validate() const {
       }
     }
   }
-  if (!std::all_of(joint_translations.begin(), joint_translations.end(), finite)) {
+  if (!std::all_of(joint_translations.begin(), joint_translations.end(), is_finite)) {
     throw Error(ErrorKind::usage, "a joint translation is not finite");
   }
 }

@@ -11,17 +11,11 @@
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
+#include "motion/clip_checks.hpp"
 
 namespace kinemend {
 
 namespace {
-
-bool finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-void check_length(std::size_t actual, std::size_t expected, const char* what) {
-  if (actual == expected) return;
-  throw Error(ErrorKind::usage, fmt::format("{}: {} values, expected {}", what, actual, expected));
-}
 
 template <class T>
 std::vector<T> rows(const std::vector<T>& values, std::size_t first, std::size_t last,
@@ -56,7 +50,7 @@ void MarkerClip::validate() const {
   if (!residuals.empty()) check_length(residuals.size(), samples, "residuals");
   if (!is_position.empty()) check_length(is_position.size(), marker_count(), "kinds of points");
   for (std::size_t i = 0; i < samples; ++i) {
-    if (observed[i] == 0 || finite(positions[i])) continue;
+    if (observed[i] == 0 || is_finite(positions[i])) continue;
     throw Error(ErrorKind::usage,
                 fmt::format("frame {}, marker {} \"{}\": the position is not finite",
                             i / marker_count(), i % marker_count(), names[i % marker_count()]));

@@ -8,12 +8,11 @@
 #include <utility>
 
 #include "kinemend/error.hpp"
+#include "motion/clip_checks.hpp"
 
 namespace kinemend {
 
 namespace {
-
-bool finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 void check_channels(const Skeleton& skeleton, std::size_t joint) {
   const auto& channels = skeleton.channels[joint];
@@ -83,7 +82,7 @@ void Skeleton::validate() const {
       throw Error(ErrorKind::usage, fmt::format("joint {} \"{}\": parent {} does not precede it", j,
                                                 names[j], parents[j]));
     }
-    if (!finite(offsets[j])) {
+    if (!is_finite(offsets[j])) {
       throw Error(ErrorKind::usage,
                   fmt::format("joint {} \"{}\": offset is not finite", j, names[j]));
     }
@@ -96,7 +95,7 @@ void Skeleton::validate() const {
   }
   for (const EndSite& site : end_sites) {
     if (site.parent < 0 || site.parent >= static_cast<std::int32_t>(count) ||
-        !finite(site.offset)) {
+        !is_finite(site.offset)) {
       throw Error(ErrorKind::usage,
                   "an end site hangs on no joint or has an offset that is not finite");
     }

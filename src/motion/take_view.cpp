@@ -40,7 +40,7 @@ Track rotation_track(const Clip& clip, std::size_t joint) {
 }
 
 // As `Clip::is_position_observed` counts them.
-Track position_track(const Clip& clip, std::size_t number) {
+Track track_of_positions(const Clip& clip, std::size_t number) {
   Track track;
   track.frames = clip.frame_count();
   const std::size_t translated = clip.translated_joints.size();
@@ -74,7 +74,7 @@ TakeView view_of(const Clip& clip, const Selection& selection) {
   }
   const double bone = typical_bone_length(clip.skeleton);
   for (std::size_t p = 0; p <= clip.translated_joints.size(); ++p) {
-    Track track = position_track(clip, p);
+    Track track = track_of_positions(clip, p);
     track.radian = bone;
     track.selected = p == 0 ? selection.root_position
                             : selection.translations &&

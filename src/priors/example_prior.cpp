@@ -10,7 +10,7 @@ namespace kinemend {
 namespace {
 
 // Variances below this are rounding, square degrees.
-constexpr double least_variance = 1e-6;
+constexpr double least_kept_variance = 1e-6;
 
 const std::vector<double>& variances(const Tensor& tensor, const char* name) {
   for (const double value : tensor.values) {
@@ -74,7 +74,7 @@ ExampleWeights probable_weights(const ExamplePrior& prior, const WindowBases& ba
   const double windows = std::max(overlap, 1.0);
   ExampleWeights weights;
   for (std::size_t c = 0; c < bases.channels; ++c) {
-    const double residual = std::max(prior.bases.residual[c], least_variance);
+    const double residual = std::max(prior.bases.residual[c], least_kept_variance);
     weights.data.push_back(1 / (noise[c] * noise[c]));
     weights.welsch.push_back(welsch_deviations * noise[c]);
     // Motion outside the bases is smooth: samples between two frames of the model are not
@@ -83,7 +83,7 @@ ExampleWeights probable_weights(const ExamplePrior& prior, const WindowBases& ba
   }
   for (std::size_t k = 0; k < bases.count; ++k) {
     weights.coefficients.push_back(
-        1 / (2 * windows * std::max(prior.bases.eigenvalues[k], least_variance)));
+        1 / (2 * windows * std::max(prior.bases.eigenvalues[k], least_kept_variance)));
   }
   return weights;
 }

@@ -28,7 +28,7 @@ struct ExampleTraining {
 constexpr std::size_t largest_window_values = 8192;
 constexpr double lowest_share = 0.001, highest_share = 0.999;
 
-const OptionTable<ExampleTraining>& table() {
+const OptionTable<ExampleTraining>& example_table() {
   static const auto options =
       OptionTable<ExampleTraining>()
           .number(&ExampleTraining::rate_hz, "rate_hz", "Hz", 5, 500,
@@ -58,8 +58,9 @@ std::size_t window_frames(const ExampleTraining& options, std::size_t channels) 
   return frames;
 }
 
-Model train(const TrainingTakes& takes, const OptionValues& values, const TrainSettings& settings) {
-  const ExampleTraining options = table().parse(values);
+Model train_example(const TrainingTakes& takes, const OptionValues& values,
+                    const TrainSettings& settings) {
+  const ExampleTraining options = example_table().parse(values);
   const TrainingSequences sequences =
       encode_takes(takes, settings, options.rate_hz, options.trend_s);
   Model model;
@@ -102,8 +103,8 @@ Model train(const TrainingTakes& takes, const OptionValues& values, const TrainS
 }  // namespace
 
 LearnedMethod example_learned() {
-  return {"example", 1, "filter bases by M-SSA (Lou & Chai 2010, section 3.1)", table().specs(),
-          train};
+  return {"example", 1, "filter bases by M-SSA (Lou & Chai 2010, section 3.1)",
+          example_table().specs(), train_example};
 }
 
 }  // namespace kinemend

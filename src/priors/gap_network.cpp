@@ -11,7 +11,7 @@ namespace kinemend {
 
 namespace {
 
-constexpr std::size_t axes = 3;
+constexpr std::size_t gap_axes = 3;
 constexpr double joining_s = 0.1;
 
 std::vector<std::uint8_t> missing_of(const BodyChannels& channels) {
@@ -26,7 +26,7 @@ FilterTake at_rate(const FilterTake& take, double step) {
   result.channels = take.channels;
   const auto last = static_cast<double>(take.frames - 1);
   result.frames = static_cast<std::size_t>(std::floor(last / step + 1e-9)) + 1;
-  const std::size_t tracks = take.channels / axes;
+  const std::size_t tracks = take.channels / gap_axes;
   for (std::size_t f = 0; f < result.frames; ++f) {
     const double place = static_cast<double>(f) * step;
     const auto before = std::min(static_cast<std::size_t>(place), take.frames - 1);
@@ -38,7 +38,8 @@ FilterTake at_rate(const FilterTake& take, double step) {
     };
     for (std::size_t c = 0; c < take.channels; ++c)
       result.values.push_back(mix(take.values, take.channels, c));
-    for (std::size_t a = 0; a < axes; ++a) result.turning.push_back(mix(take.turning, axes, a));
+    for (std::size_t a = 0; a < gap_axes; ++a)
+      result.turning.push_back(mix(take.turning, gap_axes, a));
     const std::size_t nearest = share < 0.5F ? before : after;
     for (std::size_t n = 0; n < tracks; ++n)
       result.missing.push_back(take.missing[nearest * tracks + n]);
@@ -78,7 +79,7 @@ void fill_span(const std::vector<double>& added, std::size_t channels, std::size
   for (std::size_t f = first; f < last; ++f) {
     const double from_start = std::exp(-static_cast<double>(f - first) / joining_frames);
     const double from_end = std::exp(-static_cast<double>(last - 1 - f) / joining_frames);
-    poses(f, axes + c) += added[f * channels + c] - from_start * at_start - from_end * at_end;
+    poses(f, gap_axes + c) += added[f * channels + c] - from_start * at_start - from_end * at_end;
   }
 }
 
@@ -92,7 +93,7 @@ PoseMatrix filled_by_network(const FilterNetwork& network, const BodyLayout& lay
   if (result.frames < 2) return result;
   const FilterTake take = filter_take_of(bridged, layout);
   const std::vector<double> added = additions(network, take, channels.frame_rate_hz);
-  const std::size_t tracks = take.channels / axes;
+  const std::size_t tracks = take.channels / gap_axes;
   for (std::size_t n = 0; n < tracks; ++n) {
     const auto is_missing = [&](std::size_t f) { return take.missing[f * tracks + n] != 0; };
     for (std::size_t f = 0; f < take.frames; ++f) {
@@ -100,8 +101,8 @@ PoseMatrix filled_by_network(const FilterNetwork& network, const BodyLayout& lay
       std::size_t last = f;
       while (last < take.frames && is_missing(last)) ++last;
       if (last - f == take.frames) break;  // a joint that the take lacks
-      for (std::size_t axis = 0; axis < axes; ++axis)
-        fill_span(added, take.channels, axes * n + axis, f, last,
+      for (std::size_t axis = 0; axis < gap_axes; ++axis)
+        fill_span(added, take.channels, gap_axes * n + axis, f, last,
                   joining_s * channels.frame_rate_hz, result);
       f = last;
     }

@@ -17,7 +17,7 @@ struct KalmanLearnedTraining {
   std::int64_t directions = 0;
 };
 
-const OptionTable<KalmanLearnedTraining>& table() {
+const OptionTable<KalmanLearnedTraining>& kalman_learned_table() {
   static const auto options =
       OptionTable<KalmanLearnedTraining>()
           .number(&KalmanLearnedTraining::rate_hz, "rate_hz", "Hz", 5, 500,
@@ -31,8 +31,9 @@ const OptionTable<KalmanLearnedTraining>& table() {
   return options;
 }
 
-Model train(const TrainingTakes& takes, const OptionValues& values, const TrainSettings& settings) {
-  const KalmanLearnedTraining options = table().parse(values);
+Model train_kalman_learned(const TrainingTakes& takes, const OptionValues& values,
+                           const TrainSettings& settings) {
+  const KalmanLearnedTraining options = kalman_learned_table().parse(values);
   const TrainingSequences sequences = encode_takes(takes, settings, options.rate_hz);
   Model model;
   model.layout = sequences.layout;
@@ -54,7 +55,7 @@ Model train(const TrainingTakes& takes, const OptionValues& values, const TrainS
 
 LearnedMethod kalman_learned_learned() {
   return {"kalman-learned", 1, "linear dynamical system (Lou & Chai 2010, section 4.2)",
-          table().specs(), train};
+          kalman_learned_table().specs(), train_kalman_learned};
 }
 
 }  // namespace kinemend

@@ -18,8 +18,8 @@ using Component = WienerPrior::Component;
 
 constexpr Index clustering_rows = 30;
 constexpr int clustering_rounds = 15;
-constexpr double least_variance = 1e-7;  // square degrees
-constexpr double least_scale = 0.02;     // of the pooled covariance
+constexpr double least_pooled_variance = 1e-7;  // square degrees
+constexpr double least_scale = 0.02;            // of the pooled covariance
 
 // W: the nearest centre of each column.
 std::vector<Index> nearest(const MatrixXd& points, const MatrixXd& centres) {
@@ -92,7 +92,7 @@ std::vector<Component> maximised(const MatrixXd& points, const MatrixXd& shares,
     pooled += scatters.back().sum;
   }
   pooled /= static_cast<double>(points.cols());
-  pooled.diagonal().array() += least_variance;
+  pooled.diagonal().array() += least_pooled_variance;
   const Eigen::LLT<MatrixXd> pooled_factor(pooled);
   std::vector<Component> components;
   for (Scatter& scatter : scatters) {
@@ -125,18 +125,27 @@ MatrixXd shares_of(const MatrixXd& points, const std::vector<Component>& compone
   return shares;
 }
 
-}  // namespace
-
-std::vector<Component> fit_mixture(const MatrixXd& points, const MixtureSettings& settings) {
+MixtureState after_clustering(const MatrixXd& points, const MixtureSettings& settings) {
   const Index count = std::clamp<Index>(static_cast<Index>(settings.components), 1, points.cols());
   const std::vector<Index> labels =
       clusters(points.topRows(std::min(points.rows(), clustering_rows)), count, settings.seed);
   MatrixXd shares = MatrixXd::Zero(points.cols(), count);
   for (Index w = 0; w < points.cols(); ++w) shares(w, labels[static_cast<std::size_t>(w)]) = 1;
-  std::vector<Component> components = maximised(points, shares, settings.pooling);
-  for (std::size_t round = 0; round < settings.rounds && components.size() > 1; ++round)
-    components = maximised(points, shares_of(points, components), settings.pooling);
-  return components;
+  return {0, maximised(points, shares, settings.pooling)};
+}
+
+}  // namespace
+
+std::vector<Component> fit_mixture(const MatrixXd& points, const MixtureSettings& settings,
+                                   const std::function<void(const MixtureState&)>& after_each,
+                                   const MixtureState* start) {
+  MixtureState state = start != nullptr ? *start : after_clustering(points, settings);
+  while (state.rounds < settings.rounds && state.components.size() > 1) {
+    state.components = maximised(points, shares_of(points, state.components), settings.pooling);
+    ++state.rounds;
+    if (after_each) after_each(state);
+  }
+  return state.components;
 }
 
 }  // namespace kinemend

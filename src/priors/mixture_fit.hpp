@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "priors/wiener_prior.hpp"
@@ -16,11 +17,20 @@ struct MixtureSettings {
   std::uint64_t seed = 1;
 };
 
+/// Where expectation maximisation stands.
+struct MixtureState {
+  std::size_t rounds = 0;  ///< done; 0: after k-means
+  std::vector<WienerPrior::Component> components;
+};
+
 /// A mixture of Gaussians fitted to the columns of `points` (R x W, W >= 1) by k-means on the
 /// leading 30 rows and then expectation maximisation. The covariance of a component is shrunk
 /// towards the pooled one, scaled to the component's variance, so that few points in many
-/// dimensions suffice.
-std::vector<WienerPrior::Component> fit_mixture(const Eigen::MatrixXd& points,
-                                                const MixtureSettings& settings);
+/// dimensions suffice. `after_each` sees the state after each round; with one as `start`, of the
+/// same points and settings, the result is as if the rounds before had been done here.
+std::vector<WienerPrior::Component> fit_mixture(
+    const Eigen::MatrixXd& points, const MixtureSettings& settings,
+    const std::function<void(const MixtureState&)>& after_each = {},
+    const MixtureState* start = nullptr);
 
 }  // namespace kinemend

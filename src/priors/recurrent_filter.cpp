@@ -15,7 +15,7 @@ namespace {
 
 // Frames at the network's rate: of a stretch, and by which it reaches into its neighbours, where
 // the weights of both cross over. The network sees 0.5 s about a frame, its kernels 0.4 s.
-constexpr std::size_t hop = 4096, margin = 256;
+constexpr std::size_t hop = 4096, hop_margin = 256;
 // Below it each frame stands for several of the network's, which was trained on no such takes.
 constexpr double least_rate_hz = 45;
 
@@ -108,7 +108,7 @@ class Reader {
 // How much of a frame is a stretch's: 1, and over the margins to 0.
 float weight_of(std::size_t frame, std::size_t begin, std::size_t end, std::size_t frames) {
   const auto ramp = [](double place) {
-    return static_cast<float>(std::clamp(place / static_cast<double>(margin) + 0.5, 0.0, 1.0));
+    return static_cast<float>(std::clamp(place / static_cast<double>(hop_margin) + 0.5, 0.0, 1.0));
   };
   const double at = static_cast<double>(frame) + 0.5;
   const float rises = begin == 0 ? 1.0F : ramp(at - static_cast<double>(begin));
@@ -123,10 +123,10 @@ std::vector<float> correction_of(const RecurrentNetwork& network, const Reader& 
   std::vector<float> correction(frames * channels, 0.0F);
   for (std::size_t begin = 0; begin < frames; begin += hop) {
     // What is left behind the last whole stretch belongs to it.
-    const bool is_last = begin + hop + margin >= frames;
+    const bool is_last = begin + hop + hop_margin >= frames;
     const std::size_t end = is_last ? frames : begin + hop;
-    const std::size_t first = begin - std::min(begin, margin);
-    const std::size_t last = std::min(end + margin, frames);
+    const std::size_t first = begin - std::min(begin, hop_margin);
+    const std::size_t last = std::min(end + hop_margin, frames);
     const std::vector<float> part = ensemble_correction(network, reader.read(first, last));
     for (std::size_t f = first; f < last; ++f) {
       const float weight = weight_of(f, begin, end, frames);

@@ -10,10 +10,10 @@ namespace {
 
 using Floats = std::vector<float>;
 
-constexpr float most_feature = 6;     // deviations: what is beyond counts as this
-constexpr float least_scale = 1e-4F;  // degrees, of features
-constexpr float fade_scale = 0.02F;   // degrees
-constexpr float quick_scale = 0.1F;   // degrees, added to the scale of the quick part of a
+constexpr float most_feature = 6;             // deviations: what is beyond counts as this
+constexpr float least_feature_scale = 1e-4F;  // degrees, of features
+constexpr float fade_scale = 0.02F;           // degrees
+constexpr float quick_scale = 0.1F;           // degrees, added to the scale of the quick part of a
 constexpr float deviations_per_mad = 1.4826F;
 constexpr float least_share_of_rms = 0.25F;
 // Half widths of the kernels, in frames, each three moving averages in a row: deviations of 12, 20,
@@ -149,7 +149,7 @@ void put_features(const RecurrentTake& take, const RecurrentStatistics& statisti
       const std::size_t f = std::min(t * recurrent_step + i, take.frames - 1);
       for (std::size_t c = 0; c < channels; ++c) {
         if (seen[c / 3] == 0) continue;
-        const float s = std::max(input.scales[c], least_scale);
+        const float s = std::max(input.scales[c], least_feature_scale);
         const float a = take.automatic[f * channels + c];
         pose[c] += (a - statistics.mean[c]) / (recurrent_step * statistics.deviation[c]);
         taken[i * channels + c] = bounded(u.row(f)[c] / s);
@@ -161,7 +161,7 @@ void put_features(const RecurrentTake& take, const RecurrentStatistics& statisti
     for (std::size_t c = 0; c < channels; ++c) {
       if (seen[c / 3] == 0) continue;
       pose[c] = bounded(pose[c]);
-      scale[c] = 0.5F * std::log(std::max(input.scales[c], least_scale));
+      scale[c] = 0.5F * std::log(std::max(input.scales[c], least_feature_scale));
       const float* before = pose - (t > 0 ? width : 0);
       change[c] = bounded((pose[c] - before[c]) * statistics.deviation[c] / statistics.speed[c]);
     }

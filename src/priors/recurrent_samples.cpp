@@ -15,7 +15,7 @@ namespace {
 
 constexpr double clean_share = 0.2;
 constexpr double least_speed = 0.75, most_speed = 1.35;
-constexpr double least_noise_deg = 0.15, most_noise_deg = 6;
+constexpr double least_sample_noise_deg = 0.15, most_sample_noise_deg = 6;
 
 std::vector<float> to_floats(const std::vector<double>& values) {
   return {values.begin(), values.end()};
@@ -39,7 +39,7 @@ struct Damaged {
 };
 
 void add_noise(Damaged& take, Random& random) {
-  const double std_deg = log_uniform(random, least_noise_deg, most_noise_deg);
+  const double std_deg = log_uniform(random, least_sample_noise_deg, most_sample_noise_deg);
   const double kind = random.uniform();
   if (kind < 0.3) {
     take.apply("gaussian", {{"std_deg", std_deg}, {"root", random.chance(0.5)}}, random);

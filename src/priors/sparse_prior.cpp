@@ -10,7 +10,7 @@ namespace kinemend {
 
 namespace {
 
-using Shape = std::vector<std::size_t>;
+using TensorShape = std::vector<std::size_t>;
 
 [[noreturn]] void fail(const std::string& tensor) {
   throw Error(ErrorKind::unreadable_input,
@@ -51,7 +51,7 @@ SparsePoints points_of_model(const Model& model) {
   }
   if (count < tracks || count == 0 || (points.kind == BodyKind::markers && count != tracks))
     fail("point_parents");
-  const std::vector<double>& offsets = model.tensor("offsets", Shape{count, 3}).values;
+  const std::vector<double>& offsets = model.tensor("offsets", TensorShape{count, 3}).values;
   for (std::size_t p = 0; p < count; ++p)
     points.offsets.push_back({offsets[3 * p], offsets[3 * p + 1], offsets[3 * p + 2]});
   return points;
@@ -64,7 +64,7 @@ SparsePoselet poselet_of_model(const Model& model, std::size_t number, std::size
   poselet.points = integers_of(model, tensor_name(number, "points"), 0, points);
   const std::size_t channels = poselet.channels();
   const std::vector<double>& mean =
-      model.tensor(tensor_name(number, "mean"), Shape{channels}).values;
+      model.tensor(tensor_name(number, "mean"), TensorShape{channels}).values;
   poselet.mean.assign(mean.begin(), mean.end());
   const std::string name = tensor_name(number, "atoms");
   const Tensor& atoms = model.tensor(name, 3);

@@ -1,9 +1,12 @@
+#include <tbb/task_group.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -16,6 +19,7 @@
 #include "priors/learned_list.hpp"
 #include "priors/sparse_prior.hpp"
 #include "priors/training_sequences.hpp"
+#include "priors/training_stages.hpp"
 #include "sparse/ksvd.hpp"
 
 namespace kinemend {
@@ -34,11 +38,11 @@ struct SparseTraining {
   bool local = false;
 };
 
-constexpr std::size_t largest_window_values = 16'384;
+constexpr std::size_t largest_poselet_window = 16'384;
 // An atom stands for what several windows share.
 constexpr std::size_t least_windows_per_atom = 4;
 
-const OptionTable<SparseTraining>& table() {
+const OptionTable<SparseTraining>& sparse_table() {
   static const auto options =
       OptionTable<SparseTraining>()
           .number(&SparseTraining::rate_hz, "rate_hz", "Hz", 5, 500,
@@ -161,9 +165,52 @@ std::size_t window_count(const TrainingSequences& sequences, std::size_t window)
   return count;
 }
 
-void learn_dictionaries(const SparseTraining& options, std::size_t windows, std::uint64_t seed,
-                        WindowSample& sample, SparsePrior& prior) {
+std::string stored(const sparse::KsvdState& state) {
+  StageWriter writer;
+  writer.value(state.dictionary.rows);
+  writer.value(state.dictionary.atoms);
+  writer.values(state.dictionary.values);
+  writer.value(state.codes.most);
+  writer.values(state.codes.counts);
+  writer.values(state.codes.atoms);
+  writer.values(state.codes.values);
+  writer.values(state.left);
+  writer.values(state.objective);
+  return writer.take();
+}
+
+// Nothing where nothing was kept.
+std::optional<sparse::KsvdState> restored(std::string_view bytes, std::size_t signal_values,
+                                          std::size_t rows) {
+  if (bytes.empty()) return {};
+  sparse::KsvdState state;
+  StageReader reader(bytes);
+  state.dictionary.rows = reader.value<std::size_t>();
+  state.dictionary.atoms = reader.value<std::size_t>();
+  state.dictionary.values = reader.values<float>();
+  state.codes.most = reader.value<std::size_t>();
+  state.codes.counts = reader.values<std::uint32_t>();
+  state.codes.atoms = reader.values<std::uint32_t>();
+  state.codes.values = reader.values<float>();
+  state.left = reader.values<float>();
+  state.objective = reader.values<double>();
+  reader.end();
+  const std::size_t slots = state.codes.counts.size() * state.codes.most;
+  reader.expect(state.dictionary.rows == rows &&
+                state.dictionary.values.size() == state.dictionary.atoms * rows &&
+                state.codes.counts.size() * rows == signal_values &&
+                state.codes.atoms.size() == slots && state.codes.values.size() == slots &&
+                state.left.size() == signal_values);
+  for (const std::uint32_t count : state.codes.counts) reader.expect(count <= state.codes.most);
+  for (const std::uint32_t atom : state.codes.atoms)
+    reader.expect(atom < state.dictionary.atoms || state.dictionary.atoms == 0);
+  return state;
+}
+
+void learn_dictionaries(const SparseTraining& options, std::size_t windows,
+                        const TrainSettings& settings, WindowSample& sample, SparsePrior& prior) {
   const std::size_t most_atoms = std::max<std::size_t>(1, windows / least_windows_per_atom);
+  TrainingStages& stages = *settings.stages;
   for_each_parallel(prior.poselets.size(), sample.values(0).size(), [&](std::size_t i) {
     SparsePoselet& poselet = prior.poselets[i];
     poselet.mean = sample.take_mean(i);
@@ -171,11 +218,22 @@ void learn_dictionaries(const SparseTraining& options, std::size_t windows, std:
     learning.atoms = std::min(static_cast<std::size_t>(options.atoms), most_atoms);
     learning.sparsity = static_cast<std::size_t>(options.sparsity);
     learning.iterations = static_cast<std::size_t>(options.iterations);
-    learning.seed = seed + i;
+    learning.seed = settings.seed + i;
+    const std::size_t rows = prior.window_frames * poselet.channels();
+    const std::string stage = "dictionary of " + poselet.name;
+    const std::optional<sparse::KsvdState> start =
+        restored(stages.kept(stage), sample.values(i).size(), rows);
+    const auto keep = [&](const sparse::KsvdState& state) {
+      // Where another poselet has failed, what this one did last was cut off half way.
+      if (tbb::is_current_task_group_canceling()) return false;
+      if (state.objective.size() == learning.iterations || stages.is_due(stage))
+        stages.keep(stage, stored(state));
+      return !stages.is_stopping();
+    };
     poselet.dictionary =
-        sparse::ksvd(sample.values(i), prior.window_frames * poselet.channels(), learning)
-            .dictionary;
+        sparse::ksvd(sample.values(i), rows, learning, keep, start ? &*start : nullptr).dictionary;
   });
+  stages.stop_if_asked();
 }
 
 // `text` is what the file of poselets says.
@@ -185,12 +243,14 @@ std::vector<SparsePoselet> poselets_for(const SparseTraining& options, const std
   return parse_poselets(text, options.poselets, layout, points);
 }
 
-Model train(const TrainingTakes& takes, const OptionValues& values, const TrainSettings& settings) {
-  const SparseTraining options = table().parse(values);
+Model train_sparse(const TrainingTakes& takes, const OptionValues& values,
+                   const TrainSettings& settings) {
+  const SparseTraining options = sparse_table().parse(values);
   if (options.whole && !options.poselets.empty())
     throw Error(ErrorKind::usage, "poselets, whole: one or the other");
   const std::string poselet_text =
       options.poselets.empty() ? std::string() : file_bytes(options.poselets);
+  settings.stages->see(poselet_text);
   std::vector<Clip> frames;
   const TrainingSequences sequences =
       encode_takes(keeping_frames(takes, frames), settings, options.rate_hz);
@@ -209,9 +269,9 @@ Model train(const TrainingTakes& takes, const OptionValues& values, const TrainS
                                       std::to_string(window) + " frames, which is a window");
   }
   for (const SparsePoselet& poselet : prior.poselets) {
-    if (window * poselet.channels() > largest_window_values)
+    if (window * poselet.channels() > largest_poselet_window)
       throw Error(ErrorKind::usage, "window_frames: a window of the " + poselet.name +
-                                        " has more than " + std::to_string(largest_window_values) +
+                                        " has more than " + std::to_string(largest_poselet_window) +
                                         " values; take a shorter window");
   }
   const std::vector<std::size_t> numbers =
@@ -220,7 +280,7 @@ Model train(const TrainingTakes& takes, const OptionValues& values, const TrainS
   model.seconds = for_each_sequence(
       sequences, window, settings,
       [&](const TrainingSequence& sequence) { sample.add(sequence.poses, model.layout); });
-  learn_dictionaries(options, numbers.size(), settings.seed, sample, prior);
+  learn_dictionaries(options, numbers.size(), settings, sample, prior);
   for (const SparsePoselet& poselet : prior.poselets) {
     if (poselet.dictionary.atoms == 0)
       throw Error(ErrorKind::usage, "nothing moves in these takes");
@@ -233,7 +293,7 @@ Model train(const TrainingTakes& takes, const OptionValues& values, const TrainS
 
 LearnedMethod sparse_learned() {
   return {"sparse", 1, "dictionaries of poselets by K-SVD (Xiao et al. 2015, section 3.2)",
-          table().specs(), train};
+          sparse_table().specs(), train_sparse};
 }
 
 }  // namespace kinemend

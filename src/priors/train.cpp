@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+
 #include "base/named_table.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/version.hpp"
 #include "priors/learned_list.hpp"
+#include "priors/training_stages.hpp"
 
 namespace kinemend {
 
@@ -19,6 +23,23 @@ OptionValues checked_options(const LearnedMethod& method, const OptionValues& va
     checked[name] = check_option(spec, value);
   }
   return checked;
+}
+
+// All that the bytes of the model depend on beside the takes and the card.
+TrainingFacts facts_of(const LearnedMethod& method, const OptionValues& checked,
+                       const TrainSettings& settings) {
+  TrainingFacts facts = {{"method", fmt::format("{} {}", method.name, method.version)},
+                         {"kinemend", std::string(version())}};
+  for (const OptionSpec& option : method.options) {
+    const auto given = checked.find(option.name);
+    facts.emplace_back(option.name,
+                       to_string(given == checked.end() ? option.default_value : given->second));
+  }
+  facts.emplace_back("seed", fmt::format("{}", settings.seed));
+  facts.emplace_back("names", settings.names.empty()
+                                  ? std::string("all that move")
+                                  : fmt::format("{}", fmt::join(settings.names, ",")));
+  return facts;
 }
 
 }  // namespace
@@ -59,7 +80,10 @@ Model train_model(std::string_view method, const TrainingTakes& takes, const Opt
                   const TrainSettings& settings) {
   const LearnedMethod& entry = find_learned_method(method);
   const OptionValues checked = checked_options(entry, values);
-  Model model = entry.train(takes, checked, settings);
+  TrainSettings own = settings;
+  own.stages = std::make_shared<TrainingStages>(std::move(own.checkpoint),
+                                                facts_of(entry, checked, settings));
+  Model model = entry.train(takes, checked, own);
   model.method = entry.name;
   model.version = entry.version;
   model.card = settings.card;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "priors/take_store.hpp"
+#include "priors/training_stages.hpp"
 
 namespace kinemend {
 
@@ -77,13 +79,18 @@ BodyChannels channels_at_rate(AnyClip clip, const BodyLayout& layout, double rat
   return encode_body(clip, layout, match_body(layout, clip));
 }
 
+std::string_view bytes_of(const std::vector<double>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)};
+}
+
 void add_sequences(const BodyChannels& channels, std::size_t phases, std::size_t take,
-                   TrainingSequences& sequences) {
+                   TrainingStages* stages, TrainingSequences& sequences) {
   for (const Stretch& stretch : whole_stretches(channels)) {
     for (std::size_t phase = 0; phase < phases && stretch.first + phase < stretch.last; ++phase) {
       const PoseMatrix poses = thinned(channels.poses, stretch.first + phase, stretch.last, phases);
       sequences.entries.push_back({poses.frames, 1 / static_cast<double>(phases), take});
       append_values<double>(sequences.values, poses.values);
+      if (stages != nullptr) stages->see(bytes_of(poses.values));
     }
   }
 }
@@ -122,8 +129,9 @@ TrainingSequences encode_takes(const TrainingTakes& takes, const TrainSettings& 
                                   phases);
         },
         store.take(i));
-    add_sequences(channels, phases, i, sequences);
+    add_sequences(channels, phases, i, settings.stages.get(), sequences);
   }
+  if (settings.stages) settings.stages->end_of_takes();
   return sequences;
 }
 

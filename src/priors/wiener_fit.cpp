@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "kinemend/error.hpp"
@@ -28,6 +30,55 @@ bool jumps(const PoseMatrix& poses, std::size_t first, std::size_t last) {
     }
   }
   return false;
+}
+
+void write_matrix(const MatrixXd& matrix, StageWriter& writer) {
+  writer.value(matrix.rows());
+  writer.value(matrix.cols());
+  writer.values(std::span<const double>(matrix.data(), static_cast<std::size_t>(matrix.size())));
+}
+
+MatrixXd read_matrix(StageReader& reader) {
+  const auto rows = reader.value<Index>(), columns = reader.value<Index>();
+  const std::vector<double> values = reader.values<double>();
+  const auto count = static_cast<Index>(values.size());
+  reader.expect(rows >= 0 && columns >= 0 &&
+                (rows == 0 ? count == 0 : count % rows == 0 && count / rows == columns));
+  return Eigen::Map<const MatrixXd>(values.data(), rows, columns);
+}
+
+VectorXd read_vector(StageReader& reader) {
+  const MatrixXd matrix = read_matrix(reader);
+  reader.expect(matrix.cols() == 1);
+  return matrix.col(0);
+}
+
+std::string stored_mixture(const MixtureState& state) {
+  StageWriter writer;
+  writer.value(state.rounds);
+  writer.value(state.components.size());
+  for (const WienerPrior::Component& component : state.components) {
+    writer.value(component.weight);
+    write_matrix(component.mean, writer);
+    write_matrix(component.covariance, writer);
+  }
+  return writer.take();
+}
+
+std::optional<MixtureState> restored_mixture(std::string_view bytes, Index rank) {
+  if (bytes.empty()) return {};
+  StageReader reader(bytes);
+  MixtureState state;
+  state.rounds = reader.value<std::size_t>();
+  for (auto left = reader.value<std::size_t>(); left > 0; --left) {
+    const auto weight = reader.value<double>();
+    VectorXd mean = read_vector(reader);
+    MatrixXd covariance = read_matrix(reader);
+    reader.expect(mean.size() == rank && covariance.rows() == rank && covariance.cols() == rank);
+    state.components.push_back({weight, std::move(mean), std::move(covariance)});
+  }
+  reader.end();
+  return state;
 }
 
 }  // namespace
@@ -120,12 +171,49 @@ void WienerFit::add_windows(const PoseMatrix& sequence) {
   }
 }
 
-WienerPrior WienerFit::finish() const {
+std::string WienerFit::stored() const {
+  StageWriter writer;
+  write_matrix(prior_.mean, writer);
+  write_matrix(prior_.basis, writer);
+  write_matrix(prior_.rest, writer);
+  writer.value(sample_.size());
+  for (const VectorXd& window : sample_) write_matrix(window, writer);
+  return writer.take();
+}
+
+void WienerFit::restore(std::string_view bytes) {
+  StageReader reader(bytes);
+  prior_.window_s = settings_.window_s;
+  prior_.mean = read_vector(reader);
+  prior_.basis = read_matrix(reader);
+  prior_.rest = read_matrix(reader);
+  sample_.clear();
+  for (auto left = reader.value<std::size_t>(); left > 0; --left) {
+    sample_.push_back(read_vector(reader));
+    reader.expect(sample_.back().size() == prior_.basis.cols());
+  }
+  reader.end();
+  reader.expect(prior_.mean.size() == channels_ * coefficients_ &&
+                prior_.basis.rows() == prior_.mean.size() && prior_.rest.rows() == channels_ &&
+                prior_.rest.cols() == frames_);
+}
+
+WienerPrior WienerFit::finish(TrainingStages* stages) const {
   MatrixXd points(prior_.rank(), static_cast<Index>(sample_.size()));
   for (std::size_t w = 0; w < sample_.size(); ++w) points.col(static_cast<Index>(w)) = sample_[w];
   WienerPrior prior = prior_;
+  const std::string stage = "mixture";
+  std::optional<MixtureState> start;
+  if (stages != nullptr) start = restored_mixture(stages->kept(stage), prior_.rank());
+  const auto keep = [&](const MixtureState& state) {
+    if (stages == nullptr) return;
+    if (state.rounds == settings_.rounds || stages->is_due(stage))
+      stages->keep(stage, stored_mixture(state));
+    stages->stop_if_asked();
+  };
   prior.components = fit_mixture(
-      points, {settings_.components, settings_.rounds, settings_.pooling, settings_.seed});
+      points, {settings_.components, settings_.rounds, settings_.pooling, settings_.seed}, keep,
+      start ? &*start : nullptr);
   return prior;
 }
 

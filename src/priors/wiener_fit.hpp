@@ -4,9 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "kinemend/experimental/pose_matrix.hpp"
+#include "priors/training_stages.hpp"
 #include "priors/wiener_prior.hpp"
 #include "priors/window_moments.hpp"
 
@@ -38,7 +41,11 @@ class WienerFit {
   /// Between the passes. Errors: `ErrorKind::usage` when there was no window.
   void find_basis();
   void add_windows(const PoseMatrix& sequence);
-  WienerPrior finish() const;
+  /// After both passes: what they found, and a fit that had found it. Errors: as of `StageReader`.
+  std::string stored() const;
+  void restore(std::string_view bytes);
+  /// Goes on with, and keeps, the state of the stage "mixture" where there are `stages`.
+  WienerPrior finish(TrainingStages* stages = nullptr) const;
 
  private:
   // One column per window, all N coefficients, channel-major; none of windows in which a channel

@@ -26,8 +26,8 @@ constexpr double clearly = 0.95;        // of the filter's risk
 constexpr double fewest_counted = 0.8;  // share of samples
 constexpr std::uint64_t probe_seed = 7;
 
-constexpr double most_of_typical = 25;   // a single difference, of the typical variance
-constexpr double least_variance = 1e-6;  // square degrees
+constexpr double most_of_typical = 25;         // a single difference, of the typical variance
+constexpr double least_guard_variance = 1e-6;  // square degrees
 constexpr double gap_fade_s = 0.1;
 
 // A filtered take, and D: the mean of d x_t / d y_t.
@@ -118,7 +118,7 @@ class Guard {
                         most_of_typical * typical);
         count += 1;
       }
-      variance_[d] = std::max(count > 0 ? sum / count : typical, least_variance);
+      variance_[d] = std::max(count > 0 ? sum / count : typical, least_guard_variance);
     }
   }
 

@@ -21,7 +21,7 @@ constexpr int largest_noise_octave = 6;
 constexpr double noise_coefficients = 20;  // weight of the take's noise in a window
 constexpr double motionless_hz = 35;       // motion above it is negligible
 constexpr double prior_windows = 8;
-constexpr double least_variance = 1e-9;  // square degrees
+constexpr double least_rest_variance = 1e-9;  // square degrees
 constexpr std::size_t scale_count = 2 * largest_octave + 1;
 constexpr std::size_t noise_count = largest_noise_octave - least_noise_octave + 1;
 
@@ -88,7 +88,7 @@ void RestModel::learn(double window_weight) {
       const double mean = signal.segment(band.first, band.last - band.first + 1).mean();
       variance(k, d) = (windows * std::max(mean, 0.0) + prior_windows * prior_(k, d)) /
                            (windows + prior_windows) +
-                       least_variance;
+                       least_rest_variance;
     }
   }
   scales_.clear();

@@ -1,8 +1,13 @@
 #include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "kinemend/experimental/train.hpp"
 #include "priors/learned_list.hpp"
 #include "priors/training_sequences.hpp"
+#include "priors/training_stages.hpp"
 #include "priors/wiener_fit.hpp"
 
 namespace kinemend {
@@ -19,7 +24,7 @@ struct WienerTraining {
   std::int64_t windows = 12'000;
 };
 
-const OptionTable<WienerTraining>& table() {
+const OptionTable<WienerTraining>& wiener_table() {
   static const auto options =
       OptionTable<WienerTraining>()
           .number(&WienerTraining::rate_hz, "rate_hz", "Hz", 10, 500,
@@ -38,8 +43,38 @@ const OptionTable<WienerTraining>& table() {
   return options;
 }
 
-Model train(const TrainingTakes& takes, const OptionValues& values, const TrainSettings& settings) {
-  const WienerTraining options = table().parse(values);
+// Both passes over the motion, or what they found before. Returns the seconds of motion.
+double find_windows(const TrainingSequences& sequences, const TrainSettings& settings,
+                    WienerFit& fit) {
+  const std::string stage = "windows";
+  if (const std::string_view kept = settings.stages->kept(stage); !kept.empty()) {
+    StageReader reader(kept);
+    const auto seconds = reader.value<double>();
+    const std::vector<char> state = reader.values<char>();
+    fit.restore({state.data(), state.size()});
+    return seconds;
+  }
+  const double seconds = for_each_sequence(
+      sequences, fit.window_frames(), settings, [&](const TrainingSequence& sequence) {
+        for_each_half(sequence, sequences.takes, fit.window_frames(),
+                      [&](std::size_t half, const PoseMatrix& poses) {
+                        fit.add_moments(poses, sequence.weight, half);
+                      });
+      });
+  fit.find_basis();
+  for_each_sequence(sequences, fit.window_frames(), settings,
+                    [&](const TrainingSequence& sequence) { fit.add_windows(sequence.poses); });
+  StageWriter writer;
+  writer.value(seconds);
+  writer.values(std::span<const char>(fit.stored()));
+  settings.stages->keep(stage, writer.take());
+  settings.stages->stop_if_asked();
+  return seconds;
+}
+
+Model train_wiener(const TrainingTakes& takes, const OptionValues& values,
+                   const TrainSettings& settings) {
+  const WienerTraining options = wiener_table().parse(values);
   const TrainingSequences sequences = encode_takes(takes, settings, options.rate_hz);
   Model model;
   model.layout = sequences.layout;
@@ -55,25 +90,16 @@ Model train(const TrainingTakes& takes, const OptionValues& values, const TrainS
   fitting.windows = static_cast<std::size_t>(options.windows);
   fitting.seed = settings.seed;
   WienerFit fit(model.layout.channel_count(), fitting);
-  model.seconds = for_each_sequence(sequences, fit.window_frames(), settings,
-                                    [&](const TrainingSequence& sequence) {
-                                      for_each_half(sequence, sequences.takes, fit.window_frames(),
-                                                    [&](std::size_t half, const PoseMatrix& poses) {
-                                                      fit.add_moments(poses, sequence.weight, half);
-                                                    });
-                                    });
-  fit.find_basis();
-  for_each_sequence(sequences, fit.window_frames(), settings,
-                    [&](const TrainingSequence& sequence) { fit.add_windows(sequence.poses); });
-  store_wiener_prior(fit.finish(), model);
+  model.seconds = find_windows(sequences, settings, fit);
+  store_wiener_prior(fit.finish(settings.stages.get()), model);
   return model;
 }
 
 }  // namespace
 
 LearnedMethod wiener_learned() {
-  return {"wiener", 1, "mixture of Gaussians over windows, in a temporal DCT", table().specs(),
-          train};
+  return {"wiener", 1, "mixture of Gaussians over windows, in a temporal DCT",
+          wiener_table().specs(), train_wiener};
 }
 
 }  // namespace kinemend

@@ -22,7 +22,7 @@ namespace {
 
 using Point = Svg::Point;
 
-constexpr double width = 960, height = 240, ground = 206, tallest = 176;  // pixels
+constexpr double strip_width = 960, height = 240, ground = 206, tallest = 176;  // pixels
 
 /// Points of a pose, none for one that is missing, and which of them are joined.
 struct Poses {
@@ -152,14 +152,14 @@ std::string film_strip(const Take& before, const Take* after, FrameSpanToDraw sp
                                               before.frame_count(), after->frame_count()));
   }
   const std::vector<std::size_t> frames = moments_of(before.frame_count(), span, count);
-  Svg svg(width, height, "poses");
+  Svg svg(strip_width, height, "poses");
   svg.open_group(inks::font);
-  svg.line({20, ground + 3}, {width - 20, ground + 3}, "stroke=\"#dee2e6\"");
+  svg.line({20, ground + 3}, {strip_width - 20, ground + 3}, "stroke=\"#dee2e6\"");
   if (frames.empty()) {
-    svg.text(width / 2, height / 2, fmt::format("text-anchor=\"middle\" fill=\"{}\"", inks::quiet),
-             "no frames");
+    svg.text(strip_width / 2, height / 2,
+             fmt::format("text-anchor=\"middle\" fill=\"{}\"", inks::quiet), "no frames");
   } else {
-    const double slot = (width - 40) / static_cast<double>(frames.size());
+    const double slot = (strip_width - 40) / static_cast<double>(frames.size());
     const Take& last = after != nullptr ? *after : before;
     const Poses poses = poses_of(last, frames);
     const Poses old_poses = after != nullptr ? poses_of(before, frames) : Poses();

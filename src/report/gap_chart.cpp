@@ -15,7 +15,8 @@ namespace kinemend {
 
 namespace {
 
-constexpr double width = 960, left = 150, right = 90, top = 34, row_height = 18;  // pixels
+constexpr double chart_width = 960, chart_left = 150, chart_right = 90, chart_top = 34,
+                 row_height = 18;  // pixels
 
 struct Row {
   std::string name;
@@ -30,9 +31,9 @@ std::size_t missing_frames(const std::vector<Gap>& gaps) {
 
 void draw_gaps(Svg& svg, const std::vector<Gap>& gaps, std::size_t frames, double y, double height,
                std::string_view ink) {
-  const double scale = (width - left - right) / static_cast<double>(frames);
+  const double scale = (chart_width - chart_left - chart_right) / static_cast<double>(frames);
   for (const Gap& gap : gaps) {
-    svg.rectangle(left + scale * static_cast<double>(gap.first_frame), y,
+    svg.rectangle(chart_left + scale * static_cast<double>(gap.first_frame), y,
                   std::max(1.0, scale * static_cast<double>(gap.length())), height,
                   fmt::format("fill=\"{}\"", ink));
   }
@@ -40,14 +41,15 @@ void draw_gaps(Svg& svg, const std::vector<Gap>& gaps, std::size_t frames, doubl
 
 void draw_row(Svg& svg, const Row& row, std::size_t frames, bool two, double y) {
   const double bar = two ? row_height / 2 - 2 : row_height - 5;
-  svg.text(left - 8, y + 13, fmt::format("text-anchor=\"end\" fill=\"{}\"", inks::text),
+  svg.text(chart_left - 8, y + 13, fmt::format("text-anchor=\"end\" fill=\"{}\"", inks::text),
            xml_escaped(printable(row.name.substr(0, 60))));
-  svg.rectangle(left, y + 1, width - left - right, row_height - 3, "fill=\"#f1f3f5\"");
+  svg.rectangle(chart_left, y + 1, chart_width - chart_left - chart_right, row_height - 3,
+                "fill=\"#f1f3f5\"");
   draw_gaps(svg, row.before, frames, y + 2, bar, inks::before);
   if (two) draw_gaps(svg, row.after, frames, y + 2 + row_height / 2 - 1, bar, inks::after);
   const double share = 100 * static_cast<double>(missing_frames(two ? row.after : row.before)) /
                        static_cast<double>(frames);
-  svg.text(width - 6, y + 13, fmt::format("text-anchor=\"end\" fill=\"{}\"", inks::quiet),
+  svg.text(chart_width - 6, y + 13, fmt::format("text-anchor=\"end\" fill=\"{}\"", inks::quiet),
            fmt::format("{:.1f} %", share));
 }
 
@@ -66,20 +68,20 @@ std::string gap_chart(const Take& before, const Take* after) {
   rows.erase(std::remove_if(rows.begin(), rows.end(),
                             [](const Row& row) { return row.before.empty() && row.after.empty(); }),
              rows.end());
-  const double bottom = top + row_height * static_cast<double>(rows.size());
-  Svg svg(width, bottom + 26, "gaps");
+  const double bottom = chart_top + row_height * static_cast<double>(rows.size());
+  Svg svg(chart_width, bottom + 26, "gaps");
   svg.open_group(inks::font);
   const char* const noun = facts.kind == TakeKind::markers ? "marker" : "joint";
   svg.text(8, 20, fmt::format("font-weight=\"600\" fill=\"{}\"", inks::text),
            fmt::format("gaps: {} of {} with some", grouped(rows.size()), counted(all, noun)));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     draw_row(svg, rows[i], facts.frames, after != nullptr,
-             top + row_height * static_cast<double>(i));
+             chart_top + row_height * static_cast<double>(i));
   }
   if (!rows.empty()) {
     const std::string quiet = fmt::format("font-size=\"11\" fill=\"{}\"", inks::quiet);
-    svg.text(left, bottom + 15, quiet, fmt::format("{}", facts.first_frame));
-    svg.text(width - right, bottom + 15, quiet + " text-anchor=\"end\"",
+    svg.text(chart_left, bottom + 15, quiet, fmt::format("{}", facts.first_frame));
+    svg.text(chart_width - chart_right, bottom + 15, quiet + " text-anchor=\"end\"",
              fmt::format("{}", frame_number(facts.frames - 1, facts.first_frame)));
   }
   svg.close_group();

@@ -124,10 +124,11 @@ class Descent {
 };
 
 // Signals first to last of a problem.
-class Batch {
+class DescentBatch {
  public:
-  Batch(const Dictionary& dictionary, const nn::PackedMatrixF& by_row, const SparseProblem& problem,
-        const DescentSettings& settings, std::size_t first, std::size_t last)
+  DescentBatch(const Dictionary& dictionary, const nn::PackedMatrixF& by_row,
+               const SparseProblem& problem, const DescentSettings& settings, std::size_t first,
+               std::size_t last)
       : dictionary_(dictionary),
         by_row_(by_row),
         problem_(problem),
@@ -259,8 +260,8 @@ SparseSolution descend_sparse(const Dictionary& dictionary, const SparseProblem&
           .transposed());
   for_each_parallel((count + batch_signals - 1) / batch_signals, problem.signals.size() * 16,
                     [&](std::size_t b) {
-                      Batch batch(dictionary, by_row, problem, settings, b * batch_signals,
-                                  std::min(count, (b + 1) * batch_signals));
+                      DescentBatch batch(dictionary, by_row, problem, settings, b * batch_signals,
+                                         std::min(count, (b + 1) * batch_signals));
                       batch.solve();
                       batch.store(solution);
                     });

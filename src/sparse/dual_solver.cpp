@@ -84,7 +84,7 @@ void add_largest(std::span<const double> values, double floor, std::size_t many,
 }
 
 // One batch: signals first to last of a problem.
-struct Batch {
+struct SignalBatch {
   const Atoms& atoms;
   const SparseProblem& problem;
   std::span<const double> weights;  // of all signals
@@ -96,7 +96,7 @@ struct Batch {
   }
 };
 
-WorkingSet first_atoms(const Batch& batch, std::size_t many) {
+WorkingSet first_atoms(const SignalBatch& batch, std::size_t many) {
   WorkingSet working(batch.atoms, batch.count());
   const std::size_t rows = batch.atoms.rows, all = batch.atoms.count;
   const std::span<const double> signals = batch.part(batch.problem.signals, rows);
@@ -116,7 +116,7 @@ WorkingSet first_atoms(const Batch& batch, std::size_t many) {
 }
 
 // Adds the atoms whose constraint |d^T y| <= lambda the solution breaks; notes each signal's gap.
-bool add_broken(const Batch& batch, const DualBatch& solver, const DualSettings& settings,
+bool add_broken(const SignalBatch& batch, const DualBatch& solver, const DualSettings& settings,
                 WorkingSet& working, SparseSolution& solution) {
   const std::size_t all = batch.atoms.count, before = working.chosen().size();
   const std::vector<double> correlations = batch.atoms.correlations(solver.duals(), batch.count());
@@ -133,7 +133,7 @@ bool add_broken(const Batch& batch, const DualBatch& solver, const DualSettings&
   return working.chosen().size() > before;
 }
 
-void solve_batch(const Batch& batch, const DualSettings& settings, SparseSolution& solution) {
+void solve_batch(const SignalBatch& batch, const DualSettings& settings, SparseSolution& solution) {
   const std::size_t rows = batch.atoms.rows, all = batch.atoms.count;
   WorkingSet working = first_atoms(batch, std::max<std::size_t>(settings.first_atoms, 1));
   DualBatch solver(batch.problem.loss, rows, batch.part(batch.problem.signals, rows),

@@ -18,7 +18,7 @@ using Vector = Eigen::VectorXf;
 using Column = Eigen::Map<Eigen::VectorXf>;
 using ConstColumn = Eigen::Map<const Eigen::VectorXf>;
 
-constexpr std::size_t block_signals = 256;
+constexpr std::size_t block_of_signals = 256;
 
 ConstColumn column(std::span<const float> values, std::size_t number, std::size_t rows) {
   return {values.data() + number * rows, static_cast<Eigen::Index>(rows)};
@@ -35,10 +35,10 @@ Column column(std::vector<float>& values, std::size_t number, std::size_t rows) 
 // Calls `work(first, last)` for blocks of signals; a sum in their order does not depend on threads.
 template <class Work>
 double sum_over_blocks(std::size_t signals, std::size_t rows, const Work& work) {
-  const std::size_t blocks = (signals + block_signals - 1) / block_signals;
+  const std::size_t blocks = (signals + block_of_signals - 1) / block_of_signals;
   std::vector<double> sums(blocks, 0);
   for_each_parallel(blocks, signals * rows, [&](std::size_t b) {
-    sums[b] = work(b * block_signals, std::min(signals, (b + 1) * block_signals));
+    sums[b] = work(b * block_of_signals, std::min(signals, (b + 1) * block_of_signals));
   });
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
@@ -54,21 +54,36 @@ class Learning {
         count_(rows == 0 ? 0 : signals.size() / rows),
         settings_(settings) {
     draw_atoms();
-    codes_ = SparseCodes(count_, std::min({settings.sparsity, dictionary_.atoms, rows}));
-    left_.assign(signals.begin(), signals.end());
+    state_.codes =
+        SparseCodes(count_, std::min({settings.sparsity, state_.dictionary.atoms, rows}));
+    state_.left.assign(signals.begin(), signals.end());
     objective_ = energy();
   }
 
-  bool is_empty() const { return dictionary_.atoms == 0; }
-
-  // One turn of coding and update; returns the objective.
-  double iterate() {
-    if (!code_with_replacements()) code();
-    update_atoms();
-    return objective_ = energy();
+  Learning(std::span<const float> signals, std::size_t rows, const KsvdSettings& settings,
+           const KsvdState& start)
+      : signals_(signals),
+        rows_(rows),
+        count_(rows == 0 ? 0 : signals.size() / rows),
+        settings_(settings),
+        state_(start) {
+    objective_ = energy();
   }
 
-  Dictionary finish() { return std::move(dictionary_); }
+  bool is_done() const {
+    return state_.dictionary.atoms == 0 || state_.objective.size() >= settings_.iterations;
+  }
+  const KsvdState& state() const { return state_; }
+
+  // One turn of coding and update.
+  void iterate() {
+    if (!code_with_replacements()) code();
+    update_atoms();
+    objective_ = energy();
+    state_.objective.push_back(objective_);
+  }
+
+  KsvdResult finish() { return {std::move(state_.dictionary), std::move(state_.objective)}; }
 
  private:
   // Different signals, in random order.
@@ -77,13 +92,13 @@ class Learning {
     std::iota(order.begin(), order.end(), std::size_t{0});
     Random random(settings_.seed);
     for (std::size_t i = count_; i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
-    dictionary_.rows = rows_;
+    state_.dictionary.rows = rows_;
     for (const std::size_t s : order) {
-      if (dictionary_.atoms == settings_.atoms) break;
+      if (state_.dictionary.atoms == settings_.atoms) break;
       const ConstColumn signal = column(signals_, s, rows_);
       if (signal.norm() <= 0) continue;
-      dictionary_.values.resize(dictionary_.values.size() + rows_);
-      column(dictionary_.values, dictionary_.atoms++, rows_) = signal / signal.norm();
+      state_.dictionary.values.resize(state_.dictionary.values.size() + rows_);
+      column(state_.dictionary.values, state_.dictionary.atoms++, rows_) = signal / signal.norm();
     }
   }
 
@@ -91,7 +106,7 @@ class Learning {
     return sum_over_blocks(count_, rows_, [&](std::size_t first, std::size_t last) {
       double sum = 0;
       for (std::size_t s = first; s < last; ++s)
-        sum += static_cast<double>(column(left_, s, rows_).squaredNorm());
+        sum += static_cast<double>(column(state_.left, s, rows_).squaredNorm());
       return sum;
     });
   }
@@ -105,8 +120,9 @@ class Learning {
   }
 
   bool uses_any(std::size_t s, const std::vector<bool>& atoms) const {
-    for (std::size_t i = s * codes_.most; i < s * codes_.most + codes_.counts[s]; ++i) {
-      if (atoms[codes_.atoms[i]]) return true;
+    for (std::size_t i = s * state_.codes.most; i < s * state_.codes.most + state_.codes.counts[s];
+         ++i) {
+      if (atoms[state_.codes.atoms[i]]) return true;
     }
     return false;
   }
@@ -116,7 +132,7 @@ class Learning {
   double code_by(const Dictionary& dictionary, const std::vector<bool>& changed, SparseCodes& codes,
                  std::vector<float>& left) const {
     OmpSettings settings;
-    settings.most_atoms = codes_.most;
+    settings.most_atoms = state_.codes.most;
     SparseCodes found = BatchOmp(dictionary).code(signals_, settings);
     return sum_over_blocks(count_, rows_, [&](std::size_t first, std::size_t last) {
       double sum = 0;
@@ -141,8 +157,8 @@ class Learning {
   }
 
   void code() {
-    const std::vector<bool> none(dictionary_.atoms, false);
-    code_by(dictionary_, none, codes_, left_);
+    const std::vector<bool> none(state_.dictionary.atoms, false);
+    code_by(state_.dictionary, none, state_.codes, state_.left);
   }
 
   // The same with atoms that are worth little replaced; false where there are none, or where the
@@ -150,10 +166,10 @@ class Learning {
   bool code_with_replacements() {
     const std::vector<bool> replaced = poor_atoms();
     if (std::find(replaced.begin(), replaced.end(), true) == replaced.end()) return false;
-    Dictionary dictionary = dictionary_;
+    Dictionary dictionary = state_.dictionary;
     std::vector<std::pair<float, std::size_t>> worst(count_);
     for (std::size_t s = 0; s < count_; ++s)
-      worst[s] = {-column(std::as_const(left_), s, rows_).squaredNorm(), s};
+      worst[s] = {-column(std::as_const(state_.left), s, rows_).squaredNorm(), s};
     const auto many = static_cast<std::size_t>(std::count(replaced.begin(), replaced.end(), true));
     const std::size_t needed = std::min(many, count_);
     std::partial_sort(worst.begin(), worst.begin() + static_cast<std::ptrdiff_t>(needed),
@@ -164,31 +180,33 @@ class Learning {
       const ConstColumn signal = column(signals_, worst[next++].second, rows_);
       if (signal.norm() > 0) column(dictionary.values, k, rows_) = signal / signal.norm();
     }
-    SparseCodes codes = codes_;
-    std::vector<float> left = left_;
+    SparseCodes codes = state_.codes;
+    std::vector<float> left = state_.left;
     if (code_by(dictionary, replaced, codes, left) > objective_) return false;
-    dictionary_ = std::move(dictionary);
-    codes_ = std::move(codes);
-    left_ = std::move(left);
+    state_.dictionary = std::move(dictionary);
+    state_.codes = std::move(codes);
+    state_.left = std::move(left);
     return true;
   }
 
   Uses uses() const {
-    Uses result(dictionary_.atoms);
+    Uses result(state_.dictionary.atoms);
     for (std::size_t s = 0; s < count_; ++s) {
-      for (std::size_t i = s * codes_.most; i < s * codes_.most + codes_.counts[s]; ++i)
-        result[codes_.atoms[i]].push_back(i);
+      for (std::size_t i = s * state_.codes.most;
+           i < s * state_.codes.most + state_.codes.counts[s]; ++i)
+        result[state_.codes.atoms[i]].push_back(i);
     }
     return result;
   }
 
   // Hardly used atoms, and of twins the one that is used less. Before the first coding none.
   std::vector<bool> poor_atoms() const {
-    std::vector<bool> poor(dictionary_.atoms, false);
-    if (std::all_of(codes_.counts.begin(), codes_.counts.end(), [](auto n) { return n == 0; }))
+    std::vector<bool> poor(state_.dictionary.atoms, false);
+    if (std::all_of(state_.codes.counts.begin(), state_.codes.counts.end(),
+                    [](auto n) { return n == 0; }))
       return poor;
     const Uses by_atom = uses();
-    const BatchOmp products(dictionary_);
+    const BatchOmp products(state_.dictionary);
     const std::span<const float> gram = products.gram();
     for (std::size_t k = 0; k < poor.size(); ++k) {
       if (by_atom[k].size() < settings_.least_uses) poor[k] = true;
@@ -208,47 +226,44 @@ class Learning {
   }
 
   void update_atom(std::size_t k, const std::vector<std::size_t>& slots) {
-    const Vector old = column(dictionary_.values, k, rows_);
+    const Vector old = column(state_.dictionary.values, k, rows_);
     Vector direction = Vector::Zero(static_cast<Eigen::Index>(rows_));
     for (const std::size_t slot : slots) {
-      const float value = codes_.values[slot];
-      direction += value * (column(left_, slot / codes_.most, rows_) + value * old);
+      const float value = state_.codes.values[slot];
+      direction += value * (column(state_.left, slot / state_.codes.most, rows_) + value * old);
     }
     const float length = direction.norm();
     if (!(length > 0)) return;
     direction /= length;
     const float turn = old.dot(direction);
     for (const std::size_t slot : slots) {
-      Column left = column(left_, slot / codes_.most, rows_);
-      float& value = codes_.values[slot];
+      Column left = column(state_.left, slot / state_.codes.most, rows_);
+      float& value = state_.codes.values[slot];
       const float next = left.dot(direction) + value * turn;
       left += value * old - next * direction;
       value = next;
     }
-    column(dictionary_.values, k, rows_) = direction;
+    column(state_.dictionary.values, k, rows_) = direction;
   }
 
   std::span<const float> signals_;
   std::size_t rows_, count_;
   KsvdSettings settings_;
-  Dictionary dictionary_;
-  SparseCodes codes_;
-  std::vector<float> left_;  // S x n: signals less their codes
-  double objective_ = 0;
+  KsvdState state_;
+  double objective_ = 0;  // before the first iteration, too
 };
 
 }  // namespace
 
 KsvdResult ksvd(std::span<const float> signals, std::size_t rows, const KsvdSettings& settings,
-                const std::function<void(double done)>& progress) {
-  Learning learning(signals, rows, settings);
-  KsvdResult result;
-  for (std::size_t i = 0; i < settings.iterations && !learning.is_empty(); ++i) {
-    result.objective.push_back(learning.iterate());
-    if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(settings.iterations));
+                const std::function<bool(const KsvdState&)>& after_each, const KsvdState* start) {
+  Learning learning = start != nullptr ? Learning(signals, rows, settings, *start)
+                                       : Learning(signals, rows, settings);
+  while (!learning.is_done()) {
+    learning.iterate();
+    if (after_each && !after_each(learning.state())) break;
   }
-  result.dictionary = learning.finish();
-  return result;
+  return learning.finish();
 }
 
 }  // namespace kinemend::sparse

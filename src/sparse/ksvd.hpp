@@ -25,6 +25,14 @@ struct KsvdResult {
   std::vector<double> objective;  ///< |B - D W|^2 after each iteration, which never rises
 };
 
+/// Where the iterations stand: all that the next one needs beside the signals.
+struct KsvdState {
+  Dictionary dictionary;
+  SparseCodes codes;              ///< of all signals
+  std::vector<float> left;        ///< S x n: signals less their codes
+  std::vector<double> objective;  ///< after each iteration so far
+};
+
 /// A dictionary of the signals B (S x n) by K-SVD: the minimum of
 ///
 ///     |B - D W|_F^2,    |w_s|_0 <= T
@@ -34,8 +42,11 @@ struct KsvdResult {
 /// 2008, algorithm 5). A signal keeps its code where pursuit finds no better one. Atoms that are
 /// hardly used, and twins, become the signals that are coded worst; where the objective is none the
 /// better for it they stay. The result does not depend on the number of threads. Errors: none;
-/// fewer signals that are not zero than atoms give fewer atoms.
+/// fewer signals that are not zero than atoms give fewer atoms. `after_each` sees the state after
+/// each iteration, and ends the work where it returns false; with one as `start`, of the same
+/// signals and settings, the result is as if the iterations before had been done here.
 KsvdResult ksvd(std::span<const float> signals, std::size_t rows, const KsvdSettings& settings,
-                const std::function<void(double done)>& progress = {});
+                const std::function<bool(const KsvdState&)>& after_each = {},
+                const KsvdState* start = nullptr);
 
 }  // namespace kinemend::sparse

@@ -9,7 +9,7 @@ namespace kinemend::synth {
 
 namespace {
 
-constexpr double gravity_cm_s2 = 981;
+constexpr double jump_gravity_cm_s2 = 981;
 
 // One jump from a floor to another, in seconds and centimetres from its start. The pelvis is thrown
 // up, falls freely and is caught by the legs; the feet are on the floor whenever the legs are long
@@ -81,22 +81,22 @@ class Jump {
   }
 
   double flight_time(double rise_cm) const {
-    const double up = std::sqrt(2 * gravity_cm_s2 * rise_cm);
+    const double up = std::sqrt(2 * jump_gravity_cm_s2 * rise_cm);
     const double fall = drop_ + reach_at_lift_ - reach_at_touch_;
-    return (up + std::sqrt(up * up + 2 * gravity_cm_s2 * fall)) / gravity_cm_s2;
+    return (up + std::sqrt(up * up + 2 * jump_gravity_cm_s2 * fall)) / jump_gravity_cm_s2;
   }
   KeyCurve root_keys(double rise_cm) const {
     const double rest = body_.straight_height() - 0.6;
-    const double up = std::sqrt(2 * gravity_cm_s2 * rise_cm);
-    const double down = gravity_cm_s2 * flight_ - up;
+    const double up = std::sqrt(2 * jump_gravity_cm_s2 * rise_cm);
+    const double down = jump_gravity_cm_s2 * flight_ - up;
     const double depth = 0.16 * body_.height;
     const double give = 0.14 * body_.height + 0.10 * drop_;
     // Even braking would take twice the distance over the speed.
     const double braking = 2.1 * (reach_at_touch_ - rest + give) / down;
     return KeyCurve({{0, drop_ + rest, 0, 0},
                      {dip, drop_ + rest - depth, 0, 700},
-                     {lift, drop_ + reach_at_lift_, up, -gravity_cm_s2},
-                     {touch_, reach_at_touch_, -down, -gravity_cm_s2},
+                     {lift, drop_ + reach_at_lift_, up, -jump_gravity_cm_s2},
+                     {touch_, reach_at_touch_, -down, -jump_gravity_cm_s2},
                      {touch_ + braking, rest - give, 0, 600},
                      {touch_ + 1.0, rest, 0, 0}});
   }

@@ -12,7 +12,7 @@ namespace kinemend {
 
 namespace {
 
-constexpr signal::CutoffGrid model_cutoffs{0.003, 50, 24};
+constexpr signal::CutoffGrid smoothing_cutoffs{0.003, 50, 24};
 
 class ColouredSmoothing {
  public:
@@ -35,7 +35,7 @@ class ColouredSmoothing {
     constexpr std::size_t all_orders[] = {1, 2, 3}, smooth_order[] = {3};
     candidates_ = signal::models_of_orders(is_slow_ ? std::span<const std::size_t>(smooth_order)
                                                     : std::span<const std::size_t>(all_orders),
-                                           model_cutoffs, tracks.frames(), frame_rate_hz);
+                                           smoothing_cutoffs, tracks.frames(), frame_rate_hz);
   }
 
   void run(ShareProgress* progress) {

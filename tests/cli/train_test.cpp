@@ -1,3 +1,5 @@
+#include <signal.h>
+
 #include "cli/program.hpp"
 
 // Training models, looking at them and cleaning with them.
@@ -310,6 +312,83 @@ TEST_F(Train, ShippedModelsBearChecksums) {
     put(folder / "flipped.kmodel", bytes);
     EXPECT_THAT(run({"info", "flipped.kmodel"}).err, HasSubstr("the file is damaged")) << method;
   }
+}
+
+// Broken off by Ctrl-C as soon as there is something to go on from.
+class BrokenOffTraining : public Train {
+ protected:
+  const std::vector<std::string> words = {"train", "sparse",   "a.bvh",        "b.bvh",
+                                          "-o",    "m.kmodel", "--iterations", "100",
+                                          "-q",    "--title",  "Two walks"};
+
+  Ran broken_off() {
+    const fs::path said = folder / "said";
+    const pid_t child = fork();
+    if (child == 0) {
+      const int file = open(said.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+      if (file < 0 || dup2(file, STDERR_FILENO) < 0) _exit(126);
+      execute(words, {});
+    }
+    while (!fs::exists(folder / "m.kmodel.checkpoint") && kill(child, 0) == 0 &&
+           waitpid(child, nullptr, WNOHANG) == 0)
+      usleep(5000);
+    kill(child, SIGINT);
+    Ran ran = wait_for(child);
+    ran.err = contents(said);
+    fs::remove(said);
+    return ran;
+  }
+};
+
+TEST_F(BrokenOffTraining, LeavesACheckpointFromWhichTheSameModelComes) {
+  walks();
+  const Ran broken = broken_off();
+  EXPECT_EQ(broken.code, 128 + SIGINT);
+  EXPECT_EQ(broken.err,
+            "stopped; m.kmodel.checkpoint keeps what was done, and this goes on with it:\n"
+            "  kinemend train sparse a.bvh b.bvh -o m.kmodel --iterations 100 -q --title "
+            "'Two walks' --resume\n");
+  EXPECT_THAT(files(), ElementsAre("a.bvh", "b.bvh", "m.kmodel.checkpoint"));
+
+  const Ran anew = run(words);
+  EXPECT_EQ(anew.code, 4);
+  EXPECT_EQ(anew.err,
+            "kinemend: m.kmodel.checkpoint: an unfinished training left this; --resume goes on "
+            "with it, --force begins anew\n");
+
+  std::vector<std::string> others = words;
+  others[7] = "101";
+  others.emplace_back("--resume");
+  const Ran refused = run(others);
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("m.kmodel.checkpoint: is of another training: iterations was "
+                                     "100, and is 101"));
+
+  std::vector<std::string> on = words;
+  on.emplace_back("--resume");
+  const Ran resumed = run(on);
+  EXPECT_EQ(resumed.code, 0) << resumed.err;
+  const std::string model = contents(folder / "m.kmodel");
+  EXPECT_THAT(files(), ElementsAre("a.bvh", "b.bvh", "m.kmodel"));
+  std::vector<std::string> whole = words;
+  whole.emplace_back("--force");
+  ASSERT_EQ(run(whole).code, 0);
+  EXPECT_TRUE(contents(folder / "m.kmodel") == model);
+}
+
+TEST_F(Train, SaysWhereThereIsNoCheckpointToGoOnFrom) {
+  walks();
+  const Ran ran = run({"train", "sparse", "a.bvh", "-o", "m.kmodel", "--resume"});
+  EXPECT_EQ(ran.code, 3);
+  EXPECT_EQ(ran.err,
+            "kinemend: m.kmodel.checkpoint: there is no such checkpoint; without --resume the "
+            "training begins anew\n");
+  EXPECT_EQ(run({"train", "sparse", "a.bvh", "-o", "-", "--resume"}).code, 2);
+  put(folder / "m.kmodel.checkpoint", "nonsense");
+  const Ran damaged = run({"train", "sparse", "a.bvh", "-o", "m.kmodel", "--resume"});
+  EXPECT_EQ(damaged.code, 3);
+  EXPECT_THAT(damaged.err, HasSubstr("m.kmodel.checkpoint: is damaged, or no checkpoint"));
+  EXPECT_EQ(contents(folder / "m.kmodel.checkpoint"), "nonsense");
 }
 
 }  // namespace

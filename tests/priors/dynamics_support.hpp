@@ -1,10 +1,9 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <cmath>
 
+#include "dense_algebra.hpp"
 #include "kinemend/experimental/pose_matrix.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "priors/linear_dynamics.hpp"
@@ -26,7 +25,7 @@ inline Eigen::MatrixXd random_turning(Random& random, Eigen::Index n, double siz
         size * std::sin(angle), size * std::cos(angle);
   }
   const Eigen::MatrixXd mix = Eigen::MatrixXd::Identity(n, n) + 0.2 * random_matrix(random, n, n);
-  return mix * turning * mix.colPivHouseholderQr().inverse();
+  return mix * turning * inverse(mix);
 }
 
 inline Eigen::MatrixXd random_covariance(Random& random, Eigen::Index n) {
@@ -59,17 +58,13 @@ inline LinearDynamics random_dynamics(Random& random, Eigen::Index channels) {
 /// Motion that the dynamics make, without measurement noise.
 inline PoseMatrix simulate(const LinearDynamics& dynamics, std::size_t frames, Random& random) {
   const Eigen::Index n = dynamics.states();
-  const Eigen::MatrixXd first = dynamics.spread.llt().matrixL();
-  const Eigen::MatrixXd step = Eigen::LDLT<Eigen::MatrixXd>(dynamics.drive).matrixL();
-  const Eigen::VectorXd sizes =
-      Eigen::LDLT<Eigen::MatrixXd>(dynamics.drive).vectorD().cwiseMax(0.0).cwiseSqrt();
-  const auto order = Eigen::LDLT<Eigen::MatrixXd>(dynamics.drive).transpositionsP();
+  const Eigen::MatrixXd first = root_of(dynamics.spread);
+  const Eigen::MatrixXd step = root_of(dynamics.drive);
   PoseMatrix poses(frames, static_cast<std::size_t>(dynamics.channels()));
   Eigen::VectorXd state = first * random_matrix(random, n, 1);
   for (std::size_t f = 0; f < frames; ++f) {
     if (f > 0) {
-      const Eigen::VectorXd push =
-          order.transpose() * (step * sizes.cwiseProduct(random_matrix(random, n, 1)));
+      const Eigen::VectorXd push = step * random_matrix(random, n, 1);
       state = (dynamics.transition * state + push).eval();
     }
     const Eigen::VectorXd seen = state.head(dynamics.directions());

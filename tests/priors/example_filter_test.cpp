@@ -3,12 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "dense_algebra.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "priors/pattern_penalty.hpp"
 #include "priors/stretches.hpp"
@@ -154,7 +155,7 @@ TEST(ExampleFilter, SolvesTheLinearSystemWhereThereIsNoRobustness) {
     system(i, i) += w + penalty.diagonal(i / 2, i % 2);
     right[i] = w * (y.values[i] - mean[i % 2]);
   }
-  const Eigen::VectorXd expected = system.ldlt().solve(right);
+  const Eigen::VectorXd expected = test::solve_symmetric(system, right);
   for (std::size_t i = 0; i < size; ++i) {
     EXPECT_NEAR(found.values[i], expected[i] + mean[i % 2], 1e-6);
   }

@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <vector>
 
+#include "dense_algebra.hpp"
 #include "kinemend/experimental/random.hpp"
 
 namespace kinemend {
@@ -21,8 +22,7 @@ Eigen::MatrixXd random_matrix(std::size_t rows, std::size_t columns, std::uint64
 // V diag(values) V^T with random orthonormal V.
 Eigen::MatrixXd with_eigenvalues(const Eigen::VectorXd& values, std::uint64_t seed) {
   const auto n = values.size();
-  const Eigen::MatrixXd v =
-      Eigen::HouseholderQR<Eigen::MatrixXd>(random_matrix(n, n, seed)).householderQ();
+  const Eigen::MatrixXd v = test::orthonormal(random_matrix(n, n, seed));
   const Eigen::MatrixXd m = v * values.asDiagonal() * v.transpose();
   return 0.5 * (m + m.transpose());
 }
@@ -40,10 +40,10 @@ void expect_eigenpairs(const Eigen::MatrixXd& m, const LeadingEigenvectors& foun
   const Eigen::MatrixXd v = vectors_of(found);
   const auto k = v.cols();
   EXPECT_LT((v.transpose() * v - Eigen::MatrixXd::Identity(k, k)).cwiseAbs().maxCoeff(), 1e-12);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> full(m);
+  const test::SymmetricEigen full = test::symmetric_eigen(m);
   for (Eigen::Index i = 0; i < k; ++i) {
     const double value = found.values[i];
-    EXPECT_NEAR(value, full.eigenvalues()[m.rows() - 1 - i], 1e-9 * found.values[0]) << i;
+    EXPECT_NEAR(value, full.values[m.rows() - 1 - i], 1e-9 * found.values[0]) << i;
     EXPECT_LT((m * v.col(i) - value * v.col(i)).norm(), 1e-9 * found.values[0]) << i;
   }
 }

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 
 #include "kinemend/error.hpp"
 #include "priors/dynamics_support.hpp"
@@ -53,7 +53,7 @@ LinearDynamics second_order_in_a_plane(std::uint64_t seed) {
   LinearDynamics dynamics = random_dynamics(random, 4);
   dynamics.order = 2;
   dynamics.mean = random_matrix(random, 5, 1);
-  dynamics.basis = MatrixXd(random_matrix(random, 5, 5).householderQr().householderQ()).leftCols(2);
+  dynamics.basis = orthonormal(random_matrix(random, 5, 5)).leftCols(2);
   dynamics.outside = VectorXd::Constant(5, 0.3);
   dynamics.transition.setZero();
   dynamics.transition.topLeftCorner(2, 2) = 1.7 * MatrixXd::Identity(2, 2);
@@ -104,8 +104,8 @@ VectorXd conditioned(const Scene& scene, std::size_t at, std::size_t last) {
     noise[i] = scene.noise_deg[c] * scene.noise_deg[c] + model.outside[channel];
   }
   const MatrixXd system = rows * states * rows.transpose() + MatrixXd(noise.asDiagonal());
-  const VectorXd expected =
-      states.middleRows(static_cast<Index>(at) * n, n) * rows.transpose() * system.llt().solve(y);
+  const VectorXd expected = states.middleRows(static_cast<Index>(at) * n, n) * rows.transpose() *
+                            solve_symmetric(system, y);
   return model.mean + observe * expected;
 }
 
@@ -180,7 +180,7 @@ PoseMatrix by_full_recursion(const Scene& scene, bool smooth) {
     }
     predicted.push_back(x);
     predicted_covariances.push_back(p);
-    const MatrixXd gain = (p + noise).llt().solve(p).transpose();
+    const MatrixXd gain = solve_symmetric(p + noise, p).transpose();
     const Eigen::Map<const VectorXd> y(scene.measured.row(f).data(), n);
     x += (gain * (y - model.mean - x)).eval();
     p -= (gain * p).eval();
@@ -190,7 +190,8 @@ PoseMatrix by_full_recursion(const Scene& scene, bool smooth) {
   if (smooth) {
     for (std::size_t f = means.size() - 1; f-- > 0;) {
       const MatrixXd gain =
-          predicted_covariances[f + 1].llt().solve(model.transition * covariances[f]).transpose();
+          solve_symmetric(predicted_covariances[f + 1], model.transition * covariances[f])
+              .transpose();
       means[f] += (gain * (means[f + 1] - predicted[f + 1])).eval();
     }
   }

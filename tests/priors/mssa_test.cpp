@@ -3,10 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <vector>
 
+#include "dense_algebra.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/random.hpp"
 
@@ -131,20 +132,20 @@ TEST(FilterBases, AreTheLeadingEigenvectorsOfAFullSolver) {
   const auto sequences = several_sequences();
   LagCovariance covariance(12, 5);
   for (const auto& [poses, weight] : sequences) covariance.add(poses, weight);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> full(
-      brute_covariance(sequences, 12, frame_mean(sequences)));
+  const test::SymmetricEigen full =
+      test::symmetric_eigen(brute_covariance(sequences, 12, frame_mean(sequences)));
   const FilterBases found = filter_bases(covariance, {.energy = 0.99});
   double sum = 0;
   for (std::size_t k = 0; k < found.count; ++k) {
     const Eigen::Index from_end = 59 - static_cast<Eigen::Index>(k);
-    EXPECT_NEAR(found.eigenvalues[k], full.eigenvalues()[from_end], 1e-10);
-    const Eigen::VectorXd expected = full.eigenvectors().col(from_end);
+    EXPECT_NEAR(found.eigenvalues[k], full.values[from_end], 1e-10);
+    const Eigen::VectorXd expected = full.vectors.col(from_end);
     EXPECT_NEAR(std::abs(as_matrix(found.bases, 60, found.count).col(k).dot(expected)), 1, 1e-9);
-    EXPECT_LT(sum, 0.99 * full.eigenvalues().sum()) << "fewer would have been enough";
+    EXPECT_LT(sum, 0.99 * full.values.sum()) << "fewer would have been enough";
     sum += found.eigenvalues[k];
   }
-  EXPECT_GE(sum, 0.99 * full.eigenvalues().sum());
-  EXPECT_NEAR(found.total_energy, full.eigenvalues().sum(), 1e-9);
+  EXPECT_GE(sum, 0.99 * full.values.sum());
+  EXPECT_NEAR(found.total_energy, full.values.sum(), 1e-9);
 }
 
 TEST(FilterBases, SayWhatTheyLeaveOfEachChannel) {
@@ -176,8 +177,8 @@ TEST(CrossValidation, HoldsEachHalfsBasesAgainstTheOtherHalf) {
   Eigen::VectorXd along = Eigen::VectorXd::Zero(5), outside = Eigen::VectorXd::Zero(4);
   const auto hold = [&](const std::vector<Weighted>& learned, const std::vector<Weighted>& held) {
     const Eigen::VectorXd mean = frame_mean(learned);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> full(brute_covariance(learned, 8, mean));
-    const Eigen::MatrixXd E = full.eigenvectors().rightCols(5).rowwise().reverse();
+    const test::SymmetricEigen full = test::symmetric_eigen(brute_covariance(learned, 8, mean));
+    const Eigen::MatrixXd E = full.vectors.rightCols(5).rowwise().reverse();
     const Eigen::MatrixXd C = brute_covariance(held, 8, mean);
     along += (E.transpose() * C * E).diagonal() / 2;
     const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(32, 32) - E * E.transpose();

@@ -2,11 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "dense_algebra.hpp"
 #include "priors/window_support.hpp"
 #include "random_values.hpp"
 
@@ -36,7 +37,7 @@ double brute_penalty(const WindowBases& bases, const std::vector<double>& weight
       target[r] = d * z.values[s * bases.hop * bases.channels + r];
     }
     for (Eigen::Index k = 0; k < count; ++k) system(rows + k, k) = std::sqrt(ridge[k]);
-    const Eigen::VectorXd c = system.colPivHouseholderQr().solve(target);
+    const Eigen::VectorXd c = test::least_squares(system, target);
     total += (target - system * c).squaredNorm();
   }
   return total;
@@ -118,8 +119,7 @@ TEST(PatternPenalty, GoesByFrequenciesWhereThereAreManyBasesAndManyProducts) {
 
 TEST(PatternPenalty, TakesOrthonormalBasesAsTheyAre) {
   WindowBases bases = random_bases(6, 1, 3, 4, 7);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(matrix_of(bases));
-  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(18, 4);
+  const Eigen::MatrixXd q = test::orthonormal(matrix_of(bases));
   for (std::size_t i = 0; i < bases.values.size(); ++i) bases.values[i] = q(i / 4, i % 4);
   const std::vector<double> ones(3, 1.0), others(3, 2.0);
   for (const std::vector<double>& weights : {ones, others}) {

@@ -1,12 +1,11 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "dense_algebra.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/experimental/signal.hpp"
@@ -131,9 +130,9 @@ void expect_conditioning(const std::vector<std::uint8_t>& observed) {
   const MatrixXd from_z = h * found.prior.basis;
   covariance += from_z * component.covariance * from_z.transpose();
   const VectorXd expected =
-      component.mean +
-      component.covariance * from_z.transpose() *
-          covariance.ldlt().solve(found.dense.y - h * found.prior.mean - from_z * component.mean);
+      component.mean + component.covariance * from_z.transpose() *
+                           test::solve_symmetric(covariance, found.dense.y - h * found.prior.mean -
+                                                                 from_z * component.mean);
   EXPECT_LT((found.posterior.mean().col(0) - expected).norm(), 1e-9);
 }
 
@@ -158,8 +157,8 @@ TEST(WienerPosterior, WeighsComponentsByTheirEvidence) {
       covariance += found.dense.noise.asDiagonal();
       const VectorXd gap =
           found.dense.y - found.dense.h * found.prior.mean - from_z * component.mean;
-      evidence(c) =
-          -0.5 * (std::log(covariance.determinant()) + gap.dot(covariance.ldlt().solve(gap)));
+      evidence(c) = -0.5 * (std::log(test::determinant(covariance)) +
+                            gap.dot(test::solve_symmetric(covariance, gap).col(0)));
     }
     VectorXd expected = (evidence.array() - evidence.maxCoeff()).exp();
     expected /= expected.sum();
@@ -400,8 +399,7 @@ TEST(WienerOutliers, AreFoundWhereTheyAreDense) {
 TEST(WienerPrior, TurnsItsChannels) {
   Random random(6);
   const WienerPrior prior = random_prior(random, 1);
-  const Eigen::Matrix3d turn =
-      Eigen::HouseholderQR<Eigen::Matrix3d>(random_matrix(random, 3, 3)).householderQ();
+  const Eigen::Matrix3d turn = test::orthonormal(random_matrix(random, 3, 3));
   const WienerPrior turned = with_turned_channels(prior, std::vector{turn});
   const auto windows_of = [](const VectorXd& x) {
     return MatrixXd(Eigen::Map<const MatrixXd>(x.data(), coefficients, channels));

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <cmath>
 
+#include "dense_algebra.hpp"
 #include "kinemend/experimental/random.hpp"
 
 namespace kinemend::signal {
@@ -51,7 +51,7 @@ TEST(NoisePrecision, IsTheInverseOfTheCovariance) {
                   .cwiseAbs()
                   .maxCoeff(),
               1e-9);
-    EXPECT_NEAR(precision.log_determinant[2], -std::log(dense.determinant()), 1e-6);
+    EXPECT_NEAR(precision.log_determinant[2], -std::log(test::determinant(dense)), 1e-6);
     EXPECT_EQ(precision.observed[2], frames);
   }
 }
@@ -89,8 +89,8 @@ TEST(EvidenceOf, IsTheLikelihoodOfTheDifferences) {
         Eigen::VectorXd values(frames);
         for (std::size_t t = 0; t < frames; ++t) values(static_cast<Eigen::Index>(t)) = y(t, 3);
         const Eigen::VectorXd seen = d * values;
-        const double expected =
-            seen.dot(marginal.ldlt().solve(seen)) + std::log(marginal.determinant());
+        const double expected = seen.dot(test::solve_symmetric(marginal, seen).col(0)) +
+                                std::log(test::determinant(marginal));
         EXPECT_NEAR(evidence.squares[3] / variance + evidence.logarithms[3] +
                         evidence.differences[3] * std::log(variance),
                     expected, 1e-6 * std::abs(expected) + 1e-6);
@@ -112,10 +112,10 @@ TEST(SmoothAdaptively, WeighsTheRestByThePrecisionOfItsNoise) {
     settings.iterations = 0;
     const ChannelBlock x = smooth_adaptively(y, precision.weight, variance, models, 120, settings,
                                              &precision.coupling);
-    const Eigen::MatrixXd d = differences(order), k = covariance(0.8).inverse();
+    const Eigen::MatrixXd d = differences(order), k = test::inverse(covariance(0.8));
     Eigen::VectorXd values(frames);
     for (std::size_t t = 0; t < frames; ++t) values(static_cast<Eigen::Index>(t)) = y(t, 5);
-    const Eigen::VectorXd expected = (k + 50 * d.transpose() * d).ldlt().solve(k * values);
+    const Eigen::VectorXd expected = test::solve_symmetric(k + 50 * d.transpose() * d, k * values);
     for (std::size_t t = 0; t < frames; ++t)
       EXPECT_NEAR(x(t, 5), expected(static_cast<Eigen::Index>(t)), 1e-9);
   }

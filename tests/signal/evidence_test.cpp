@@ -4,9 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 
+#include "dense_algebra.hpp"
 #include "kinemend/experimental/random.hpp"
 
 namespace kinemend::signal {
@@ -22,10 +23,8 @@ double dense_misfit(const Eigen::VectorXd& y, const SmoothingModel& model, doubl
   const Eigen::MatrixXd covariance =
       variance *
       (d * d.transpose() + Eigen::MatrixXd::Identity(d.rows(), d.rows()) / model.strength);
-  const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
   const Eigen::VectorXd dy = d * y;
-  return dy.dot(factor.solve(dy)) +
-         2 * factor.matrixL().toDenseMatrix().diagonal().array().log().sum();
+  return dy.dot(test::solve_symmetric(covariance, dy).col(0)) + test::log_determinant(covariance);
 }
 
 PoseMatrix random_walks(std::size_t frames, std::size_t channels, Random& random) {

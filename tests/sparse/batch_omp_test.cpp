@@ -3,10 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <cmath>
 #include <set>
 
+#include "dense_algebra.hpp"
 #include "sparse/support.hpp"
 
 namespace kinemend::sparse {
@@ -33,7 +34,7 @@ Pursued pursue(const Dictionary& dictionary, const std::vector<float>& signal, s
     Eigen::MatrixXd chosen(d.rows(), static_cast<Eigen::Index>(result.atoms.size()));
     for (Eigen::Index i = 0; i < chosen.cols(); ++i)
       chosen.col(i) = d.col(static_cast<Eigen::Index>(result.atoms[static_cast<std::size_t>(i)]));
-    result.code = chosen.householderQr().solve(z);
+    result.code = test::least_squares(chosen, z);
     left = z - chosen * result.code;
   }
   result.left = left.norm();

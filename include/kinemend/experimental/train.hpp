@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,6 +27,30 @@ struct TrainingTakes {
   std::function<std::optional<std::variant<Clip, MarkerClip>>(std::size_t index)> take;
 };
 
+/// A training was asked to end before it was done; it goes on from what it has kept.
+class TrainingStopped : public std::exception {
+ public:
+  const char* what() const noexcept override { return "the training was stopped"; }
+};
+
+/// How a training that is broken off goes on later, to the same bytes. What is kept are stages that
+/// are done and the state of iterations; takes are read again.
+struct TrainCheckpoint {
+  /// What `keep` was given last, by a training of the same takes, options, names and seed; empty:
+  /// from the beginning.
+  std::string start;
+  std::string name = "checkpoint";  ///< of `start`, for messages
+  /// Takes all that there is to keep, in place of what it took before. One call at a time, from any
+  /// thread. Nothing: nothing is kept.
+  std::function<void(const std::string& bytes)> keep;
+  /// Seconds between the states of an iteration that are kept; the first is kept at once.
+  double every_s = 10;
+  /// Whether the training is to end: it keeps its state and throws `TrainingStopped`.
+  std::function<bool()> stop;
+};
+
+class TrainingStages;
+
 /// What does not depend on the method.
 struct TrainSettings {
   std::vector<std::string> names;  ///< joints or markers, or shell patterns; empty: all that move
@@ -35,6 +61,9 @@ struct TrainSettings {
   std::size_t most_memory = std::size_t{1} << 29;
   /// Called as work goes on with what is being done and how far it is (0..1).
   std::function<void(std::string_view stage, double done)> progress;
+  TrainCheckpoint checkpoint;
+  /// The library's own: what `train_model` makes of `checkpoint` for the method.
+  std::shared_ptr<TrainingStages> stages;
 };
 
 /// A method with a learned model, as training and model files know it; `find_method(name)` is the
@@ -57,7 +86,8 @@ std::span<const LearnedMethod> methods_with_models();
 const LearnedMethod& find_learned_method(std::string_view name);
 /// Calibration frames are left out. Errors: `ErrorKind::usage` for an unknown method or option, a
 /// value out of range, no takes, takes of different kinds or bodies (with the parts named), and
-/// takes that are all shorter than a window.
+/// takes that are all shorter than a window; for a checkpoint of other takes or options, with the
+/// first that differs. `ErrorKind::unreadable_input` for a damaged one. `TrainingStopped`.
 Model train_model(std::string_view method, const TrainingTakes& takes,
                   const OptionValues& values = {}, const TrainSettings& settings = {});
 

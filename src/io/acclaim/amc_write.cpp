@@ -82,7 +82,7 @@ std::string write_with_header(const Clip& clip, const AmcDocument& document) {
   return std::move(out).take();
 }
 
-std::string write_plain(const Clip& clip) {
+std::string write_plain_amc(const Clip& clip) {
   // Joint positions stay within 1e-9 of the figure's size.
   constexpr unsigned decimals = 9;
   check_channels(clip, RestRotations::apart);
@@ -133,10 +133,10 @@ std::string write_amc(const Clip& clip) {
     return write_with_header(clip, *document);
   }
   Skeleton skeleton = with_root_positions(clip.skeleton);
-  if (skeleton.channels[0] == clip.skeleton.channels[0]) return write_plain(clip);
+  if (skeleton.channels[0] == clip.skeleton.channels[0]) return write_plain_amc(clip);
   Clip rooted = clip;
   rooted.skeleton = std::move(skeleton);
-  return write_plain(rooted);
+  return write_plain_amc(rooted);
 }
 
 }  // namespace kinemend

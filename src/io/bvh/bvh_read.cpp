@@ -24,7 +24,7 @@ namespace kinemend {
 
 namespace {
 
-constexpr double rate_when_unknown_hz = 30;
+constexpr double bvh_rate_when_unknown_hz = 30;
 
 class MotionReader {
  public:
@@ -247,7 +247,7 @@ TakeResult read_bvh(std::string bytes, std::string_view name, const ReadOptions&
   const SourceText text{name, document->bytes, options.strict};
   TakeResult result;
   const double unknown_rate_hz =
-      options.frame_rate_hz > 0 ? options.frame_rate_hz : rate_when_unknown_hz;
+      options.frame_rate_hz > 0 ? options.frame_rate_hz : bvh_rate_when_unknown_hz;
   const BvhHeader header =
       read_bvh_header(text, result.diagnostics, options.max_depth, unknown_rate_hz);
   Clip& clip = result.take.emplace<Clip>();

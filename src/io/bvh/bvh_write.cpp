@@ -132,7 +132,7 @@ class HierarchyWriter {
   std::vector<std::size_t> order_;
 };
 
-std::string write_plain(const Clip& clip) {
+std::string write_plain_bvh(const Clip& clip) {
   check_channels(clip, RestRotations::in_channels);
   TextBuffer out(4096);
   const std::vector<std::size_t> order = HierarchyWriter(clip.skeleton, out).write();
@@ -179,7 +179,7 @@ std::string write_bvh(const Clip& clip) {
   check_lengths(clip);
   const auto* document = dynamic_cast<const BvhDocument*>(clip.source.document.get());
   if (document == nullptr || !same_skeleton(clip.skeleton, document->skeleton))
-    return write_plain(clip);
+    return write_plain_bvh(clip);
   const MotionColumns columns(clip.skeleton);
   const auto translated = columns.translated_joints();
   const bool same_translated =

@@ -16,7 +16,6 @@ namespace kinemend {
 namespace {
 
 constexpr double rounding = 1e-6;
-constexpr std::size_t most_in_a_word = 65535;
 
 bool has_analog(const C3dLayout& layout) {
   return layout.analog_values > 0 && layout.frame_count > 0;

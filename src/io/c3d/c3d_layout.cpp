@@ -15,7 +15,6 @@ namespace kinemend {
 
 namespace {
 
-constexpr std::size_t most_in_a_word = 65535;
 constexpr std::size_t up_to_the_end = std::numeric_limits<std::size_t>::max();
 
 // How many frames there are according to one place of the file.

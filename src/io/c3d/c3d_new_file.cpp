@@ -21,7 +21,6 @@ namespace {
 
 using Words = C3dWords<C3dProcessor::intel>;
 
-constexpr std::size_t most_in_a_word = 65535;
 // Integers made of the file shall not use all of their range.
 constexpr double scale_steps = 32000;
 constexpr double scale_when_still = 0.01;

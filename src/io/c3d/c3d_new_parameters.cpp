@@ -13,7 +13,7 @@ namespace kinemend {
 
 namespace {
 
-constexpr double most_in_a_word = 65535;
+constexpr double most_counted_frames = 65535;
 constexpr std::size_t most_frames_looked_at = 200;
 
 // The low and the high word of a frame's number.
@@ -77,9 +77,9 @@ class ParameterMaker {
   void describe_points() {
     const auto frames = static_cast<double>(file_.frame_count);
     set("POINT", c3d_integer("USED", static_cast<double>(clip_.marker_count())));
-    set("POINT", c3d_integer("FRAMES", std::min(frames, most_in_a_word)));
+    set("POINT", c3d_integer("FRAMES", std::min(frames, most_counted_frames)));
     remove_parameter(all_, "POINT", "LONG_FRAMES");
-    if (frames > most_in_a_word) set("POINT", c3d_real("LONG_FRAMES", frames));
+    if (frames > most_counted_frames) set("POINT", c3d_real("LONG_FRAMES", frames));
     set("POINT", c3d_integer("DATA_START", 0));
     set("POINT", c3d_real("SCALE", -file_.scale));
     set("POINT", c3d_real("RATE", clip_.frame_rate_hz));

@@ -17,7 +17,7 @@ namespace kinemend {
 
 namespace {
 
-constexpr double rate_when_unknown_hz = 100;
+constexpr double c3d_rate_when_unknown_hz = 100;
 
 class C3dReader {
  public:
@@ -83,7 +83,8 @@ class C3dReader {
   void read_rate(const ReadOptions& options) {
     clip_.frame_rate_hz = layout().rate_hz;
     if (clip_.frame_rate_hz > 0) return;
-    clip_.frame_rate_hz = options.frame_rate_hz > 0 ? options.frame_rate_hz : rate_when_unknown_hz;
+    clip_.frame_rate_hz =
+        options.frame_rate_hz > 0 ? options.frame_rate_hz : c3d_rate_when_unknown_hz;
     source_.note(
         "frame_rate_assumed", layout().header_begin + 20,
         fmt::format("the file has no frame rate; it is taken to be {:g} Hz", clip_.frame_rate_hz));

@@ -11,9 +11,9 @@ namespace kinemend {
 
 namespace {
 
-class Rewriter {
+class C3dRewriter {
  public:
-  Rewriter(const MarkerClip& clip, const C3dDocument& document)
+  C3dRewriter(const MarkerClip& clip, const C3dDocument& document)
       : clip_(clip), document_(document), source_(document), out_(document.bytes) {}
 
   std::optional<std::string> rewrite() {
@@ -164,7 +164,7 @@ bool keeps_c3d_layout(const MarkerClip& clip, const C3dDocument& document) {
 }
 
 std::optional<std::string> rewrite_c3d(const MarkerClip& clip, const C3dDocument& document) {
-  return Rewriter(clip, document).rewrite();
+  return C3dRewriter(clip, document).rewrite();
 }
 
 }  // namespace kinemend

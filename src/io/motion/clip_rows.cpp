@@ -5,14 +5,9 @@
 #include <utility>
 
 #include "io/memory_limit.hpp"
+#include "io/text/number.hpp"
 
 namespace kinemend {
-
-namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
 
 ClipRows::ClipRows(Clip& clip, std::vector<PositionFrame> position_frames, std::size_t file_bytes)
     : clip_(clip),

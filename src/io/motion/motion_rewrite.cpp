@@ -85,9 +85,9 @@ struct Piece {
   }
 };
 
-class Rewriter {
+class MotionRewriter {
  public:
-  Rewriter(const Clip& clip, const MotionDocument& document)
+  MotionRewriter(const Clip& clip, const MotionDocument& document)
       : clip_(clip),
         document_(document),
         source_(document),
@@ -340,7 +340,7 @@ class Rewriter {
 
 std::string rewrite_motion(const Clip& clip, const MotionDocument& document,
                            const std::vector<DocumentEdit>& edits) {
-  return Rewriter(clip, document).rewrite(edits);
+  return MotionRewriter(clip, document).rewrite(edits);
 }
 
 }  // namespace kinemend

@@ -43,9 +43,9 @@ std::optional<double> seconds_of(const std::string& name) {
   return name.find("ms") != name.npos || name.find("milli") != name.npos ? 0.001 : 1.0;
 }
 
-class HeaderReader {
+class CsvHeaderReader {
  public:
-  explicit HeaderReader(const SourceText& text) : text_(text) {}
+  explicit CsvHeaderReader(const SourceText& text) : text_(text) {}
 
   CsvHeader read() {
     next_ = after_byte_order_mark(text_.bytes);
@@ -223,7 +223,7 @@ bool CsvHeader::has_no_frames() const {
 CsvHeader read_csv_header(const SourceText& text) {
   if (starts_as_motive_export(text.bytes)) return read_motive_header(text);
   if (starts_with_vicon_section(text.bytes)) return read_vicon_header(text);
-  return HeaderReader(text).read();
+  return CsvHeaderReader(text).read();
 }
 
 bool has_csv_header(std::string_view head) {

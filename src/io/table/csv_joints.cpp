@@ -4,17 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "io/memory_limit.hpp"
 #include "io/table/csv_skeleton.hpp"
 #include "io/text/cell_patch.hpp"
+#include "io/text/number.hpp"
 
 namespace kinemend {
 
 namespace {
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr unsigned shortest_digits = most_fixed_decimals + 1;
 
 bool is_missing(Vec3 v) { return std::isnan(v.x + v.y + v.z); }

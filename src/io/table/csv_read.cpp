@@ -16,7 +16,7 @@ namespace kinemend {
 
 namespace {
 
-constexpr double rate_when_unknown_hz = 120;
+constexpr double csv_rate_when_unknown_hz = 120;
 
 class CsvReader {
  public:
@@ -108,11 +108,11 @@ class CsvReader {
 
   double choose_rate(MarkerClip& clip) {
     for (double& time : labels_.times_s) time *= header_.seconds_per_time;
-    return table_rate(text_, diagnostics_,
-                      check_row_labels(text_, diagnostics_, document_.table, labels_, clip),
-                      {header_.frame_rate_hz, header_.labels_line, header_.data_begin,
-                       options_.frame_rate_hz, rate_when_unknown_hz, "the head", header_.data_begin,
-                       "neither usable times nor a line '# rate_hz: 120'", false});
+    return table_rate(
+        text_, diagnostics_, check_row_labels(text_, diagnostics_, document_.table, labels_, clip),
+        {header_.frame_rate_hz, header_.labels_line, header_.data_begin, options_.frame_rate_hz,
+         csv_rate_when_unknown_hz, "the head", header_.data_begin,
+         "neither usable times nor a line '# rate_hz: 120'", false});
   }
 
   CsvDocument& document_;

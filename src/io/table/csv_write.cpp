@@ -74,7 +74,7 @@ class Table {
   TextBuffer out_;
 };
 
-std::string write_plain(const Clip& clip) {
+std::string write_plain_csv(const Clip& clip) {
   Table table(80 * clip.local_rotations.size() + 4096);
   table.line("# rate_hz: " + number_text(clip.frame_rate_hz));
   if (clip.frame_count() == 0) table.line("# frames: 0");
@@ -121,7 +121,7 @@ const CsvDocument* kept_layout(const MarkerClip& clip) {
   return same ? document : nullptr;
 }
 
-std::string write_plain(const MarkerClip& clip) {
+std::string write_plain_csv(const MarkerClip& clip) {
   Table table(60 * clip.positions.size() + 4096);
   table.line("# rate_hz: " + number_text(clip.frame_rate_hz));
   if (clip.frame_count() == 0) table.line("# frames: 0");
@@ -160,7 +160,7 @@ std::string write_csv(const Clip& clip) {
                            clip.frame_rate_hz == document->frame_rate_hz &&
                            clip.metres_per_unit == document->metres_per_unit;
   if (same_layout) return rewrite_csv_joints(clip, *document);
-  return write_plain(clip);
+  return write_plain_csv(clip);
 }
 
 std::string write_csv_markers(const MarkerClip& clip) {
@@ -168,7 +168,7 @@ std::string write_csv_markers(const MarkerClip& clip) {
   if (const auto* const document = kept_layout(clip))
     return rewrite_marker_table(clip, document->bytes, document->table);
   if (clip.names.empty()) throw Error(ErrorKind::usage, "CSV cannot hold a clip without markers");
-  return write_plain(clip);
+  return write_plain_csv(clip);
 }
 
 std::string csv_beside_markers(const MarkerClip& clip, bool as_csv) {

@@ -1,16 +1,14 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "io/table/marker_table.hpp"
 #include "io/text/cell_patch.hpp"
+#include "io/text/number.hpp"
 
 namespace kinemend {
 
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 unsigned decimals_in(TokenSpan token, CommaStyle commas) {
   const std::string_view text(token.begin, static_cast<std::size_t>(token.end - token.begin));

@@ -32,9 +32,9 @@ std::vector<std::string> without_empty(std::vector<std::string> cells) {
   return cells;
 }
 
-class HeaderReader {
+class TrcHeaderReader {
  public:
-  HeaderReader(const SourceText& text, Diagnostics& diagnostics)
+  TrcHeaderReader(const SourceText& text, Diagnostics& diagnostics)
       : text_(text), diagnostics_(diagnostics) {}
 
   TrcHeader read() {
@@ -235,7 +235,7 @@ double TrcHeader::number(std::string_view key) const {
 }
 
 TrcHeader read_trc_header(const SourceText& text, Diagnostics& diagnostics) {
-  return HeaderReader(text, diagnostics).read();
+  return TrcHeaderReader(text, diagnostics).read();
 }
 
 }  // namespace kinemend

@@ -13,7 +13,7 @@ namespace kinemend {
 
 namespace {
 
-constexpr double rate_when_unknown_hz = 100;
+constexpr double trc_rate_when_unknown_hz = 100;
 
 std::size_t whole(double number) {
   constexpr double most = 1e15;
@@ -40,8 +40,8 @@ class TrcReader {
     clip_.frame_rate_hz = table_rate(
         text_, diagnostics_, check_row_labels(text_, diagnostics_, table, rows.labels, clip_),
         {header_.number("DataRate"), header_.values_line, table.begin, options_.frame_rate_hz,
-         rate_when_unknown_hz, "DataRate", header_.values_line, "the header has no usable DataRate",
-         true});
+         trc_rate_when_unknown_hz, "DataRate", header_.values_line,
+         "the header has no usable DataRate", true});
     clip_.is_position.assign(clip_.marker_count(), 1);
     note_facts();
     return finish();

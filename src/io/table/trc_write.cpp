@@ -53,9 +53,9 @@ std::string rate_text(double rate_hz) {
   return token.value == rate_hz ? two_decimals : std::string(room, write_shortest(room, rate_hz));
 }
 
-class PlainWriter {
+class TrcWriter {
  public:
-  PlainWriter(const MarkerClip& clip, PlainStyle style)
+  TrcWriter(const MarkerClip& clip, PlainStyle style)
       : clip_(clip), style_(std::move(style)), out_(64 * clip.positions.size() + 4096) {}
 
   std::string write() {
@@ -130,7 +130,7 @@ std::string write_trc(const MarkerClip& clip) {
       clip.frame_rate_hz == document->frame_rate_hz && clip.first_frame == document->first_frame;
   if (same_layout) return rewrite_marker_table(clip, document->bytes, document->table);
   if (clip.names.empty()) throw Error(ErrorKind::usage, "TRC cannot hold a clip without markers");
-  return PlainWriter(clip, style_of(clip, document)).write();
+  return TrcWriter(clip, style_of(clip, document)).write();
 }
 
 }  // namespace kinemend

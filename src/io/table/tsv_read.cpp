@@ -14,7 +14,7 @@ namespace kinemend {
 
 namespace {
 
-constexpr double rate_when_unknown_hz = 100;
+constexpr double tsv_rate_when_unknown_hz = 100;
 
 // NO_OF_FRAMES and the like.
 bool is_key(std::string_view cell) {
@@ -146,7 +146,7 @@ class TsvReader {
     // FREQUENCY is a word where the cameras were driven from outside.
     clip_.frame_rate_hz = table_rate(
         text_, diagnostics_, check_row_labels(text_, diagnostics_, table, found.labels, clip_),
-        {rate_.number, rate_.place, table.begin, options_.frame_rate_hz, rate_when_unknown_hz,
+        {rate_.number, rate_.place, table.begin, options_.frame_rate_hz, tsv_rate_when_unknown_hz,
          "FREQUENCY", rate_.place, "the head has no usable FREQUENCY", true});
   }
 

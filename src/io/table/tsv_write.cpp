@@ -23,9 +23,9 @@ bool keeps_layout(const MarkerClip& clip, const TsvDocument& document) {
                     document.events.end(), same_event);
 }
 
-class PlainWriter {
+class TsvWriter {
  public:
-  explicit PlainWriter(const MarkerClip& clip)
+  explicit TsvWriter(const MarkerClip& clip)
       : clip_(clip), out_(32 * clip.positions.size() + 4096) {}
 
   std::string write() {
@@ -108,7 +108,7 @@ std::string write_tsv(const MarkerClip& clip) {
     throw Error(ErrorKind::usage,
                 fmt::format("TSV files are in millimetres, the take is in {}", quote(clip.unit)));
   }
-  return PlainWriter(clip).write();
+  return TsvWriter(clip).write();
 }
 
 }  // namespace kinemend

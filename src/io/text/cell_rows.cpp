@@ -1,19 +1,18 @@
 #include "io/text/cell_rows.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
+
+#include "io/text/number.hpp"
 
 namespace kinemend {
 
 namespace {
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-bool is_blank(char c) { return is_space(c) && !is_line_end(c); }
+bool is_cell_blank(char c) { return is_space(c) && !is_line_end(c); }
 
 TokenSpan trimmed(TokenSpan token, char separator) {
-  const auto blank = [&](char c) { return c != separator && is_blank(c); };
+  const auto blank = [&](char c) { return c != separator && is_cell_blank(c); };
   while (token.begin != token.end && blank(*token.begin)) ++token.begin;
   while (token.begin != token.end && blank(token.end[-1])) --token.end;
   return token;
@@ -26,7 +25,7 @@ bool is_quoted(TokenSpan token) {
 // Quotes hide separators, up to the end of the line.
 const char* cell_end(const char* p, const char* end, char separator) {
   const char* q = p;
-  while (q != end && is_blank(*q) && *q != separator) ++q;
+  while (q != end && is_cell_blank(*q) && *q != separator) ++q;
   bool quoted = q != end && *q == '"';
   if (quoted) p = q + 1;
   for (; p != end && !is_line_end(*p); ++p) {
@@ -110,7 +109,7 @@ CellRows::CellRows(std::string_view text, std::size_t begin, CellStyle style)
 bool CellRows::next() {
   for (line_ = next_line_; line_ != end_;) {
     const char* p = line_;
-    while (p != end_ && is_blank(*p)) ++p;
+    while (p != end_ && is_cell_blank(*p)) ++p;
     if (p == end_) break;
     if (!is_line_end(*p)) return true;
     line_ = p + 1;
@@ -204,7 +203,7 @@ CellRow CellRows::read_words(const Output& out) {
   CellRow row;
   const char* p = line_;
   for (std::size_t i = 0;; ++i) {
-    while (p != end_ && is_blank(*p)) ++p;
+    while (p != end_ && is_cell_blank(*p)) ++p;
     if (p == end_ || is_line_end(*p)) break;
     const char* const word = p;
     while (p != end_ && !is_space(*p)) ++p;

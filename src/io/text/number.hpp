@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <string_view>
 
 #if defined(__SSE2__)
@@ -11,6 +12,9 @@
 #endif
 
 namespace kinemend {
+
+/// A cell that holds none.
+inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// What a comma between digits means in one part of a file.
 enum class CommaStyle : std::uint8_t { none, decimal, separator };
