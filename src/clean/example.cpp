@@ -9,7 +9,6 @@
 #include "clean/example_tuning.hpp"
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
-#include "clean/prior_hold.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
 #include "priors/example_filter.hpp"
@@ -89,9 +88,13 @@ class ExampleCleaning {
     if (options_.lambda == 0) options_.lambda = papers_lambda;
   }
 
+  PriorHold hold() const {
+    const bool is_told = !options_.robust || options_.lambda > 0 || options_.welsch_deg > 0;
+    return is_told ? PriorHold::nothing : PriorHold::white_noise;
+  }
+
   void filter(PriorWork& work) const {
     if (work.channels.poses.frames == 0) return;
-    if (!options_.robust || options_.lambda > 0 || options_.welsch_deg > 0) take_whole(work);
     const BodyChannels& channels = work.channels;
     const std::vector<double>& mean = prior_.bases.mean;
     PoseMatrix guess = first_guess(work, mean, tuning_.guesses_suspects && !is_papers());
@@ -114,7 +117,6 @@ class ExampleCleaning {
                    settings_for(work));
     finish(work, {weights.welsch, noise, rest, suspects}, cleaned);
     work.channels.poses = std::move(cleaned);
-    if (options_.lambda == 0 && options_.welsch_deg == 0) leave_coloured_noise_to_auto(work);
   }
 
  private:
@@ -207,10 +209,9 @@ std::unique_ptr<Cleaner> make_tuned_example(const ExampleOptions& options,
                                             const ExampleTuning& tuning) {
   table().validate(options);
   model = model_for("example", options.model, std::move(model));
-  return make_prior_cleaner(model, options.map, options.fill,
-                            [cleaning = ExampleCleaning(options, model, tuning)](PriorWork& work) {
-                              cleaning.filter(work);
-                            });
+  const ExampleCleaning cleaning(options, model, tuning);
+  return make_prior_cleaner(model, options.map, options.fill, cleaning.hold(),
+                            [cleaning](PriorWork& work) { cleaning.filter(work); });
 }
 
 Method example_method() {
