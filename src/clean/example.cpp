@@ -20,6 +20,7 @@ namespace kinemend {
 namespace {
 
 constexpr double rejected_weight = 0.01;
+constexpr double dense_suspects = 0.03;  // a share that `auto` does not repair well
 // What is missing settles last, and weighs little in the objective.
 constexpr double tolerance_of_gaps = 1e-3;
 // The paper's p and lambda (sections 3.2 and 3.3), for the paper's solver, whose steps are short.
@@ -115,6 +116,7 @@ class ExampleCleaning {
     const ExampleWeights weights = weights_for(noise, rest, suspects, bases);
     example_filter(cleaned, channels.poses, channels.observed, std::move(bases), mean, weights,
                    settings_for(work));
+    if (suspects > dense_suspects) work.is_whole = true;
     finish(work, {weights.welsch, noise, rest, suspects}, cleaned);
     work.channels.poses = std::move(cleaned);
   }

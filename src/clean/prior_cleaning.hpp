@@ -30,7 +30,8 @@ struct PriorWork {
   /// D / 3: how much of the filter's result each part wants, by its noise: 0 where `auto` finds it
   /// clean, to 1.
   std::vector<double> needs;
-  bool is_whole = false;  ///< nothing holds the filter back: `settle_needs`
+  /// Nothing holds the filter back: of `settle_needs`, or of a filter that finds dense outliers.
+  bool is_whole = false;
   std::string why_no_need = "auto finds little or no noise in them";
   bool is_white = true;  ///< the noise, and every frame is a measurement, as far as `auto` can tell
   /// D / 3: 1 for parts that are not observed because they are left to `auto`. Empty: none.
