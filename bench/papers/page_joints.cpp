@@ -72,32 +72,57 @@ void damaged_takes(const Arguments& arguments) {
   table.close();
 }
 
+Clip of_the_world(const Clip& clip) {
+  Clip result = clip;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    const Pose pose = forward_kinematics(clip, f);
+    for (std::size_t j = 0; j < clip.joint_count(); ++j) result.rotation(f, j) = pose.rotations[j];
+  }
+  return result;
+}
+
+// Of the rotations against the world, half a second and more from the ends: how much it makes that
+// those against the parents were filtered.
+std::vector<std::string> difference_of_frames(const Clip& clip, const Cleaner& cleaner) {
+  Clip local = clip, global = of_the_world(clip);
+  clean_in_place(cleaner, local);
+  clean_in_place(cleaner, global);
+  const auto margin = static_cast<std::size_t>(clip.frame_rate_hz / 2);
+  const std::size_t last = clip.frame_count() - margin;
+  local = slice(of_the_world(local), margin, last);
+  global = slice(global, margin, last);
+  double largest = 0;
+  std::size_t joint = 0;
+  for (std::size_t i = 0; i < local.local_rotations.size(); ++i) {
+    const double angle = angle_between(local.local_rotations[i], global.local_rotations[i]);
+    if (angle > largest) largest = angle, joint = i % clip.joint_count();
+  }
+  return {clip.skeleton.names[joint], figure(degrees_per_radian * largest),
+          figure(geodesic_rms_deg(local, global))};
+}
+
 // Joints against their parents or against the world: the bilateral filter is the same in frames
 // that stand still, not in those of parents that turn.
 void frames_of_joints(const Arguments& arguments) {
-  Table table(arguments, "page_frames.csv", "take,noise_deg,largest_deg,rms_deg");
-  const auto of_the_world = [](const Clip& clip) {
-    Clip result = clip;
-    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-      const Pose pose = forward_kinematics(clip, f);
-      for (std::size_t j = 0; j < clip.joint_count(); ++j)
-        result.rotation(f, j) = pose.rotations[j];
-    }
-    return result;
-  };
-  for (const char* motion : {"walk", "run"}) {
+  Table table(arguments, "page_frames.csv", "take,setting,noise_deg,joint,largest_deg,rms_deg");
+  const auto add = [&](const std::string& take, const Clip& clip) {
+    const BilateralOptions usual, papers{1 / clip.frame_rate_hz, 11.46, 5, "mirror"};
     for (const double noise_deg : {0.0, 1.5}) {
-      const Clip clip = noisy(synthesize({.motion = motion}), noise_deg, 0, 7);
-      const Clip local = of_the_world(cleaned(clip, "bilateral"));
-      Clip global = of_the_world(clip);
-      clean_in_place(*make_cleaner("bilateral"), global);
-      double largest = 0;
-      for (std::size_t i = 0; i < local.local_rotations.size(); ++i)
-        largest =
-            std::max(largest, angle_between(local.local_rotations[i], global.local_rotations[i]));
-      table.add({motion, fmt::format("{}", noise_deg), figure(degrees_per_radian * largest),
-                 figure(geodesic_rms_deg(local, global))});
+      const Clip damaged = noisy(clip, noise_deg, 0, 7);
+      for (const bool is_papers : {false, true}) {
+        std::vector<std::string> cells{take, is_papers ? "paper" : "default",
+                                       fmt::format("{}", noise_deg)};
+        const auto found =
+            difference_of_frames(damaged, *make_bilateral(is_papers ? papers : usual));
+        cells.insert(cells.end(), found.begin(), found.end());
+        table.add(cells);
+      }
     }
+  };
+  for (const char* motion : {"walk", "run"}) add(motion, synthesize({.motion = motion}));
+  for (const char* name : {"02_05", "09_03", "05_02", "16_01"}) {
+    if (!find_take(arguments.data, std::string(name) + ".bvh")) continue;
+    add(name, load_take(arguments, std::string(name) + ".bvh", {}).clip);
   }
   table.close();
 }

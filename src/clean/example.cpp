@@ -9,7 +9,6 @@
 #include "clean/example_tuning.hpp"
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
-#include "clean/prior_hold.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
 #include "priors/example_filter.hpp"
@@ -21,6 +20,7 @@ namespace kinemend {
 namespace {
 
 constexpr double rejected_weight = 0.01;
+constexpr double dense_suspects = 0.03;  // a share that `auto` does not repair well
 // What is missing settles last, and weighs little in the objective.
 constexpr double tolerance_of_gaps = 1e-3;
 // The paper's p and lambda (sections 3.2 and 3.3), for the paper's solver, whose steps are short.
@@ -89,9 +89,13 @@ class ExampleCleaning {
     if (options_.lambda == 0) options_.lambda = papers_lambda;
   }
 
+  PriorHold hold() const {
+    const bool is_told = !options_.robust || options_.lambda > 0 || options_.welsch_deg > 0;
+    return is_told ? PriorHold::nothing : PriorHold::white_noise;
+  }
+
   void filter(PriorWork& work) const {
     if (work.channels.poses.frames == 0) return;
-    if (!options_.robust || options_.lambda > 0 || options_.welsch_deg > 0) take_whole(work);
     const BodyChannels& channels = work.channels;
     const std::vector<double>& mean = prior_.bases.mean;
     PoseMatrix guess = first_guess(work, mean, tuning_.guesses_suspects && !is_papers());
@@ -112,9 +116,9 @@ class ExampleCleaning {
     const ExampleWeights weights = weights_for(noise, rest, suspects, bases);
     example_filter(cleaned, channels.poses, channels.observed, std::move(bases), mean, weights,
                    settings_for(work));
+    if (suspects > dense_suspects) work.is_whole = true;
     finish(work, {weights.welsch, noise, rest, suspects}, cleaned);
     work.channels.poses = std::move(cleaned);
-    if (options_.lambda == 0 && options_.welsch_deg == 0) leave_coloured_noise_to_auto(work);
   }
 
  private:
@@ -207,10 +211,9 @@ std::unique_ptr<Cleaner> make_tuned_example(const ExampleOptions& options,
                                             const ExampleTuning& tuning) {
   example_table().validate(options);
   model = model_for("example", options.model, std::move(model));
-  return make_prior_cleaner(model, options.map, options.fill,
-                            [cleaning = ExampleCleaning(options, model, tuning)](PriorWork& work) {
-                              cleaning.filter(work);
-                            });
+  const ExampleCleaning cleaning(options, model, tuning);
+  return make_prior_cleaner(model, options.map, options.fill, cleaning.hold(),
+                            [cleaning](PriorWork& work) { cleaning.filter(work); });
 }
 
 Method example_method() {

@@ -5,7 +5,6 @@
 
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
-#include "clean/prior_hold.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
 #include "priors/linear_dynamics.hpp"
@@ -50,10 +49,7 @@ void filter_learned(PriorWork& work, const KalmanLearnedOptions& options,
                     const LinearDynamics& learned) {
   BodyChannels& channels = work.channels;
   std::vector<double> noise = noise_with_spikes(work);
-  if (options.noise_deg > 0) {
-    std::fill(noise.begin(), noise.end(), options.noise_deg);
-    take_whole(work);
-  }
+  if (options.noise_deg > 0) std::fill(noise.begin(), noise.end(), options.noise_deg);
   const LinearDynamics dynamics = at_rate(learned, channels.frame_rate_hz);
   const MeasurementFacts facts{channels.observed, noise};
   if (options.smoother) {
@@ -61,7 +57,6 @@ void filter_learned(PriorWork& work, const KalmanLearnedOptions& options,
   } else {
     filter_with_dynamics(channels.poses, facts, dynamics);
   }
-  if (options.noise_deg <= 0) leave_coloured_noise_to_auto(work);
 }
 
 }  // namespace
@@ -70,7 +65,8 @@ std::unique_ptr<Cleaner> make_kalman_learned(const KalmanLearnedOptions& options
                                              std::shared_ptr<const Model> model) {
   kalman_learned_table().validate(options);
   model = model_for("kalman-learned", options.model, std::move(model));
-  return make_prior_cleaner(model, options.map, options.fill,
+  const PriorHold hold = options.noise_deg > 0 ? PriorHold::nothing : PriorHold::white_noise;
+  return make_prior_cleaner(model, options.map, options.fill, hold,
                             [options, dynamics = dynamics_of(*model)](PriorWork& work) {
                               filter_learned(work, options, dynamics);
                             });

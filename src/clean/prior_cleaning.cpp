@@ -206,7 +206,7 @@ void leave_far_turns_to_auto(PriorWork& work, const BodyLayout& layout,
 }
 
 // What `auto` made of the tracks that the result may need: not of parts whose every sample is the
-// filter's. A filter may leave noise that is not white to `auto`.
+// filter's.
 template <class AnyClip>
 std::vector<CleanedTrack> keep_fallback(const PriorTake<AnyClip>& take, AutoRun<AnyClip> run,
                                         const PriorWork& work,
@@ -214,7 +214,7 @@ std::vector<CleanedTrack> keep_fallback(const PriorTake<AnyClip>& take, AutoRun<
   const TakeView view = view_of(run.clip);
   std::vector<std::uint8_t> needed(view.tracks.size(), 1);
   for (std::size_t part = 0; part < take.match.tracks.size(); ++part) {
-    if (chosen[part] == 0 || work.needs[part] == 0 || !work.is_white) continue;
+    if (chosen[part] == 0 || work.needs[part] == 0) continue;
     const std::size_t track = *take.track(part);
     if (fill || observed_of(take.view.tracks[track]).empty()) needed[track] = 0;
   }
@@ -260,22 +260,23 @@ CleanedTrack filtered_track(const TakeView& view, const TakeView& filtered, std:
 }
 
 template <class AnyClip>
-CleanTrace clean_known(const PriorTake<AnyClip>& take, bool fill, const PriorFilter& filter,
-                       const TrackSink& sink) {
+CleanTrace clean_known(const PriorTake<AnyClip>& take, bool fill, PriorHold hold,
+                       const PriorFilter& filter, const TrackSink& sink) {
   const TakeView& view = take.view;
   std::vector<std::uint8_t> chosen = chosen_parts(take);
   AutoRun<AnyClip> run = run_auto(take);
   PriorWork work = work_of(take, run);
   if (view.joints) leave_far_turns_to_auto(work, take.layout, chosen);
+  settle_needs(work, hold);
+  leave_alone(work, fill, chosen);
   CleanTrace trace = run.trace;
   std::vector<CleanedTrack> fallback = keep_fallback(take, std::move(run), work, chosen, fill);
-  filter(work);
+  if (std::find(chosen.begin(), chosen.end(), 1) != chosen.end()) filter(work);
   hold_to_needs(work);
   if (view.joints) {
     add_fall_back(work, "they turn farther or leap more than the model can say",
                   {work.left_out.begin(), work.left_out.end()});
   }
-  leave_alone(work, fill, chosen);
 
   AnyClip filtered = take.clip;
   decode_body(work.channels, take.layout, take.match, filtered, chosen);
@@ -318,45 +319,50 @@ Clip with_bridged_positions(const TakeView& view) {
 }  // namespace
 
 CleanTrace clean_with_prior(const TakeView& take, const TrackSink& sink, const BodyLayout& layout,
-                            const NameMap& names, bool fill, const PriorFilter& filter) {
+                            const NameMap& names, bool fill, PriorHold hold,
+                            const PriorFilter& filter) {
   const BodyMatch match = take.joints ? match_body(layout, *take.joints, names)
                                       : match_body(layout, *take.markers, names);
   if (take.frames == 0) return {};
   if (take.markers)
-    return clean_known<MarkerClip>({take, *take.markers, layout, match}, fill, filter, sink);
+    return clean_known<MarkerClip>({take, *take.markers, layout, match}, fill, hold, filter, sink);
   if (take.joints->observed_positions.empty())
-    return clean_known<Clip>({take, *take.joints, layout, match}, fill, filter, sink);
+    return clean_known<Clip>({take, *take.joints, layout, match}, fill, hold, filter, sink);
   const Clip bridged = with_bridged_positions(take);
-  return clean_known<Clip>({take, bridged, layout, match}, fill, filter, sink);
+  return clean_known<Clip>({take, bridged, layout, match}, fill, hold, filter, sink);
 }
 
 namespace {
 
 class PriorCleaner final : public Cleaner {
  public:
-  PriorCleaner(std::shared_ptr<const Model> model, NameMap names, bool fill, PriorFilter filter)
+  PriorCleaner(std::shared_ptr<const Model> model, NameMap names, bool fill, PriorHold hold,
+               PriorFilter filter)
       : model_(std::move(model)),
         names_(std::move(names)),
         fill_(fill),
+        hold_(hold),
         filter_(std::move(filter)) {}
 
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& /*progress*/) const override {
-    return clean_with_prior(take, sink, model_->layout, names_, fill_, filter_);
+    return clean_with_prior(take, sink, model_->layout, names_, fill_, hold_, filter_);
   }
 
  private:
   std::shared_ptr<const Model> model_;
   NameMap names_;
   bool fill_;
+  PriorHold hold_;
   PriorFilter filter_;
 };
 
 }  // namespace
 
 std::unique_ptr<Cleaner> make_prior_cleaner(std::shared_ptr<const Model> model,
-                                            const std::string& map, bool fill, PriorFilter filter) {
-  return std::make_unique<PriorCleaner>(std::move(model), name_map_at(map), fill,
+                                            const std::string& map, bool fill, PriorHold hold,
+                                            PriorFilter filter) {
+  return std::make_unique<PriorCleaner>(std::move(model), name_map_at(map), fill, hold,
                                         std::move(filter));
 }
 

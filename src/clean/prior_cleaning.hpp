@@ -30,7 +30,8 @@ struct PriorWork {
   /// D / 3: how much of the filter's result each part wants, by its noise: 0 where `auto` finds it
   /// clean, to 1.
   std::vector<double> needs;
-  bool is_whole = false;  ///< nothing holds the filter back: `take_whole`
+  /// Nothing holds the filter back: of `settle_needs`, or of a filter that finds dense outliers.
+  bool is_whole = false;
   std::string why_no_need = "auto finds little or no noise in them";
   bool is_white = true;  ///< the noise, and every frame is a measurement, as far as `auto` can tell
   /// D / 3: 1 for parts that are not observed because they are left to `auto`. Empty: none.
@@ -46,17 +47,27 @@ struct PriorWork {
 /// Cleans `work.channels.poses` in place.
 using PriorFilter = std::function<void(PriorWork& work)>;
 
+/// What decides how much of a filter's result a part has.
+enum class PriorHold {
+  noise,        ///< the noise of the part
+  white_noise,  ///< the same, and nothing where it is not white: the filter takes noise for white
+  nothing,      ///< the filter is told what to do: all parts have all of it
+};
+
 /// Runs the filter on the parts that layout and take share, and `auto` on all others, on parts that
 /// it finds clean and on joints that turn farther from the model's mean than their channels can say
 /// (`tangent_limit_rad`) or flip by more than 60 degrees in a frame; fills gaps of the shared parts
-/// where `fill` is set. Errors: `ErrorKind::usage` as of `match_body`.
+/// where `fill` is set. The filter does not run where no part is left to it. Errors:
+/// `ErrorKind::usage` as of `match_body`.
 CleanTrace clean_with_prior(const TakeView& take, const TrackSink& sink, const BodyLayout& layout,
-                            const NameMap& names, bool fill, const PriorFilter& filter);
+                            const NameMap& names, bool fill, PriorHold hold,
+                            const PriorFilter& filter);
 
 /// A cleaner that does this to every take of joints or markers; `map` is the path of a mapping
 /// file, or empty. Errors: as of `name_map_at`.
 std::unique_ptr<Cleaner> make_prior_cleaner(std::shared_ptr<const Model> model,
-                                            const std::string& map, bool fill, PriorFilter filter);
+                                            const std::string& map, bool fill, PriorHold hold,
+                                            PriorFilter filter);
 
 /// The names of a mapping file; none for an empty path. Errors: `ErrorKind::unreadable_input`.
 NameMap name_map_at(const std::string& path);

@@ -57,6 +57,7 @@ std::vector<double> shares_within_noise(const PriorWork& work) {
     for (std::size_t c = first; c < first + channels_of_part; ++c)
       noise += work.noise[c] * work.noise[c];
     const double farthest = most_deviations * most_deviations * noise;
+    if (work.needs[part] == 0) continue;
     for (std::size_t f = 0; f < poses.frames; ++f) {
       double change = 0;
       bool counts = true;
@@ -81,17 +82,25 @@ std::vector<double> mean_rest(const std::vector<double>& shares, std::size_t par
 
 }  // namespace
 
+void settle_needs(PriorWork& work, PriorHold hold) {
+  if (hold == PriorHold::nothing || has_dense_spikes(work)) {
+    work.is_whole = true;
+    std::fill(work.needs.begin(), work.needs.end(), 1.0);
+  } else if (hold == PriorHold::white_noise && !work.is_white) {
+    std::fill(work.needs.begin(), work.needs.end(), 0.0);
+    work.why_no_need = "the model takes noise for white, and theirs is not";
+  }
+}
+
 void hold_to_needs(PriorWork& work) {
   PoseMatrix& poses = work.channels.poses;
   const std::size_t frames = poses.frames;
-  const bool is_dense = has_dense_spikes(work);
-  if (is_dense) std::fill(work.needs.begin(), work.needs.end(), 1.0);
   std::vector<double> left_alone;
   for (const double need : work.needs) left_alone.push_back(1 - std::min(need, 1.0));
   add_fall_back(work, work.why_no_need, std::move(left_alone));
   const std::size_t parts = work.needs.size();
   std::vector<double> shares(frames * parts, 1);
-  if (!work.is_whole && !is_dense) {
+  if (!work.is_whole) {
     shares = shares_within_noise(work);
     add_fall_back(work, "they would change by more than their noise", mean_rest(shares, parts));
   }
@@ -113,24 +122,12 @@ void hold_to_needs(PriorWork& work) {
   }
 }
 
-void take_whole(PriorWork& work) {
-  work.is_whole = true;
-  std::fill(work.needs.begin(), work.needs.end(), 1.0);
-}
-
-void leave_coloured_noise_to_auto(PriorWork& work) {
-  if (work.is_white) return;
-  std::fill(work.needs.begin(), work.needs.end(), 0.0);
-  work.why_no_need = "the model takes noise for white, and theirs is not";
-}
-
 std::vector<std::uint8_t> wanted_parts(const PriorWork& work, bool fill) {
-  const bool all = has_dense_spikes(work);
   std::vector<std::uint8_t> wanted(work.match->tracks.size(), 0);
   for (std::size_t part = 0; part < wanted.size(); ++part) {
     const bool is_absent =
         work.match->tracks[part] < 0 || (!work.left_out.empty() && work.left_out[part] != 0);
-    wanted[part] = !is_absent && (all || !is_left_alone(work, part, fill)) ? 1 : 0;
+    wanted[part] = !is_absent && !is_left_alone(work, part, fill) ? 1 : 0;
   }
   return wanted;
 }

@@ -9,23 +9,20 @@
 // Hands off what is clean: a learned model changes a part no further than its noise asks for.
 namespace kinemend {
 
+/// Before the filter: what each part needs of it. All of it where `hold` is nothing, and where one
+/// sample in fifty is a spike to `auto`; nothing where a filter that takes noise for white meets
+/// noise with a colour, or frames that are samples of a lower rate, as `auto` sees it (the filter
+/// may fill gaps); otherwise `work.needs` stays.
+void settle_needs(PriorWork& work, PriorHold hold);
+
 /// Puts what `auto` makes of the take in the place of what the filter made of it, by 1 - need for
 /// each part (`work.needs`): a part in which `auto` finds nothing stays as it is. What the filter
 /// put into gaps moves with the samples beside them. A sample that is farther from
-/// `auto`'s than the noise's deviation (of all three axes) is put at that distance. Where one
-/// sample in fifty is a spike to `auto`, every part needs the filter, all of it.
+/// `auto`'s than the noise's deviation (of all three axes) is put at that distance.
 void hold_to_needs(PriorWork& work);
 
-/// Of a filter that is told what to do: every part has all of it.
-void take_whole(PriorWork& work);
-
-/// Of a filter that takes noise for white: no part needs it where noise has a colour, or frames are
-/// samples of a lower rate, which `auto` sees. The filter may fill gaps.
-void leave_coloured_noise_to_auto(PriorWork& work);
-
-/// A mark for each part of the model's layout (N): 1 where the filter has a say, by need, by gaps
-/// that it fills where `fill` is set, or because spikes are dense. Parts that the take lacks, or
-/// that are left out, have 0. What is 0 everywhere needs no filter at all.
+/// A mark for each part of the model's layout (N): 1 where the filter has a say, by need or by gaps
+/// that it fills where `fill` is set. Parts that the take lacks, or that are left out, have 0.
 std::vector<std::uint8_t> wanted_parts(const PriorWork& work, bool fill);
 
 /// Whether the filter has no say in a part: no need, and nothing that it may fill.

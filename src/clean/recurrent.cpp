@@ -86,7 +86,7 @@ std::unique_ptr<Cleaner> make_recurrent(const RecurrentOptions& options,
                                         std::shared_ptr<const Model> model) {
   recurrent_table().validate(options);
   model = model_for("recurrent", options.model, std::move(model));
-  return make_prior_cleaner(model, options.map, options.fill, filter_of(model));
+  return make_prior_cleaner(model, options.map, options.fill, PriorHold::noise, filter_of(model));
 }
 
 Method recurrent_method() {

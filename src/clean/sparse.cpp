@@ -160,7 +160,6 @@ void filter_sparse(PriorWork& work, const SparseOptions& options, const SparsePr
   settings.exact = options.solver == "paper";
   std::vector<std::uint8_t> wanted;
   if (!settings.exact) {
-    leave_coloured_noise_to_auto(work);
     const std::vector<std::uint8_t> parts = wanted_parts(work, options.fill);
     if (std::find(parts.begin(), parts.end(), 1) == parts.end()) {
       work.channels.poses = work.fallback;
@@ -172,7 +171,6 @@ void filter_sparse(PriorWork& work, const SparseOptions& options, const SparsePr
   PoseMatrix found = filtered_points(work, positions, prior, layout, wanted, settings);
   PoseMatrix cleaned = channels_of(prior.points, layout, found, work.fallback);
   if (settings.exact) {
-    take_whole(work);
     work.channels.poses = std::move(cleaned);
     return;
   }
@@ -193,7 +191,8 @@ std::unique_ptr<Cleaner> make_sparse(const SparseOptions& options,
                                      std::shared_ptr<const Model> model) {
   sparse_table().validate(options);
   model = model_for("sparse", options.model, std::move(model));
-  return make_prior_cleaner(model, options.map, options.fill,
+  const PriorHold hold = options.solver == "paper" ? PriorHold::nothing : PriorHold::white_noise;
+  return make_prior_cleaner(model, options.map, options.fill, hold,
                             [options, model, prior = sparse_prior_of(*model)](PriorWork& work) {
                               filter_sparse(work, options, prior, model->layout);
                             });

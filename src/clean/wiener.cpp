@@ -7,7 +7,6 @@
 #include "base/quantiles.hpp"
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
-#include "clean/prior_hold.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
 #include "priors/wiener_guard.hpp"
@@ -108,7 +107,6 @@ void turn_channels(PoseMatrix& poses, std::span<const Eigen::Matrix3d> turns) {
 }
 
 void filter(PriorWork& work, const WienerOptions& options, const WienerPrior& known) {
-  if (options.noise_deg > 0) take_whole(work);
   PoseMatrix& poses = work.channels.poses;
   std::vector<Eigen::Matrix3d> axes = noise_axes(work);
   const WienerPrior prior = with_turned_channels(known, axes);
@@ -125,6 +123,7 @@ void filter(PriorWork& work, const WienerOptions& options, const WienerPrior& kn
     if (share_of(found.suspect, work) > dense_share) {
       outliers = std::move(found);
       noise = noise_of(work, outliers.suspect, options);
+      work.is_whole = true;  // what `auto` makes of such a take is no measure
     }
   }
   WienerResult result = guarded_wiener_filter(
@@ -136,7 +135,6 @@ void filter(PriorWork& work, const WienerOptions& options, const WienerPrior& kn
   turn_channels(work.fallback, axes);
   work.rejected = std::move(result.rejected);
   for (double& deviation : work.noise) deviation *= std::max(options.sensitivity, 1.0);
-  if (options.noise_deg <= 0) leave_coloured_noise_to_auto(work);
 }
 
 }  // namespace
@@ -145,7 +143,8 @@ std::unique_ptr<Cleaner> make_wiener(const WienerOptions& options,
                                      std::shared_ptr<const Model> model) {
   wiener_table().validate(options);
   model = model_for("wiener", options.model, std::move(model));
-  return make_prior_cleaner(model, options.map, options.fill,
+  const PriorHold hold = options.noise_deg > 0 ? PriorHold::nothing : PriorHold::white_noise;
+  return make_prior_cleaner(model, options.map, options.fill, hold,
                             [options, prior = wiener_prior_of(*model)](PriorWork& work) {
                               filter(work, options, prior);
                             });

@@ -23,7 +23,6 @@ using Eigen::VectorXd;
 
 // Windows overlap by three quarters, so that neighbours are dependent.
 constexpr double window_weight = 0.25;
-constexpr double adaptation_weight = 0.5;
 constexpr std::size_t chunk_windows = 16;
 
 // sin^2, which sums to a constant where windows follow each other by a quarter.
@@ -60,7 +59,6 @@ class Filtering {
         take_(take),
         settings_(settings),
         windows_(prior, window, static_cast<Index>(take.poses.frames), take.observed, take.noise),
-        components_(prior.components),
         rest_(prior.rest, windows_.noise(), window, prior.window_s),
         taper_(taper(window)),
         guess_(take.poses),
@@ -72,8 +70,8 @@ class Filtering {
 
   WienerResult run() {
     for (std::size_t round = 0;; ++round) {
-      const bool is_last = round == settings_.adaptations;
-      find_posteriors(!is_last);
+      const bool is_last = round == settings_.rounds;
+      find_posteriors();
       PoseMatrix estimate = synthesize();
       if (is_last) return {std::move(estimate), std::move(rejected_)};
       judge_samples(estimate);
@@ -104,8 +102,8 @@ class Filtering {
     });
   }
 
-  // z_ of all windows; with `adapt` the components are adapted to them.
-  void find_posteriors(bool adapt) {
+  // z_ of all windows.
+  void find_posteriors() {
     const auto count = static_cast<Index>(windows_.starts().size());
     MatrixXd information(prior_.rank(), count);
     for_each_chunk([&](std::size_t, std::size_t first, std::size_t last) {
@@ -118,22 +116,16 @@ class Filtering {
           product(transposed(prior_.basis).transposed(), seen);
     });
     z_.resize(prior_.rank(), count);
-    MixtureMoments moments(components_.size(), prior_.rank());
     for (const WindowGroup& group : windows_.groups()) {
       MatrixXd chosen(prior_.rank(), static_cast<Index>(group.windows.size()));
       for (std::size_t i = 0; i < group.windows.size(); ++i) {
         chosen.col(static_cast<Index>(i)) = information.col(static_cast<Index>(group.windows[i]));
       }
       const MixturePosterior posterior =
-          mixture_posterior(components_, windows_.precision(group), chosen);
+          mixture_posterior(prior_.components, windows_.precision(group), chosen);
       const MatrixXd means = posterior.mean();
       for (std::size_t i = 0; i < group.windows.size(); ++i)
         z_.col(static_cast<Index>(group.windows[i])) = means.col(static_cast<Index>(i));
-      if (adapt) moments.add(posterior, adaptation_weight);
-    }
-    if (adapt) {
-      components_ =
-          moments.adapted(prior_.components, settings_.mean_windows, settings_.covariance_windows);
     }
   }
 
@@ -271,7 +263,6 @@ class Filtering {
   const WienerTake& take_;
   const WienerSettings& settings_;
   WienerWindows windows_;
-  std::vector<WienerPrior::Component> components_;
   RestModel rest_;
   VectorXd taper_;
   PoseMatrix guess_;  // measured samples, and estimates of missing ones

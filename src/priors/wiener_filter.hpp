@@ -11,9 +11,8 @@
 namespace kinemend {
 
 struct WienerSettings {
-  std::size_t adaptations = 2;     ///< adaptations of the mixture to the take
-  double covariance_windows = 60;  ///< prior weight of the learned covariances, windows
-  double mean_windows = 5;         ///< the same of the learned means
+  /// How often samples are judged, and those without weight guessed, anew.
+  std::size_t rounds = 2;
   /// Standard deviations beyond which a sample gets no weight; 0: none do.
   double outlier_deviations = 4.5;
   double least_outlier_deg = 1;  ///< samples at a smaller distance are no outliers
@@ -35,10 +34,10 @@ struct WienerResult {
 };
 
 /// The posterior mean of a take, window by window and overlap-added. Components are weighted by the
-/// evidence of each window, then adapted to the take (maximum a posteriori,
-/// `MixtureMoments::adapted`), and the posterior is computed again. The residual is shrunk by its
-/// own spectrum (`RestModel`). A sample far from its window's estimate is rejected, and accepted
-/// again when it is near a later estimate. Channels come in threes, of which outliers are shared.
+/// evidence of each window. The residual is shrunk by its own spectrum (`RestModel`). A sample far
+/// from its window's estimate is rejected, and accepted again when it is near a later estimate.
+/// What is missing or rejected is guessed anew from each estimate. Channels come in threes, of
+/// which outliers are shared.
 WienerResult wiener_filter(const WienerPrior& prior, const WienerTake& take,
                            const WienerSettings& settings = {});
 

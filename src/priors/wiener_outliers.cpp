@@ -89,7 +89,7 @@ WienerOutliers dense_outliers(const WienerPrior& prior, const WienerTake& take) 
   WienerOutliers result{{take.suspect.begin(), take.suspect.end()}, take.guess};
   result.suspect.resize(take.poses.values.size(), 0);
   WienerSettings settings;
-  settings.adaptations = 1;
+  settings.rounds = 1;
   // The set of suspects is fixed.
   settings.return_share = 0;
   settings.least_outlier_deg = std::numeric_limits<double>::max();

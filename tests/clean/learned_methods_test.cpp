@@ -92,6 +92,16 @@ TEST_P(Learned, TakesDenseSpikesOut) {
   }
 }
 
+// At 30 Hz `auto` takes a fifth of thrown samples for noise, and what it makes of them is no
+// measure.
+TEST_P(Learned, TakesMoreSpikesOutThanAutoTellsFromNoise) {
+  const Clip truth = walk(4, 30);
+  for (const double share : {0.2, 0.25}) {
+    const Clip input = noisy(truth, 0.3, share);
+    EXPECT_LT(error(truth, input, cleaner()), 0.35 * error(truth, input, *make_auto())) << share;
+  }
+}
+
 TEST_P(Learned, RepairsWholeAtEveryStrength) {
   Clip input = noisy(walk(4), 1, 0);
   const std::vector<Thrown> thrown = throw_spikes(input, {2, 3, 8, 20}, 25, 3);

@@ -64,20 +64,23 @@ std::ptrdiff_t count_of(const InPlaceTrace& trace, Action action) {
 // Does to the takes of the pipeline what the filter does.
 class Filtering final : public Cleaner {
  public:
-  Filtering(BodyLayout layout, bool fill, PriorFilter filter, NameMap names = {})
+  Filtering(BodyLayout layout, bool fill, PriorFilter filter, NameMap names = {},
+            PriorHold hold = PriorHold::noise)
       : layout_(std::move(layout)),
         names_(std::move(names)),
         fill_(fill),
+        hold_(hold),
         filter_(std::move(filter)) {}
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>&) const override {
-    return clean_with_prior(take, sink, layout_, names_, fill_, filter_);
+    return clean_with_prior(take, sink, layout_, names_, fill_, hold_, filter_);
   }
 
  private:
   BodyLayout layout_;
   NameMap names_;
   bool fill_;
+  PriorHold hold_;
   PriorFilter filter_;
 };
 
@@ -140,28 +143,38 @@ TEST(PriorCleaning, GoesAsFarAsTheNoiseAsksFor) {
   EXPECT_GT(before, 5);
 }
 
-// What the filter puts into a gap joins the samples beside it, which it may not change.
 TEST(PriorCleaning, AFilterOfWhiteNoiseLeavesNoiseWithAColourToAuto) {
   Clip noisy = synthesize({.motion = "walk", .duration_s = 6});
   Random random(3);
   apply_damage(noisy, "ar1", {{"std_deg", 1.5}, {"correlation", 0.8}}, random);
   Clip by_auto = noisy;
   clean_in_place(*make_auto(), by_auto);
-  bool is_white = true;
+  bool is_white = true, has_run = false;
+  const auto note = [&](PriorWork& work) {
+    flatten(work);
+    is_white = work.is_white;
+    has_run = true;
+  };
   Clip filtered = noisy;
-  const InPlaceTrace trace = clean_in_place(Filtering(layout_of(noisy), false,
-                                                      [&](PriorWork& work) {
-                                                        flatten(work);
-                                                        is_white = work.is_white;
-                                                        leave_coloured_noise_to_auto(work);
-                                                      }),
-                                            filtered);
+  clean_in_place(Filtering(layout_of(noisy), true, note), filtered);
   EXPECT_FALSE(is_white);
+  filtered = noisy;
+  has_run = false;
+  const InPlaceTrace trace =
+      clean_in_place(Filtering(layout_of(noisy), true, note, {}, PriorHold::white_noise), filtered);
+  EXPECT_FALSE(has_run) << "nothing is left to it";
   EXPECT_EQ(filtered.local_rotations, by_auto.local_rotations);
   ASSERT_FALSE(trace.fall_backs.empty());
   EXPECT_THAT(trace.fall_backs[0].reason, HasSubstr("takes noise for white"));
+
+  const auto arm = static_cast<std::size_t>(noisy.skeleton.find("LeftArm"));
+  noisy.observed.assign(noisy.local_rotations.size(), 1);
+  for (std::size_t f = 100; f < 160; ++f) noisy.observed[f * noisy.joint_count() + arm] = 0;
+  clean_in_place(Filtering(layout_of(noisy), true, note, {}, PriorHold::white_noise), noisy);
+  EXPECT_TRUE(has_run) << "gaps are";
 }
 
+// What the filter puts into a gap joins the samples beside it, which it may not change.
 TEST(PriorCleaning, WhatIsFilledInACleanTakeMeetsTheSamplesBesideIt) {
   const Clip truth = walk();
   const auto arm = static_cast<std::size_t>(truth.skeleton.find("LeftArm"));

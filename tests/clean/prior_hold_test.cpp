@@ -54,9 +54,34 @@ TEST(HoldToNeeds, LetsASpikeGoAsFarAsItMust) {
 
 TEST(HoldToNeeds, DoesNotHoldAFilterThatIsToldWhatToDo) {
   PriorWork work = leaping(20);
-  take_whole(work);
+  work.needs = {0.5};
+  settle_needs(work, PriorHold::nothing);
   hold_to_needs(work);
   EXPECT_EQ(leap(work), 20);
+}
+
+TEST(HoldToNeeds, DoesNotHoldTheFilterWhereOneSampleInFiftyIsASpike) {
+  PriorWork work = leaping(20);
+  work.needs = {0};
+  for (std::size_t f = 100; f < 105; ++f) work.suspect[3 * f] = 1;
+  settle_needs(work, PriorHold::white_noise);
+  EXPECT_EQ(work.needs[0], 0) << "5 of 600";
+  for (std::size_t f = 100; f < 105; ++f) work.suspect[3 * f + 1] = work.suspect[3 * f + 2] = 1;
+  work.is_white = false;
+  settle_needs(work, PriorHold::white_noise);
+  hold_to_needs(work);
+  EXPECT_EQ(leap(work), 20);
+}
+
+TEST(HoldToNeeds, LeavesNoiseWithAColourToAutoWhereTheFilterTakesItForWhite) {
+  PriorWork work = leaping(1);
+  settle_needs(work, PriorHold::white_noise);
+  EXPECT_EQ(work.needs[0], 1);
+  work.is_white = false;
+  settle_needs(work, PriorHold::noise);
+  EXPECT_EQ(work.needs[0], 1);
+  settle_needs(work, PriorHold::white_noise);
+  EXPECT_EQ(work.needs[0], 0);
 }
 
 TEST(HoldToNeeds, MovesWhatFillsAGapWithTheSamplesBesideIt) {
@@ -71,11 +96,11 @@ TEST(HoldToNeeds, MovesWhatFillsAGapWithTheSamplesBesideIt) {
 }
 
 TEST(HoldToNeeds, GivesAPartThatNeedsNothingBackToAuto) {
-  PriorWork work = leaping(1);
+  PriorWork work = leaping(20);
   work.needs = {0};
   hold_to_needs(work);
   EXPECT_EQ(leap(work), 0);
-  EXPECT_EQ(work.fall_backs[0].shares[0], 1);
+  EXPECT_EQ(work.fall_backs[0].shares[0], 1) << "and not a word of how far the filter went";
 }
 
 }  // namespace

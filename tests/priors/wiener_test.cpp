@@ -166,34 +166,6 @@ TEST(WienerPosterior, WeighsComponentsByTheirEvidence) {
   }
 }
 
-TEST(MixtureMoments, LeavesComponentsThatNothingChose) {
-  Random random(2);
-  const WienerPrior prior = random_prior(random, 2);
-  const auto adapted = MixtureMoments(2, rank).adapted(prior.components, 5, 60);
-  for (std::size_t c = 0; c < 2; ++c) {
-    EXPECT_EQ(adapted[c].mean, prior.components[c].mean);
-    EXPECT_EQ(adapted[c].covariance, prior.components[c].covariance);
-  }
-}
-
-TEST(MixtureMoments, FollowsTheTakeWhereThePriorIsWorthNothing) {
-  Random random(2);
-  const WienerPrior prior = random_prior(random, 1);
-  MixturePosterior posterior;
-  posterior.means = {random_matrix(random, rank, 50)};
-  posterior.covariances = {random_covariance(random, rank)};
-  posterior.shares = MatrixXd::Ones(1, 50);
-  MixtureMoments moments(1, rank);
-  moments.add(posterior, 0.5);
-  const auto adapted = moments.adapted(prior.components, 0, 0).front();
-  const VectorXd mean = posterior.means[0].rowwise().mean();
-  const MatrixXd spread = posterior.means[0].colwise() - mean;
-  EXPECT_LT((adapted.mean - mean).norm(), 1e-12);
-  EXPECT_LT(
-      (adapted.covariance - spread * spread.transpose() / 50 - posterior.covariances[0]).norm(),
-      1e-10);
-}
-
 TEST(MixtureFit, FindsTwoClouds) {
   Random random(1);
   MatrixXd points(2, 400);
@@ -228,7 +200,7 @@ TEST(WienerFilter, IsThePriorMeanWhereNoiseIsAll) {
   Random random(4);
   const WienerPrior prior = random_prior(random, 1);
   WienerSettings settings;
-  settings.adaptations = 0;
+  settings.rounds = 0;
   const PoseMatrix result = filtered(prior, random_poses(random, window), 1e4, settings).poses;
   const VectorXd x = prior.mean + prior.basis * prior.components[0].mean;
   const MatrixXd expected = window_cosines(window, coefficients) *
