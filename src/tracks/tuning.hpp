@@ -8,7 +8,7 @@
 // The constants of the method `auto`, by step. They were chosen by hand; no sweep of that time is
 // kept. bench/papers/figures/auto_sweep.csv (tools/sweep) states what half, 0.8, 1.25 and 2 times
 // each of them does to the error on seven takes that no other table of `auto` uses;
-// docs/methods/auto.md sums it up.
+// docs/methods/auto-details.md sums it up.
 namespace kinemend {
 
 /// Of `replace_gross_spikes`.
