@@ -12,6 +12,7 @@
 #include "kinemend/experimental/frame_rate.hpp"
 #include "rotation/component.hpp"
 #include "signal/coloured_noise.hpp"
+#include "tracks/whitening.hpp"
 
 namespace kinemend {
 
@@ -66,7 +67,7 @@ using Curve = std::array<double, strengths>;  // -2 log likelihood of each stren
 class MovingTracks {
  public:
   MovingTracks(const VectorTracks& tracks, const SampleMarks& marked,
-               std::span<const Whitening> whitenings)
+               const std::vector<Whitening>* whitenings)
       : tracks_(tracks), marked_(marked), whitenings_(whitenings) {
     // What stands still has no noise.
     for (std::size_t n = 0; n < tracks.tracks(); ++n) {
@@ -84,7 +85,7 @@ class MovingTracks {
   std::vector<Vec3> filled(std::size_t i) const {
     const auto track = tracks_.track(numbers_[i]);
     std::vector<Vec3> values(track.begin(), track.end());
-    if (!whitenings_.empty()) undo_whitening(values, whitenings_[numbers_[i]]);
+    if (whitenings_ != nullptr) undo_whitening(values, (*whitenings_)[numbers_[i]]);
     fill_marked(values, marked(i));
     return values;
   }
@@ -92,7 +93,7 @@ class MovingTracks {
  private:
   const VectorTracks& tracks_;
   const SampleMarks& marked_;
-  std::span<const Whitening> whitenings_;
+  const std::vector<Whitening>* whitenings_;
   std::vector<std::size_t> numbers_;
 };
 
@@ -312,7 +313,7 @@ std::vector<double> coloured_shares(const NoiseSpectrum& spectrum, double scale,
 NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& marked,
                                 double frame_rate_hz, TrackKind kind,
                                 std::optional<double> correlation,
-                                std::span<const Whitening> whitenings) {
+                                const std::vector<Whitening>* whitenings) {
   constexpr std::size_t fewest_frames = 24, fewest_tracks = 4, fewest_seconds = 4;
   NoiseSpectrum spectrum;
   const auto second = static_cast<std::size_t>(std::lround(window_rate_hz(frame_rate_hz)));

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "tracks/vector_tracks.hpp"
-#include "tracks/whitening.hpp"
 
 namespace kinemend {
+
+struct Whitening;
 
 /// What tracks are: joints turn with corners, markers have mass and move smoothly.
 enum class TrackKind { rotations, positions };
@@ -47,10 +47,10 @@ std::vector<double> coloured_shares(const NoiseSpectrum& spectrum, double scale,
 /// fewer than four tracks that move are not looked at. A colour that more than a quarter of the
 /// tracks find less likely than white is none. Where the `correlation` is known (above 0),
 /// the strength alone is estimated, and is clear.
-/// `whitenings`, one a track, are undone on what is looked at; empty: none.
+/// `whitenings`, one a track, if any, are undone on what is looked at.
 NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& marked,
                                 double frame_rate_hz, TrackKind kind,
                                 std::optional<double> correlation = std::nullopt,
-                                std::span<const Whitening> whitenings = {});
+                                const std::vector<Whitening>* whitenings = nullptr);
 
 }  // namespace kinemend

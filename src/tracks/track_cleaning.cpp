@@ -100,7 +100,7 @@ NoiseSpectrum spectrum_of(const VectorTracks& tracks, const SampleMarks& missing
                           const std::vector<LinearTrend>& trends, double frame_rate_hz,
                           const TrackCleaningSettings& settings) {
   NoiseSpectrum spectrum = noise_spectrum_of(tracks, missing, frame_rate_hz, settings.kind,
-                                             settings.correlation, whitenings);
+                                             settings.correlation, &whitenings);
   if (settings.correlation || !spectrum.is_clear || settings.kind == TrackKind::rotations)
     return spectrum;
   spectrum.is_clear = shows_in_distances(tracks, whitenings, trends, missing, spectrum);
@@ -177,10 +177,9 @@ CleanedTracks clean_tracks(VectorTracks& tracks, const SampleMarks& spike_candid
                               settings, progress);
   }
   VectorTracks samples = measured_samples(tracks, pattern);
-  CleanedTracks cleaned =
-      clean_measurements(samples, marks_of_samples(spike_candidates, pattern),
-                         marks_of_samples(always_missing, pattern), nearby,
-                         frame_rate_hz / pattern.step, settings, progress);
+  CleanedTracks cleaned = clean_measurements(samples, marks_of_samples(spike_candidates, pattern),
+                                             marks_of_samples(always_missing, pattern), nearby,
+                                             frame_rate_hz / pattern.step, settings, progress);
   cleaned.marked = spread_samples(samples, cleaned.marked, cleaned.shares, pattern, tracks);
   cleaned.pattern = pattern;
   return cleaned;
