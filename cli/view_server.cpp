@@ -14,7 +14,9 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <string>
 #include <thread>
+#include <utility>
 
 namespace kinemend::cli {
 
@@ -22,6 +24,22 @@ namespace {
 
 constexpr const char* host = "127.0.0.1";
 constexpr std::size_t most_asked = 16 << 20;  // bytes of a request; a long take's gap plan is less
+
+// The library compresses what browsers let it, by Brotli at its slowest: half a second for the page
+// of ten seconds of motion, which goes no farther than to this machine. It does not where the length
+// is known; but then nothing is sent any more once the server ends, which short words of failure
+// shall be.
+void send_quickly(ServedReply reply, httplib::Response& response) {
+  constexpr std::size_t soon_compressed = 4096;
+  if (reply.body.size() < soon_compressed) return response.set_content(reply.body, reply.type);
+  const std::size_t size = reply.body.size();
+  const std::string type = reply.type;
+  response.set_content_provider(
+      size, type,
+      [body = std::move(reply.body)](std::size_t from, std::size_t count, httplib::DataSink& to) {
+        return to.write(body.data() + from, count);
+      });
+}
 
 void reply_to(const httplib::Request& request, httplib::Response& response,
               const ViewAccess& access, const Answer& answer) {
@@ -38,9 +56,9 @@ void reply_to(const httplib::Request& request, httplib::Response& response,
   response.set_header("Cross-Origin-Resource-Policy", "same-origin");
   response.status = access.refusal(asked);
   if (response.status != 0) return response.set_content("refused\n", "text/plain");
-  const ServedReply reply = answer(request.method, access.action(request.path), request.body);
+  ServedReply reply = answer(request.method, access.action(request.path), request.body);
   response.status = reply.status;
-  response.set_content(reply.body, reply.type);
+  send_quickly(std::move(reply), response);
 }
 
 // Where a signal writes a byte: all that may be done while it is handled.

@@ -4,13 +4,17 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <utility>
+#include <vector>
+
+#include "base/parallel.hpp"
 
 namespace kinemend::page {
 
 namespace {
 
-/// F values, one of each frame of the take.
+/// A value of each frame that is told.
 using Values = std::vector<double>;
 
 double largest_of(const Values& values) {
@@ -21,17 +25,9 @@ double largest_of(const Values& values) {
   return largest;
 }
 
-Values every(const Values& values, std::size_t step) {
-  if (step == 1) return values;
-  Values result;
-  for (std::size_t f = 0; f < values.size(); f += step) result.push_back(values[f]);
-  return result;
-}
-
 void add(const Values& before, const Values& after, double quantum, Channels& channels) {
   const double used = quantum_for(quantum, std::max(largest_of(before), largest_of(after)));
-  channels.samples.push_back({quantised(every(before, channels.step), used),
-                              quantised(every(after, channels.step), used)});
+  channels.samples.push_back({quantised(before, used), quantised(after, used)});
   channels.quanta.push_back(used);
 }
 
@@ -42,12 +38,17 @@ Channels empty_channels(std::size_t frames, std::size_t count) {
   return channels;
 }
 
+void append(Channels more, Channels& channels) {
+  std::move(more.samples.begin(), more.samples.end(), std::back_inserter(channels.samples));
+  channels.quanta.insert(channels.quanta.end(), more.quanta.begin(), more.quanta.end());
+}
+
 using PositionAt = std::function<Vec3(std::size_t frame)>;
 
-std::array<Values, 3> positions(std::size_t frames, const PositionAt& at) {
+std::array<Values, 3> positions(const Channels& channels, const PositionAt& at) {
   std::array<Values, 3> axes;
-  for (std::size_t f = 0; f < frames; ++f) {
-    const Vec3 p = at(f);
+  for (std::size_t f = 0; f < channels.frames; ++f) {
+    const Vec3 p = at(f * channels.step);
     axes[0].push_back(p.x);
     axes[1].push_back(p.y);
     axes[2].push_back(p.z);
@@ -56,10 +57,10 @@ std::array<Values, 3> positions(std::size_t frames, const PositionAt& at) {
 }
 
 // `after` is empty where there is one take.
-void add_positions(std::size_t frames, const PositionAt& before, const PositionAt& after,
-                   double quantum, Channels& channels) {
-  const auto old_values = positions(frames, before);
-  const auto new_values = after ? positions(frames, after) : std::array<Values, 3>();
+void add_positions(const PositionAt& before, const PositionAt& after, double quantum,
+                   Channels& channels) {
+  const auto old_values = positions(channels, before);
+  const auto new_values = after ? positions(channels, after) : std::array<Values, 3>();
   for (std::size_t axis = 0; axis < 3; ++axis)
     add(old_values[axis], new_values[axis], quantum, channels);
 }
@@ -80,7 +81,7 @@ void add_rotation(const Clip& before, const Clip* after, std::size_t joint, Rota
                   double quantum_deg, Channels& channels) {
   std::array<Values, 3> old_angles, new_angles;
   std::array<double, 3> angles{};
-  for (std::size_t f = 0; f < before.frame_count(); ++f) {
+  for (std::size_t f = 0; f < before.frame_count(); f += channels.step) {
     angles = to_euler_near(before.rotation(f, joint), order, angles);
     for (std::size_t a = 0; a < order.count; ++a)
       old_angles[a].push_back(angles[a] * degrees_per_radian);
@@ -137,25 +138,25 @@ RotationOrder told_order(const Clip& before, const Clip* after, std::size_t join
 }
 
 Channels channels_of(const Clip& before, const Clip* after, double body_height, double share) {
-  const std::size_t frames = before.frame_count();
-  Channels channels = empty_channels(frames, channel_count(before));
+  Channels channels = empty_channels(before.frame_count(), channel_count(before));
   const double quantum = share * position_quantum(body_height);
-  add_positions(frames, root_of(&before), root_of(after), quantum, channels);
-  for (std::size_t t = 0; t < before.translated_joints.size(); ++t) {
-    add_positions(frames, translation_of(&before, t), translation_of(after, t), quantum, channels);
-  }
-  for (std::size_t j = 0; j < before.joint_count(); ++j)
+  std::vector<Channels> of_joints(before.joint_count(), channels);
+  add_positions(root_of(&before), root_of(after), quantum, channels);
+  for (std::size_t t = 0; t < before.translated_joints.size(); ++t)
+    add_positions(translation_of(&before, t), translation_of(after, t), quantum, channels);
+  for_each_parallel(of_joints.size(), of_joints.size() * channels.frames, [&](std::size_t j) {
     add_rotation(before, after, j, told_order(before, after, j), share * rotation_quantum_deg,
-                 channels);
+                 of_joints[j]);
+  });
+  for (Channels& joint : of_joints) append(std::move(joint), channels);
   return channels;
 }
 
 Channels channels_of(const MarkerClip& before, const MarkerClip* after, double body_height,
                      double share) {
-  const std::size_t frames = before.frame_count();
-  Channels channels = empty_channels(frames, channel_count(before));
+  Channels channels = empty_channels(before.frame_count(), channel_count(before));
   for (std::size_t m = 0; m < before.marker_count(); ++m) {
-    add_positions(frames, held_position_of(&before, m), held_position_of(after, m),
+    add_positions(held_position_of(&before, m), held_position_of(after, m),
                   share * position_quantum(body_height), channels);
   }
   return channels;

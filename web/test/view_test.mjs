@@ -131,6 +131,29 @@ step('a file that was there before is not replaced', async () => {
   assert.deepEqual(bytes('walk.clean.bvh'), before);
 });
 
+step('an hour is there, coarse at first, then to the last frame, and a change of method follows', async () => {
+  arm(join(output, 'hour.bvh'), 432000, { rate: 120, turn: 0.01 });
+  const { address } = await serve('hour.bvh');
+  const page = await open(address);
+  assert.equal(await page.evaluate(() => window.kinemend.take.data.stride), 8);
+  await after(page, () => page.selectOption('[data-flag=method]:visible', 'gaussian'));
+  for (const f of [3, 200001, 431999]) {
+    const angle = await page.evaluate((at) => window.kinemend.take.angle(1, 0, at, 'after'), f);
+    assert.ok(Math.abs(angle - 0.01 * f) < 0.05, `frame ${f}: ${angle}`);
+  }
+  await page.keyboard.press('End');
+  assert.equal(await page.evaluate(() => window.kinemend.player.shown), 431999);
+  await shot(page, 'hour');
+});
+
+step('nothing is compressed on its way to the same machine', async () => {
+  const { address } = await serve('walk.bvh');
+  const page = await browser.newPage();
+  pages.push(page);
+  const [reply] = await Promise.all([page.waitForResponse((one) => one.url().endsWith('run')), page.goto(address)]);
+  assert.equal(reply.headers()['content-encoding'], undefined);
+});
+
 step('an option out of range is said, and the page goes on', async () => {
   const { address } = await serve('walk.bvh', '-o', 'range.bvh');
   const page = await open(address);
