@@ -45,7 +45,9 @@ std::vector<Case> cases(bool learned) {
        }},
       {"30_Hz_2_deg", 30, [](const Clip& c) { return noisy(c, 2, 0, 5); }},
       {"30_Hz_dense", 30, [](const Clip& c) { return noisy(c, 1, 0.1, 5); }},
-      {"impulses", 120, [](const Clip& c) { return damaged(c, "impulse", {}, 5); }}};
+      {"impulses", 120, [](const Clip& c) { return damaged(c, "impulse", {}, 5); }},
+      {"clean", 120, [](const Clip& c) { return c; }},
+      {"30_Hz_clean", 30, [](const Clip& c) { return c; }}};
   if (learned) {
     list.push_back(
         {"arm_missing", 60, [](const Clip& c) { return without_arm(noisy(c, 1, 0, 5)); }});

@@ -109,7 +109,6 @@ std::vector<Constant> constants() {
   all.add("dead_zone.noisy_over", zone, &DeadZoneTuning::noisy_over);
   all.add("dead_zone.rate_exponent", zone, &DeadZoneTuning::rate_exponent);
   const auto smoothing = +[](Tuning& t) -> SmoothingTuning& { return t.tracks.smoothing; };
-  all.add("smoothing.least_travel", smoothing, &SmoothingTuning::least_travel);
   all.add("smoothing.axes_window_s", smoothing, &SmoothingTuning::axes_window_s);
   const auto models = +[](Tuning& t) -> signal::CutoffGrid& { return t.tracks.smoothing.models; };
   all.add("smoothing.models.lowest_hz", models, &signal::CutoffGrid::lowest_hz);
@@ -118,8 +117,6 @@ std::vector<Constant> constants() {
   const auto adaptive =
       +[](Tuning& t) -> signal::AdaptiveSettings& { return t.tracks.smoothing.adaptive; };
   all.add("smoothing.adaptive.window_s", adaptive, &signal::AdaptiveSettings::window_s);
-  all.add("smoothing.adaptive.share_of_constant", adaptive,
-          &signal::AdaptiveSettings::share_of_constant);
   all.add("smoothing.adaptive.iterations", adaptive, &signal::AdaptiveSettings::iterations);
   return all.list;
 }

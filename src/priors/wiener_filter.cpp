@@ -221,8 +221,6 @@ class Filtering {
 
   void judge_samples(const PoseMatrix& estimate) {
     if (settings_.outlier_deviations <= 0) return;
-    const std::vector<std::uint8_t> before =
-        std::exchange(rejected_, std::vector<std::uint8_t>(rejected_.size(), 0));
     const std::size_t channels = estimate.channels;
     tbb::parallel_for(std::size_t{0}, (channels + 2) / 3, [&](std::size_t track) {
       const std::size_t first = 3 * track, last = std::min(first + 3, channels);
@@ -231,8 +229,7 @@ class Filtering {
         for (std::size_t f = 0; f < estimate.frames; ++f) {
           const std::size_t sample = f * channels + d;
           if (!is_observed(sample)) continue;
-          const double share = before[sample] != 0 ? settings_.return_share : 1;
-          if (std::abs(take_.poses(f, d) - estimate(f, d)) <= share * limit) continue;
+          if (std::abs(take_.poses(f, d) - estimate(f, d)) <= limit) continue;
           for (std::size_t other = first; other < last; ++other)
             rejected_[f * channels + other] = is_observed(f * channels + other) ? 1 : 0;
         }

@@ -16,7 +16,6 @@ struct WienerSettings {
   /// Standard deviations beyond which a sample gets no weight; 0: none do.
   double outlier_deviations = 4.5;
   double least_outlier_deg = 1;  ///< samples at a smaller distance are no outliers
-  double return_share = 0.75;    ///< of both limits, within which an outlier is accepted again
 };
 
 struct WienerTake {
@@ -35,9 +34,8 @@ struct WienerResult {
 
 /// The posterior mean of a take, window by window and overlap-added. Components are weighted by the
 /// evidence of each window. The residual is shrunk by its own spectrum (`RestModel`). A sample far
-/// from its window's estimate is rejected, and accepted again when it is near a later estimate.
-/// What is missing or rejected is guessed anew from each estimate. Channels come in threes, of
-/// which outliers are shared.
+/// from its window's estimate is rejected, and stays so. What is missing or rejected is guessed
+/// anew from each estimate. Channels come in threes, of which outliers are shared.
 WienerResult wiener_filter(const WienerPrior& prior, const WienerTake& take,
                            const WienerSettings& settings = {});
 

@@ -91,7 +91,6 @@ WienerOutliers dense_outliers(const WienerPrior& prior, const WienerTake& take) 
   WienerSettings settings;
   settings.rounds = 1;
   // The set of suspects is fixed.
-  settings.return_share = 0;
   settings.least_outlier_deg = std::numeric_limits<double>::max();
   std::vector<double> noise = noise_with_outliers(take);
   for (int pass = 0; pass < passes; ++pass) {

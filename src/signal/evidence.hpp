@@ -69,8 +69,7 @@ std::vector<std::size_t> smooth_by_evidence(PoseMatrix& matrix,
 struct AdaptiveSettings {
   /// Of the moving average of squared differences, applied twice; three frames at least.
   double window_s = 0.05;
-  double share_of_constant =
-      0.2;  ///< of the constant strength that stays, so that quiet spans keep some variance
+  double share_of_constant = 0;  ///< of the variance by the model that stays
   int iterations = 4;
 };
 

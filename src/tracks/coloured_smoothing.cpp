@@ -110,6 +110,8 @@ class ColouredSmoothing {
       }
     }
     signal::AdaptiveSettings settings;
+    // Quiet spans of slow noise tell little of their motion.
+    settings.share_of_constant = 0.2;
     if (is_slow_) settings.iterations = 0;
     const signal::ChannelBlock x = signal::smooth_adaptively(
         y, precision.weight, variance, models, frame_rate_hz_, settings, &precision.coupling);

@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -40,43 +40,22 @@ std::vector<Vec3> differences(std::span<const Vec3> track, std::span<const std::
   return result;
 }
 
-// Mean over the axes.
-std::vector<double> mean_squares(const std::vector<Vec3>& vectors) {
-  std::vector<double> squares;
-  squares.reserve(vectors.size());
-  for (const Vec3 v : vectors) squares.push_back(dot(v, v) / 3);
-  return squares;
-}
-
-// From the lower quartile of moving averages over ten squared differences, which is 0.853^2 of
-// their mean for white noise.
-double lower_quartile_level(const std::vector<double>& squares) {
-  constexpr std::size_t window = 10;
-  constexpr double quartile_bias = 0.853 / 1.05;
-  std::vector<double> averages;
-  double sum = 0;
-  for (std::size_t i = 0; i < squares.size(); ++i) {
-    sum += squares[i];
-    if (i >= window) sum -= squares[i - window];
-    if (i + 1 >= window) averages.push_back(std::max(0.0, sum / window));
-  }
-  return std::sqrt(quantile_of(averages, 0.25)) / quartile_bias;
+// Of white noise whose differences these are; nothing where they are too few.
+std::optional<double> median_level(const std::vector<Vec3>& differences) {
+  if (differences.size() < 3) return std::nullopt;
+  std::vector<double> sizes(differences.size());
+  std::transform(differences.begin(), differences.end(), sizes.begin(),
+                 [](Vec3 v) { return norm(v); });
+  return median_of(sizes) / median_of_chi3;
 }
 
 double isotropic_level(std::span<const Vec3> track, std::span<const std::uint8_t> marked,
                        const NoiseTuning& tuning) {
-  double least = std::numeric_limits<double>::infinity();
-  std::vector<double> squares = mean_squares(differences(track, marked, third_difference));
-  if (squares.size() >= 3) {
-    if (squares.size() >= 30) least = lower_quartile_level(squares);
-    least = std::min(least, std::sqrt(3 * median_of(squares)) / median_of_chi3);
-  }
-  if (track.size() >= 20) {
-    squares = mean_squares(differences(track, marked, fifth_difference));
-    if (squares.size() >= 3)
-      least = std::min(least, std::sqrt(3 * median_of(squares)) / median_of_chi3);
-  }
-  return std::isfinite(least) ? tuning.minimum_bias * least : 0;
+  const auto third = median_level(differences(track, marked, third_difference));
+  if (!third) return 0;
+  const auto fifth =
+      track.size() < 20 ? std::nullopt : median_level(differences(track, marked, fifth_difference));
+  return tuning.minimum_bias * std::min(*third, fifth.value_or(*third));
 }
 
 // Huber's standard deviation of numbers with outliers: squares are limited to (2.5 deviations)^2.

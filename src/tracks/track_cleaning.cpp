@@ -16,58 +16,6 @@ namespace kinemend {
 
 namespace {
 
-// The least-squares line of a track. Travel and steady turning are removed before smoothing, which
-// then treats turning takes like others. The slope of a track that stays close to its line is
-// chance: removing it raises the error by a few percent.
-struct LinearTrend {
-  Vec3 middle, velocity;  // at the middle frame, and per frame
-  double middle_frame = 0;
-
-  Vec3 at(std::size_t frame) const {
-    return middle + (static_cast<double>(frame) - middle_frame) * velocity;
-  }
-};
-
-LinearTrend trend_of(const VectorTracks& tracks, std::size_t track, double least_travel) {
-  const auto count = static_cast<double>(tracks.frames());
-  const Vec3 origin = tracks.at(0, track);
-  LinearTrend trend{{}, {}, (count - 1) / 2};
-  double squares = 0;
-  for (std::size_t f = 0; f < tracks.frames(); ++f) {
-    const double t = static_cast<double>(f) - trend.middle_frame;
-    const Vec3 offset = tracks.at(f, track) - origin;
-    trend.middle += (1 / count) * offset;
-    trend.velocity += t * offset;
-    squares += t * t;
-  }
-  trend.middle += origin;
-  trend.velocity = (1 / squares) * trend.velocity;
-  double rest = 0;
-  for (std::size_t f = 0; f < tracks.frames(); ++f) {
-    const Vec3 off_line = tracks.at(f, track) - trend.at(f);
-    rest += dot(off_line, off_line);
-  }
-  if (norm(trend.velocity) * count < least_travel * std::sqrt(rest / count)) trend.velocity = {};
-  return trend;
-}
-
-std::vector<LinearTrend> remove_trends(VectorTracks& tracks, double least_travel) {
-  std::vector<LinearTrend> trends(tracks.tracks());
-  for_each_parallel(tracks.tracks(), tracks.values.size(), [&](std::size_t n) {
-    trends[n] = trend_of(tracks, n, least_travel);
-    for (std::size_t t = 0; t < tracks.frames(); ++t)
-      tracks.set(t, n, tracks.at(t, n) - trends[n].at(t));
-  });
-  return trends;
-}
-
-void restore_trends(VectorTracks& tracks, const std::vector<LinearTrend>& trends) {
-  for_each_parallel(tracks.tracks(), tracks.values.size(), [&](std::size_t n) {
-    for (std::size_t t = 0; t < tracks.frames(); ++t)
-      tracks.set(t, n, tracks.at(t, n) + trends[n].at(t));
-  });
-}
-
 // Whether a take has enough noise, as white noise, to estimate its colour.
 bool may_be_coloured(std::vector<double> levels, double frame_rate_hz) {
   constexpr double least = 0.05;  // degrees at 120 Hz
@@ -77,11 +25,9 @@ bool may_be_coloured(std::vector<double> levels, double frame_rate_hz) {
 // Real noise of video and depth cameras has a tenth and more, also where a solver keeps bones
 // nearly at their lengths; clean markers that were taken for noisy have a hundredth at most.
 bool shows_in_distances(VectorTracks tracks, const std::vector<Whitening>& whitenings,
-                        const std::vector<LinearTrend>& trends, const SampleMarks& missing,
-                        const NoiseSpectrum& spectrum) {
+                        const SampleMarks& missing, const NoiseSpectrum& spectrum) {
   constexpr double least = 0.03;
   undo_whitening(tracks, whitenings);
-  restore_trends(tracks, trends);
   return noise_in_distances(tracks, missing, spectrum.deviations, spectrum.correlation) > least;
 }
 
@@ -96,14 +42,13 @@ void leave_hardly_observed(const SampleMarks& missing, std::vector<double>& shar
 
 // The noise of tracks whose marked samples are `missing`; white where it shows no colour.
 NoiseSpectrum spectrum_of(const VectorTracks& tracks, const SampleMarks& missing,
-                          const std::vector<Whitening>& whitenings,
-                          const std::vector<LinearTrend>& trends, double frame_rate_hz,
+                          const std::vector<Whitening>& whitenings, double frame_rate_hz,
                           const TrackCleaningSettings& settings) {
   NoiseSpectrum spectrum = noise_spectrum_of(tracks, missing, frame_rate_hz, settings.kind,
                                              settings.correlation, &whitenings);
   if (settings.correlation || !spectrum.is_clear || settings.kind == TrackKind::rotations)
     return spectrum;
-  spectrum.is_clear = shows_in_distances(tracks, whitenings, trends, missing, spectrum);
+  spectrum.is_clear = shows_in_distances(tracks, whitenings, missing, spectrum);
   return spectrum;
 }
 
@@ -123,7 +68,6 @@ CleanedTracks clean_measurements(VectorTracks& tracks, const SampleMarks& spike_
                                  double frame_rate_hz, const TrackCleaningSettings& settings,
                                  ShareProgress* progress) {
   const TrackTuning& tuning = settings.tuning;
-  const std::vector<LinearTrend> trends = remove_trends(tracks, tuning.smoothing.least_travel);
   const std::vector<Whitening> whitenings =
       estimate_whitening(tracks, always_missing, frame_rate_hz, tuning.noise);
   whiten(tracks, whitenings);
@@ -141,7 +85,7 @@ CleanedTracks clean_measurements(VectorTracks& tracks, const SampleMarks& spike_
                                     ? *settings.correlation > 0
                                     : may_be_coloured(cleaned.noise, frame_rate_hz);
   if (looks_for_colour) {
-    cleaned.spectrum = spectrum_of(tracks, missing, whitenings, trends, frame_rate_hz, settings);
+    cleaned.spectrum = spectrum_of(tracks, missing, whitenings, frame_rate_hz, settings);
     if (cleaned.spectrum.is_clear) undo_whitening(tracks, whitenings);
   }
   if (cleaned.spectrum.is_clear) cleaned.noise = cleaned.spectrum.strengths();
@@ -160,7 +104,6 @@ CleanedTracks clean_measurements(VectorTracks& tracks, const SampleMarks& spike_
                   tuning.smoothing);
     undo_whitening(tracks, whitenings);
   }
-  restore_trends(tracks, trends);
   return cleaned;
 }
 

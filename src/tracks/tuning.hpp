@@ -26,7 +26,7 @@ struct ChartTuning {
 
 /// Of `noise_levels` and `estimate_whitening`. Deviations are in degrees, per axis.
 struct NoiseTuning {
-  double minimum_bias = 1.01;     ///< the least of several estimates is biased low
+  double minimum_bias = 1.01;     ///< the smaller of two estimates is biased low
   double least_axis_share = 0.5;  ///< of the largest deviation, of axes that count once whitened
   double least_level = 0.5;       ///< of tracks to be whitened, at 120 Hz: motion is not isotropic
   double log_ratio = 0.35;        ///< least logarithm of the ratio of deviations, in a long take
@@ -93,7 +93,6 @@ struct DeadZoneTuning {
 
 /// Of `clean_tracks` and `smooth_tracks`.
 struct SmoothingTuning {
-  double least_travel = 3;     ///< of a linear trend, in deviations about its line
   double axes_window_s = 0.1;  ///< half of the moving averages that separate slow motion
   double noise_floor = 1e-4;   ///< degrees, against division by zero
   signal::CutoffGrid models{0.003, 50, 30};

@@ -69,9 +69,8 @@ SampleMarks either(const SampleMarks& a, const SampleMarks& b);
 void fill_marked(std::span<Vec3> track, std::span<const std::uint8_t> marked);
 
 /// Standard deviation per axis of the white noise on each track, degrees; 0 for takes under 6
-/// frames: the smallest of three estimates, each unbiased for white noise, namely the medians of
-/// the differences of order 3 and 5 and the lower quartile of moving averages of the former, all of
-/// which respond little to motion. Differences that touch a marked sample are left out. Of a
+/// frames: the smaller of the medians of the differences of order 3 and 5, both unbiased for white
+/// noise, which respond little to motion. Differences that touch a marked sample are left out. Of a
 /// whitened track it is the noise along the axes that have some.
 std::vector<double> noise_levels(const VectorTracks& tracks, const SampleMarks& marked,
                                  const NoiseTuning& tuning = {});
