@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/experimental/signal.hpp"
 #include "rotation/component.hpp"
 #include "signal/coloured_noise.hpp"
 
@@ -113,8 +116,9 @@ class ColouredSmoothing {
     // Quiet spans of slow noise tell little of their motion.
     settings.share_of_constant = 0.2;
     if (is_slow_) settings.iterations = 0;
-    const signal::ChannelBlock x = signal::smooth_adaptively(
+    signal::ChannelBlock x = signal::smooth_adaptively(
         y, precision.weight, variance, models, frame_rate_hz_, settings, &precision.coupling);
+    if (is_slow_) x = without_trembling(x);
     for (std::size_t k = 0; k < members.size(); ++k) {
       const std::size_t channel = channels_[members[k]];
       const double share = shares_[channel / 3];
@@ -122,6 +126,18 @@ class ColouredSmoothing {
       for (std::size_t t = 0; t < frames; ++t)
         component_of(values[t], channel % 3) = y(t, k) + share * (x(t, k) - y(t, k));
     }
+  }
+
+  // The floor of fast noise that slow noise stands on is not in its model: the rest of it goes with
+  // what the model leaves above some 4 Hz.
+  signal::ChannelBlock without_trembling(const signal::ChannelBlock& x) const {
+    constexpr double width_s = 0.05;
+    PoseMatrix values(tracks_.frames(), signal::block_channels);
+    values.values = x.values;
+    gaussian_filter(values, width_s * window_rate_hz(frame_rate_hz_));
+    signal::ChannelBlock result(tracks_.frames());
+    result.values = std::move(values.values);
+    return result;
   }
 
   VectorTracks& tracks_;

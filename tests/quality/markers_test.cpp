@@ -1,6 +1,8 @@
 // The default method on markers of synthetic bodies.
 #include <gtest/gtest.h>
 
+#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/metrics.hpp"
 #include "quality/marker_quality.hpp"
 
 namespace kinemend::quality {
@@ -51,6 +53,21 @@ TEST(AutoOnMarkers, HoldsWithGapsInEveryMarker) {
     test::lose(noisy, m, 300 + 3 * m, 380 + 3 * m);
   }
   EXPECT_LT(rms_distance(cleaned_markers(noisy, "auto"), truth), 1.2 * whole);
+}
+
+// Video stands on a floor of fast noise that slow noise has no word for.
+TEST(AutoOnMarkers, LeaveNoTremblingOfVideo) {
+  for (const char* motion : {"walk", "wave"}) {
+    const MarkerClip truth = marker_take(motion, 20, 60);
+    MarkerClip noisy = truth;
+    Random random(1);
+    apply_damage(noisy, "system", {{"kind", std::string("video")}}, random);
+    const MarkerErrors before = compare_markers(truth, noisy).all,
+                       after = compare_markers(truth, cleaned_markers(noisy, "auto")).all;
+    EXPECT_LT(*after.above_6_hz, 0.1 * *before.above_6_hz) << motion;
+    EXPECT_LT(after.velocity_rms, 0.4 * before.velocity_rms) << motion;
+    EXPECT_LT(after.rms_distance, before.rms_distance) << motion;
+  }
 }
 
 TEST(AutoOnMarkers, FindsTheSpikesAndReportsThem) {
