@@ -129,9 +129,9 @@ class ColouredSmoothing {
   }
 
   // The floor of fast noise that slow noise stands on is not in its model: the rest of it goes with
-  // what the model leaves above some 4 Hz.
+  // what the model leaves above some 5 Hz.
   signal::ChannelBlock without_trembling(const signal::ChannelBlock& x) const {
-    constexpr double width_s = 0.05;
+    constexpr double width_s = 0.04;
     PoseMatrix values(tracks_.frames(), signal::block_channels);
     values.values = x.values;
     gaussian_filter(values, width_s * window_rate_hz(frame_rate_hz_));
