@@ -26,9 +26,9 @@ constexpr const char* host = "127.0.0.1";
 constexpr std::size_t most_asked = 16 << 20;  // bytes of a request; a long take's gap plan is less
 
 // The library compresses what browsers let it, by Brotli at its slowest: half a second for the page
-// of ten seconds of motion, which goes no farther than to this machine. It does not where the length
-// is known; but then nothing is sent any more once the server ends, which short words of failure
-// shall be.
+// of ten seconds of motion, which goes no farther than to this machine. It does not where the
+// length is known; but then nothing is sent any more once the server ends, which short words of
+// failure shall be.
 void send_quickly(ServedReply reply, httplib::Response& response) {
   constexpr std::size_t soon_compressed = 4096;
   if (reply.body.size() < soon_compressed) return response.set_content(reply.body, reply.type);
