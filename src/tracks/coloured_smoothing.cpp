@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "base/parallel.hpp"
@@ -118,7 +117,7 @@ class ColouredSmoothing {
     if (is_slow_) settings.iterations = 0;
     signal::ChannelBlock x = signal::smooth_adaptively(
         y, precision.weight, variance, models, frame_rate_hz_, settings, &precision.coupling);
-    if (is_slow_) x = without_trembling(x);
+    if (is_slow_) remove_trembling(x);
     for (std::size_t k = 0; k < members.size(); ++k) {
       const std::size_t channel = channels_[members[k]];
       const double share = shares_[channel / 3];
@@ -130,14 +129,12 @@ class ColouredSmoothing {
 
   // The floor of fast noise that slow noise stands on is not in its model: the rest of it goes with
   // what the model leaves above some 5 Hz.
-  signal::ChannelBlock without_trembling(const signal::ChannelBlock& x) const {
+  void remove_trembling(signal::ChannelBlock& x) const {
     constexpr double width_s = 0.04;
-    PoseMatrix values(tracks_.frames(), signal::block_channels);
-    values.values = x.values;
-    gaussian_filter(values, width_s * window_rate_hz(frame_rate_hz_));
-    signal::ChannelBlock result(tracks_.frames());
-    result.values = std::move(values.values);
-    return result;
+    PoseMatrix rows(x.frames, signal::block_channels);
+    rows.values.swap(x.values);
+    gaussian_filter(rows, width_s * window_rate_hz(frame_rate_hz_));
+    rows.values.swap(x.values);
   }
 
   VectorTracks& tracks_;
