@@ -17,6 +17,7 @@ struct Case {
   std::string name;
   double rate_hz;
   std::function<Clip(const Clip&)> damage;
+  bool is_whole = false;  ///< else five seconds of each take
 };
 
 // An arm unseen for a second in the middle.
@@ -48,16 +49,26 @@ std::vector<Case> cases(bool learned) {
       {"impulses", 120, [](const Clip& c) { return damaged(c, "impulse", {}, 5); }},
       {"clean", 120, [](const Clip& c) { return c; }},
       {"30_Hz_clean", 30, [](const Clip& c) { return c; }}};
+  if (!learned) {
+    list.push_back({"clean_whole", 120, [](const Clip& c) { return c; }, true});
+    list.push_back({"30_Hz_impulses", 30, [](const Clip& c) {
+                      return damaged(c, "impulse", {{"share", 0.004}}, 5);
+                    }});
+    list.push_back({"outliers", 120, [](const Clip& c) { return noisy(c, 0, 0.004, 5); }});
+    list.push_back({"0.3_deg_few", 120, [](const Clip& c) { return noisy(c, 0.3, 0.001, 5); }});
+  }
   if (learned) {
+    list.push_back({"30_Hz_20_%", 30, [](const Clip& c) { return noisy(c, 1, 0.2, 5); }});
     list.push_back(
         {"arm_missing", 60, [](const Clip& c) { return without_arm(noisy(c, 1, 0, 5)); }});
   }
   return list;
 }
 
-Clip at_rate(const Clip& clip, double rate_hz) {
-  const Clip part = slice(clip, 0, std::min<std::size_t>(clip.frame_count(), 600));
-  return rate_hz == part.frame_rate_hz ? part : resample(part, rate_hz);
+Clip part_of(const Clip& clip, const Case& one) {
+  const std::size_t most = one.is_whole ? clip.frame_count() : 600;
+  const Clip part = slice(clip, 0, std::min(clip.frame_count(), most));
+  return one.rate_hz == part.frame_rate_hz ? part : resample(part, one.rate_hz);
 }
 
 int measure(int count, char** values) {
@@ -78,7 +89,7 @@ int measure(int count, char** values) {
   for (const Case& one : cases(!model.empty())) {
     double sum = 0;
     for (const std::string& name : takes) {
-      const Clip truth = at_rate(load_take(arguments, name + ".bvh", {}).clip, one.rate_hz);
+      const Clip truth = part_of(load_take(arguments, name + ".bvh", {}).clip, one);
       const Clip result = clean_clip(one.damage(truth), *cleaner).clip;
       // What is below a hundredth of a degree is as good as nothing.
       sum += std::log(geodesic_rms_deg(truth, result) + 0.01);

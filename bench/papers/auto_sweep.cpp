@@ -69,31 +69,20 @@ std::vector<Constant> constants() {
   all.add("spikes.noise_floor", spikes, &SpikeTuning::noise_floor);
   all.add("spikes.least_error", spikes, &SpikeTuning::least_error);
   all.add("spikes.median_half_s", spikes, &SpikeTuning::median_half_s);
-  all.add("spikes.least_error_quiet", spikes, &SpikeTuning::least_error_quiet);
   all.add("spikes.clearance_quiet", spikes, &SpikeTuning::clearance_quiet);
   all.add("spikes.clearance_noisy", spikes, &SpikeTuning::clearance_noisy);
   all.add("spikes.surrounding_frames", spikes, &SpikeTuning::surrounding_frames);
   all.add("spikes.nearby_ratio", spikes, &SpikeTuning::nearby_ratio);
-  all.add("spikes.side_deviations", spikes, &SpikeTuning::side_deviations);
   all.add("spikes.side_error_share", spikes, &SpikeTuning::side_error_share);
   all.add("spikes.fastest_deg_s", spikes, &SpikeTuning::fastest_deg_s);
-  all.add("spikes.fastest_least", spikes, &SpikeTuning::fastest_least);
-  all.add("spikes.fastest_most", spikes, &SpikeTuning::fastest_most);
-  all.add("spikes.return_share", spikes, &SpikeTuning::return_share);
   all.add("spikes.longest_run", spikes, &SpikeTuning::longest_run);
   all.add("spikes.cluster_gap", spikes, &SpikeTuning::cluster_gap);
   all.add("spikes.usual_cluster", spikes, &SpikeTuning::usual_cluster);
-  all.add("spikes.largest_cluster", spikes, &SpikeTuning::largest_cluster);
   all.add("spikes.chance", spikes, &SpikeTuning::chance);
-  all.add("spikes.largest_rate", spikes, &SpikeTuning::largest_rate);
-  all.add("spikes.recurrent_below_hz", spikes, &SpikeTuning::recurrent_below_hz);
-  all.add("spikes.recurrent_spikes", spikes, &SpikeTuning::recurrent_spikes);
   all.add("spikes.recurrent_deg_s", spikes, &SpikeTuning::recurrent_deg_s);
-  all.add("spikes.recurrent_factor", spikes, &SpikeTuning::recurrent_factor);
   all.add("spikes.damage_count", spikes, &SpikeTuning::damage_count);
   all.add("spikes.damage_share", spikes, &SpikeTuning::damage_share);
   all.add("spikes.low_quantile", spikes, &SpikeTuning::low_quantile);
-  all.add("spikes.low_reach", spikes, &SpikeTuning::low_reach);
   all.add("spikes.smallest_share", spikes, &SpikeTuning::smallest_share);
   const auto predictors =
       +[](Tuning& t) -> signal::CutoffGrid& { return t.tracks.spikes.predictors; };
@@ -106,7 +95,6 @@ std::vector<Constant> constants() {
   all.add("dead_zone.start_quiet", zone, &DeadZoneTuning::start_quiet);
   all.add("dead_zone.full_quiet", zone, &DeadZoneTuning::full_quiet);
   all.add("dead_zone.noisy_from", zone, &DeadZoneTuning::noisy_from);
-  all.add("dead_zone.noisy_over", zone, &DeadZoneTuning::noisy_over);
   all.add("dead_zone.rate_exponent", zone, &DeadZoneTuning::rate_exponent);
   const auto smoothing = +[](Tuning& t) -> SmoothingTuning& { return t.tracks.smoothing; };
   all.add("smoothing.axes_window_s", smoothing, &SmoothingTuning::axes_window_s);
@@ -177,7 +165,13 @@ std::vector<Damage> damages() {
           {"30_hz_dense", 30, [](const Clip& c) { return noisy(c, 1, 0.1, 7); }},
           {"impulses", 120, [](const Clip& c) { return damaged(c, "impulse", {}, 7); }},
           {"clean", 120, [](const Clip& c) { return c; }},
-          {"clean_30_hz", 30, [](const Clip& c) { return c; }}};
+          {"clean_30_hz", 30, [](const Clip& c) { return c; }},
+          {"impulses_30_hz", 30,
+           [](const Clip& c) {
+             return damaged(c, "impulse", {{"share", 0.004}}, 7);
+           }},
+          {"outliers", 120, [](const Clip& c) { return noisy(c, 0, 0.004, 7); }},
+          {"third_deg_few_spikes", 120, [](const Clip& c) { return noisy(c, 0.3, 0.001, 7); }}};
 }
 
 struct Sample {

@@ -115,11 +115,20 @@ struct Group {
   std::vector<Clip> tests;
 };
 
+// The middle five seconds.
+Clip middle_of(const Clip& clip) {
+  const auto most = static_cast<std::size_t>(std::lround(5 * clip.frame_rate_hz));
+  const std::size_t count = std::min(most, clip.frame_count());
+  const std::size_t first = (clip.frame_count() - count) / 2;
+  return slice(clip, first, first + count);
+}
+
 std::vector<Group> groups(const Arguments& arguments) {
   const auto make = [&](const std::vector<std::string>& training,
                         const std::vector<std::string>& tests) {
-    const LouGroup group = lou_group(arguments, "", training, tests);
-    return Group{learned("example", group.training), group.tests};
+    LouGroup group = lou_group(arguments, "", training, tests);
+    std::ranges::transform(group.tests, group.tests.begin(), middle_of);
+    return Group{learned("example", group.training), std::move(group.tests)};
   };
   std::vector<Group> list;
   list.push_back(make({"16_12", "16_13", "16_19", "16_23", "16_32"}, {"16_18", "16_25", "16_34"}));
@@ -182,7 +191,7 @@ void ablation(const Arguments& arguments) {
   fmt::print(
       "Change of the error in percent, mean over takes; first the error itself, degrees. misfit: a "
       "model of kicks on\nwalks and a dance.\n\n");
-  TextTable text(columns);
+  const TextTable text(columns);
   const std::size_t misfits = tried.size() > 1 ? tried.back().tests.size() : 0;
   Errors usual;
   for (const Variant& v : variants()) {
@@ -200,7 +209,6 @@ void ablation(const Arguments& arguments) {
       table.add({"\"" + v.name + "\"", "\"" + columns[c] + "\"", fmt::format("{:.4g}", row[c])});
     text.add(v.name, row);
   }
-  text.print();
   table.close();
 }
 

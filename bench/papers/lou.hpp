@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <map>
 #include <memory>
 #include <string>
@@ -182,25 +183,17 @@ class LouErrors {
 /// Rows of names and columns of numbers, on the terminal.
 class TextTable {
  public:
-  explicit TextTable(std::vector<std::string> columns) : columns_(std::move(columns)) {}
-  void add(std::string name, std::vector<double> values) {
-    rows_.emplace_back(std::move(name), std::move(values));
-  }
-  void print() const {
+  explicit TextTable(const std::vector<std::string>& columns) {
     fmt::print("{:<30}", "");
-    for (const std::string& column : columns_) fmt::print("{:>9}", column);
-    fmt::print("\n");
-    for (const auto& [name, values] : rows_) {
-      fmt::print("{:<30}", name);
-      for (const double value : values) fmt::print("{:9.2f}", value);
-      fmt::print("\n");
-    }
+    for (const std::string& column : columns) fmt::print("{:>9}", column);
     fmt::print("\n");
   }
-
- private:
-  std::vector<std::string> columns_;
-  std::vector<std::pair<std::string, std::vector<double>>> rows_;
+  void add(const std::string& name, const std::vector<double>& values) const {
+    fmt::print("{:<30}", name);
+    for (const double value : values) fmt::print("{:9.2f}", value);
+    fmt::print("\n");
+    std::fflush(stdout);
+  }
 };
 
 }  // namespace kinemend::papers

@@ -98,7 +98,7 @@ void figure_3(const Arguments& arguments) {
   }
   std::vector<std::string> columns;
   for (const std::size_t k : shown) columns.push_back(fmt::format("{}", k));
-  TextTable text(columns);
+  const TextTable text(columns);
   for (const auto& [set, clips] : sets) {
     const std::vector<Clip> walks = lou_takes(arguments, clips, "walk", 1);
     std::vector<double> mean(most + 1, 0.0);
@@ -116,7 +116,6 @@ void figure_3(const Arguments& arguments) {
   fmt::print(
       "Figure 3: walks in the first bases of the other walks, window of 20 frames at 30 Hz. Root "
       "mean square,\ndegrees per joint angle, against the number of bases.\n\n");
-  text.print();
   table.close();
 }
 

@@ -44,7 +44,7 @@ void figure_7(const Arguments& arguments, const std::vector<LouGroup>& groups,
     columns.push_back(damage.label);
     errors.push_back(errors_of(arguments, groups, methods, damage));
   }
-  TextTable text(columns);
+  const TextTable text(columns);
   for (std::size_t m = 0; m <= methods[0].size(); ++m) {
     const bool is_input = m == methods[0].size();
     std::vector<double> row;
@@ -60,7 +60,6 @@ void figure_7(const Arguments& arguments, const std::vector<LouGroup>& groups,
     text.add(is_input ? "(noisy)" : methods[0][m].name, row);
   }
   fmt::print("{}\n\n", title);
-  text.print();
   table.close();
 }
 

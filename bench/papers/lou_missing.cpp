@@ -139,7 +139,7 @@ void figure_6(const Arguments& arguments) {
   fmt::print("Figure 6: both arms missing throughout. Mean distance of what is of an arm, cm.\n\n");
   std::vector<std::string> short_names;
   for (const std::string& column : columns) short_names.push_back(column.substr(0, 8));
-  TextTable text(short_names);
+  const TextTable text(short_names);
   for (const Result& result : results) {
     text.add(result.take, result.errors_cm);
     for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -147,7 +147,6 @@ void figure_6(const Arguments& arguments) {
           {"\"" + result.take + "\"", columns[c], fmt::format("{:.4g}", result.errors_cm[c])});
     }
   }
-  text.print();
   table.close();
 }
 

@@ -85,7 +85,7 @@ void priors(const Arguments& arguments) {
   }
   Table table(arguments, "lou_priors.csv", "prior,frames,bases,test,rms_deg");
   fmt::print("Section 4.3: sigma = 3 degrees, bases of different motions. Degrees.\n\n");
-  TextTable text({"frames", "bases", "walk", "run"});
+  const TextTable text({"frames", "bases", "walk", "run"});
   const auto tried_with = [&](const Cleaner& cleaner, const std::vector<Clip>& tests) {
     LouErrors errors;
     for (const Clip& truth : tests) {
@@ -114,7 +114,6 @@ void priors(const Arguments& arguments) {
        {std::pair{"walk", &walks.tests}, std::pair{"run", &run_tests.tests}})
     table.add({quoted("(auto, no prior)"), "", "", test,
                fmt::format("{:.5g}", tried_with(*automatic, *tests))});
-  text.print();
   table.close();
 }
 

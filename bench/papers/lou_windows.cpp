@@ -47,7 +47,7 @@ void figure_9(const Arguments& arguments) {
   if (arguments.quick) windows = {5, 20};
   Table table(arguments, "lou_windows.csv", "window_frames,denoising_rms_deg,filling_rms_deg");
   fmt::print("Figure 9: windows of so many frames at 30 Hz. Degrees per joint angle.\n\n");
-  TextTable text({"denoise", "fill"});
+  const TextTable text({"denoise", "fill"});
   const auto errors_of = [&](const Cleaner& denoiser, const Cleaner& filler) {
     LouErrors errors;
     for (const Clip& truth : walks.tests) {
@@ -72,7 +72,6 @@ void figure_9(const Arguments& arguments) {
   text.add("(kalman-learned, smoother)", {denoising, filling});
   table.add({quoted("(kalman-learned, smoother)"), fmt::format("{:.5g}", denoising),
              fmt::format("{:.5g}", filling)});
-  text.print();
   table.close();
 }
 

@@ -162,7 +162,7 @@ std::vector<double> smoothing_shares(const std::vector<double>& noise, double fr
   const double rate_factor = rate_factor_of(frame_rate_hz, tuning);
   std::vector<double> sorted = noise;
   const double median = median_of(sorted) / rate_factor;
-  const double noisy = std::clamp((median - tuning.noisy_from) / tuning.noisy_over, 0.0, 1.0);
+  const double noisy = std::clamp(median / tuning.noisy_from - 1, 0.0, 1.0);
   const double start = tuning.start_quiet + (tuning.start_noisy - tuning.start_quiet) * noisy;
   const double full = tuning.full_quiet + (tuning.full_noisy - tuning.full_quiet) * noisy;
   std::vector<double> shares(noise.size());

@@ -17,11 +17,7 @@ double between(double quiet, double noisy, double share) { return quiet + (noisy
 // Whether a sample agrees with the extrapolation of the samples before it or of those behind it.
 // It then is one side of an impact, at which velocity changes from one frame to the next.
 bool continues_one_side(const SpikeCandidates& candidates, std::size_t t, std::size_t n) {
-  const SpikeTuning& tuning = candidates.tuning;
-  const double linear_gain = std::sqrt(6.0), parabola_gain = std::sqrt(20.0);
-  const double error = candidates.predictions.errors(t, n);
-  const double scale =
-      tuning.side_deviations * median_of_chi3 * std::max(candidates.noise[n], tuning.noise_floor);
+  const double most = candidates.tuning.side_error_share * candidates.predictions.errors(t, n);
   const auto frames = static_cast<std::ptrdiff_t>(candidates.marks.frames);
   for (const std::ptrdiff_t side : {-1, 1}) {
     const auto frame = [&](std::ptrdiff_t k) { return static_cast<std::ptrdiff_t>(t) + side * k; };
@@ -34,12 +30,8 @@ bool continues_one_side(const SpikeCandidates& candidates, std::size_t t, std::s
       return candidates.measured.at(static_cast<std::size_t>(frame(k)), n);
     };
     if (!seen(1) || !seen(2)) continue;
-    const double off_line = norm(at(0) - (2.0 * at(1) - at(2)));
-    if (off_line < std::min(linear_gain * scale, tuning.side_error_share * error)) return true;
-    if (!seen(3)) continue;
-    const double off_parabola = norm(at(0) - (3.0 * at(1) - 3.0 * at(2) + at(3)));
-    if (off_parabola < std::min(parabola_gain * scale, tuning.side_error_share * error))
-      return true;
+    if (norm(at(0) - (2.0 * at(1) - at(2))) < most) return true;
+    if (seen(3) && norm(at(0) - (3.0 * at(1) - 3.0 * at(2) + at(3))) < most) return true;
   }
   return false;
 }
@@ -68,21 +60,17 @@ double largest_error_about(const SpikeCandidates& candidates, std::size_t t, std
   return *std::max_element(about.begin(), about.end());
 }
 
-// Whether a run of at most two candidates leaves the motion and returns faster than a joint turns:
-// the fastest known rotation, a pitcher's shoulder, reaches about 7,500 degrees a second.
+// Whether a run of at most two candidates is off by more than a joint turns in a frame: the fastest
+// known rotation, a pitcher's shoulder, reaches about 7,500 degrees a second.
 bool exceeds_joint_speed(const SpikeCandidates& candidates, std::size_t t, std::size_t n) {
   const SpikeTuning& tuning = candidates.tuning;
   std::size_t first = t, last = t;
   while (first > 0 && candidates.marks(first - 1, n) != 0) --first;
   while (last + 1 < candidates.marks.frames && candidates.marks(last + 1, n) != 0) ++last;
-  if (last - first + 1 > tuning.longest_run || first == 0 || last + 1 == candidates.marks.frames)
-    return false;
-  const double error = candidates.predictions.errors(t, n);
-  const double gap =
-      norm(candidates.measured.at(last + 1, n) - candidates.measured.at(first - 1, n));
-  const double fastest = std::clamp(tuning.fastest_deg_s / candidates.frame_rate_hz,
-                                    tuning.fastest_least, tuning.fastest_most);
-  return error > fastest && gap < tuning.return_share * error;
+  const bool is_short =
+      last - first + 1 <= tuning.longest_run && first > 0 && last + 1 < candidates.marks.frames;
+  return is_short &&
+         candidates.predictions.errors(t, n) * candidates.frame_rate_hz > tuning.fastest_deg_s;
 }
 
 // `share`: 0 applies the thresholds of quiet tracks, 1 those of noisy ones.
@@ -90,7 +78,6 @@ bool is_isolated(const SpikeCandidates& candidates, std::size_t t, std::size_t n
   const SpikeTuning& tuning = candidates.tuning;
   const double error = candidates.predictions.errors(t, n);
   const bool quiet = share < 0.5;
-  if (error <= between(tuning.least_error_quiet, tuning.least_error, share)) return false;
   const double clearance = between(tuning.clearance_quiet, tuning.clearance_noisy, share);
   if (error <= clearance * largest_error_about(candidates, t, n, quiet)) return false;
   if (continues_one_side(candidates, t, n)) return false;
@@ -102,13 +89,15 @@ bool is_isolated(const SpikeCandidates& candidates, std::size_t t, std::size_t n
       });
 }
 
+// Probability of at least so many events where `mean` are expected: the sum of Poisson's terms,
+// from the largest on. At most the mean are likely anyway.
 double poisson_tail(double mean, std::size_t at_least) {
-  double term = std::exp(-mean), below = 0;
-  for (std::size_t k = 0; k < at_least; ++k) {
-    below += term;
-    term *= mean / static_cast<double>(k + 1);
-  }
-  return 1 - below;
+  const auto count = static_cast<double>(at_least);
+  if (count <= mean) return 1;
+  if (mean <= 0) return 0;
+  double term = std::exp(count * std::log(mean) - mean - std::lgamma(count + 1)), sum = 0;
+  for (double k = count; term > 1e-9 * sum; term *= mean / ++k) sum += term;
+  return sum;
 }
 
 // Rejects runs of spikes, at most `cluster_gap` frames apart, that are longer than Poisson chance
@@ -116,8 +105,7 @@ double poisson_tail(double mean, std::size_t at_least) {
 void reject_clusters(const SpikeTuning& tuning, SampleMarks& marked) {
   const auto total = std::count(marked.marks.begin(), marked.marks.end(), 1);
   if (total == 0) return;
-  const double rate = std::min(
-      tuning.largest_rate, static_cast<double>(total) / static_cast<double>(marked.marks.size()));
+  const double rate = static_cast<double>(total) / static_cast<double>(marked.marks.size());
   for (std::size_t n = 0; n < marked.tracks; ++n) {
     std::vector<std::size_t> frames;
     for (std::size_t t = 0; t < marked.frames; ++t) {
@@ -129,11 +117,8 @@ void reject_clusters(const SpikeTuning& tuning, SampleMarks& marked) {
         ++last;
       const double expected =
           rate * static_cast<double>(frames[last] - frames[first] + 2 * tuning.cluster_gap);
-      std::size_t allowed = tuning.usual_cluster;
-      while (allowed < tuning.largest_cluster &&
-             poisson_tail(expected, allowed + 1) > tuning.chance)
-        ++allowed;
-      if (last - first + 1 > allowed) {
+      const std::size_t count = last - first + 1;
+      if (count > tuning.usual_cluster && poisson_tail(expected, count) <= tuning.chance) {
         for (std::size_t i = first; i <= last; ++i) marked(frames[i], n) = 0;
       }
       first = last + 1;
@@ -153,25 +138,24 @@ bool is_within_joint_speed(const SpikeCandidates& candidates, const SampleMarks&
   return sum * candidates.frame_rate_hz < candidates.tuning.recurrent_deg_s * count;
 }
 
-// Tracks with more spikes than Poisson chance at the rate of all other tracks explains, at frame
-// rates so low that a joint leaves and returns within two frames. Such recurrent spikes are motion,
-// for example of a toe that leaves the ground at every step.
+// Tracks with more spikes than Poisson chance at the mean rate explains, those that have even more
+// left out. Such recurrent spikes are motion, for example of a toe that leaves the ground at every
+// step.
 std::vector<std::uint8_t> find_recurrent(const SpikeCandidates& candidates,
                                          const SampleMarks& spikes) {
   const SpikeTuning& tuning = candidates.tuning;
   std::vector<std::uint8_t> recurrent(spikes.tracks);
-  if (candidates.frame_rate_hz >= tuning.recurrent_below_hz || spikes.tracks == 0) return recurrent;
   std::vector<std::size_t> counts(spikes.tracks);
   std::size_t total = 0;
   for (std::size_t i = 0; i < spikes.marks.size(); ++i) {
     counts[i / spikes.frames] += spikes.marks[i];
     total += spikes.marks[i];
   }
-  for (std::size_t others = spikes.tracks - 1; others > 0; --others) {
+  for (std::size_t left = spikes.tracks; left > 0; --left) {
     const auto worst = std::max_element(counts.begin(), counts.end());
     const auto n = static_cast<std::size_t>(worst - counts.begin());
-    const double expected = static_cast<double>(total - *worst) / static_cast<double>(others);
-    if (*worst < tuning.recurrent_spikes || poisson_tail(expected, *worst) > tuning.chance) break;
+    const double expected = static_cast<double>(total) / static_cast<double>(left);
+    if (poisson_tail(expected, *worst) > tuning.chance) break;
     recurrent[n] = is_within_joint_speed(candidates, spikes, n);
     total -= *worst;
     *worst = 0;
@@ -179,23 +163,12 @@ std::vector<std::uint8_t> find_recurrent(const SpikeCandidates& candidates,
   return recurrent;
 }
 
-// On a recurrent track only spikes well above its median spike remain.
-void reject_recurrent(const SpikeCandidates& candidates, std::size_t n, SampleMarks& spikes) {
-  std::vector<double> errors;
-  for (std::size_t t = 0; t < spikes.frames; ++t) {
-    if (spikes(t, n) != 0) errors.push_back(candidates.predictions.errors(t, n));
-  }
-  if (errors.empty()) return;
-  const double median = upper_median_of(errors);
-  for (std::size_t t = 0; t < spikes.frames; ++t) {
-    spikes(t, n) = spikes(t, n) != 0 && candidates.predictions.errors(t, n) >
-                                            candidates.tuning.recurrent_factor * median;
-  }
+void reject_track(std::size_t n, SampleMarks& spikes) {
+  std::ranges::fill(spikes.track(n), std::uint8_t{0});
 }
 
-// The smallest error that is a spike in a damaged take, from the spikes of the strict thresholds:
-// where their sizes are similar, a much smaller error is motion, for example a fast toe. Where they
-// differ widely the bound is 0 or less.
+// The smallest error that is a spike in a damaged take, from the spikes of the strict thresholds: a
+// much smaller error is motion, for example a fast toe.
 double smallest_spike(const SpikeCandidates& candidates, const SampleMarks& sure) {
   const SpikeTuning& tuning = candidates.tuning;
   std::vector<double> sizes;
@@ -205,10 +178,7 @@ double smallest_spike(const SpikeCandidates& candidates, const SampleMarks& sure
       if (sure(t, n) != 0) sizes.push_back(candidates.predictions.errors(t, n));
     }
   }
-  if (sizes.empty()) return 0;
-  const double median = quantile_of(sizes, 0.5);
-  return std::min(tuning.smallest_share * median,
-                  median - tuning.low_reach * (median - quantile_of(sizes, tuning.low_quantile)));
+  return sizes.empty() ? 0 : tuning.smallest_share * quantile_of(sizes, tuning.low_quantile);
 }
 
 }  // namespace
@@ -231,7 +201,7 @@ SampleMarks classify_spikes(const SpikeCandidates& candidates) {
   for (std::size_t n = 0; n < marks.tracks; ++n) classify_track(n, candidates.shares[n]);
   const std::vector<std::uint8_t> recurrent = find_recurrent(candidates, spikes);
   for (std::size_t n = 0; n < marks.tracks; ++n) {
-    if (recurrent[n] != 0) reject_recurrent(candidates, n, spikes);
+    if (recurrent[n] != 0) reject_track(n, spikes);
     if (candidates.shares[n] >= 1) continue;
     quiet_samples += marks.frames;
     for (std::size_t t = 0; t < marks.frames; ++t) quiet_spikes += spikes(t, n);
@@ -255,7 +225,7 @@ SampleMarks classify_spikes(const SpikeCandidates& candidates) {
   }
   const std::vector<std::uint8_t> late_recurrent = find_recurrent(candidates, spikes);
   for (std::size_t n = 0; n < marks.tracks; ++n) {
-    if (late_recurrent[n] != 0) reject_recurrent(candidates, n, spikes);
+    if (late_recurrent[n] != 0) reject_track(n, spikes);
   }
   reject_clusters(tuning, spikes);
   return spikes;

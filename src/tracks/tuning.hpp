@@ -48,36 +48,25 @@ struct SpikeTuning {
   double least_error = 6;       ///< of a spike
   double median_half_s = 0.08;  ///< of the running median of errors
   // Isolation: thresholds of quiet tracks and of noisy ones.
-  double least_error_quiet = 15;        ///< of a spike on a quiet track
   double clearance_quiet = 6;           ///< of an error to the largest about it
   double clearance_noisy = 2;           ///< the same
   std::size_t surrounding_frames = 12;  ///< on either side, which these errors are from
   double nearby_ratio = 3;              ///< of an error to those of nearby tracks
   // Continuation of one side.
-  double side_deviations = 3;     ///< of an extrapolation from a sample that continues it
   double side_error_share = 0.3;  ///< of the error, which this distance stays below
   // Speed of joints: the fastest known, a pitcher's shoulder, reaches about 7,500 degrees a second.
   double fastest_deg_s = 7500;
-  double fastest_least = 30;    ///< bounds of that turn in a frame, degrees
-  double fastest_most = 120;    ///< the same
-  double return_share = 0.25;   ///< of the error, between the samples beside a spike
   std::size_t longest_run = 2;  ///< frames
   // Clusters and recurrent spikes: those that chance does not explain are motion.
-  double chance = 1e-4;              ///< probability below which it does not
-  std::size_t cluster_gap = 8;       ///< frames between spikes of a cluster
-  std::size_t usual_cluster = 3;     ///< spikes that need no further reason
-  std::size_t largest_cluster = 50;  ///< spikes
-  double largest_rate = 0.05;        ///< of spikes, share of the samples
-  double recurrent_below_hz = 100;   ///< at higher rates none are rejected
-  std::size_t recurrent_spikes = 4;  ///< fewest, of a track
-  double recurrent_deg_s = 2000;     ///< mean speed of spikes that may be motion
-  double recurrent_factor = 2;       ///< of the median spike, beyond which a spike is none of these
+  double chance = 1e-4;           ///< probability below which it does not
+  std::size_t cluster_gap = 8;    ///< frames between spikes of a cluster
+  std::size_t usual_cluster = 2;  ///< spikes that need no further reason
+  double recurrent_deg_s = 2000;  ///< mean speed of spikes that may be motion
   // Damage of quiet takes.
   double damage_count = 5;       ///< fewest spikes on quiet tracks
   double damage_share = 0.0006;  ///< and share of their samples
   double low_quantile = 0.1;     ///< of the sizes of spikes
-  double low_reach = 3;          ///< times the distance of that from the median, below the median
-  double smallest_share = 0.4;   ///< of the median: the largest bound
+  double smallest_share = 0.4;   ///< of that, below which an error is none
 };
 
 /// Of `smoothing_shares`. Noise in degrees per axis, at 120 Hz.
@@ -86,8 +75,7 @@ struct DeadZoneTuning {
   double full_noisy = 0.35;   ///< noise from which they are smoothed fully
   double start_quiet = 0.35;  ///< the same in a quiet take
   double full_quiet = 0.7;
-  double noisy_from = 0.15;     ///< median noise of a take that is not quiet
-  double noisy_over = 0.15;     ///< and how much more makes it noisy
+  double noisy_from = 0.15;     ///< median noise of a take that is not quiet; twice that is noisy
   double rate_exponent = 0.75;  ///< of 120 Hz over the frame rate, by which all of these grow
 };
 
