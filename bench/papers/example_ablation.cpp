@@ -45,14 +45,11 @@ std::vector<Variant> variants() {
     add(fmt::format("rest_memory_frames {}", frames),
         [=](Variant& v) { v.tuning.rest_memory_frames = frames; });
   }
-  add("most_noise_kept off", [](Variant& v) { v.tuning.most_noise_kept = 1e9; });
   add("guesses_suspects off", [](Variant& v) { v.tuning.guesses_suspects = false; });
   add("starts_expressible off", [](Variant& v) { v.tuning.starts_expressible = false; });
   add("knows_variances off", [](Variant& v) { v.tuning.knows_variances = false; });
-  add("counts_strangeness off", [](Variant& v) { v.tuning.counts_strangeness = false; });
   add("smooths_rest off", [](Variant& v) { v.tuning.smooths_rest = false; });
   add("leaves_strange off", [](Variant& v) { v.tuning.leaves_strange = false; });
-  add("leaves_rejected off", [](Variant& v) { v.tuning.leaves_rejected = false; });
   add("leaves_biased off", [](Variant& v) { v.tuning.leaves_biased = false; });
   add("auto", [](Variant&) {});
   return list;

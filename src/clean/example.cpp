@@ -105,19 +105,17 @@ class ExampleCleaning {
       work.channels.poses = std::move(cleaned);
       return;
     }
-    const std::vector<double> noise = example_noise(work, tuning_.most_noise_kept);
-    const double rest = tuning_.counts_strangeness
-                            ? strangeness(work, guess, cleaned, noise, prior_.bases.residual)
-                            : 1;
+    const std::vector<double> noise = example_noise(work);
+    const double strange = strangeness(work, guess, cleaned, noise, prior_.bases.residual);
     const double suspects = suspect_share(work, cleaned);
     if (!tuning_.starts_expressible || is_papers()) cleaned = std::move(guess);
     guess = {};
     WindowBases bases = bases_at_rate_of(channels);
-    const ExampleWeights weights = weights_for(noise, rest, suspects, bases);
+    const ExampleWeights weights = weights_for(noise, suspects, bases);
     example_filter(cleaned, channels.poses, channels.observed, std::move(bases), mean, weights,
                    settings_for(work));
     if (suspects > dense_suspects) work.is_whole = true;
-    finish(work, {weights.welsch, noise, rest, suspects}, cleaned);
+    finish(work, {weights.welsch, noise, strange, suspects}, cleaned);
     work.channels.poses = std::move(cleaned);
   }
 
@@ -163,7 +161,6 @@ class ExampleCleaning {
     if (smooths) smooth_rest(work, counts, expressed, found.noise, cleaned);
     if (options_.lambda > 0 || options_.welsch_deg > 0) return;
     // What the bases are wrong about.
-    if (tuning_.leaves_rejected) fall_back_where_rejected(work, counts, cleaned);
     if (tuning_.leaves_biased) fall_back_where_biased(work, found.noise, cleaned);
     // Many outliers make any take look strange, and `auto` can do least with them.
     if (tuning_.leaves_strange && found.suspects <= tuning_.many_suspects)
@@ -172,16 +169,16 @@ class ExampleCleaning {
 
   bool is_papers() const { return options_.solver == "paper"; }
 
-  ExampleWeights weights_for(const std::vector<double>& noise, double rest, double suspects,
+  ExampleWeights weights_for(const std::vector<double>& noise, double suspects,
                              const WindowBases& bases) const {
     ExampleWeights weights = probable_weights(prior_, bases, noise, tuning_.welsch_deviations);
     if (!tuning_.knows_variances) weights.coefficients.clear();
     const double deviations =
         suspects > tuning_.many_suspects ? tuning_.narrow_deviations : tuning_.welsch_deviations;
     for (std::size_t c = 0; c < noise.size(); ++c) {
-      weights.prior[c] /= tuning_.rest_memory_frames * rest;
+      weights.prior[c] /= tuning_.rest_memory_frames;
       weights.welsch[c] =
-          std::hypot(weights.welsch[c], deviations * std::sqrt(rest * prior_.bases.residual[c]));
+          std::hypot(weights.welsch[c], deviations * std::sqrt(prior_.bases.residual[c]));
     }
     if (options_.lambda > 0) {
       std::fill(weights.data.begin(), weights.data.end(), 1.0);

@@ -19,7 +19,6 @@ constexpr double least_variance = 1e-6;  // square degrees: less is rounding
 constexpr double least_strangeness = 1;
 constexpr double least_rest_weight = 0.01;
 constexpr double known_motion = 1.5, unknown_motion = 5;  // strangeness
-constexpr double believable_rejected = 0.2, unbelievable_rejected = 0.35;
 // Median of what the filter leaves of the measurements within this time, in deviations of the
 // noise. Of 25 samples of noise it is within a quarter of one, whatever a few outliers do; of 15, a
 // fifth of outliers are seldom half.
@@ -30,22 +29,6 @@ constexpr std::size_t part_channels = 3;
 // A measurement is far from what the bases express beyond so many medians of its channel's
 // distances, and beyond so much.
 constexpr double far_medians = 8, least_far_deg = 8;
-
-// Root mean square of what `auto` took away from a part, spikes and gaps left out; what counts as
-// none where there is nothing to see.
-double taken_away(const PriorWork& work, std::size_t part) {
-  const PoseMatrix& poses = work.channels.poses;
-  double sum = 0, count = 0;
-  for (std::size_t f = 0; f < poses.frames; ++f) {
-    for (std::size_t c = part_channels * part; c < part_channels * (part + 1); ++c) {
-      const std::size_t i = f * poses.channels + c;
-      if (work.channels.observed[i] == 0 || work.suspect[i] != 0) continue;
-      const double difference = poses.values[i] - work.fallback.values[i];
-      sum += difference * difference, count += 1;
-    }
-  }
-  return count > 0 ? std::sqrt(sum / count) : 0;
-}
 
 // Mean of the squares without the largest tenth, and what a Gaussian variance of 1 makes of it.
 constexpr double trimmed_share = 0.9, trimmed_of_one = 0.64;
@@ -82,15 +65,12 @@ double ramp(double value, double none, double all) {
 
 }  // namespace
 
-std::vector<double> example_noise(const PriorWork& work, double most_kept) {
+std::vector<double> example_noise(const PriorWork& work) {
   std::vector<double> levels = work.noise, known;
-  for (std::size_t part = 0; part_channels * part < levels.size(); ++part) {
-    const double most = most_kept * taken_away(work, part);
-    for (std::size_t c = part_channels * part; c < part_channels * (part + 1); ++c) {
-      if (work.noise[c] <= 0) continue;
-      levels[c] = std::max(std::min(work.noise[c], most), least_error_deg);
-      known.push_back(levels[c]);
-    }
+  for (double& level : levels) {
+    if (level <= 0) continue;
+    level = std::max(level, least_error_deg);
+    known.push_back(level);
   }
   const double typical = std::max(median_of(known), least_error_deg);
   for (double& level : levels) level = level > 0 ? level : typical;
@@ -175,27 +155,6 @@ void fall_back(PriorWork& work, double strangeness, PoseMatrix& cleaned) {
         work, part, [share](std::size_t) { return share; }, cleaned);
   add_fall_back(work, "the motion is unlike what the model was learned from",
                 std::vector<double>(work.needs.size(), share));
-}
-
-void fall_back_where_rejected(PriorWork& work, const PoseMatrix& weights, PoseMatrix& cleaned) {
-  std::vector<double> shares(work.needs.size(), 0);
-  for (std::size_t first = 0; first + part_channels <= cleaned.channels; first += part_channels) {
-    double rejected = 0, count = 0;
-    for (std::size_t f = 0; f < cleaned.frames; ++f) {
-      for (std::size_t c = first; c < first + part_channels; ++c) {
-        const std::size_t i = f * cleaned.channels + c;
-        if (work.channels.observed[i] == 0 || work.suspect[i] != 0) continue;
-        rejected += 1 - weights.values[i];
-        count += 1;
-      }
-    }
-    if (count == 0) continue;
-    const double share = ramp(rejected / count, believable_rejected, unbelievable_rejected);
-    shares[first / part_channels] = blend_part(
-        work, first / part_channels, [share](std::size_t) { return share; }, cleaned);
-  }
-  add_fall_back(work, "the filter rejects much that auto finds nothing wrong with",
-                std::move(shares));
 }
 
 void fall_back_where_biased(PriorWork& work, const std::vector<double>& noise,

@@ -8,10 +8,9 @@
 // What a take does that the filter bases do not know.
 namespace kinemend {
 
-/// Standard deviation of each channel's noise (D, degrees, at least 0.05): as `auto` measures it,
-/// but at most `most_kept` times what `auto` took away, which leaves clean takes alone; of channels
-/// about which nothing is known the typical one.
-std::vector<double> example_noise(const PriorWork& work, double most_kept = 1.2);
+/// Standard deviation of each channel's noise (D, degrees, at least 0.05): as `auto` measures it;
+/// of channels about which nothing is known the typical one.
+std::vector<double> example_noise(const PriorWork& work);
 
 /// How many times as much of the take lies outside of the bases as of the clips that they were
 /// learned from: mean squares of `guess` less `expressed`, what the bases make of it, without the
@@ -33,11 +32,6 @@ void smooth_rest(const PriorWork& work, const PoseMatrix& weights, const PoseMat
 /// The stranger the take, the more of what `auto` made of its measurements: none of it below a
 /// strangeness of 1.5, nothing else from 5 on. Gaps stay as the bases fill them.
 void fall_back(PriorWork& work, double strangeness, PoseMatrix& cleaned);
-
-/// A part of which the filter rejects what `auto` finds nothing wrong with is one that the bases
-/// are wrong about: from 20 % of rejected measurements on it becomes what `auto` made of it, wholly
-/// at 35 %. `weights` is F x D, those of the filter.
-void fall_back_where_rejected(PriorWork& work, const PoseMatrix& weights, PoseMatrix& cleaned);
 
 /// What is measured scatters about the motion: where the median of what the filter leaves of a part
 /// within a fifth of a second (15 frames at least) is far from zero, the motion is the bases', not

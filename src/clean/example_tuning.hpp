@@ -15,17 +15,13 @@ struct ExampleTuning {
   double welsch_deviations = 3;
   double many_suspects = 0.005;
   double narrow_deviations = 1;
-  /// The noise is at most so many times what `auto` took away.
-  double most_noise_kept = 1.2;
   /// What the bases leave lasts: it says something new in one frame of so many.
   double rest_memory_frames = 3;
   bool guesses_suspects = true;    ///< starts from what `auto` made of spikes
   bool starts_expressible = true;  ///< starts from what the bases express of that
   bool knows_variances = true;     ///< v_k: the spread of the coefficients in training
-  bool counts_strangeness = true;  ///< weighs the residual by how strange the take is
   bool smooths_rest = true;        ///< keeps smooth motion outside of the bases
   bool leaves_strange = true;      ///< a strange take to `auto`
-  bool leaves_rejected = true;     ///< a part of which much is rejected to `auto`
   bool leaves_biased = true;       ///< where the result is biased to `auto`
 };
 

@@ -41,14 +41,8 @@ double mean_square(const PoseMatrix& a, const PoseMatrix& b) {
   return sum / static_cast<double>(a.values.size());
 }
 
-TEST(ExampleNoise, IsTheMeasuredOneWhereAutoTookItAway) {
+TEST(ExampleNoise, IsTheMeasuredOne) {
   for (const double level : example_noise(work_of(2))) EXPECT_NEAR(level, 2, 1e-12);
-}
-
-TEST(ExampleNoise, IsLittleMoreThanWhatAutoTookAway) {
-  PriorWork work = work_of(0.5);
-  work.noise.assign(channels, 3.0);
-  for (const double level : example_noise(work)) EXPECT_NEAR(level, 1.2 * 0.5, 0.1);
 }
 
 TEST(ExampleNoise, IsTheTypicalOneWhereNothingIsKnown) {
@@ -92,28 +86,6 @@ TEST(FallBack, TakesWhatAutoMadeOfStrangeMotionButFillsNoGaps) {
   EXPECT_NEAR(unknown(1, 0), work.fallback(1, 0), 1e-12);
   fall_back(work, std::sqrt(1.5 * 5), between);
   EXPECT_NEAR(between(1, 0), 0.5 * (5 + work.fallback(1, 0)), 1e-9);
-}
-
-// Nothing up to a fifth of rejected measurements, all from 35 % on, in the middle half.
-TEST(FallBack, TakesWhatAutoMadeOfAPartThatTheFilterMostlyRejects) {
-  for (const auto& [rejected, taken] : {std::pair{0.2, 0.0}, {0.275, 0.5}, {0.35, 1.0}}) {
-    PriorWork work = work_of(1);
-    work.channels.observed[0] = 0;
-    const PoseMatrix filtered(frames, channels, 5.0);
-    PoseMatrix weights(frames, channels, 0.9), result = filtered;
-    for (std::size_t f = 0; f < frames; ++f) {
-      for (std::size_t c = 0; c < 3; ++c) weights(f, c) = 1 - rejected;
-    }
-    fall_back_where_rejected(work, weights, result);
-    EXPECT_EQ(result(0, 0), 5) << "a gap";
-    EXPECT_EQ(result(1, 3), 5) << "another part";
-    EXPECT_NEAR(result(1, 0), 5 + taken * (work.fallback(1, 0) - 5), 1e-9) << rejected;
-    // What `auto` suspects is rejected rightly.
-    result = filtered;
-    std::fill(work.suspect.begin(), work.suspect.end(), 1);
-    fall_back_where_rejected(work, weights, result);
-    EXPECT_EQ(result.values, filtered.values);
-  }
 }
 
 // The filter's result lies `deviations` deviations of the noise beside what was measured from frame
