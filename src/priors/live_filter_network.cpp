@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::size_t live_axes = 3;
 constexpr std::size_t reach = predicted_filter_reach;
-// What a pass sees: the frame that comes out next and those ahead.
+// What a pass sees: its first frame and those ahead, before the end of the stream and at it.
+constexpr std::size_t pass_rows = reach + 2 - LiveFilterNetwork::period;
 constexpr std::size_t most_rows = reach + 1;
 // The second differences about the first of these frames look one frame farther than its window.
 constexpr std::size_t window_rows = 2 * reach + 2;
@@ -63,11 +64,12 @@ LiveFilterNetwork::LiveFilterNetwork(const FilterNetwork& network, double frame_
   for (const FilterNetwork::BothWays& layer : network.recurrent)
     layers_.push_back(
         {nn::start(layer.forward), nn::start(layer.forward), nn::start(layer.backward)});
+  plan_parts();
 }
 
 void LiveFilterNetwork::reset() {
   base_ = count_ = next_ = known_ = first_known_ = 0;
-  is_ending_ = false;
+  is_ending_ = is_passing_ = false;
   std::fill(missed_.begin(), missed_.end(), 0);
   std::fill(seen_.begin(), seen_.end(), 0);
   std::fill(features_.begin(), features_.end(), 0.0F);
@@ -76,7 +78,10 @@ void LiveFilterNetwork::reset() {
 
 bool LiveFilterNetwork::push(const Input& in, std::span<float> out) {
   append(in);
-  if (base_ + count_ <= next_ + delay) return false;
+  const std::size_t frames = base_ + count_;
+  if (is_recurrent() && !is_passing_ && frames + period > known_ + delay + 1) begin_pass(period);
+  if (is_passing_) run_parts(shares_done_ + 1);
+  if (frames <= next_ + delay) return false;
   give(out);
   return true;
 }
@@ -129,8 +134,8 @@ void LiveFilterNetwork::bridge(std::size_t track, std::size_t missed) {
 
 void LiveFilterNetwork::give(std::span<float> out) {
   if (next_ >= known_) {
-    const std::size_t rows = base_ + count_ - next_;
-    run_network(network_.recurrent.empty() ? 1 : is_ending_ ? rows : std::min(period, rows));
+    if (!is_passing_) begin_pass(is_recurrent() ? base_ + count_ - next_ : 1);
+    run_parts(period);
   }
   const std::size_t width = network_.decoder.back().outputs();
   const std::span<const float> values(values_.data(), count_ * channels_);
@@ -139,82 +144,144 @@ void LiveFilterNetwork::give(std::span<float> out) {
   ++next_;
 }
 
-// The outputs of the next `wanted` frames, from all that are there.
-void LiveFilterNetwork::run_network(std::size_t wanted) {
-  const std::size_t rows = base_ + count_ - next_;
+// The parts of a pass, those that are done with one frame next to each other.
+void LiveFilterNetwork::plan_parts() {
+  const auto add = [&](Part::Kind kind, std::size_t layer, double products) {
+    parts_.push_back({kind, layer, products, 0});
+  };
+  const double rows = is_recurrent() ? static_cast<double>(pass_rows) : 1;
+  const double wanted = is_recurrent() ? static_cast<double>(period) : 1;
+  double products = 0;
+  for (const nn::Dense& layer : network_.encoder) products += rows * products_of(layer);
+  add(Part::Kind::encode, 0, products);
+  for (std::size_t i = 0; i < layers_.size(); ++i) {
+    const auto& [forward, backward] = network_.recurrent[i];
+    const auto of_state = [](const nn::Lstm& way) {
+      return static_cast<double>(way.state.rows() * way.state.columns());
+    };
+    const double onward = i + 1 == layers_.size() ? wanted : rows;
+    add(Part::Kind::go_on, i, onward * (products_of(forward.input) + of_state(forward)));
+    add(Part::Kind::look_back, i, rows * products_of(backward.input));
+    add(Part::Kind::go_back, i, rows * of_state(backward));
+  }
+  products = 0;
+  for (const nn::Dense& layer : network_.decoder) products += wanted * products_of(layer);
+  add(Part::Kind::decode, 0, products);
+  double all = 0, before = 0;
+  for (const Part& part : parts_) all += part.products;
+  for (Part& part : parts_) {
+    const double middle = (before + 0.5 * part.products) / all;
+    const auto share = static_cast<std::size_t>(middle * static_cast<double>(period));
+    part.share = std::min(share, period - 1);
+    before += part.products;
+  }
+}
+
+// For the outputs of the `wanted` frames behind those that are known, from all that are there.
+void LiveFilterNetwork::begin_pass(std::size_t wanted) {
+  is_passing_ = true;
+  next_part_ = shares_done_ = 0;
+  rows_ = base_ + count_ - known_;
+  wanted_ = std::min(wanted, rows_);
+}
+
+void LiveFilterNetwork::run_parts(std::size_t shares) {
+  for (; next_part_ < parts_.size() && parts_[next_part_].share < shares; ++next_part_)
+    run_part(parts_[next_part_]);
+  shares_done_ = shares;
+  if (next_part_ < parts_.size()) return;
+  is_passing_ = false;
+  first_known_ = known_;
+  known_ += wanted_;
+}
+
+void LiveFilterNetwork::run_part(const Part& part) {
+  switch (part.kind) {
+    case Part::Kind::encode:
+      return encode();
+    case Part::Kind::go_on:
+      return go_on(part.layer);
+    case Part::Kind::look_back:
+      return look_back(part.layer);
+    case Part::Kind::go_back:
+      return go_back(part.layer);
+    case Part::Kind::decode:
+      return decode();
+  }
+}
+
+void LiveFilterNetwork::encode() {
   const std::size_t before = network_.reach;
   if (before > 0) {  // what was seen of the frames before stays
     std::copy(features_.begin() + static_cast<std::ptrdiff_t>(width_),
               features_.begin() + static_cast<std::ptrdiff_t>((before + 1) * width_),
               features_.begin());
-    std::fill(features_.begin() + static_cast<std::ptrdiff_t>((before + rows) * width_),
+    std::fill(features_.begin() + static_cast<std::ptrdiff_t>((before + rows_) * width_),
               features_.end(), 0.0F);
   }
-  fill_features(rows);
-  nn::MatrixViewF x{features_.data() + before * width_, rows, width_, width_};
-  std::size_t first_layer = 0;
-  const auto run_into = [&](const nn::Dense& layer, std::vector<float>& target) {
-    nn::run(layer, x, {target.data(), x.rows, layer.outputs(), layer.outputs()});
-    x = {target.data(), x.rows, layer.outputs(), layer.outputs()};
-    std::swap(here_, there_);
-  };
-  if (before > 0) {
+  fill_features();
+  x_ = {features_.data() + before * width_, rows_, width_, width_};
+  for (const nn::Dense& layer : network_.encoder) run_dense(layer);
+}
+
+void LiveFilterNetwork::run_dense(const nn::Dense& layer) {
+  nn::run(layer, x_, {there_.data(), x_.rows, layer.outputs(), layer.outputs()});
+  x_ = {there_.data(), x_.rows, layer.outputs(), layer.outputs()};
+  std::swap(here_, there_);
+}
+
+// Forward from the state of the past. Of the last layer only what is wanted is looked at.
+void LiveFilterNetwork::go_on(std::size_t number) {
+  const nn::Lstm& layer = network_.recurrent[number].forward;
+  Layer& own = layers_[number];
+  const std::size_t units = layer.units(), width = layer.input.outputs();
+  const std::size_t onward = number + 1 == layers_.size() ? wanted_ : rows_;
+  const nn::MutableMatrixViewF both{there_.data(), rows_, 2 * units, 2 * units};
+  const nn::MatrixViewF gates{gates_.data(), onward, width, width};
+  nn::run(layer.input, x_.block(0, 0, onward, x_.columns), {gates_.data(), onward, width, width});
+  nn::run_on(layer, nn::Direction::forward, gates.block(0, 0, wanted_, width), own.forward,
+             both.block(0, 0, wanted_, units));
+  if (onward == wanted_) return;
+  own.ahead.hidden = own.forward.hidden;
+  own.ahead.cell = own.forward.cell;
+  nn::run_on(layer, nn::Direction::forward, gates.block(wanted_, 0, onward - wanted_, width),
+             own.ahead, both.block(wanted_, 0, onward - wanted_, units));
+}
+
+void LiveFilterNetwork::look_back(std::size_t number) {
+  const nn::Lstm& layer = network_.recurrent[number].backward;
+  const std::size_t width = layer.input.outputs();
+  nn::run(layer.input, x_, {gates_.data(), rows_, width, width});
+}
+
+void LiveFilterNetwork::go_back(std::size_t number) {
+  const nn::Lstm& layer = network_.recurrent[number].backward;
+  Layer& own = layers_[number];
+  const std::size_t units = layer.units(), width = layer.input.outputs();
+  const nn::MutableMatrixViewF both{there_.data(), rows_, 2 * units, 2 * units};
+  nn::restart(own.backward);
+  nn::run_on(layer, nn::Direction::backward, {gates_.data(), rows_, width, width}, own.backward,
+             both.block(0, units, rows_, units));
+  x_ = {there_.data(), rows_, 2 * units, 2 * units};
+  std::swap(here_, there_);
+}
+
+void LiveFilterNetwork::decode() {
+  x_.rows = wanted_;
+  if (network_.reach > 0) {  // a window is a row
     const nn::Dense& first = network_.decoder.front();
-    x = {features_.data(), 1, first.inputs(), first.inputs()};
-    run_into(first, there_);
-    first_layer = 1;
+    x_ = {features_.data(), 1, first.inputs(), first.inputs()};
   }
-  for (const nn::Dense& layer : network_.encoder) run_into(layer, there_);
-  if (!network_.recurrent.empty()) x = run_recurrent(x, wanted);
-  x.rows = wanted;
-  for (std::size_t i = first_layer; i < network_.decoder.size(); ++i)
-    run_into(network_.decoder[i], there_);
-  for (std::size_t i = 0; i < wanted; ++i)
-    std::copy_n(x.values + i * x.row_stride, x.columns, outputs_.data() + i * x.columns);
-  first_known_ = next_;
-  known_ = next_ + wanted;
+  for (const nn::Dense& layer : network_.decoder) run_dense(layer);
+  for (std::size_t i = 0; i < wanted_; ++i)
+    std::copy_n(x_.values + i * x_.row_stride, x_.columns, outputs_.data() + i * x_.columns);
 }
 
-nn::MatrixViewF LiveFilterNetwork::run_recurrent(nn::MatrixViewF x, std::size_t wanted) {
-  for (std::size_t i = 0; i < layers_.size(); ++i) {
-    const FilterNetwork::BothWays& layer = network_.recurrent[i];
-    Layer& own = layers_[i];
-    const std::size_t units = layer.forward.units(), width = layer.forward.input.outputs();
-    const bool is_last = i + 1 == layers_.size();
-    // Of the last layer only what is wanted is looked at.
-    const std::size_t onward = is_last ? wanted : x.rows;
-    const nn::MutableMatrixViewF both{there_.data(), x.rows, 2 * units, 2 * units};
-    const auto gates_of = [&](const nn::Dense& input, std::size_t rows) {
-      nn::run(input, {x.values, rows, x.columns, x.row_stride},
-              {gates_.data(), rows, width, width});
-    };
-    const auto gate_rows = [&](std::size_t first, std::size_t rows) {
-      return nn::MatrixViewF{gates_.data() + first * width, rows, width, width};
-    };
-    gates_of(layer.forward.input, onward);
-    nn::run_on(layer.forward, nn::Direction::forward, gate_rows(0, wanted), own.forward,
-               both.block(0, 0, wanted, units));
-    if (onward > wanted) {
-      own.ahead.hidden = own.forward.hidden;
-      own.ahead.cell = own.forward.cell;
-      nn::run_on(layer.forward, nn::Direction::forward, gate_rows(wanted, onward - wanted),
-                 own.ahead, both.block(wanted, 0, onward - wanted, units));
-    }
-    gates_of(layer.backward.input, x.rows);
-    nn::restart(own.backward);
-    nn::run_on(layer.backward, nn::Direction::backward, gate_rows(0, x.rows), own.backward,
-               both.block(0, units, x.rows, units));
-    x = {there_.data(), x.rows, 2 * units, 2 * units};
-    std::swap(here_, there_);
-  }
-  return x;
-}
-
-void LiveFilterNetwork::fill_features(std::size_t rows) {
+void LiveFilterNetwork::fill_features() {
   const FilterStatistics& statistics = network_.statistics;
-  const std::size_t first = next_ - base_;
+  const std::size_t first = known_ - base_;
   float* feature = features_.data() + network_.reach * width_;
-  for (std::size_t i = 0; i < rows; ++i, feature += width_) {
+  for (std::size_t i = 0; i < rows_; ++i, feature += width_) {
     const float* row = value_row(first + i);
     for (std::size_t c = 0; c < channels_; ++c)
       feature[c] = (row[c] - statistics.mean[c]) / statistics.deviation[c];
@@ -223,12 +290,12 @@ void LiveFilterNetwork::fill_features(std::size_t rows) {
     feature[channels_ + 1] = static_cast<float>(turn.y) / statistics.turning[1];
     feature[channels_ + 2] = static_cast<float>(turn.z) / statistics.turning[2];
   }
-  if (network_.inputs.has_roughness) fill_roughness(rows);
+  if (network_.inputs.has_roughness) fill_roughness();
 }
 
 // The sums over the window of one frame become those of the next.
-void LiveFilterNetwork::fill_roughness(std::size_t rows) {
-  const std::size_t first = next_ - base_;
+void LiveFilterNetwork::fill_roughness() {
+  const std::size_t first = known_ - base_;
   std::fill(squares_.begin(), squares_.end(), 0.0);
   for (std::size_t r = 1; r + 1 < count_; ++r) {
     const float* row = value_row(r);
@@ -249,7 +316,7 @@ void LiveFilterNetwork::fill_roughness(std::size_t rows) {
     for (std::size_t c = 0; c < channels_; ++c) sums_[c] += sign * square[c];
   };
   float* feature = features_.data() + network_.reach * width_ + channels_ + live_axes;
-  for (std::size_t i = 0; i < rows; ++i, feature += width_) {
+  for (std::size_t i = 0; i < rows_; ++i, feature += width_) {
     const std::size_t row = first + i;
     const std::size_t wanted_begin = std::max<std::size_t>(row - std::min(row, reach), 1);
     const std::size_t wanted_end = std::max(std::min(row + reach + 2, count_) - 1, wanted_begin);
@@ -269,21 +336,9 @@ Vec3 LiveFilterNetwork::turning(std::size_t row) const {
 }
 
 double LiveFilterNetwork::products_per_frame() const {
-  const bool is_recurrent = !network_.recurrent.empty();
-  const double rows = static_cast<double>(is_recurrent ? most_rows : 1);
-  const double wanted = static_cast<double>(is_recurrent ? period : 1);
   double products = 0;
-  for (const nn::Dense& layer : network_.encoder) products += rows * products_of(layer);
-  for (std::size_t i = 0; i < layers_.size(); ++i) {
-    const FilterNetwork::BothWays& layer = network_.recurrent[i];
-    const auto of_step = [](const nn::Lstm& way) {
-      return products_of(way.input) + static_cast<double>(way.state.rows() * way.state.columns());
-    };
-    products += (i + 1 == layers_.size() ? wanted : rows) * of_step(layer.forward);
-    products += rows * of_step(layer.backward);
-  }
-  for (const nn::Dense& layer : network_.decoder) products += wanted * products_of(layer);
-  return products / wanted;
+  for (const Part& part : parts_) products += part.products;
+  return products / (is_recurrent() ? static_cast<double>(period) : 1);
 }
 
 }  // namespace kinemend

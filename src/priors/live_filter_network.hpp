@@ -12,17 +12,18 @@ namespace kinemend {
 
 /// A network of Mall et al. frame by frame: frame t goes in, frame t - 15 comes out, filtered from
 /// the frames about it. Recurrent layers carry their forward states on from the past; backward ones
-/// begin at the newest frame. That is done anew every fourth frame, for the four that come out
-/// next, which therefore see 15, 14, 13 and 12 frames ahead; what they have seen of the network's
-/// inputs (roughness, turning) ends there too. Their filters see all 15 frames. A network of dense
-/// layers alone runs for each frame.
+/// begin at the newest frame. That is done anew for three frames at a time, and begins as soon as
+/// frame t + 13 is there for frames t, t + 1 and t + 2: the work is spread over the three frames
+/// that come in meanwhile. They therefore see 13, 12 and 11 frames ahead; what they have seen of
+/// the network's inputs (roughness, turning) ends there too. Their filters see all 15 frames. A
+/// network of dense layers alone runs for each frame, and sees 15.
 ///
 /// A sample that is missing is the one before until the next is seen, and then on the straight line
 /// between the two as far as it has not come out.
 class LiveFilterNetwork {
  public:
   static constexpr std::size_t delay = predicted_filter_reach;  ///< frames
-  static constexpr std::size_t period = 4;  ///< frames from one backward pass to the next
+  static constexpr std::size_t period = 3;  ///< frames from one backward pass to the next
 
   /// `network` outlives this. Errors: `ErrorKind::usage` for one that fills gaps, has a stride, or
   /// sees more than 15 frames on either side.
@@ -48,16 +49,33 @@ class LiveFilterNetwork {
     nn::RecurrentState forward;  ///< after the last frame whose outputs are known
     nn::RecurrentState ahead, backward;
   };
+  /// A part of a pass: the passes of a network are made of the same ones, in the same order.
+  struct Part {
+    enum class Kind : std::uint8_t { encode, go_on, look_back, go_back, decode };
+    Kind kind;
+    std::size_t layer;
+    double products;
+    std::size_t share;  ///< of `period`: with which frame it is done
+  };
 
   float* value_row(std::size_t row) { return values_.data() + row * channels_; }
   void append(const Input& in);
   void bridge(std::size_t track, std::size_t missed);
   void give(std::span<float> out);
-  void run_network(std::size_t wanted);
-  void fill_features(std::size_t rows);
-  void fill_roughness(std::size_t rows);
+  void plan_parts();
+  void begin_pass(std::size_t wanted);
+  void run_parts(std::size_t shares);
+  void run_part(const Part& part);
+  void encode();
+  void go_on(std::size_t layer);
+  void look_back(std::size_t layer);
+  void go_back(std::size_t layer);
+  void decode();
+  void run_dense(const nn::Dense& layer);
+  void fill_features();
+  void fill_roughness();
   Vec3 turning(std::size_t row) const;
-  nn::MatrixViewF run_recurrent(nn::MatrixViewF x, std::size_t wanted);
+  bool is_recurrent() const { return !layers_.empty(); }
 
   const FilterNetwork& network_;
   double rate_hz_;
@@ -71,6 +89,12 @@ class LiveFilterNetwork {
   std::size_t known_ = 0;        ///< outputs are known of frames up to this one, and
   std::size_t first_known_ = 0;  ///< from this one on
   bool is_ending_ = false;
+  // The pass that is being made, of outputs for the frames from `known_` on.
+  bool is_passing_ = false;
+  std::size_t next_part_ = 0, shares_done_ = 0;
+  std::size_t rows_ = 0;             ///< frames that it sees
+  std::size_t wanted_ = 0;           ///< frames that it is for, the first of these
+  nn::MatrixViewF x_;                ///< what the layers so far have made
   std::vector<std::size_t> missed_;  ///< C / 3, frames since it was seen
   std::vector<std::uint8_t> seen_;   ///< C / 3, 1 where it ever was
   // Scratch.
@@ -78,6 +102,7 @@ class LiveFilterNetwork {
   std::vector<float> here_, there_, gates_;  ///< rows of layers
   std::vector<double> squares_, sums_;
   std::vector<Layer> layers_;
+  std::vector<Part> parts_;
   PredictedFilterRow filter_;
 };
 

@@ -79,10 +79,11 @@ std::vector<float> live(LiveFilterNetwork& network, const Motion& motion) {
   return result;
 }
 
-// The newest frame that frame t is made from: outputs are made for four frames together.
+// The newest frame that the outputs for frame t are made from: they are made for three together,
+// and begun when the first of these has 13 frames ahead; at the end from all that are there.
 std::size_t newest(std::size_t t, std::size_t frames, bool is_recurrent) {
-  const std::size_t first = is_recurrent ? t / period * period : t;
-  return std::min(first + delay, frames - 1);
+  if (!is_recurrent) return std::min(t + delay, frames - 1);
+  return std::min(t / period * period + delay + 1 - period, frames - 1);
 }
 
 // With one recurrent layer the carried state is that of the whole past: the outputs for a frame are
@@ -125,8 +126,15 @@ TEST(LiveFilterNetwork, SeesTheRoughnessOfTheFramesThatThereAre) {
     const Motion whole = motion(network.channels(), 40);
     LiveFilterNetwork stream(network, 120);
     const std::vector<float> result = live(stream, whole);
-    const FilterTake so_far = cut(whole, delay + 1, 120);
-    const std::vector<float> wanted = filtered(network, so_far);
+    const FilterTake so_far = cut(whole, newest(0, 40, true) + 1, 120);
+    std::vector<float> outputs =
+        run(network, filter_features(so_far, network.statistics, network.inputs));
+    const FilterTake ahead = cut(whole, delay + 1, 120);
+    outputs.resize(ahead.values.size());
+    std::vector<float> wanted(ahead.values.size());
+    apply_predicted_filter(
+        network.head, {ahead.frames, ahead.channels, ahead.values, network.statistics.deviation},
+        outputs, wanted);
     for (std::size_t c = 0; c < network.channels(); ++c) EXPECT_NEAR(result[c], wanted[c], 2e-4);
   }
 }
@@ -153,8 +161,8 @@ TEST(LiveFilterNetwork, GivesEveryFrameOfATakeShorterThanItsDelayAndOfNone) {
     LiveFilterNetwork stream(network, 120);
     const Motion whole = motion(network.channels(), frames);
     EXPECT_EQ(live(stream, whole).size(), whole.take.values.size());
-    // The first frames are made from the take so far, which is all of it.
-    if (frames == 0 || frames > delay) continue;
+    // Where no pass began before the end, all are made from all of the take.
+    if (frames == 0 || frames + period > delay + 1) continue;
     LiveFilterNetwork again(network, 120);
     const std::vector<float> result = live(again, whole);
     const std::vector<float> wanted = filtered(network, cut(whole, frames, 120));
