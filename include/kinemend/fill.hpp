@@ -71,10 +71,10 @@ struct FillMethod {
 std::span<const FillMethod> fill_methods();
 
 /// Fills the missing samples in place: a filled sample is observed, and its residual is 0. A filled
-/// span meets its ends in value and velocity (in value only by `slerp` and `pchip`). What the
-/// method's rules refuse stays missing and is listed. Errors: `ErrorKind::usage` for a method, a
-/// name or a donor that there is not, and for a learned method without its model. What a model does
-/// not know `auto` fills by its own rules, and a warning says so.
+/// span meets its ends in value and velocity (in value only by `slerp`, `pchip` and `recurrent`).
+/// What the method's rules refuse stays missing and is listed. Errors: `ErrorKind::usage` for a
+/// method, a name or a donor that there is not, and for a learned method without its model. What a
+/// model does not know `auto` fills by its own rules, and a warning says so.
 FillReport fill_gaps(MarkerClip& clip, const FillSettings& settings = {});
 /// The same for rotations, and positions of joints, that are not observed. A joint with one or two
 /// rotation channels gets rotations that these can hold.

@@ -150,7 +150,9 @@ class WholeTakeRecurrent final : public Cleaner {
 class LiveRecurrent final : public Cleaner {
  public:
   LiveRecurrent(std::shared_ptr<const Model> model, const std::string& map)
-      : model_(std::move(model)), names_(name_map_at(map)), network_(filter_network_of(*model_)) {}
+      : model_(std::move(model)), names_(name_map_at(map)), network_(filter_network_of(*model_)) {
+    LiveFilterNetwork::check(network_);
+  }
 
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
@@ -176,9 +178,7 @@ std::unique_ptr<Cleaner> make_live(const RecurrentOptions& options,
     throw Error(ErrorKind::usage,
                 "live, gaps are held or bridged: a gap model needs the whole take");
   if (!is_filter_network(*model)) throw Error(ErrorKind::usage, live_needs);
-  auto cleaner = std::make_unique<LiveRecurrent>(model, options.map);
-  LiveFilterNetwork(filter_network_of(*model), model->rate_hz);  // refuses what it cannot run
-  return cleaner;
+  return std::make_unique<LiveRecurrent>(model, options.map);
 }
 
 }  // namespace

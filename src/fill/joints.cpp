@@ -202,7 +202,7 @@ class JointTake : public GappedTake {
 
   // Why the rules do not let the method fill the gap; empty where they do.
   std::string refusal(const JointProposal& proposal, const OpenGap& gap) const {
-    if (const std::string reason = too_long(*proposal.method, gap); !reason.empty()) return reason;
+    if (std::string reason = too_long(*proposal.method, gap); !reason.empty()) return reason;
     const double largest = largest_error(gap.is_position);
     const Method& asked = *gap.request->method;
     const bool is_auto = asked.about.name == "auto" || asked.about.learned;

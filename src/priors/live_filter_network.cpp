@@ -57,14 +57,18 @@ LiveFilterNetwork::LiveFilterNetwork(const FilterNetwork& network, double frame_
       squares_(window_rows * channels_),
       sums_(channels_),
       filter_(channels_) {
-  if (network.inputs.has_masks || network.stride != 1)
-    throw Error(ErrorKind::usage, "this network fills gaps and filters nothing");
-  if (network.reach > delay)
-    throw Error(ErrorKind::usage, "this network sees farther ahead than 15 frames");
+  check(network);
   for (const FilterNetwork::BothWays& layer : network.recurrent)
     layers_.push_back(
         {nn::start(layer.forward), nn::start(layer.forward), nn::start(layer.backward)});
   plan_parts();
+}
+
+void LiveFilterNetwork::check(const FilterNetwork& network) {
+  if (network.inputs.has_masks || network.stride != 1)
+    throw Error(ErrorKind::usage, "this network fills gaps and filters nothing");
+  if (network.reach > delay)
+    throw Error(ErrorKind::usage, "this network sees farther ahead than 15 frames");
 }
 
 void LiveFilterNetwork::reset() {

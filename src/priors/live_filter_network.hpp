@@ -28,6 +28,8 @@ class LiveFilterNetwork {
   /// `network` outlives this. Errors: `ErrorKind::usage` for one that fills gaps, has a stride, or
   /// sees more than 15 frames on either side.
   LiveFilterNetwork(const FilterNetwork& network, double frame_rate_hz);
+  /// Errors: the same.
+  static void check(const FilterNetwork& network);
 
   struct Input {
     std::span<const float> values;          ///< C, degrees
