@@ -20,10 +20,10 @@ namespace kinemend {
 
 namespace {
 
-constexpr double most_turns = 0.98;  // a few of the samples may be spikes
+constexpr double most_within = 0.98;  // a few of the samples may be spikes
 
 // The body's frame needs a root in every frame, and rotation vectors the shortest way through gaps.
-Clip bridged(const Clip& clip) {
+Clip bridged_take(const Clip& clip) {
   Clip whole = clip;
   const TakeView view = view_of(clip);
   for (std::size_t n = 0; n < view.tracks.size(); ++n) {
@@ -46,7 +46,7 @@ bool turns_too_far(const BodyChannels& channels, std::size_t part) {
     ++seen;
     if (norm(Vec3{row[3 * part], row[3 * part + 1], row[3 * part + 2]}) > limit) ++far;
   }
-  return static_cast<double>(far) > (1 - most_turns) * static_cast<double>(seen);
+  return static_cast<double>(far) > (1 - most_within) * static_cast<double>(seen);
 }
 
 LearnedFilling fill_by_network(const FilterNetwork& network, const BodyLayout& layout,
@@ -60,7 +60,7 @@ LearnedFilling fill_by_network(const FilterNetwork& network, const BodyLayout& l
     return filling;
   }
   const BodyMatch match = match_body(layout, clip, names);
-  const Clip guide = bridged(clip);
+  const Clip guide = bridged_take(clip);
   BodyChannels channels = encode_body(clip, layout, match, encode_body(guide, layout, match));
   std::vector<std::uint8_t> chosen(layout.track_count() + 1, 0);
   for (std::size_t part = 0; part < layout.track_count(); ++part) {

@@ -83,12 +83,12 @@ std::vector<std::string> methods_of(const AnyClip& clip, const LearnedFill& lear
   return names;
 }
 
-PlannedFill filled_by(Clip& clip, std::span<const PlannedGap> plan, const FillCheck& check,
-                      const LearnedFill& learned) {
+PlannedFill filled_as_planned(Clip& clip, std::span<const PlannedGap> plan, const FillCheck& check,
+                              const LearnedFill& learned) {
   return fill_with_plan(clip, plan, check, learned);
 }
-PlannedFill filled_by(MarkerClip& clip, std::span<const PlannedGap> plan, const FillCheck& check,
-                      const LearnedFill& /*learned*/) {
+PlannedFill filled_as_planned(MarkerClip& clip, std::span<const PlannedGap> plan,
+                              const FillCheck& check, const LearnedFill& /*learned*/) {
   return fill_with_plan(clip, plan, check);
 }
 
@@ -101,7 +101,7 @@ struct Tried {
   Tried(const AnyClip& gapped, std::span<const PlannedGap> plan, const FillCheck& check,
         const LearnedFill& learned)
       : clip(gapped) {
-    for (GapOutcome& gap : filled_by(clip, plan, check, learned).report.gaps)
+    for (GapOutcome& gap : filled_as_planned(clip, plan, check, learned).report.gaps)
       outcomes.emplace(key_of(gap.gap, gap.is_position), std::move(gap));
   }
 };
