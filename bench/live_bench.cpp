@@ -1,51 +1,21 @@
 #include <benchmark/benchmark.h>
 
-#include <time.h>
-
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "frame_times.hpp"
 #include "kinemend/experimental/live.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/stream.hpp"
 #include "noisy_walk.hpp"
 
-// How long one frame takes live, of every method that can: a noisy walk of 31 joints at 120 Hz. A
-// mean says little of a stream, so that the median and the 99th percentile are counters.
+// How long one frame takes live, of every method that can: a noisy walk of 31 joints at 120 Hz.
 namespace {
 
 using namespace kinemend;
 
-class FrameTimes {
- public:
-  template <class Work>
-  void measure(const Work& work) {
-    const double start = thread_ms();
-    work();
-    milliseconds_.push_back(thread_ms() - start);
-  }
-  void tell(benchmark::State& state) {
-    std::sort(milliseconds_.begin(), milliseconds_.end());
-    const auto of_share = [&](double share) {
-      return milliseconds_[static_cast<std::size_t>(share *
-                                                    static_cast<double>(milliseconds_.size() - 1))];
-    };
-    state.counters["median_ms"] = of_share(0.5);
-    state.counters["p99_ms"] = of_share(0.99);
-  }
-
- private:
-  // Of this thread alone: what else the machine does is no part of it.
-  static double thread_ms() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-  }
-
-  std::vector<double> milliseconds_;
-};
+using bench::FrameTimes;
 
 void push_frame(benchmark::State& state, const LiveMethod& method) {
   const Clip clip = bench::noisy_walk(120, 10, 0);

@@ -5,11 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "frame_times.hpp"
 #include "kinemend/cleaner.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
 #include "noisy_walk.hpp"
 #include "priors/filter_network.hpp"
+#include "priors/live_filter_network.hpp"
 #include "priors/recurrent_filter.hpp"
 #ifdef KINEMEND_HAS_TRAINING
 #include "sequence_network.hpp"
@@ -85,13 +87,13 @@ kinemend::Tensor ebf_tensor(const std::vector<std::size_t>& shape) {
   return tensor;
 }
 
-kinemend::nn::NamedTensors ebf_weights() {
+kinemend::nn::NamedTensors ebf_weights(std::size_t features = ebf_channels + 3) {
   kinemend::nn::NamedTensors tensors;
   const auto dense = [&](const std::string& name, std::size_t inputs, std::size_t outputs) {
     tensors[name + ".weight"] = ebf_tensor({outputs, inputs});
     tensors[name + ".bias"] = ebf_tensor({outputs});
   };
-  const std::vector<std::size_t> encoder{ebf_channels + 3, 128, 96, 80, 64};
+  const std::vector<std::size_t> encoder{features, 128, 96, 80, 64};
   const std::vector<std::size_t> decoder{252, 192, 160, 128, ebf_channels};
   for (std::size_t i = 0; i < 4; ++i) {
     dense("encoder" + std::to_string(i), encoder[i], encoder[i + 1]);
@@ -106,10 +108,12 @@ kinemend::nn::NamedTensors ebf_weights() {
   return tensors;
 }
 
-kinemend::FilterNetwork ebf() {
+kinemend::FilterNetwork ebf(bool has_roughness = false) {
   using kinemend::nn::Activation;
-  const kinemend::nn::NamedTensors tensors = ebf_weights();
   kinemend::FilterNetwork network;
+  network.inputs.has_roughness = has_roughness;
+  const kinemend::nn::NamedTensors tensors =
+      ebf_weights(filter_feature_count(ebf_channels, network.inputs));
   network.statistics = {std::vector<float>(ebf_channels, 0.0F),
                         std::vector<float>(ebf_channels, 20.0F),
                         {50, 50, 50}};
@@ -148,6 +152,28 @@ void ebf_network_alone(benchmark::State& state) {
   count_frames(state);
 }
 BENCHMARK(ebf_network_alone)->Unit(benchmark::kMillisecond);
+
+// A frame at a time, with 15 frames of delay; with 1, the network also sees how rough channels are.
+void ebf_live(benchmark::State& state) {
+  const kinemend::FilterNetwork network = ebf(state.range(0) != 0);
+  const kinemend::FilterTake take = ebf_take();
+  kinemend::LiveFilterNetwork live(network, 120);
+  std::vector<float> row(ebf_channels);
+  std::size_t next = 0;
+  kinemend::bench::FrameTimes times;
+  for (auto _ : state) {
+    const kinemend::LiveFilterNetwork::Input input{
+        {take.values.data() + next * ebf_channels, ebf_channels},
+        {take.missing.data(), ebf_channels / 3},
+        {}};
+    times.measure([&] { live.push(input, row); });
+    benchmark::DoNotOptimize(row.data());
+    next = (next + 1) % ebf_frames;
+  }
+  times.tell(state);
+  state.counters["products_per_frame"] = live.products_per_frame();
+}
+BENCHMARK(ebf_live)->ArgName("roughness")->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
 
 #ifdef KINEMEND_HAS_TRAINING
 void ebf_network_alone_by_libtorch(benchmark::State& state) {

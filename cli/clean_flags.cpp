@@ -62,7 +62,9 @@ Flag file_flag(std::string name, std::string value, std::string group, std::stri
 
 std::vector<std::string> fill_choices() {
   std::vector<std::string> names = {"off"};
-  for (const FillMethod& method : fill_methods()) names.emplace_back(method.name);
+  for (const FillMethod& method : fill_methods()) {
+    if (!method.learned) names.emplace_back(method.name);
+  }
   return names;
 }
 

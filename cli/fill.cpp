@@ -132,7 +132,13 @@ std::vector<Flag> fill_flags() {
                      "A table, or FILE.json. With --dry-run no take is written."),
       switch_flag("preview", "Work", "into the plan also what every method would make of each gap",
                   "The distance, over the gap, from what the row's own method fills."),
-      fill_gaps_flag()};
+      fill_gaps_flag(),
+      fill_file_flag("model", "Work", "network of --method recurrent, made by kinemend-train paper",
+                     "--network ebd --head residual makes one that fills gaps; none ships. Also of "
+                     "the rows of a "
+                     "--plan with that method, and of --preview."),
+      fill_file_flag("map", "Work", "names in the take for those of --model",
+                     "Lines NAME IN THE MODEL,NAME IN THE TAKE.")};
   append(flags, reading_flags("what needs a repair, and a gap that is refused, is an error"));
   return flags;
 }
@@ -144,8 +150,9 @@ Command fill_command() {
   command.name = "fill";
   command.summary = "fill the gaps of a take from the take itself";
   command.description =
-      "Fills missing markers, and rotations and positions of joints, without a trained model. A "
-      "filled span meets its ends in value and velocity; what was observed keeps its bytes. The "
+      "Fills missing markers, and rotations and positions of joints, without a trained model "
+      "(--method recurrent: with one). A filled span meets its ends in value and velocity; what "
+      "was observed keeps its bytes. The "
       "method auto makes gaps of the same length in the take, tries the others on them, and takes "
       "what does best there.\n\n"
       "Each method has rules for what it accepts. A gap that they refuse is listed with the reason "

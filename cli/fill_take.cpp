@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <type_traits>
 #include <variant>
 
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/gaps.hpp"
+#include "kinemend/methods.hpp"
 #include "page_report.hpp"
 #include "takes.hpp"
 
@@ -41,6 +43,21 @@ FillSettings settings_of(const Arguments& arguments) {
   return settings;
 }
 
+/// The model of the method recurrent, or of a plan's rows and of --preview.
+LearnedFill learned_of(const Arguments& arguments) {
+  const std::string model = arguments.text("model"), map = arguments.text("map");
+  const bool may_need = arguments.text("method") == "recurrent" || arguments.given("plan") ||
+                        arguments.flag("preview");
+  if (model.empty()) {
+    if (!map.empty()) throw Error(ErrorKind::usage, "fill: --map goes with --model");
+    return {};
+  }
+  if (!may_need)
+    throw Error(ErrorKind::usage,
+                "fill: --model is of --method recurrent, of a --plan and of --preview");
+  return make_recurrent_fill({model, map});
+}
+
 /// A plan says these of each gap.
 void check_plan_alone(const Arguments& arguments) {
   if (!arguments.given("plan")) return;
@@ -59,7 +76,29 @@ template <class AnyClip>
 PlannedFill fill_clip(AnyClip& clip, const FillSettings& settings, const FillRun& run,
                       const FillCheck& check) {
   if (!run.plan) return fill_with_plan(clip, settings, check);
-  return fill_with_plan(clip, parse_plan(run.plan->first, run.plan->second, clip), check);
+  const auto plan = parse_plan(run.plan->first, run.plan->second, clip);
+  if constexpr (std::is_same_v<AnyClip, Clip>)
+    return fill_with_plan(clip, plan, check, settings.learned);
+  else
+    return fill_with_plan(clip, plan, check);
+}
+
+void preview_plan(const Clip& before, std::vector<PlannedGap>& plan, const FillSettings& settings,
+                  const FillCheck& check) {
+  preview_methods(before, plan, check, settings.learned);
+}
+void preview_plan(const MarkerClip& before, std::vector<PlannedGap>& plan,
+                  const FillSettings& /*settings*/, const FillCheck& check) {
+  preview_methods(before, plan, check);
+}
+
+GapCurves curves_in_plan(const Clip& clip, std::span<const PlannedGap> plan, std::size_t row,
+                         const FillSettings& settings, const FillCheck& check) {
+  return preview_curves(clip, plan, row, check, settings.learned);
+}
+GapCurves curves_in_plan(const MarkerClip& clip, std::span<const PlannedGap> plan, std::size_t row,
+                         const FillSettings& /*settings*/, const FillCheck& check) {
+  return preview_curves(clip, plan, row, check);
 }
 
 /// Also says the plan as the text that --plan-out asks for.
@@ -75,7 +114,7 @@ FillOutcome fill_in_place(Take& take, const FillRun& run, const FillCheck& check
         if (run.preview) before = clip;
         PlannedFill filled = fill_clip(clip, settings, run, check);
         FillOutcome outcome{std::move(filled.report)};
-        if (before) preview_methods(*before, filled.plan, check);
+        if (before) preview_plan(*before, filled.plan, settings, check);
         if (!run.plan_out_path.empty()) {
           plan_text = is_json(run.plan_out_path) ? plan_json(clip, filled.plan)
                                                  : plan_csv(clip, filled.plan);
@@ -107,6 +146,7 @@ FillRun fill_run_of(const Arguments& arguments) {
   if (const std::string range = arguments.text("range"); !range.empty())
     run.range = parse_range(range);
   run.settings = settings_of(arguments);
+  run.settings.learned = learned_of(arguments);
   run.reading = read_options(arguments);
   run.json = arguments.flag("json");
   run.force = arguments.flag("force");
@@ -120,8 +160,10 @@ FillRun fill_run_of(const Arguments& arguments) {
                    run.json);
   check_report(run.report_path, {run.input, gap_file, plan_file, run.plan_out_path, run.output,
                                  arguments.text("asf")});
-  check_is_no_input("--plan-out", run.plan_out_path, {run.input, gap_file, plan_file, run.output});
-  check_is_no_input("--output", run.output, {gap_file, plan_file});
+  const std::string model = arguments.text("model"), map = arguments.text("map");
+  check_is_no_input("--plan-out", run.plan_out_path,
+                    {run.input, gap_file, plan_file, run.output, model, map});
+  check_is_no_input("--output", run.output, {gap_file, plan_file, model, map});
   if (!run.dry_run) check_free(run.output, run.force);
   if (!run.plan_out_path.empty()) check_free(run.plan_out_path, run.force);
   if (!run.report_path.empty()) check_free(run.report_path, run.force);
@@ -152,7 +194,7 @@ GapCurves gap_curves(const FillRun& run, std::size_t row, const FillCheck& check
   return std::visit(
       [&](const auto& clip) {
         const auto plan = parse_plan(run.plan->first, run.plan->second, clip);
-        return preview_curves(clip, plan, row, check);
+        return curves_in_plan(clip, plan, row, run.settings, check);
       },
       read.take);
 }

@@ -30,6 +30,12 @@ std::string live_name(const LiveMethod& method) {
   return name;
 }
 
+// Of a method that runs live with a model of its own only. Errors: what it says of the model.
+std::unique_ptr<Cleaner> live_with_model(const Method& method, OptionValues values) {
+  values.try_emplace("live", true);
+  return make_cleaner(method.name, values);
+}
+
 // A cleaner that runs live: an option without which the method does not is set, unless the user
 // has set it.
 std::unique_ptr<Cleaner> live_cleaner(const Method& method, OptionValues values) {
@@ -42,6 +48,9 @@ std::unique_ptr<Cleaner> live_cleaner(const Method& method, OptionValues values)
       runs = values.try_emplace(option, value).first->second == value && runs;
   }
   if (runs) return make_cleaner(method.name, values);
+  const bool has_form = std::any_of(method.options.begin(), method.options.end(),
+                                    [](const OptionSpec& spec) { return spec.name == "live"; });
+  if (has_form) return live_with_model(method, std::move(values));
   std::vector<std::string> names;
   names.reserve(list.size());
   for (const LiveMethod& m : list) names.push_back(live_name(m));

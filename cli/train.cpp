@@ -346,7 +346,9 @@ Flag train_fill_flag() {
                         "What the method refuses stays missing, and is not learned from.");
   flag.spec.default_value = std::string("auto");
   flag.spec.choices = {"off"};
-  for (const FillMethod& method : fill_methods()) flag.spec.choices.emplace_back(method.name);
+  for (const FillMethod& method : fill_methods()) {
+    if (!method.learned) flag.spec.choices.emplace_back(method.name);
+  }
   flag.has_default = true;
   return flag;
 }

@@ -121,11 +121,13 @@ Json methods_json() {
 
 Json fill_methods_json() {
   Json list = Json::array();
-  for (const FillMethod& method : fill_methods())
+  for (const FillMethod& method : fill_methods()) {
+    if (method.learned) continue;  // the page asks for no model
     list.push_back({{"name", method.name},
                     {"summary", method.summary},
                     {"joints", method.joints},
                     {"markers", method.markers}});
+  }
   return list;
 }
 

@@ -80,9 +80,12 @@ struct LiveSupport {
     windowed,  ///< a frame's result depends on `half_window_frames` on either side and on nothing
                ///< else
     causal,    ///< depends on the past only, through a state: `make_frame_filter`
+    delayed,   ///< through a state on the past, and on `ahead_frames`: `make_delayed_filter`
   };
   Kind kind = Kind::none;
   std::size_t half_window_frames = 0;  ///< of `windowed`
+  std::size_t ahead_frames = 0;        ///< of `delayed`
+  std::string why_not{};               ///< of `none`, where there is more to say: what would run
 };
 
 /// One frame of live motion.
@@ -103,6 +106,17 @@ class FrameFilter {
  public:
   virtual ~FrameFilter() = default;
   virtual void filter(Frame& frame) = 0;
+};
+
+/// The state of a cleaner that looks a number of frames ahead, on one stream of joints: frame t
+/// goes in, frame t - `LiveSupport::ahead_frames` comes out.
+class DelayedFilter {
+ public:
+  virtual ~DelayedFilter() = default;
+  /// True when `out` holds the next frame. Once warm it takes nothing from the heap.
+  virtual bool push(const Frame& in, Frame& out) = 0;
+  /// After the last frame: gives the remaining frames one by one, then false.
+  virtual bool flush(Frame& out) = 0;
 };
 
 /// A cleaning method with its options. Immutable after construction and safe to share between
@@ -129,6 +143,9 @@ class Cleaner {
   /// matter; nullptr of any other, and where it does not work on this kind of take. `clean` of a
   /// causal cleaner gives the same numbers.
   virtual std::unique_ptr<FrameFilter> make_frame_filter(const TakeView& like) const;
+  /// The same of a cleaner that looks ahead. Errors: `ErrorKind::usage` for a take that it does not
+  /// work on.
+  virtual std::unique_ptr<DelayedFilter> make_delayed_filter(const TakeView& like) const;
 };
 
 /// What `clean_in_place` did: the trace, and of each track the actions (empty: nothing in

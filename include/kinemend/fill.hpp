@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,8 +13,18 @@
 #include "kinemend/gaps.hpp"
 #include "kinemend/marker_clip.hpp"
 
-// Gap filling without a trained model: from the take itself.
+// Gap filling from the take itself and, where one is given, by a trained model.
 namespace kinemend {
+
+/// What a trained model makes of the gaps of a take of joints.
+struct LearnedFilling {
+  std::vector<Quat> rotations;  ///< F x J, local; of samples that are observed nothing is looked at
+  std::vector<std::string>
+      left_out;  ///< J: why the model fills no gap of the joint; empty: it does
+};
+/// Such a model, of a take without its calibration pose. Called from several threads at once. The
+/// one there is: `make_recurrent_fill` (kinemend/methods.hpp).
+using LearnedFill = std::function<LearnedFilling(const Clip& clip)>;
 
 struct FillSettings {
   std::string method = "auto";     ///< an entry of `fill_methods()`
@@ -23,6 +34,7 @@ struct FillSettings {
   bool fill_all = false;           ///< also where the rules refuse: the best guess there is
   /// First and last frame, from 0: gaps that do not lie within stay, and are not listed.
   std::optional<std::pair<std::size_t, std::size_t>> range;
+  LearnedFill learned = {};  ///< of the method `recurrent`, which needs it
 };
 
 /// What became of one gap.
@@ -52,15 +64,17 @@ struct FillMethod {
   std::string_view rules;  ///< which gaps it accepts, in words
   bool markers = false;
   bool joints = false;
+  bool learned = false;  ///< needs a model, and leaves to `auto` what that does not know
 };
 
 /// `auto` first.
 std::span<const FillMethod> fill_methods();
 
 /// Fills the missing samples in place: a filled sample is observed, and its residual is 0. A filled
-/// span meets its ends in value and velocity (in value only by `slerp` and `pchip`). What the
-/// method's rules refuse stays missing and is listed. Errors: `ErrorKind::usage` for a method, a
-/// name or a donor that there is not.
+/// span meets its ends in value and velocity (in value only by `slerp`, `pchip` and `recurrent`).
+/// What the method's rules refuse stays missing and is listed. Errors: `ErrorKind::usage` for a
+/// method, a name or a donor that there is not, and for a learned method without its model. What a
+/// model does not know `auto` fills by its own rules, and a warning says so.
 FillReport fill_gaps(MarkerClip& clip, const FillSettings& settings = {});
 /// The same for rotations, and positions of joints, that are not observed. A joint with one or two
 /// rotation channels gets rotations that these can hold.

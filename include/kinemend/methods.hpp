@@ -5,6 +5,7 @@
 #include <string>
 
 #include "kinemend/cleaner.hpp"
+#include "kinemend/fill.hpp"
 
 namespace kinemend {
 
@@ -171,14 +172,38 @@ std::unique_ptr<Cleaner> make_sparse(const SparseOptions& options = {},
 
 /// A network corrects what `auto` makes of a take of joints: for each joint and frame which bands
 /// of motion to keep, and a residual (after Mall et al. 2017). It knows nothing of the noise
-/// beforehand. Errors of `clean`, beside those above: a take of markers.
+/// beforehand. Errors of `clean`, beside those above: a take of markers. Errors: `ErrorKind::usage`
+/// for a gap model or `live` beside a model that is no filter network, for both together, and for a
+/// gap model of another body.
 struct RecurrentOptions {
-  std::string model;
-  std::string map;
+  std::string model{};
+  std::string map{};
   bool fill = true;
+  /// A file of a network that fills gaps (EBD), beside a `model` that filters (EBF): the gaps that
+  /// the filter sees are filled by it, as in the paper. Empty: by the lines that `auto` lays.
+  std::string gap_model{};
+  /// The form of a filter network that runs live: what a frame becomes depends on the past and on
+  /// 15 frames ahead. Only joints that the model knows change; `auto` has no part in it, and gaps
+  /// are held, or bridged where they end within those frames.
+  bool live = false;
 };
+/// `gap_model` takes the place of its option.
 std::unique_ptr<Cleaner> make_recurrent(const RecurrentOptions& options = {},
-                                        std::shared_ptr<const Model> model = nullptr);
+                                        std::shared_ptr<const Model> model = nullptr,
+                                        std::shared_ptr<const Model> gap_model = nullptr);
+
+/// The way to fill gaps of joints by a network of Mall et al. 2017 (their EBD), for
+/// `FillSettings::learned`. None ships: `kinemend-train paper --network ebd --head residual` makes
+/// one. The root, joints that the model does not know, joints that turn farther from its mean than
+/// rotation vectors can say, and takes at another rate than the model's are left out. Errors:
+/// `ErrorKind::usage` for a model that fills no gaps, and, of a call, for a take with too few of
+/// the model's joints; of files that cannot be read, theirs.
+struct RecurrentFillOptions {
+  std::string model;  ///< a file; empty: `model`
+  std::string map;    ///< a file of names in the take for those of the model, or empty
+};
+LearnedFill make_recurrent_fill(const RecurrentFillOptions& options,
+                                std::shared_ptr<const Model> model = nullptr);
 
 /// Kalman filter or smoother with system matrices learned from clips (Lou & Chai 2010, section
 /// 4.2). No model ships.

@@ -68,6 +68,9 @@ InPlaceTrace clean_view(const Cleaner& cleaner, const TakeView& take, AnyClip& c
 }  // namespace
 
 LiveSupport Cleaner::live_support(double) const { return {}; }
+std::unique_ptr<DelayedFilter> Cleaner::make_delayed_filter(const TakeView&) const {
+  return nullptr;
+}
 
 Frame Cleaner::clean_frame(const TakeView& window, std::size_t frame) const {
   Frame result = frame_of(window, frame);

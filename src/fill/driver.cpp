@@ -1,11 +1,14 @@
 #include "fill/driver.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <numeric>
 
 #include "fill/doubt.hpp"
+#include "kinemend/experimental/text.hpp"
 
 namespace kinemend::fill {
 
@@ -92,7 +95,8 @@ class Rounds {
       if (filling.made()) take_.store(gaps_[g], filling);
       found.push_back({{gaps_[g].gap, std::move(filling.method), filling.made(),
                         std::move(filling.reason), filling.expected_error, gaps_[g].is_position},
-                       std::move(filling.markers_used)});
+                       std::move(filling.markers_used),
+                       std::move(filling.left_to_auto)});
     }
     return found;
   }
@@ -132,9 +136,46 @@ std::vector<FilledGap> fill_take(GappedTake& take, const std::vector<OpenGap>& g
   return rounds.finish();
 }
 
-FillReport report_of(const std::vector<FilledGap>& gaps) {
+namespace {
+
+// One line for each reason why gaps that a model was asked to fill were left to `auto`.
+std::vector<std::string> left_to_auto(const std::vector<FilledGap>& gaps,
+                                      const std::vector<std::string>& names) {
+  constexpr std::size_t most_names = 5;
+  struct Left {
+    std::string reason;
+    std::size_t count = 0;
+    std::vector<std::string> names = {};
+  };
+  std::vector<Left> all;
+  for (const FilledGap& gap : gaps) {
+    if (gap.left_to_auto.empty()) continue;
+    auto found = std::find_if(all.begin(), all.end(),
+                              [&](const Left& left) { return left.reason == gap.left_to_auto; });
+    if (found == all.end()) found = all.insert(all.end(), {gap.left_to_auto});
+    ++found->count;
+    const std::string& name = names[gap.outcome.gap.track];
+    if (std::find(found->names.begin(), found->names.end(), name) == found->names.end())
+      found->names.push_back(name);
+  }
+  std::vector<std::string> lines;
+  for (Left& left : all) {
+    if (left.names.size() > most_names) {
+      left.names.resize(most_names);
+      left.names.emplace_back("...");
+    }
+    lines.push_back(fmt::format("{} left to auto ({}): {}", counted(left.count, "gap"),
+                                fmt::join(left.names, ", "), left.reason));
+  }
+  return lines;
+}
+
+}  // namespace
+
+FillReport report_of(const std::vector<FilledGap>& gaps, const std::vector<std::string>& names) {
   FillReport report;
   for (const FilledGap& gap : gaps) report.gaps.push_back(gap.outcome);
+  report.warnings = left_to_auto(gaps, names);
   return report;
 }
 

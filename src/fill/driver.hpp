@@ -55,6 +55,7 @@ class GappedTake {
 struct FilledGap {
   GapOutcome outcome;
   std::vector<std::size_t> markers_used = {};
+  std::string left_to_auto = {};  ///< as `Filling::left_to_auto`
 };
 
 /// Called before each gap that is tried, from several threads; what it throws ends the run before
@@ -64,7 +65,8 @@ using Check = std::function<void()>;
 /// Fills the gaps in rounds: what one round fills may be evidence for the next. By gap.
 std::vector<FilledGap> fill_take(GappedTake& take, const std::vector<OpenGap>& gaps,
                                  const Check& check);
-FillReport report_of(const std::vector<FilledGap>& gaps);
+/// `names`: of joints or markers, for what is said of gaps that a model has left to `auto`.
+FillReport report_of(const std::vector<FilledGap>& gaps, const std::vector<std::string>& names);
 
 /// Says what is asked for a gap of the take, frames as the take counts them; null: the gap is left
 /// alone, and is not listed.

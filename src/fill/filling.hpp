@@ -22,6 +22,8 @@ struct Filling {
   bool is_evidence = true;
   /// Markers whose movement it was made from; empty for a curve, and for joints.
   std::vector<std::size_t> markers_used = {};
+  /// Why the model that was asked for has left the gap to `auto`; empty: it was not, or did not.
+  std::string left_to_auto = {};
 
   bool made() const { return !values.empty(); }
   static Filling refused(std::string_view method, std::string reason, bool may_wait = false) {

@@ -20,6 +20,9 @@ namespace {
 constexpr double largest_error_deg = 12.5, largest_error_of_height = 0.0625;
 // What is nearer to a filling than so many of these is no spike. Not swept.
 constexpr double joint_spike_errors = 1.6;
+// What a model sees on either side of a gap with doubted samples beside it: more than the networks
+// of the paper were trained to look ahead.
+constexpr double around_model_s = 4;
 
 // A track of the take with gaps: joint 0's position is 0, that of translated joint k is k + 1.
 struct Source {
@@ -58,15 +61,26 @@ JointGaps gaps_of(const Clip& clip, const RequestOf& request_of, std::size_t fir
   return found;
 }
 
+// A model that is to fill some of the gaps, if any.
+const LearnedFill* model_of(const std::vector<OpenGap>& gaps) {
+  for (const OpenGap& gap : gaps) {
+    const GapRequest& request = *gap.request;
+    if (request.method->about.learned && !request.refusal) return request.learned;
+  }
+  return nullptr;
+}
+
 // Each gap is filled by itself, from what was observed.
 class JointTake : public GappedTake {
  public:
-  JointTake(Clip& clip, const std::vector<Source>& sources)
+  // `model`: null where none is asked for.
+  JointTake(Clip& clip, const std::vector<Source>& sources, const LearnedFill* model)
       : clip_(clip),
         sources_(sources),
         poses_(clip),
         context_{clip.frame_rate_hz, poses_, body_height(clip.skeleton)},
-        tracks_(sources.size()) {
+        tracks_(sources.size()),
+        model_(model) {
     frames = clip.frame_count();
     frame_rate_hz = clip.frame_rate_hz;
     never_seen = "none of its samples is observed";
@@ -75,6 +89,7 @@ class JointTake : public GappedTake {
       tracks_[i] = sources[i].is_position ? position_track(clip, sources[i].index)
                                           : rotation_track(clip, sources[i].index);
     });
+    if (model_ != nullptr) learned_ = (*model_)(clip);
   }
 
   Track around(const OpenGap& gap) const override {
@@ -88,16 +103,10 @@ class JointTake : public GappedTake {
 
   Filling fill(const OpenGap& gap, FrameSpan span) const override {
     const Track& own = tracks_[gap.track];
-    if (span.length() == gap.gap.length()) {
-      Filling filling = chosen_of(own, span, gap);
-      return filling.made() || !gap.request->fill_all ? filling : best_guess(own, span, filling);
-    }
-    const Track other = without_span(own, span, frame_rate_hz);
-    Filling filling = chosen_of(other, span, gap);
-    for (std::size_t i = 0; !own.is_position && i < filling.values.size(); ++i) {
-      const std::size_t f = span.first + i;
-      filling.values[i] = own.chart.vector_of(f, other.chart.rotation_of(f, filling.values[i]));
-    }
+    const std::string left = left_to_auto(gap);
+    const bool is_learned = gap.request->method->about.learned && left.empty();
+    Filling filling = is_learned ? by_model(span, gap) : by_take(own, span, gap);
+    filling.left_to_auto = left;
     return filling;
   }
 
@@ -118,12 +127,61 @@ class JointTake : public GappedTake {
   }
 
  private:
+  // Why the model that is asked for has no say in the gap; empty where it does, or none is.
+  std::string left_to_auto(const OpenGap& gap) const {
+    if (!gap.request->method->about.learned) return "";
+    if (gap.is_position) return "the model fills no positions";
+    return learned_.left_out[gap.gap.track];
+  }
+
+  Filling by_take(const Track& own, FrameSpan span, const OpenGap& gap) const {
+    if (span.length() == gap.gap.length()) {
+      Filling filling = chosen_of(own, span, gap);
+      return filling.made() || !gap.request->fill_all ? filling : best_guess(own, span, filling);
+    }
+    const Track other = without_span(own, span, frame_rate_hz);
+    Filling filling = chosen_of(other, span, gap);
+    for (std::size_t i = 0; !own.is_position && i < filling.values.size(); ++i) {
+      const std::size_t f = span.first + i;
+      filling.values[i] = own.chart.vector_of(f, other.chart.rotation_of(f, filling.values[i]));
+    }
+    return filling;
+  }
+
+  // Samples beside the gap that are doubted are missing to the model, too: it then sees the take
+  // around the gap only, which is quicker.
+  Filling by_model(FrameSpan span, const OpenGap& gap) const {
+    Filling filling{{}, std::string(gap.request->method->about.name)};
+    filling.reason = gap.request->fill_all ? "" : too_long(*gap.request->method, gap);
+    if (!filling.reason.empty()) return filling;
+    const std::size_t joint = gap.gap.track;
+    const RotationChart& chart = tracks_[gap.track].chart;
+    const auto take_over = [&](const LearnedFilling& learned, std::size_t first) {
+      for (std::size_t f = span.first; f <= span.last; ++f)
+        filling.values.push_back(
+            chart.vector_of(f, learned.rotations[(f - first) * clip_.joint_count() + joint]));
+    };
+    if (span.length() == gap.gap.length()) {
+      take_over(learned_, 0);
+      return filling;
+    }
+    const auto around = static_cast<std::size_t>(around_model_s * frame_rate_hz) + 1;
+    const std::size_t first = span.first - std::min(span.first, around);
+    const std::size_t last = std::min(frames - 1, span.last + around);
+    Clip part = slice(clip_, first, last + 1);
+    for (std::size_t f = span.first; f <= span.last; ++f)
+      part.observed[(f - first) * clip_.joint_count() + joint] = 0;
+    take_over((*model_)(part), first);
+    return filling;
+  }
+
   // The best that fills the span and may. Where none does, the reason of the best tells most.
   Filling chosen_of(const Track& track, FrameSpan span, const OpenGap& gap) const {
     const GapRequest& request = *gap.request;
     const std::string_view method = request.method->about.name;
+    const bool is_auto = method == "auto" || request.method->about.learned;
     std::vector<const Method*> able = {request.method};
-    if (method == "auto") able = all_methods_;
+    if (is_auto) able = all_methods_;
     std::erase_if(able,
                   [&](const Method* m) { return track.is_position && !m->joint_rules.positions; });
     if (able.empty()) return Filling::refused(method, fmt::format("{} fills no positions", method));
@@ -144,8 +202,19 @@ class JointTake : public GappedTake {
 
   // Why the rules do not let the method fill the gap; empty where they do.
   std::string refusal(const JointProposal& proposal, const OpenGap& gap) const {
-    const std::string_view name = proposal.method->about.name;
-    const JointRules& rules = proposal.method->joint_rules;
+    if (std::string reason = too_long(*proposal.method, gap); !reason.empty()) return reason;
+    const double largest = largest_error(gap.is_position);
+    const Method& asked = *gap.request->method;
+    const bool is_auto = asked.about.name == "auto" || asked.about.learned;
+    if (is_auto && proposal.expected_error > largest) {
+      return fmt::format("the expected error of {}, {:.3g}, is above {:.3g}",
+                         proposal.method->about.name, proposal.expected_error, largest);
+    }
+    return "";
+  }
+
+  std::string too_long(const Method& method, const OpenGap& gap) const {
+    const JointRules& rules = method.joint_rules;
     const bool at_end = gap.gap.first_frame == 0 || gap.gap.last_frame + 1 == frames;
     const double rule = at_end ? rules.longest_at_end_s : rules.longest_s;
     const double own = gap.request->longest_gap_s;
@@ -153,12 +222,7 @@ class JointTake : public GappedTake {
     const double length = static_cast<double>(gap.gap.length()) / frame_rate_hz;
     if (length > longest + 0.5 / frame_rate_hz) {
       return fmt::format("{:.3g} s is longer than the {:.3g} s that {} may fill{}", length, longest,
-                         name, at_end ? " at an end of the take" : "");
-    }
-    const double largest = largest_error(gap.is_position);
-    if (gap.request->method->about.name == "auto" && proposal.expected_error > largest) {
-      return fmt::format("the expected error of {}, {:.3g}, is above {:.3g}", name,
-                         proposal.expected_error, largest);
+                         method.about.name, at_end ? " at an end of the take" : "");
     }
     return "";
   }
@@ -188,13 +252,15 @@ class JointTake : public GappedTake {
   JointContext context_;
   std::vector<const Method*> all_methods_ = joint_methods();
   std::vector<Track> tracks_;
+  const LearnedFill* model_;
+  LearnedFilling learned_;  // of the whole take
 };
 
 std::vector<FilledGap> fill_motion(Clip& clip, const RequestOf& request_of, std::size_t first,
                                    const Check& check) {
   const JointGaps found = gaps_of(clip, request_of, first);
   if (found.gaps.empty()) return {};
-  JointTake take(clip, found.sources);
+  JointTake take(clip, found.sources, model_of(found.gaps));
   return fill_take(take, found.gaps, check);
 }
 

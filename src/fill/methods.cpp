@@ -110,6 +110,16 @@ constexpr std::array methods = {
                            1.0,
                            true,
                            "no other part of the take is alike around it"}},
+    Method{.about = {"recurrent",
+                     "a network trained on takes with gaps, which sees all joints on either side; "
+                     "needs --model",
+                     "Mall et al. 2017, A deep recurrent framework for cleaning motion capture "
+                     "data (EBD)",
+                     "the model knows the joint, the take has its rate, and both ends are seen, at "
+                     "most 5 s, or 1 s at an end of the take; auto fills the rest: the root, "
+                     "positions, joints that the model does not know, takes at other rates",
+                     no, yes, yes},
+           .joint_rules = {.longest_s = 5.0, .longest_at_end_s = 1.0, .positions = false}},
 };
 
 }  // namespace
@@ -128,17 +138,37 @@ std::vector<const Method*> joint_methods() {
 const Method& find_method(std::string_view name, bool of_joints) {
   std::vector<std::string_view> known;
   for (const Method& method : methods) {
-    if (!(of_joints ? method.about.joints : method.about.markers)) continue;
+    if (!(of_joints ? method.about.joints : method.about.markers)) {
+      if (method.about.learned && method.about.name == name)
+        throw Error(ErrorKind::usage,
+                    fmt::format("fill: the method {} fills joints: its networks are trained on "
+                                "rotations, and this is a take of markers",
+                                name));
+      continue;
+    }
     if (method.about.name == name) return method;
     known.push_back(method.about.name);
   }
   if (of_joints) {
     known.resize(1);
     for (const Method* method : joint_methods()) known.push_back(method->about.name);
+    for (const Method& method : methods) {
+      if (method.about.learned) known.push_back(method.about.name);
+    }
   }
   throw Error(ErrorKind::usage,
               fmt::format("fill: expected a method for {} ({}), found \"{}\"",
                           of_joints ? "joints" : "markers", fmt::join(known, ", "), name));
+}
+
+void check_model(const Method& method, const LearnedFill& learned) {
+  if (!method.about.learned || learned) return;
+  throw Error(
+      ErrorKind::usage,
+      fmt::format("fill: the method {0} needs a model that fills gaps: --model FILE; none "
+                  "ships, and kinemend-train paper --network ebd --head residual makes one of "
+                  "takes without gaps",
+                  method.about.name));
 }
 
 bool fill_joint(const Method& method, Track& track, FrameSpan span, const JointContext& context) {

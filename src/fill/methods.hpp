@@ -54,6 +54,8 @@ struct Method {
 std::vector<const Method*> joint_methods();
 /// Errors: `ErrorKind::usage` for a name that is none of this kind of track.
 const Method& find_method(std::string_view name, bool of_joints);
+/// Errors: `ErrorKind::usage` for a learned method without its model.
+void check_model(const Method& method, const LearnedFill& learned);
 
 bool fill_joint(const Method& method, Track& track, FrameSpan span, const JointContext& context);
 Filling fill_marker(const Method& method, const Samples& samples, const MarkerGap& gap,

@@ -37,6 +37,8 @@ std::vector<FilledGap> fill_by_settings(AnyClip& clip, const FillSettings& setti
   clip.validate();
   GapRequest request;
   request.method = &fill::find_method(settings.method, is_joints(clip));
+  fill::check_model(*request.method, settings.learned);
+  request.learned = &settings.learned;
   const std::vector<std::uint8_t> chosen =
       names_meant(names_of(clip), settings.names, is_joints(clip) ? "joint" : "marker");
   request.donor = donor_for(clip, settings);
@@ -60,7 +62,7 @@ void tell_found(const FilledGap& filled, const std::vector<std::string>& names, 
 template <class AnyClip>
 PlannedFill plan_by_settings(AnyClip& clip, const FillSettings& settings, const FillCheck& check) {
   const std::vector<FilledGap> gaps = fill_by_settings(clip, settings, check);
-  PlannedFill made{fill::report_of(gaps), {}};
+  PlannedFill made{fill::report_of(gaps, names_of(clip)), {}};
   for (const FilledGap& filled : gaps) {
     PlannedGap row;
     row.gap = filled.outcome.gap;
@@ -83,9 +85,10 @@ RowKey key_of(const Gap& gap, bool is_position) {
 }
 
 template <class AnyClip>
-PlannedFill apply_plan(AnyClip& clip, std::span<const PlannedGap> plan, const FillCheck& check) {
+PlannedFill apply_plan(AnyClip& clip, std::span<const PlannedGap> plan, const FillCheck& check,
+                       const LearnedFill& learned) {
   clip.validate();
-  fill::PlanRows rows(clip);
+  fill::PlanRows rows(clip, &learned);
   std::map<RowKey, const PlannedGap*> by_gap;
   for (std::size_t i = 0; i < plan.size(); ++i) {
     if (const std::string problem = rows.add(plan[i]); !problem.empty())
@@ -93,7 +96,7 @@ PlannedFill apply_plan(AnyClip& clip, std::span<const PlannedGap> plan, const Fi
     by_gap.emplace(key_of(plan[i].gap, plan[i].is_position), &plan[i]);
   }
   const std::vector<FilledGap> gaps = fill::fill_asked(clip, rows.request_of(), check);
-  PlannedFill made{fill::report_of(gaps), {}};
+  PlannedFill made{fill::report_of(gaps, names_of(clip)), {}};
   for (const FilledGap& filled : gaps) {
     PlannedGap row = *by_gap.at(key_of(filled.outcome.gap, filled.outcome.is_position));
     tell_found(filled, names_of(clip), row);
@@ -117,10 +120,10 @@ std::string_view to_string(GapVerdict verdict) {
 }
 
 FillReport fill_gaps(MarkerClip& clip, const FillSettings& settings) {
-  return fill::report_of(fill_by_settings(clip, settings, {}));
+  return fill::report_of(fill_by_settings(clip, settings, {}), names_of(clip));
 }
 FillReport fill_gaps(Clip& clip, const FillSettings& settings) {
-  return fill::report_of(fill_by_settings(clip, settings, {}));
+  return fill::report_of(fill_by_settings(clip, settings, {}), names_of(clip));
 }
 
 PlannedFill fill_with_plan(Clip& clip, const FillSettings& settings, const FillCheck& check) {
@@ -129,12 +132,13 @@ PlannedFill fill_with_plan(Clip& clip, const FillSettings& settings, const FillC
 PlannedFill fill_with_plan(MarkerClip& clip, const FillSettings& settings, const FillCheck& check) {
   return plan_by_settings(clip, settings, check);
 }
-PlannedFill fill_with_plan(Clip& clip, std::span<const PlannedGap> plan, const FillCheck& check) {
-  return apply_plan(clip, plan, check);
+PlannedFill fill_with_plan(Clip& clip, std::span<const PlannedGap> plan, const FillCheck& check,
+                           const LearnedFill& learned) {
+  return apply_plan(clip, plan, check, learned);
 }
 PlannedFill fill_with_plan(MarkerClip& clip, std::span<const PlannedGap> plan,
                            const FillCheck& check) {
-  return apply_plan(clip, plan, check);
+  return apply_plan(clip, plan, check, {});
 }
 
 }  // namespace kinemend

@@ -16,8 +16,9 @@ namespace kinemend::fill {
 /// The gaps of a take, and what rows of a plan ask for them.
 class PlanRows {
  public:
-  explicit PlanRows(const Clip& clip);
-  explicit PlanRows(const MarkerClip& clip);
+  /// `learned`: the model of rows with a learned method; null: they are read, not run.
+  explicit PlanRows(const Clip& clip, const LearnedFill* learned = nullptr);
+  explicit PlanRows(const MarkerClip& clip, const LearnedFill* learned = nullptr);
 
   /// Takes a row up. Says what is wrong with it; empty: nothing.
   std::string add(const PlannedGap& row);
@@ -40,6 +41,7 @@ class PlanRows {
   void add_gaps(const std::vector<OpenGap>& gaps);
 
   const MarkerClip* markers_ = nullptr;  // of a take of markers
+  const LearnedFill* learned_;
   const std::vector<std::string>& names_;
   std::int64_t first_number_;
   std::map<Key, std::optional<GapRequest>> requests_;

@@ -74,12 +74,22 @@ PlannedGap with_method(const PlannedGap& row, std::string_view method) {
 }
 
 template <class AnyClip>
-std::vector<std::string> methods_of(const AnyClip& clip) {
+std::vector<std::string> methods_of(const AnyClip& clip, const LearnedFill& learned) {
   std::vector<std::string> names;
   for (const FillMethod& method : fill_methods()) {
+    if (method.learned && !learned) continue;
     if (is_joints(clip) ? method.joints : method.markers) names.emplace_back(method.name);
   }
   return names;
+}
+
+PlannedFill filled_as_planned(Clip& clip, std::span<const PlannedGap> plan, const FillCheck& check,
+                              const LearnedFill& learned) {
+  return fill_with_plan(clip, plan, check, learned);
+}
+PlannedFill filled_as_planned(MarkerClip& clip, std::span<const PlannedGap> plan,
+                              const FillCheck& check, const LearnedFill& /*learned*/) {
+  return fill_with_plan(clip, plan, check);
 }
 
 // A take that was filled, and what became of each gap.
@@ -88,9 +98,10 @@ struct Tried {
   AnyClip clip;
   std::map<RowKey, GapOutcome> outcomes = {};
 
-  Tried(const AnyClip& gapped, std::span<const PlannedGap> plan, const FillCheck& check)
+  Tried(const AnyClip& gapped, std::span<const PlannedGap> plan, const FillCheck& check,
+        const LearnedFill& learned)
       : clip(gapped) {
-    for (GapOutcome& gap : fill_with_plan(clip, plan, check).report.gaps)
+    for (GapOutcome& gap : filled_as_planned(clip, plan, check, learned).report.gaps)
       outcomes.emplace(key_of(gap.gap, gap.is_position), std::move(gap));
   }
 };
@@ -107,14 +118,15 @@ GapPreview compared(std::string_view method, const Tried<AnyClip>& own, const Tr
 }
 
 template <class AnyClip>
-void preview(const AnyClip& clip, std::vector<PlannedGap>& plan, const FillCheck& check) {
+void preview(const AnyClip& clip, std::vector<PlannedGap>& plan, const FillCheck& check,
+             const LearnedFill& learned) {
   for (PlannedGap& row : plan) row.previews.clear();
-  const Tried own(clip, plan, check);
-  for (const std::string& method : methods_of(clip)) {
+  const Tried own(clip, plan, check, learned);
+  for (const std::string& method : methods_of(clip, learned)) {
     std::vector<PlannedGap> asked;
     asked.reserve(plan.size());
     for (const PlannedGap& row : plan) asked.push_back(with_method(row, method));
-    const Tried other(clip, asked, check);
+    const Tried other(clip, asked, check, learned);
     for (PlannedGap& row : plan) row.previews.push_back(compared(method, own, other, row));
   }
 }
@@ -169,7 +181,7 @@ Values values_of(const MarkerClip& clip, const PlannedGap& row, std::size_t firs
 
 template <class AnyClip>
 GapCurves curves_of(const AnyClip& clip, std::span<const PlannedGap> plan, std::size_t row,
-                    const FillCheck& check) {
+                    const FillCheck& check, const LearnedFill& learned) {
   constexpr double around_s = 0.5;
   constexpr std::size_t least_around = 8;  // frames
   if (row >= plan.size())
@@ -181,22 +193,22 @@ GapCurves curves_of(const AnyClip& clip, std::span<const PlannedGap> plan, std::
   made.first_frame = gap.first_frame - std::min(gap.first_frame, around);
   made.last_frame = std::min(clip.frame_count() - 1, gap.last_frame + around);
   made.axes = axes_of(clip, plan[row]);
-  const Tried own(clip, plan, check);
+  const Tried own(clip, plan, check, learned);
   std::vector<PlannedGap> asked(plan.begin(), plan.end());
   const auto add = [&](const Tried<AnyClip>& other, GapPreview preview) {
     made.curves.push_back({std::move(preview), other.outcomes.at(key_of(plan[row])).expected_error,
                            values_of(other.clip, plan[row], made.first_frame, made.last_frame)});
   };
-  for (const std::string& method : methods_of(clip)) {
+  for (const std::string& method : methods_of(clip, learned)) {
     asked[row] = with_method(plan[row], method);
-    const Tried other(clip, asked, check);
+    const Tried other(clip, asked, check, learned);
     GapPreview preview = compared(method, own, other, plan[row]);
     if (preview.filled || asked[row].verdict == GapVerdict::refuse) {
       add(other, std::move(preview));
       continue;
     }
     asked[row].verdict = GapVerdict::force;
-    const Tried forced(clip, asked, check);
+    const Tried forced(clip, asked, check, learned);
     // Where the method can make nothing at all, another would be forced in its place.
     const bool is_own = method == "auto" || forced.outcomes.at(key_of(plan[row])).method == method;
     add(is_own ? forced : other, std::move(preview));
@@ -206,21 +218,22 @@ GapCurves curves_of(const AnyClip& clip, std::span<const PlannedGap> plan, std::
 
 }  // namespace
 
-void preview_methods(const Clip& clip, std::vector<PlannedGap>& plan, const FillCheck& check) {
-  preview(clip, plan, check);
+void preview_methods(const Clip& clip, std::vector<PlannedGap>& plan, const FillCheck& check,
+                     const LearnedFill& learned) {
+  preview(clip, plan, check, learned);
 }
 void preview_methods(const MarkerClip& clip, std::vector<PlannedGap>& plan,
                      const FillCheck& check) {
-  preview(clip, plan, check);
+  preview(clip, plan, check, {});
 }
 
 GapCurves preview_curves(const Clip& clip, std::span<const PlannedGap> plan, std::size_t row,
-                         const FillCheck& check) {
-  return curves_of(clip, plan, row, check);
+                         const FillCheck& check, const LearnedFill& learned) {
+  return curves_of(clip, plan, row, check, learned);
 }
 GapCurves preview_curves(const MarkerClip& clip, std::span<const PlannedGap> plan, std::size_t row,
                          const FillCheck& check) {
-  return curves_of(clip, plan, row, check);
+  return curves_of(clip, plan, row, check, {});
 }
 
 }  // namespace kinemend

@@ -16,6 +16,7 @@ struct GapRequest {
   double longest_gap_s = 0;                      ///< 0: what the method's rules say
   bool fill_all = false;                         ///< also what the rules refuse
   std::optional<Filling> refusal = {};           ///< where the gap is to stay, whatever fills it
+  const LearnedFill* learned = nullptr;          ///< of a learned method
 
   MarkerRequest of_marker() const { return {donor, longest_gap_s, fill_all}; }
 };

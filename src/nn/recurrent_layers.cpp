@@ -45,6 +45,18 @@ void step_layer(const Layer& layer, std::span<const float> x, RecurrentState& st
   step_from_gates(layer, state);
 }
 
+// From frame to frame, with what the inputs bring to the gates.
+template <class Layer>
+void go_on(const Layer& layer, Direction direction, const MatrixViewF& gates, RecurrentState& state,
+           const MutableMatrixViewF& y) {
+  for (std::size_t i = 0; i < gates.rows; ++i) {
+    const std::size_t t = direction == Direction::forward ? i : gates.rows - 1 - i;
+    std::copy_n(gates.values + t * gates.row_stride, gates.columns, state.gates.data());
+    step_from_gates(layer, state);
+    std::copy(state.hidden.begin(), state.hidden.end(), y.values + t * y.row_stride);
+  }
+}
+
 // The products with the inputs of all frames are made together.
 template <class Layer>
 void run_layer(const Layer& layer, Direction direction, const MatrixViewF& x,
@@ -54,12 +66,7 @@ void run_layer(const Layer& layer, Direction direction, const MatrixViewF& x,
   std::vector<float> gates(x.rows * width);
   run(layer.input, x, {gates.data(), x.rows, width, width});
   RecurrentState state = start(layer);
-  for (std::size_t i = 0; i < x.rows; ++i) {
-    const std::size_t t = direction == Direction::forward ? i : x.rows - 1 - i;
-    std::copy_n(gates.data() + t * width, width, state.gates.data());
-    step_from_gates(layer, state);
-    std::copy(state.hidden.begin(), state.hidden.end(), y.values + t * y.row_stride);
-  }
+  go_on(layer, direction, {gates.data(), x.rows, width, width}, state, y);
 }
 
 }  // namespace
@@ -97,6 +104,18 @@ void step(const Lstm& layer, std::span<const float> x, RecurrentState& state) {
 }
 void step(const Gru& layer, std::span<const float> x, RecurrentState& state) {
   step_layer(layer, x, state);
+}
+
+void restart(RecurrentState& state) {
+  std::fill(state.hidden.begin(), state.hidden.end(), 0.0F);
+  std::fill(state.cell.begin(), state.cell.end(), 0.0F);
+}
+
+void run_on(const Lstm& layer, Direction direction, const MatrixViewF& gates, RecurrentState& state,
+            const MutableMatrixViewF& y) {
+  assert(gates.columns == layer.input.outputs() && y.columns == layer.units() &&
+         gates.rows == y.rows);
+  go_on(layer, direction, gates, state, y);
 }
 
 void run(const Lstm& layer, Direction direction, const MatrixViewF& x,

@@ -53,6 +53,13 @@ RecurrentState start(const Gru& layer);
 void step(const Lstm& layer, std::span<const float> x, RecurrentState& state);
 void step(const Gru& layer, std::span<const float> x, RecurrentState& state);
 
+/// Back to a state of zeros.
+void restart(RecurrentState& state);
+/// Some frames from a state, which becomes that of the last of them: `gates` (T x 4 H) is what
+/// `layer.input` makes of the inputs, y is T x H. Allocates nothing.
+void run_on(const Lstm& layer, Direction direction, const MatrixViewF& gates, RecurrentState& state,
+            const MutableMatrixViewF& y);
+
 /// All frames from a state of zeros: x is T x inputs, y T x H.
 void run(const Lstm& layer, Direction direction, const MatrixViewF& x, const MutableMatrixViewF& y);
 void run(const Gru& layer, Direction direction, const MatrixViewF& x, const MutableMatrixViewF& y);

@@ -33,9 +33,7 @@ nn::MutableMatrixViewF rows_in(std::vector<float>& values, std::size_t columns) 
   return {values.data(), values.size() / columns, columns, columns};
 }
 
-// The mean square of second differences is six times the variance of white noise.
 std::vector<float> roughness(const FilterTake& take, const FilterStatistics& statistics) {
-  constexpr float squares_of_white = 6, floor_deg = 0.02F, middle = -3, spread = 1.5F;
   const std::size_t frames = take.frames, channels = take.channels;
   std::vector<float> result(frames * channels);
   std::vector<double> sums(frames + 1);
@@ -54,9 +52,7 @@ std::vector<float> roughness(const FilterTake& take, const FilterStatistics& sta
       const std::size_t last = std::min(f + predicted_filter_reach + 2, frames) - 1;
       const double count = last > first ? static_cast<double>(last - first) : 1;
       const double mean = last > first ? (sums[last] - sums[first]) / count : 0;
-      const float deviation = std::sqrt(static_cast<float>(std::max(0.0, mean)) / squares_of_white);
-      result[f * channels + c] =
-          (std::log((deviation + floor_deg) / statistics.deviation[c]) - middle) / spread;
+      result[f * channels + c] = roughness_feature(mean, statistics.deviation[c]);
     }
   }
   return result;
@@ -142,6 +138,13 @@ void put_filtered(std::span<const float> values, PoseMatrix& poses) {
 std::size_t filter_feature_count(std::size_t channels, FilterInputs inputs) {
   return channels + axes + (inputs.has_roughness ? channels : 0) +
          (inputs.has_masks ? channels / axes : 0);
+}
+
+// The mean square of second differences is six times the variance of white noise.
+float roughness_feature(double mean_square, float deviation) {
+  constexpr float squares_of_white = 6, floor_deg = 0.02F, middle = -3, spread = 1.5F;
+  const float own = std::sqrt(static_cast<float>(std::max(0.0, mean_square)) / squares_of_white);
+  return (std::log((own + floor_deg) / deviation) - middle) / spread;
 }
 
 std::vector<float> filter_features(const FilterTake& take, const FilterStatistics& statistics,

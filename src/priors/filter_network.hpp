@@ -38,6 +38,9 @@ struct FilterInputs {
   bool has_masks = false;      ///< C / 3: the marks
 };
 std::size_t filter_feature_count(std::size_t channels, FilterInputs inputs);
+/// The number that tells of a channel's roughness: of the mean square of its second differences,
+/// square degrees, and its deviation over the training, degrees.
+float roughness_feature(double mean_square, float deviation);
 /// F x that many.
 std::vector<float> filter_features(const FilterTake& take, const FilterStatistics& statistics,
                                    FilterInputs inputs);

@@ -13,11 +13,13 @@ namespace {
 constexpr float least_log = -2.5F, most_log = 3.0F;
 constexpr std::size_t taps = 2 * predicted_filter_reach + 1;
 
+}  // namespace
+
 // The Gaussian of each channel about one frame: weights come from each other by products, since
 // exp(-(k + 1)^2 / 2 s^2) is exp(-k^2 / 2 s^2) r^(2 k + 1) with r = exp(-1 / 2 s^2).
-class GaussianRow {
+class PredictedFilterRow::Gaussian {
  public:
-  explicit GaussianRow(std::size_t channels)
+  explicit Gaussian(std::size_t channels)
       : inverse_(channels),
         squared_(channels),
         weight_(channels),
@@ -83,6 +85,8 @@ class GaussianRow {
   std::vector<float> inverse_, squared_, weight_, factor_, total_, mean_, moment_, spread_;
 };
 
+namespace {
+
 // Softmax over the frames of the window that there are.
 struct Shape {
   std::size_t first = 0, last = 0;  // taps
@@ -133,26 +137,33 @@ std::size_t filter_output_count(FilterHead head, std::size_t channels) {
   return head == FilterHead::biased ? 2 * channels : channels;
 }
 
+PredictedFilterRow::PredictedFilterRow(std::size_t channels)
+    : gaussian_(std::make_unique<Gaussian>(channels)) {}
+PredictedFilterRow::~PredictedFilterRow() = default;
+
+void PredictedFilterRow::apply(FilterHead head, const FilterSignal& signal, std::size_t frame,
+                               std::span<const float> outputs, std::span<float> result) {
+  const std::size_t channels = signal.channels;
+  if (head == FilterHead::shape) return apply_shape(signal, outputs.data(), frame, result.data());
+  if (head == FilterHead::residual) {
+    const float* x = signal.values.data() + frame * channels;
+    for (std::size_t c = 0; c < channels; ++c) result[c] = x[c] + signal.scales[c] * outputs[c];
+    return;
+  }
+  gaussian_->run(signal, outputs.data(), frame, false);
+  std::copy(gaussian_->means().begin(), gaussian_->means().end(), result.begin());
+  if (head == FilterHead::gaussian) return;
+  for (std::size_t c = 0; c < channels; ++c) result[c] -= signal.scales[c] * outputs[channels + c];
+}
+
 void apply_predicted_filter(FilterHead head, const FilterSignal& signal,
                             std::span<const float> outputs, std::span<float> result) {
   const std::size_t channels = signal.channels, width = filter_output_count(head, channels);
   assert(outputs.size() == signal.frames * width && result.size() == signal.values.size());
-  GaussianRow gaussian(channels);
-  for (std::size_t t = 0; t < signal.frames; ++t) {
-    const float* o = outputs.data() + t * width;
-    float* y = result.data() + t * channels;
-    if (head == FilterHead::shape) {
-      apply_shape(signal, o, t, y);
-    } else if (head == FilterHead::residual) {
-      const float* x = signal.values.data() + t * channels;
-      for (std::size_t c = 0; c < channels; ++c) y[c] = x[c] + signal.scales[c] * o[c];
-    } else {
-      gaussian.run(signal, o, t, false);
-      std::copy(gaussian.means().begin(), gaussian.means().end(), y);
-      if (head == FilterHead::gaussian) continue;
-      for (std::size_t c = 0; c < channels; ++c) y[c] -= signal.scales[c] * o[channels + c];
-    }
-  }
+  PredictedFilterRow row(channels);
+  for (std::size_t t = 0; t < signal.frames; ++t)
+    row.apply(head, signal, t, outputs.subspan(t * width, width),
+              result.subspan(t * channels, channels));
 }
 
 void predicted_filter_adjoint(FilterHead head, const FilterSignal& signal,
@@ -160,7 +171,7 @@ void predicted_filter_adjoint(FilterHead head, const FilterSignal& signal,
                               std::span<float> gradient) {
   const std::size_t channels = signal.channels, width = filter_output_count(head, channels);
   assert(outputs.size() == signal.frames * width && gradient.size() == outputs.size());
-  GaussianRow gaussian(channels);
+  PredictedFilterRow::Gaussian gaussian(channels);
   for (std::size_t t = 0; t < signal.frames; ++t) {
     const float* o = outputs.data() + t * width;
     const float* d = derivative.data() + t * channels;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,20 @@ struct FilterSignal {
 };
 void apply_predicted_filter(FilterHead head, const FilterSignal& signal,
                             std::span<const float> outputs, std::span<float> result);
+/// The same for single frames, with its scratch: nothing is taken from the heap.
+class PredictedFilterRow {
+ public:
+  explicit PredictedFilterRow(std::size_t channels);
+  ~PredictedFilterRow();
+  /// `outputs` and `result` are those of frame `frame` of the signal.
+  void apply(FilterHead head, const FilterSignal& signal, std::size_t frame,
+             std::span<const float> outputs, std::span<float> result);
+
+  class Gaussian;  ///< of a frame
+
+ private:
+  std::unique_ptr<Gaussian> gaussian_;
+};
 /// The derivative by the outputs (F x O) from that by the result (F x C).
 void predicted_filter_adjoint(FilterHead head, const FilterSignal& signal,
                               std::span<const float> outputs, std::span<const float> derivative,

@@ -149,6 +149,36 @@ class CausalStream final : public Stream {
   std::unique_ptr<FrameFilter> filter_;
 };
 
+template <class AnyClip>
+class DelayedStream final : public Stream {
+ public:
+  DelayedStream(const Cleaner& cleaner, const AnyClip& like, const Selection& selection,
+                std::size_t ahead)
+      : cleaner_(cleaner),
+        like_(without_frames(like)),
+        view_(view_of(like_, selection)),
+        shape_(view_),
+        ahead_(ahead) {
+    reset();
+  }
+
+  std::size_t latency_frames() const override { return ahead_; }
+  bool push(const Frame& in, Frame& out) override {
+    shape_.check(in);
+    return filter_->push(in, out);
+  }
+  bool flush(Frame& out) override { return filter_->flush(out); }
+  void reset() override { filter_ = cleaner_.make_delayed_filter(view_); }
+
+ private:
+  const Cleaner& cleaner_;
+  AnyClip like_;
+  TakeView view_;
+  FrameShape shape_;
+  std::size_t ahead_;
+  std::unique_ptr<DelayedFilter> filter_;
+};
+
 // Keeps the frames that the next result depends on: at most half a window behind it and half a
 // window ahead. At the ends of the stream the window is cut, as it is at the ends of a take. Where
 // nothing is missing in it, a cleaner may have a quicker way.
@@ -259,7 +289,11 @@ std::unique_ptr<Stream> stream_of(const Cleaner& cleaner, const AnyClip& like,
       return std::make_unique<WindowedStream<AnyClip>>(cleaner, like, selection,
                                                        support.half_window_frames + bridge, bridge);
     }
+    case LiveSupport::Kind::delayed:
+      return std::make_unique<DelayedStream<AnyClip>>(cleaner, like, selection,
+                                                      support.ahead_frames);
     case LiveSupport::Kind::none:
+      if (!support.why_not.empty()) throw Error(ErrorKind::usage, support.why_not);
       break;
   }
   throw Error(ErrorKind::usage,

@@ -80,7 +80,7 @@ std::map<std::string, double> errors_of(double gap_s) {
       count += 1;
       for (const FillMethod& method : fill_methods()) {
         const std::string name(method.name);
-        if (method.joints) sums[name] += mean_error_deg(truth, holed, name);
+        if (method.joints && !method.learned) sums[name] += mean_error_deg(truth, holed, name);
       }
     }
   }

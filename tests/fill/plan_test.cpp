@@ -78,6 +78,7 @@ void expect_same_after_plan(const AnyClip& damaged, const FillSettings& settings
 
 TEST(GapPlan, GivesTheSameSamplesAsTheRunThatWroteIt) {
   for (const FillMethod& method : fill_methods()) {
+    if (method.learned) continue;
     for (const bool fill_all : {false, true}) {
       FillSettings settings;
       settings.method = method.name;

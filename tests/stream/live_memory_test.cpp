@@ -7,8 +7,10 @@
 
 #include "clean/marker_takes.hpp"
 #include "clean/takes.hpp"
+#include "kinemend/experimental/synth.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/stream.hpp"
+#include "priors/random_filter_model.hpp"
 
 namespace kinemend::test {
 namespace {
@@ -62,6 +64,32 @@ TEST_P(LiveMemory, TakesNoneForMarkersOnceItIsWarm) {
   if (GetParam().method == "nonlocal") GTEST_SKIP() << "runs live on joints only";
   const MarkerClip clip = damaged(marker_take("walk", 6), 3, 0.005, 100, 1);
   EXPECT_EQ(taken_when_warm(*make_stream(*cleaner_, clip, 1700), frames_of(clip)), 0);
+}
+
+TEST(RecurrentMemory, TakesNoneOnceItIsWarm) {
+  const Clip clip = synthesize({.motion = "walk", .duration_s = 3, .frame_rate_hz = 120});
+  BodyLayoutBuilder builder;
+  builder.add(clip);
+  const BodyLayout layout = builder.finish();
+  const TakeView view = view_of(clip);
+  std::vector<Frame> frames;
+  for (std::size_t f = 0; f < view.frames; ++f) {
+    frames.push_back(frame_of(view, f));
+    frames.back().observed.assign(clip.joint_count(), 1);
+    frames.back().observed[f % clip.joint_count()] = 0;
+  }
+  for (const RandomNetwork kind : {RandomNetwork{.layers = 2, .has_roughness = true},
+                                   RandomNetwork{.layers = 0, .reach = 15}}) {
+    auto model = std::make_shared<const Model>(random_filter_model(kind, &layout));
+    const auto cleaner = make_recurrent({.live = true}, model);
+    const auto stream = make_stream(*cleaner, clip);
+    Frame out;
+    const std::size_t half = frames.size() / 2;
+    for (std::size_t f = 0; f < half; ++f) stream->push(frames[f], out);
+    const std::size_t before = memory_taken;
+    for (std::size_t f = half; f < frames.size(); ++f) stream->push(frames[f], out);
+    EXPECT_EQ(memory_taken, before);
+  }
 }
 
 #endif

@@ -1,0 +1,173 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <string>
+
+#include "fill/made_gaps.hpp"
+#include "fill/marker_takes.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/experimental/gap_plan.hpp"
+#include "motion/clips.hpp"
+
+// What becomes of the gaps that a model is asked to fill, with models that say a fixed thing.
+namespace kinemend::fill {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr const char* unknown = "the model does not know them";
+
+const Quat said = exp(Vec3{0.3, -0.2, 0.1});
+
+// A model that gives every missing sample the same rotation, and knows no joint4.
+LearnedFilling same_everywhere(const Clip& clip) {
+  LearnedFilling filling{clip.local_rotations, {}};
+  for (std::size_t i = 0; i < filling.rotations.size(); ++i) {
+    if (!clip.observed.empty() && clip.observed[i] == 0) filling.rotations[i] = said;
+  }
+  filling.left_out.assign(clip.joint_count(), "");
+  filling.left_out[track_of(clip, "joint4")] = unknown;
+  return filling;
+}
+
+FillSettings by_model() {
+  FillSettings settings;
+  settings.method = "recurrent";
+  settings.learned = same_everywhere;
+  return settings;
+}
+
+Clip gapped() {
+  Clip clip = testing::moving_chain(6, 500);
+  hide(clip, "joint1", 200, 260);
+  hide(clip, "joint3", 300, 320);
+  hide(clip, "joint4", 300, 312);
+  return clip;
+}
+
+TEST(LearnedFilling, HasWhatTheModelSays) {
+  Clip clip = gapped();
+  const FillReport report = fill_gaps(clip, by_model());
+  ASSERT_EQ(report.gaps.size(), 3u);
+  const std::size_t joint = track_of(clip, "joint1");
+  for (const std::size_t f : {200u, 230u, 260u})
+    EXPECT_LT(angle_between(clip.rotation(f, joint), said), 1e-9) << f;
+  EXPECT_EQ(report.gaps[0].method, "recurrent");
+  EXPECT_EQ(report.gaps[1].method, "recurrent");
+}
+
+TEST(LearnedFilling, LeavesToAutoWhatTheModelDoesNotKnowAndSaysSo) {
+  Clip clip = gapped(), automatic = gapped();
+  const FillReport report = fill_gaps(clip, by_model());
+  fill_gaps(automatic);
+  EXPECT_NE(report.gaps[2].method, "recurrent");
+  EXPECT_TRUE(report.gaps[2].filled);
+  const std::size_t joint = track_of(clip, "joint4");
+  for (std::size_t f = 300; f <= 312; ++f)
+    EXPECT_EQ(clip.rotation(f, joint), automatic.rotation(f, joint)) << f;
+  EXPECT_THAT(report.warnings,
+              ElementsAre("1 gap left to auto (joint4): the model does not know them"));
+}
+
+TEST(LearnedFilling, IsRefusedWhereTheGapIsTooLong) {
+  Clip clip = testing::moving_chain(6, 500);
+  hide(clip, "joint1", 100, 300);
+  FillSettings settings = by_model();
+  settings.longest_gap_s = 0.5;
+  const FillReport report = fill_gaps(clip, settings);
+  EXPECT_EQ(report.filled(), 0u);
+  EXPECT_THAT(report.gaps[0].reason, HasSubstr("is longer than the 0.5 s that recurrent may fill"));
+  settings.fill_all = true;
+  EXPECT_EQ(fill_gaps(clip, settings).filled(), 1u);
+}
+
+TEST(LearnedFilling, ComesAgainByThePlanOfItsRun) {
+  Clip clip = gapped(), again = gapped();
+  const PlannedFill made = fill_with_plan(clip, by_model());
+  EXPECT_EQ(made.plan[0].method, "recurrent");
+  const std::string text = plan_csv(gapped(), made.plan);
+  fill_with_plan(again, parse_plan(text, "plan.csv", gapped()), {}, same_everywhere);
+  EXPECT_EQ(again.local_rotations, clip.local_rotations);
+  EXPECT_EQ(again.observed, clip.observed);
+}
+
+TEST(LearnedFilling, StandsInPreviewsWhereThereIsAModel) {
+  Clip clip = gapped();
+  std::vector<PlannedGap> plan = fill_with_plan(clip, FillSettings{}).plan;
+  const auto by_recurrent = [&] {
+    std::vector<GapPreview> found;
+    for (const GapPreview& preview : plan[0].previews) {
+      if (preview.method == "recurrent") found.push_back(preview);
+    }
+    return found;
+  };
+  preview_methods(gapped(), plan);
+  EXPECT_THAT(by_recurrent(), IsEmpty());
+  preview_methods(gapped(), plan, {}, same_everywhere);
+  ASSERT_EQ(by_recurrent().size(), 1u);
+  EXPECT_TRUE(by_recurrent()[0].filled);
+  EXPECT_EQ(preview_curves(gapped(), plan, 0, {}, same_everywhere).curves.back().preview.method,
+            "recurrent");
+}
+
+// A model sees the doubted sample as missing, and what it then says of it tells that it is a spike.
+TEST(LearnedFilling, IsNotMadeFromASpikeBesideTheGap) {
+  constexpr std::size_t frames = 1200, first = 600, last = 620;
+  const Clip truth = testing::moving_chain(6, frames);
+  Clip clip = truth;
+  hide(clip, "joint3", first, last);
+  const std::size_t joint = track_of(clip, "joint3");
+  clip.rotation(first - 1, joint) = clip.rotation(first - 1, joint) * exp(Vec3{1.2, 0, 0});
+  // This model knows the motion, but where a spike leads it astray.
+  FillSettings settings = by_model();
+  std::size_t whole_frames = 0;
+  settings.learned = [&](const Clip& seen) {
+    LearnedFilling filling{seen.local_rotations, {}};
+    filling.left_out.assign(seen.joint_count(), "");
+    const bool is_whole = seen.frame_count() == frames;
+    if (is_whole) ++whole_frames;
+    const std::size_t from = is_whole ? 0 : first - 2 - 401;
+    const bool sees_spike = seen.is_observed(first - 1 - from, joint);
+    for (std::size_t f = 0; f < seen.frame_count(); ++f)
+      filling.rotations[f * seen.joint_count() + joint] =
+          sees_spike ? said : truth.rotation(f + from, joint);
+    return filling;
+  };
+  fill_gaps(clip, settings);
+  EXPECT_EQ(whole_frames, 1u);
+  for (std::size_t f = first; f <= last; ++f)
+    EXPECT_LT(angle_between(clip.rotation(f, joint), truth.rotation(f, joint)), 1e-6) << f;
+}
+
+TEST(LearnedFilling, NeedsAModelAndSaysHowToMakeOne) {
+  Clip clip = gapped();
+  FillSettings settings;
+  settings.method = "recurrent";
+  try {
+    fill_gaps(clip, settings);
+    FAIL() << "was filled";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_THAT(error.what(), HasSubstr("kinemend-train paper --network ebd"));
+  }
+  std::vector<PlannedGap> plan = fill_with_plan(clip, by_model()).plan;
+  Clip other = gapped();
+  EXPECT_THROW(fill_with_plan(other, plan), Error);
+}
+
+TEST(LearnedFilling, IsRefusedOfMarkersWithTheReason) {
+  MarkerClip markers = marker_take("walk", 1, 0.2);
+  FillSettings settings = by_model();
+  try {
+    fill_gaps(markers, settings);
+    FAIL() << "was filled";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_THAT(error.what(), HasSubstr("this is a take of markers"));
+  }
+}
+
+}  // namespace
+}  // namespace kinemend::fill
