@@ -75,6 +75,7 @@ std::vector<Constant> constants() {
   all.add("spikes.nearby_ratio", spikes, &SpikeTuning::nearby_ratio);
   all.add("spikes.side_error_share", spikes, &SpikeTuning::side_error_share);
   all.add("spikes.fastest_deg_s", spikes, &SpikeTuning::fastest_deg_s);
+  all.add("spikes.longest_run", spikes, &SpikeTuning::longest_run);
   all.add("spikes.cluster_gap", spikes, &SpikeTuning::cluster_gap);
   all.add("spikes.usual_cluster", spikes, &SpikeTuning::usual_cluster);
   all.add("spikes.chance", spikes, &SpikeTuning::chance);
