@@ -313,8 +313,9 @@ double FilterTrainer::step() {
     const Chunk& chunk =
         chunks[((batch_ % batches_an_epoch) * settings_.batch + i) % chunks.size()];
     rows.push_back(rows_of(chunk));
+    // Squares over the square of the noise: takes with weak and strong noise count alike.
     const double scale = samples_[chunk.take].scale;
-    for (float& weight : rows.back().weight) weight /= static_cast<float>(scale);
+    for (float& weight : rows.back().weight) weight /= static_cast<float>(scale * scale);
     const std::vector<float> own = filter_features(rows.back().take, statistics_, inputs());
     features.insert(features.end(), own.begin(), own.end());
   }

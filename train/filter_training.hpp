@@ -34,7 +34,7 @@ struct FilterTraining {
   bool is_augmented = true;         ///< chunks in a mirror and backwards too
   std::vector<FilterDamage> noise;  ///< one of these is drawn for each take
   std::vector<FilterDamage> gaps;   ///< and one of these; empty: none
-  double rate = 2e-3;               ///< of learning, at its highest
+  double rate = 5e-4;               ///< of learning, at its highest; at 2e-3 layers saturate
   DescentSettings descent;
 };
 
