@@ -145,9 +145,8 @@ void experiment(const Arguments& arguments) {
   }
   const auto ebd = paper_network(arguments, "ebd");
   if (arguments.quick || takes.empty() || !ebd) {
-    fmt::print(
-        "skipped: networks in {} are wanted (tools/train_paper DATA), and real takes\n",
-        arguments.models.string());
+    fmt::print("skipped: networks in {} are wanted (tools/train_paper DATA), and real takes\n",
+               arguments.models.string());
     return;
   }
   noise_and_gaps(arguments, takes, *ebd);

@@ -146,6 +146,8 @@ void apply_predicted_filter(FilterHead head, const FilterSignal& signal,
     } else if (head == FilterHead::residual) {
       const float* x = signal.values.data() + t * channels;
       for (std::size_t c = 0; c < channels; ++c) y[c] = x[c] + signal.scales[c] * o[c];
+    } else if (head == FilterHead::pose) {
+      for (std::size_t c = 0; c < channels; ++c) y[c] = signal.means[c] + signal.scales[c] * o[c];
     } else {
       gaussian.run(signal, o, t, false);
       std::copy(gaussian.means().begin(), gaussian.means().end(), y);
@@ -167,7 +169,7 @@ void predicted_filter_adjoint(FilterHead head, const FilterSignal& signal,
     float* g = gradient.data() + t * width;
     if (head == FilterHead::shape) {
       shape_adjoint(signal, o, t, d, g);
-    } else if (head == FilterHead::residual) {
+    } else if (head == FilterHead::residual || head == FilterHead::pose) {
       for (std::size_t c = 0; c < channels; ++c) g[c] = signal.scales[c] * d[c];
     } else {
       gaussian.run(signal, o, t, true);
