@@ -127,7 +127,7 @@ void long_gaps(const Arguments& arguments, const std::vector<HeldOut>& takes,
           errors[method].error += gap_error(truth, clip, result);
           ++errors[method].count;
         };
-        for (const char* method : {"slerp", "cubic", "cyclic", "pca", "auto"})
+        for (const char* method : {"slerp", "spline", "cyclic", "pca", "auto"})
           add(method, filled_by(clip, method));
         add("example", cleaned(clip, "example"));
         add("ebd", filled_by_ebd(ebd, clip));
