@@ -17,15 +17,16 @@ namespace kinemend::train {
 
 namespace {
 
-constexpr double gaussian_s = 0.058;      // the paper's first baseline
-constexpr double least_error_deg = 0.03;  // smaller ones count for less
+constexpr double gaussian_s = 0.058;  // the paper's first baseline
+// Smaller errors count for less; straight lines that are right to a degree need no network.
+constexpr double least_error_deg = 0.03, least_gap_error_deg = 1;
 constexpr std::size_t axes = 3;
 
 FilterHead head_of(const std::string& name) {
-  const std::vector<std::string> names{"gaussian", "biased", "shape", "residual"};
+  const std::vector<std::string> names{"gaussian", "biased", "shape", "residual", "pose"};
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
-    throw Error(ErrorKind::usage, "head " + name + ": gaussian, biased, shape or residual");
+    throw Error(ErrorKind::usage, "head " + name + ": gaussian, biased, shape, residual or pose");
   return static_cast<FilterHead>(found - names.begin());
 }
 
@@ -177,8 +178,9 @@ FilterTrainer::FilterTrainer(std::vector<Clip> takes, const FilterTraining& sett
   if (settings_.kind == "ebd") {
     stride_ = 4;
     margin_ = 0;
-    if (head_ != FilterHead::residual)
-      throw Error(ErrorKind::usage, "an EBD has the head residual: it sees every fourth frame");
+    if (head_ != FilterHead::residual && head_ != FilterHead::pose)
+      throw Error(ErrorKind::usage,
+                  "an EBD has the head pose or residual: it sees every fourth frame");
     chunks_of_epoch_ *= 2;
   }
   shape_ = shape_of(settings_.kind, head_, clean.front().channels, inputs());
@@ -201,9 +203,24 @@ FilterTrainer::Sample FilterTrainer::sample_of(const Clip& clip, Random random) 
   BodyChannels channels = encode_body(damaged, layout_, match);
   bridge(channels);
   sample.take = filter_take_of(channels, layout_);
+  std::vector<float> first(sample.truth.size());
+  for (std::size_t i = 0; i < first.size(); ++i) first[i] = before_training(sample.take, i);
   sample.scale =
-      std::max(least_error_deg, mean_error(sample.take, sample.take.values, sample.truth, fills()));
+      std::max(fills() ? least_gap_error_deg : least_error_deg,
+               mean_error(sample.take, first, sample.truth, fills() && head_ != FilterHead::pose));
   return sample;
+}
+
+FilterSignal FilterTrainer::signal_of(const FilterTake& take) const {
+  return {take.frames, take.channels, take.values, statistics_.deviation, statistics_.mean};
+}
+
+bool FilterTrainer::counts(const FilterTake& take, std::size_t sample) const {
+  return !fills() || head_ == FilterHead::pose || take.missing[sample / axes] != 0;
+}
+
+float FilterTrainer::before_training(const FilterTake& take, std::size_t sample) const {
+  return head_ == FilterHead::pose ? statistics_.mean[sample % take.channels] : take.values[sample];
 }
 
 void FilterTrainer::damage_takes(std::size_t round) {
@@ -227,9 +244,7 @@ std::vector<double> FilterTrainer::best_constants() {
       const FilterTake& take = sample.take;
       const std::vector<float> outputs(take.values.size(), log);
       std::vector<float> result(take.values.size());
-      apply_predicted_filter(FilterHead::gaussian,
-                             {take.frames, take.channels, take.values, statistics_.deviation},
-                             outputs, result);
+      apply_predicted_filter(FilterHead::gaussian, signal_of(take), outputs, result);
       const double weight = 1 / (sample.scale * static_cast<double>(take.frames));
       for (std::size_t i = 0; i < result.size(); ++i)
         errors[i % channels] +=
@@ -313,8 +328,9 @@ double FilterTrainer::step() {
     const Chunk& chunk =
         chunks[((batch_ % batches_an_epoch) * settings_.batch + i) % chunks.size()];
     rows.push_back(rows_of(chunk));
+    // Squares over the square of the noise: takes with weak and strong noise count alike.
     const double scale = samples_[chunk.take].scale;
-    for (float& weight : rows.back().weight) weight /= static_cast<float>(scale);
+    for (float& weight : rows.back().weight) weight /= static_cast<float>(scale * scale);
     const std::vector<float> own = filter_features(rows.back().take, statistics_, inputs());
     features.insert(features.end(), own.begin(), own.end());
   }
@@ -324,20 +340,19 @@ double FilterTrainer::step() {
   double loss = 0, before = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const FilterTake& take = rows[i].take;
-    const FilterSignal signal{take.frames, take.channels, take.values, statistics_.deviation};
+    const FilterSignal signal = signal_of(take);
     const std::span<const float> own(outputs.data() + i * width, width);
     std::vector<float> result(take.values.size());
     apply_predicted_filter(head_, signal, own, result);
     double count = 1;
     for (std::size_t k = 0; k < result.size(); ++k) {
-      const bool counts = !fills() || take.missing[k / axes] != 0;
-      count += counts && rows[i].weight[k / take.channels] > 0 ? 1 : 0;
+      count += counts(take, k) && rows[i].weight[k / take.channels] > 0 ? 1 : 0;
     }
     for (std::size_t k = 0; k < result.size(); ++k) {
       const float weight = rows[i].weight[k / take.channels];
-      const bool counts = !fills() || take.missing[k / axes] != 0;
-      const float error = counts ? result[k] - rows[i].truth[k] : 0;
-      const float first = counts ? take.values[k] - rows[i].truth[k] : 0;
+      const bool is_counted = counts(take, k);
+      const float error = is_counted ? result[k] - rows[i].truth[k] : 0;
+      const float first = is_counted ? before_training(take, k) - rows[i].truth[k] : 0;
       loss += static_cast<double>(weight * error * error) / count;
       before += static_cast<double>(weight * first * first) / count;
       result[k] = 2 * weight * error / static_cast<float>(count * static_cast<double>(rows.size()));
@@ -365,8 +380,7 @@ std::vector<float> FilterTrainer::apply(const FilterTake& take) const {
                   outputs.data() + (phase + i * stride_) * shape_.outputs);
   }
   std::vector<float> result(take.values.size());
-  apply_predicted_filter(head_, {take.frames, take.channels, take.values, statistics_.deviation},
-                         outputs, result);
+  apply_predicted_filter(head_, signal_of(take), outputs, result);
   return result;
 }
 
@@ -379,9 +393,7 @@ double FilterTrainer::share_left(const std::vector<Clip>& takes) const {
     if (!fills()) {
       const std::vector<float> widths(plain.size(),
                                       static_cast<float>(std::log(gaussian_s * rate_hz_)));
-      apply_predicted_filter(FilterHead::gaussian,
-                             {take.frames, take.channels, take.values, statistics_.deviation},
-                             widths, plain);
+      apply_predicted_filter(FilterHead::gaussian, signal_of(take), widths, plain);
     }
     const double before = mean_error(take, plain, sample.truth, fills());
     if (before <= 0) continue;

@@ -25,7 +25,7 @@ struct FilterDamage {
 struct FilterTraining {
   std::uint64_t seed = 1;
   std::string kind = "ebf";       ///< ebf, bf, nn, ebd
-  std::string head = "gaussian";  ///< gaussian, biased, shape, residual
+  std::string head = "gaussian";  ///< gaussian, biased, shape, residual, pose
   std::size_t epochs = 200;
   std::size_t batch = 16;           ///< chunks a step
   std::size_t frames = 128;         ///< of a chunk that count
@@ -34,7 +34,7 @@ struct FilterTraining {
   bool is_augmented = true;         ///< chunks in a mirror and backwards too
   std::vector<FilterDamage> noise;  ///< one of these is drawn for each take
   std::vector<FilterDamage> gaps;   ///< and one of these; empty: none
-  double rate = 2e-3;               ///< of learning, at its highest
+  double rate = 5e-4;               ///< of learning, at its highest; at 2e-3 layers saturate
   DescentSettings descent;
 };
 
@@ -64,7 +64,7 @@ class FilterTrainer {
   struct Sample {
     FilterTake take;
     std::vector<float> truth;  // F x C
-    double scale = 1;          // mean error before, degrees
+    double scale = 1;          // mean error before training, degrees
   };
   struct Chunk {
     std::size_t take = 0;
@@ -81,6 +81,11 @@ class FilterTrainer {
   FilterInputs inputs() const noexcept { return {settings_.sees_roughness, fills()}; }
   Sample sample_of(const Clip& clip, Random random) const;
   void damage_takes(std::size_t round);
+  FilterSignal signal_of(const FilterTake& take) const;
+  /// Whether the loss counts a sample: those that are missing, of all where a pose is made anew.
+  bool counts(const FilterTake& take, std::size_t sample) const;
+  /// What there is of a sample before anything is learned.
+  float before_training(const FilterTake& take, std::size_t sample) const;
   /// Logarithms of the widths that would be best as constants, one a channel.
   std::vector<double> best_constants();
   std::vector<Chunk> chunks_of(std::size_t epoch) const;

@@ -95,7 +95,7 @@ int paper_program(int count, char** values) {
       "kinemend-train paper"};
   add_run_options(app, arguments.run, training.descent);
   app.add_option("--network", training.kind, "ebf, bf, nn or ebd")->capture_default_str();
-  app.add_option("--head", training.head, "gaussian, biased, shape or residual")
+  app.add_option("--head", training.head, "gaussian, biased, shape, residual or pose")
       ->capture_default_str();
   app.add_option("--noise", arguments.noise,
                  "damage of the takes, NAME:OPTION=VALUE,...; of several one is drawn for a take; "

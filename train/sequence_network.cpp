@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <torch/torch.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -111,7 +112,7 @@ torch::Tensor forward_of(const NetworkShape& shape, const Call& call, const torc
       shape);
 }
 
-// Draws weights, uniform as is usual for ReLU, in the order of their making.
+// Draws weights, uniform and of variance 1 / inputs at gain 1, in the order of their making.
 class Maker {
  public:
   Maker(Parameters& weights, std::uint64_t seed) : weights_(weights) { torch::manual_seed(seed); }
@@ -153,19 +154,22 @@ void make(const ConvolutionalShape& shape, Maker& maker) {
 
 void add_lstm(Maker& maker, const std::string& name, std::size_t inputs, std::size_t units) {
   const auto in = static_cast<std::int64_t>(inputs), out = static_cast<std::int64_t>(units);
-  const double bound = 1 / std::sqrt(static_cast<double>(units));
-  maker.add(name + ".input.weight", {4 * out, in}, bound);
-  maker.add(name + ".state.weight", {4 * out, out}, bound);
-  maker.add(name + ".input.bias", {4 * out}, bound);
-  maker.add(name + ".state.bias", {4 * out}, bound);
+  maker.add(name + ".input.weight", {4 * out, in}, std::sqrt(3.0 / static_cast<double>(inputs)));
+  maker.add(name + ".state.weight", {4 * out, out}, std::sqrt(1.0 / static_cast<double>(units)));
+  maker.add(name + ".input.bias", {4 * out}, 0);
+  maker.add(name + ".state.bias", {4 * out}, 0);
+  // The gates that forget begin nearly open: what is far in time has a gradient.
+  std::vector<double> open(4 * units);
+  std::fill_n(open.begin() + static_cast<std::ptrdiff_t>(units), units, 1.0);
+  maker.set(name + ".input.bias", open);
 }
 
 void make(const BidirectionalShape& shape, Maker& maker) {
-  // Uniform within 1 / sqrt(inputs), which leaves tanh far from its ends.
-  constexpr double gain = 0.577;
+  // Sums of as much variance as what goes in: at smaller ones every layer of ten would make the
+  // signal smaller by a factor, and little but the biases would reach the outputs.
   std::size_t width = shape.inputs * (2 * shape.reach + 1);
   for (std::size_t i = 0; i < shape.encoder.size(); ++i) {
-    maker.add_dense(fmt::format("encoder{}", i), width, shape.encoder[i], gain);
+    maker.add_dense(fmt::format("encoder{}", i), width, shape.encoder[i]);
     width = shape.encoder[i];
   }
   for (std::size_t i = 0; i < shape.layers; ++i) {
@@ -174,7 +178,7 @@ void make(const BidirectionalShape& shape, Maker& maker) {
     width = 2 * shape.units;
   }
   for (std::size_t i = 0; i < shape.decoder.size(); ++i) {
-    maker.add_dense(fmt::format("decoder{}", i), width, shape.decoder[i], gain);
+    maker.add_dense(fmt::format("decoder{}", i), width, shape.decoder[i]);
     width = shape.decoder[i];
   }
   const std::string last = fmt::format("decoder{}", shape.decoder.size());

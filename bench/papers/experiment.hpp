@@ -21,10 +21,12 @@ namespace kinemend::papers {
 struct Arguments {
   std::filesystem::path data;          ///< folder of real takes; empty: synthetic takes
   std::filesystem::path output = ".";  ///< folder for CSV files
-  bool quick = false;                  ///< short takes and coarse grids
+  std::filesystem::path models = "bench/papers/models";  ///< of networks that a paper's tables need
+  bool quick = false;                                    ///< short takes and coarse grids
 };
 
-/// --data FOLDER (default: the environment variable KINEMEND_DATA), --output FOLDER, --quick.
+/// --data FOLDER (default: the environment variable KINEMEND_DATA), --output FOLDER,
+/// --models FOLDER (default: that of the source tree, from its root), --quick.
 inline Arguments parse_arguments(int count, char** values) {
   Arguments arguments;
   if (const char* data = std::getenv("KINEMEND_DATA")) arguments.data = data;
@@ -32,11 +34,16 @@ inline Arguments parse_arguments(int count, char** values) {
     const std::string name = values[i];
     if (name == "--quick") {
       arguments.quick = true;
-    } else if ((name == "--data" || name == "--output") && i + 1 < count) {
-      (name == "--data" ? arguments.data : arguments.output) = values[++i];
+    } else if (name == "--data" && i + 1 < count) {
+      arguments.data = values[++i];
+    } else if (name == "--output" && i + 1 < count) {
+      arguments.output = values[++i];
+    } else if (name == "--models" && i + 1 < count) {
+      arguments.models = values[++i];
     } else {
       throw Error(ErrorKind::usage,
-                  "unknown argument " + name + " (--data FOLDER, --output FOLDER, --quick)");
+                  "unknown argument " + name +
+                      " (--data FOLDER, --output FOLDER, --models FOLDER, --quick)");
     }
   }
   return arguments;

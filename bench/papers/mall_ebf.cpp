@@ -154,9 +154,8 @@ class Comparison {
 void experiment(const Arguments& arguments) {
   Comparison comparison(arguments, 1);
   if (arguments.quick || !comparison.is_possible()) {
-    fmt::print(
-        "skipped: networks in {}/models are wanted (tools/train_paper DATA), and real takes\n",
-        arguments.output.string());
+    fmt::print("skipped: networks in {} are wanted (tools/train_paper DATA), and real takes\n",
+               arguments.models.string());
     return;
   }
   Table table(arguments, "mall_ebf.csv",

@@ -127,7 +127,7 @@ void long_gaps(const Arguments& arguments, const std::vector<HeldOut>& takes,
           errors[method].error += gap_error(truth, clip, result);
           ++errors[method].count;
         };
-        for (const char* method : {"slerp", "cubic", "cyclic", "pca", "auto"})
+        for (const char* method : {"slerp", "spline", "cyclic", "pca", "auto"})
           add(method, filled_by(clip, method));
         add("example", cleaned(clip, "example"));
         add("ebd", filled_by_ebd(ebd, clip));
@@ -145,9 +145,8 @@ void experiment(const Arguments& arguments) {
   }
   const auto ebd = paper_network(arguments, "ebd");
   if (arguments.quick || takes.empty() || !ebd) {
-    fmt::print(
-        "skipped: networks in {}/models are wanted (tools/train_paper DATA), and real takes\n",
-        arguments.output.string());
+    fmt::print("skipped: networks in {} are wanted (tools/train_paper DATA), and real takes\n",
+               arguments.models.string());
     return;
   }
   noise_and_gaps(arguments, takes, *ebd);

@@ -38,10 +38,10 @@ struct PaperNetwork {
   FilterNetwork network;
 };
 
-/// `<output>/models/<name>.kmodel`, as `tools/train_paper` leaves it.
+/// `<models>/<name>.kmodel`, as `tools/train_paper` leaves it.
 inline std::optional<PaperNetwork> paper_network(const Arguments& arguments,
                                                  const std::string& name) {
-  const std::filesystem::path path = arguments.output / "models" / (name + ".kmodel");
+  const std::filesystem::path path = arguments.models / (name + ".kmodel");
   if (!std::filesystem::is_regular_file(path)) return std::nullopt;
   const Model model = read_model(path);
   return PaperNetwork{model.layout, filter_network_of(model)};

@@ -13,7 +13,7 @@ namespace kinemend {
 
 namespace {
 
-constexpr std::size_t most_layers = 16, most_stride = 64, most_reach = 256, head_count = 4;
+constexpr std::size_t most_layers = 16, most_stride = 64, most_reach = 256, head_count = 5;
 constexpr std::size_t axes = 3;
 
 // Every `stride`-th row from `phase` on.
@@ -233,7 +233,8 @@ std::vector<float> filtered(const FilterNetwork& network, const FilterTake& take
       run(network, filter_features(take, network.statistics, network.inputs));
   std::vector<float> result(take.values.size());
   apply_predicted_filter(network.head,
-                         {take.frames, take.channels, take.values, network.statistics.deviation},
+                         {take.frames, take.channels, take.values, network.statistics.deviation,
+                          network.statistics.mean},
                          outputs, result);
   return result;
 }

@@ -150,6 +150,11 @@ void PredictedFilterRow::apply(FilterHead head, const FilterSignal& signal, std:
     for (std::size_t c = 0; c < channels; ++c) result[c] = x[c] + signal.scales[c] * outputs[c];
     return;
   }
+  if (head == FilterHead::pose) {
+    for (std::size_t c = 0; c < channels; ++c)
+      result[c] = signal.means[c] + signal.scales[c] * outputs[c];
+    return;
+  }
   gaussian_->run(signal, outputs.data(), frame, false);
   std::copy(gaussian_->means().begin(), gaussian_->means().end(), result.begin());
   if (head == FilterHead::gaussian) return;
@@ -178,7 +183,7 @@ void predicted_filter_adjoint(FilterHead head, const FilterSignal& signal,
     float* g = gradient.data() + t * width;
     if (head == FilterHead::shape) {
       shape_adjoint(signal, o, t, d, g);
-    } else if (head == FilterHead::residual) {
+    } else if (head == FilterHead::residual || head == FilterHead::pose) {
       for (std::size_t c = 0; c < channels; ++c) g[c] = signal.scales[c] * d[c];
     } else {
       gaussian.run(signal, o, t, true);

@@ -13,15 +13,17 @@ namespace kinemend {
 /// Frames on either side of a frame that a predicted filter sees: 31 in all, at 120 Hz.
 inline constexpr std::size_t predicted_filter_reach = 15;
 
-/// How outputs o of a frame become its pose y; x is what was measured, s_c a scale of channel c.
+/// How outputs o of a frame become its pose y; x is what was measured, s_c and m_c a scale and a
+/// mean of channel c.
 enum class FilterHead : std::uint8_t {
   gaussian,  ///< y = sum_tau w(tau) x(t + tau), w a Gaussian of deviation exp(o_c) frames
   biased,    ///< the same less s_c o_(C + c): section 3 of the paper, "b"
   shape,     ///< y = sum_tau softmax(o)(tau) x(t + tau), one shape for all channels (figure 3)
   residual,  ///< y = x + s_c o_c: no filter
+  pose,      ///< y = m_c + s_c o_c: the decoder of EBD
 };
 
-/// C, 2 C, 31 and C numbers a frame.
+/// C, 2 C, 31, C and C numbers a frame.
 std::size_t filter_output_count(FilterHead head, std::size_t channels);
 
 /// F x C. Deviations lie between exp(-2.5) and exp(3) frames; beyond them outputs change nothing.
@@ -30,6 +32,7 @@ struct FilterSignal {
   std::size_t frames = 0, channels = 0;
   std::span<const float> values;  ///< F x C
   std::span<const float> scales;  ///< C
+  std::span<const float> means;   ///< C; of `FilterHead::pose` alone
 };
 void apply_predicted_filter(FilterHead head, const FilterSignal& signal,
                             std::span<const float> outputs, std::span<float> result);

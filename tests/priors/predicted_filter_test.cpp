@@ -15,9 +15,9 @@ constexpr std::size_t frames = 40, channels = 3;
 constexpr std::ptrdiff_t reach = predicted_filter_reach;
 
 struct Case {
-  std::vector<float> values, scales, outputs;
+  std::vector<float> values, scales, means, outputs;
 
-  FilterSignal signal() const { return {frames, channels, values, scales}; }
+  FilterSignal signal() const { return {frames, channels, values, scales, means}; }
 };
 
 Case random_case(FilterHead head) {
@@ -27,6 +27,8 @@ Case random_case(FilterHead head) {
     c.values.push_back(static_cast<float>(20 * random.normal()));
   for (std::size_t i = 0; i < channels; ++i)
     c.scales.push_back(static_cast<float>(random.uniform(1, 9)));
+  for (std::size_t i = 0; i < channels; ++i)
+    c.means.push_back(static_cast<float>(30 * random.normal()));
   for (std::size_t i = 0; i < frames * filter_output_count(head, channels); ++i)
     c.outputs.push_back(static_cast<float>(random.uniform(-1, 2.5)));
   return c;
@@ -47,6 +49,8 @@ double expected(FilterHead head, const Case& c, std::ptrdiff_t t, std::size_t ch
   };
   if (head == FilterHead::residual)
     return x(t) + static_cast<double>(c.scales[channel] * o[channel]);
+  if (head == FilterHead::pose)
+    return static_cast<double>(c.means[channel] + c.scales[channel] * o[channel]);
   double sum = 0, total = 0;
   for (std::ptrdiff_t k = -reach; k <= reach; ++k) {
     if (t + k < 0 || t + k >= static_cast<std::ptrdiff_t>(frames)) continue;
@@ -97,7 +101,8 @@ TEST_P(EveryHead, HasTheDerivativeOfItsDifferences) {
 
 INSTANTIATE_TEST_SUITE_P(Heads, EveryHead,
                          testing::Values(FilterHead::gaussian, FilterHead::biased,
-                                         FilterHead::shape, FilterHead::residual));
+                                         FilterHead::shape, FilterHead::residual,
+                                         FilterHead::pose));
 
 TEST(PredictedFilter, OfTheLeastDeviationLeavesTheTakeAsItIs) {
   Case c = random_case(FilterHead::gaussian);

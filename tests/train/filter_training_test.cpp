@@ -64,7 +64,7 @@ TEST_P(EveryKind, GoesOnFromACheckpointToTheSameResult) {
 INSTANTIATE_TEST_SUITE_P(Kinds, EveryKind,
                          testing::Values(Kind{"ebf", "gaussian"}, Kind{"ebf", "biased"},
                                          Kind{"bf", "shape"}, Kind{"nn", "residual"},
-                                         Kind{"ebd", "residual"}),
+                                         Kind{"ebd", "residual"}, Kind{"ebd", "pose"}),
                          [](const auto& kind) {
                            return std::string(kind.param.name) + "_" + kind.param.head;
                          });
@@ -118,6 +118,32 @@ TEST(SequenceNetwork, OfLstmLayersIsTheSameWhetherItIsTrainedOrRun) {
     }
   }
   EXPECT_NEAR(norm, std::sqrt(square), 2e-3 * norm);
+}
+
+TEST(SequenceNetwork, LetsTheSignalThroughAllItsLayersBeforeItHasLearned) {
+  constexpr std::size_t frames = 60;
+  BidirectionalShape shape;
+  shape.inputs = 50;
+  shape.outputs = 1;
+  SequenceNetwork network(shape, {}, 1);
+  TensorFile state = network.state();
+  Tensor& last = state.tensors.at("means.decoder3.weight");
+  for (std::size_t i = 0; i < last.values.size(); ++i)
+    last.values[i] = (i % 2 == 0 ? 1 : -1) / std::sqrt(static_cast<double>(last.values.size()));
+  network.set_state(state);
+  // Each input a wave of its own about 0, of deviation 1.
+  std::vector<float> inputs;
+  for (std::size_t i = 0; i < frames * shape.inputs; ++i) {
+    const double frame = static_cast<double>(i / shape.inputs);
+    const double channel = static_cast<double>(i % shape.inputs);
+    inputs.push_back(static_cast<float>(std::sqrt(2) * std::sin(0.1 * frame + channel * channel)));
+  }
+  double sum = 0, square = 0;
+  for (const float value : network.run(inputs)) {
+    sum += static_cast<double>(value) / frames;
+    square += static_cast<double>(value * value) / frames;
+  }
+  EXPECT_GT(std::sqrt(square - sum * sum), 0.04);
 }
 
 TEST(FilterTraining, RefusesWhatItCannotTrain) {
