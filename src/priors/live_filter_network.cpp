@@ -143,8 +143,10 @@ void LiveFilterNetwork::give(std::span<float> out) {
   }
   const std::size_t width = network_.decoder.back().outputs();
   const std::span<const float> values(values_.data(), count_ * channels_);
-  filter_.apply(network_.head, {count_, channels_, values, network_.statistics.deviation},
-                next_ - base_, {outputs_.data() + (next_ - first_known_) * width, width}, out);
+  filter_.apply(
+      network_.head,
+      {count_, channels_, values, network_.statistics.deviation, network_.statistics.mean},
+      next_ - base_, {outputs_.data() + (next_ - first_known_) * width, width}, out);
   ++next_;
 }
 
