@@ -9,6 +9,7 @@
 #include "clean/example_tuning.hpp"
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
+#include "clean/prior_hold.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
 #include "priors/example_filter.hpp"
@@ -20,7 +21,6 @@ namespace kinemend {
 namespace {
 
 constexpr double rejected_weight = 0.01;
-constexpr double dense_suspects = 0.03;  // a share that `auto` does not repair well
 // What is missing settles last, and weighs little in the objective.
 constexpr double tolerance_of_gaps = 1e-3;
 // The paper's p and lambda (sections 3.2 and 3.3), for the paper's solver, whose steps are short.
@@ -114,7 +114,6 @@ class ExampleCleaning {
     const ExampleWeights weights = weights_for(noise, suspects, bases);
     example_filter(cleaned, channels.poses, channels.observed, std::move(bases), mean, weights,
                    settings_for(work));
-    if (suspects > dense_suspects) work.is_whole = true;
     finish(work, {weights.welsch, noise, strange, suspects}, cleaned);
     work.channels.poses = std::move(cleaned);
   }

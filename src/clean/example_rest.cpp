@@ -26,9 +26,6 @@ constexpr double window_s = 0.2;
 constexpr double least_half_window = 7;
 constexpr double believable_bias = 1, unbelievable_bias = 2;
 constexpr std::size_t part_channels = 3;
-// A measurement is far from what the bases express beyond so many medians of its channel's
-// distances, and beyond so much.
-constexpr double far_medians = 8, least_far_deg = 8;
 
 // Mean of the squares without the largest tenth, and what a Gaussian variance of 1 makes of it.
 constexpr double trimmed_share = 0.9, trimmed_of_one = 0.64;
@@ -92,27 +89,6 @@ double strangeness(const PriorWork& work, const PoseMatrix& guess, const PoseMat
     known += trimmed_of_one * std::max(residual[c], least_variance);
   }
   return known > 0 ? std::max(least_strangeness, found / known) : least_strangeness;
-}
-
-double suspect_share(const PriorWork& work, const PoseMatrix& expressed) {
-  double suspects = 0, count = 0;
-  std::vector<double> sizes;
-  for (std::size_t c = 0; c < expressed.channels; ++c) {
-    sizes.clear();
-    double by_auto = 0;
-    for (std::size_t f = 0; f < expressed.frames; ++f) {
-      const std::size_t i = f * expressed.channels + c;
-      if (work.channels.observed[i] == 0) continue;
-      sizes.push_back(std::abs(work.channels.poses.values[i] - expressed.values[i]));
-      by_auto += work.suspect[i] != 0 ? 1 : 0;
-    }
-    const double far = std::max(least_far_deg, far_medians * median_of(sizes));
-    const auto beyond = static_cast<double>(
-        std::count_if(sizes.begin(), sizes.end(), [&](double size) { return size > far; }));
-    suspects += std::max(by_auto, beyond);
-    count += static_cast<double>(sizes.size());
-  }
-  return count > 0 ? suspects / count : 0;
 }
 
 void smooth_rest(const PriorWork& work, const PoseMatrix& weights, const PoseMatrix& expressed,

@@ -18,10 +18,6 @@ std::vector<double> example_noise(const PriorWork& work);
 double strangeness(const PriorWork& work, const PoseMatrix& guess, const PoseMatrix& expressed,
                    const std::vector<double>& noise, const std::vector<double>& residual);
 
-/// Share of the measurements that `auto` takes for spikes, or that are far from what the bases
-/// express where most of their channel are not.
-double suspect_share(const PriorWork& work, const PoseMatrix& expressed);
-
 /// Motion outside of the bases is smooth, too: what is measured less what the bases express is
 /// smoothed by its own evidence, without the samples that the filter rejected (`weights`, F x D),
 /// and added to what the bases express. `cleaned` is the filter's result, `expressed` what the

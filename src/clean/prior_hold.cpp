@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/quantiles.hpp"
 #include "clean/prior_fall_backs.hpp"
 
 namespace kinemend {
@@ -13,6 +14,10 @@ namespace {
 constexpr std::size_t channels_of_part = 3;
 constexpr double mostly_own = 0.5;     // need
 constexpr double most_deviations = 1;  // of the noise, from what `auto` makes of a sample
+// A measurement is far from another result beyond so many medians of its channel's distances, and
+// beyond so much.
+constexpr double far_medians = 8, least_far_deg = 8;
+constexpr double dense_outliers = 0.02;  // a share that `auto` does not repair well
 
 // What is to be added to a channel: at held samples as given, between them on the straight line,
 // and nothing where none is held.
@@ -33,16 +38,6 @@ void bridge_offsets(std::vector<double>& offsets, const std::vector<std::uint8_t
       offsets[f] = offsets[last] + u * (offsets[next] - offsets[last]);
     }
   }
-}
-
-// Spikes this dense are more than `auto` repairs well: it finds some, and the filter others.
-bool has_dense_spikes(const PriorWork& work) {
-  constexpr double dense = 0.02;
-  const auto count = [](const std::vector<std::uint8_t>& marks) {
-    return static_cast<double>(
-        std::count_if(marks.begin(), marks.end(), [](std::uint8_t mark) { return mark != 0; }));
-  };
-  return count(work.suspect) > dense * count(work.channels.observed);
 }
 
 // A sample that is farther from the other result than noise goes has lost motion: F x D / 3, the
@@ -82,8 +77,29 @@ std::vector<double> mean_rest(const std::vector<double>& shares, std::size_t par
 
 }  // namespace
 
+double suspect_share(const PriorWork& work, const PoseMatrix& result) {
+  double suspects = 0, count = 0;
+  std::vector<double> sizes;
+  for (std::size_t c = 0; c < result.channels; ++c) {
+    sizes.clear();
+    double by_auto = 0;
+    for (std::size_t f = 0; f < result.frames; ++f) {
+      const std::size_t i = f * result.channels + c;
+      if (work.channels.observed[i] == 0) continue;
+      sizes.push_back(std::abs(work.channels.poses.values[i] - result.values[i]));
+      by_auto += work.suspect[i] != 0 ? 1 : 0;
+    }
+    const double far = std::max(least_far_deg, far_medians * median_of(sizes));
+    const auto beyond = static_cast<double>(
+        std::count_if(sizes.begin(), sizes.end(), [&](double size) { return size > far; }));
+    suspects += std::max(by_auto, beyond);
+    count += static_cast<double>(sizes.size());
+  }
+  return count > 0 ? suspects / count : 0;
+}
+
 void settle_needs(PriorWork& work, PriorHold hold) {
-  if (hold == PriorHold::nothing || has_dense_spikes(work)) {
+  if (hold == PriorHold::nothing || suspect_share(work, work.fallback) > dense_outliers) {
     work.is_whole = true;
     std::fill(work.needs.begin(), work.needs.end(), 1.0);
   } else if (hold == PriorHold::white_noise && !work.is_white) {

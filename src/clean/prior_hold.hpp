@@ -9,10 +9,14 @@
 // Hands off what is clean: a learned model changes a part no further than its noise asks for.
 namespace kinemend {
 
+/// Share of the measurements that `auto` takes for spikes, or that are far from `result` (F x D)
+/// where most of their channel are not.
+double suspect_share(const PriorWork& work, const PoseMatrix& result);
+
 /// Before the filter: what each part needs of it. All of it where `hold` is nothing, and where one
-/// sample in fifty is a spike to `auto`; nothing where a filter that takes noise for white meets
-/// noise with a colour, or frames that are samples of a lower rate, as `auto` sees it (the filter
-/// may fill gaps); otherwise `work.needs` stays.
+/// sample in fifty is a spike to `auto` or far from what that makes of the take; nothing where a
+/// filter that takes noise for white meets noise with a colour, or frames that are samples of a
+/// lower rate, as `auto` sees it (the filter may fill gaps); otherwise `work.needs` stays.
 void settle_needs(PriorWork& work, PriorHold hold);
 
 /// Puts what `auto` makes of the take in the place of what the filter made of it, by 1 - need for

@@ -123,7 +123,6 @@ void filter(PriorWork& work, const WienerOptions& options, const WienerPrior& kn
     if (share_of(found.suspect, work) > dense_share) {
       outliers = std::move(found);
       noise = noise_of(work, outliers.suspect, options);
-      work.is_whole = true;  // what `auto` makes of such a take is no measure
     }
   }
   WienerResult result = guarded_wiener_filter(

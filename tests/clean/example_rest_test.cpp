@@ -65,15 +65,6 @@ TEST(Strangeness, IsTheVarianceOutsideOfTheBasesOverThatOfTraining) {
   EXPECT_EQ(strangeness(work, work.channels.poses, work.fallback, noise, residual), 1);
 }
 
-TEST(SuspectShare, CountsWhatIsFarFromTheBasesAndWhatAutoSuspects) {
-  PriorWork work = work_of(1);
-  EXPECT_EQ(suspect_share(work, work.fallback), 0);
-  for (std::size_t f = 0; f < 20; ++f) work.channels.poses(7 * f, 2) += 60;
-  EXPECT_NEAR(suspect_share(work, work.fallback), 20.0 / (frames * channels), 1e-12);
-  for (std::size_t f = 0; f < 40; ++f) work.suspect[f * channels] = 1;
-  EXPECT_NEAR(suspect_share(work, work.fallback), 60.0 / (frames * channels), 1e-12);
-}
-
 TEST(FallBack, TakesWhatAutoMadeOfStrangeMotionButFillsNoGaps) {
   PriorWork work = work_of(1);
   work.channels.observed[0] = 0;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 namespace kinemend {
 namespace {
@@ -50,6 +51,29 @@ TEST(HoldToNeeds, LetsASpikeGoAsFarAsItMust) {
   work.suspect[3 * 10] = 1;
   hold_to_needs(work);
   EXPECT_EQ(leap(work), 20);
+}
+
+TEST(SuspectShare, CountsWhatIsFarFromAResultAndWhatAutoSuspects) {
+  PriorWork work = leaping(0);
+  EXPECT_EQ(suspect_share(work, work.fallback), 0);
+  for (std::size_t f = 0; f < 20; ++f) work.channels.poses(7 * f, 2) += 60;
+  EXPECT_NEAR(suspect_share(work, work.fallback), 20.0 / (frames * 3), 1e-12);
+  for (std::size_t f = 0; f < 40; ++f) work.suspect[f * 3] = 1;
+  EXPECT_NEAR(suspect_share(work, work.fallback), 60.0 / (frames * 3), 1e-12);
+}
+
+// `auto` may take so many for noise, and suspects none of them.
+TEST(HoldToNeeds, DoesNotHoldWhereManySamplesAreFarFromAutos) {
+  for (const auto& [outliers, farthest] : {std::pair{10, std::sqrt(3)}, {14, 20.0}}) {
+    PriorWork work = leaping(0);
+    for (int i = 0; i < outliers; ++i)
+      work.channels.poses(11 * static_cast<std::size_t>(i), 1) = 60;
+    settle_needs(work, PriorHold::noise);
+    work.channels.poses = PoseMatrix(frames, 3);
+    work.channels.poses(10, 0) = 20;
+    hold_to_needs(work);
+    EXPECT_NEAR(leap(work), farthest, 1e-12) << outliers;
+  }
 }
 
 TEST(HoldToNeeds, DoesNotHoldAFilterThatIsToldWhatToDo) {

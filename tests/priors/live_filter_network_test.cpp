@@ -108,8 +108,9 @@ TEST(LiveFilterNetwork, GivesWhatTheNetworkSaysOfTheTakeSoFar) {
       outputs.resize(ahead.frames * width);
       std::vector<float> wanted(ahead.values.size());
       apply_predicted_filter(
-          network.head, {ahead.frames, ahead.channels, ahead.values, network.statistics.deviation},
-          outputs, wanted);
+          network.head,
+          {ahead.frames, ahead.channels, ahead.values, network.statistics.deviation, {}}, outputs,
+          wanted);
       for (std::size_t c = 0; c < network.channels(); ++c)
         EXPECT_NEAR(result[t * network.channels() + c], wanted[t * network.channels() + c], 2e-4)
             << "frame " << t << " of " << kind.layers << " layers";
@@ -133,8 +134,9 @@ TEST(LiveFilterNetwork, SeesTheRoughnessOfTheFramesThatThereAre) {
     outputs.resize(ahead.values.size());
     std::vector<float> wanted(ahead.values.size());
     apply_predicted_filter(
-        network.head, {ahead.frames, ahead.channels, ahead.values, network.statistics.deviation},
-        outputs, wanted);
+        network.head,
+        {ahead.frames, ahead.channels, ahead.values, network.statistics.deviation, {}}, outputs,
+        wanted);
     for (std::size_t c = 0; c < network.channels(); ++c) EXPECT_NEAR(result[c], wanted[c], 2e-4);
   }
 }
