@@ -60,17 +60,20 @@ double largest_error_about(const SpikeCandidates& candidates, std::size_t t, std
   return *std::max_element(about.begin(), about.end());
 }
 
-// Whether a run of at most two candidates is off by more than a joint turns in a frame: the fastest
-// known rotation, a pitcher's shoulder, reaches about 7,500 degrees a second.
+// Whether a run of at most two candidates leaves the motion and returns faster than a joint turns:
+// the fastest known rotation, a pitcher's shoulder, reaches about 7,500 degrees a second.
 bool exceeds_joint_speed(const SpikeCandidates& candidates, std::size_t t, std::size_t n) {
   const SpikeTuning& tuning = candidates.tuning;
   std::size_t first = t, last = t;
   while (first > 0 && candidates.marks(first - 1, n) != 0) --first;
   while (last + 1 < candidates.marks.frames && candidates.marks(last + 1, n) != 0) ++last;
-  const bool is_short =
-      last - first + 1 <= tuning.longest_run && first > 0 && last + 1 < candidates.marks.frames;
-  return is_short &&
-         candidates.predictions.errors(t, n) * candidates.frame_rate_hz > tuning.fastest_deg_s;
+  if (last - first + 1 > tuning.longest_run || first == 0 || last + 1 == candidates.marks.frames)
+    return false;
+  const double error = candidates.predictions.errors(t, n);
+  const double gap =
+      norm(candidates.measured.at(last + 1, n) - candidates.measured.at(first - 1, n));
+  return error * candidates.frame_rate_hz > tuning.fastest_deg_s &&
+         gap < tuning.return_share * error;
 }
 
 // `share`: 0 applies the thresholds of quiet tracks, 1 those of noisy ones.

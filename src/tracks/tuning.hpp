@@ -56,6 +56,7 @@ struct SpikeTuning {
   double side_error_share = 0.3;  ///< of the error, which this distance stays below
   // Speed of joints: the fastest known, a pitcher's shoulder, reaches about 7,500 degrees a second.
   double fastest_deg_s = 7500;
+  double return_share = 0.25;   ///< of the error, between the samples beside a spike
   std::size_t longest_run = 2;  ///< frames
   // Clusters and recurrent spikes: those that chance does not explain are motion.
   double chance = 1e-4;           ///< probability below which it does not
