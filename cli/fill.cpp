@@ -134,7 +134,7 @@ std::vector<Flag> fill_flags() {
                   "The distance, over the gap, from what the row's own method fills."),
       fill_gaps_flag(),
       fill_file_flag("model", "Work", "network of --method recurrent, made by kinemend-train paper",
-                     "--network ebd --head residual makes one that fills gaps; none ships. Also of "
+                     "--network ebd --head pose makes one that fills gaps; none ships. Also of "
                      "the rows of a "
                      "--plan with that method, and of --preview."),
       fill_file_flag("map", "Work", "names in the take for those of --model",

@@ -193,7 +193,7 @@ std::unique_ptr<Cleaner> make_recurrent(const RecurrentOptions& options = {},
                                         std::shared_ptr<const Model> gap_model = nullptr);
 
 /// The way to fill gaps of joints by a network of Mall et al. 2017 (their EBD), for
-/// `FillSettings::learned`. None ships: `kinemend-train paper --network ebd --head residual` makes
+/// `FillSettings::learned`. None ships: `kinemend-train paper --network ebd --head pose` makes
 /// one. The root, joints that the model does not know, joints that turn farther from its mean than
 /// rotation vectors can say, and takes at another rate than the model's are left out. Errors:
 /// `ErrorKind::usage` for a model that fills no gaps, and, of a call, for a take with too few of

@@ -163,12 +163,11 @@ const Method& find_method(std::string_view name, bool of_joints) {
 
 void check_model(const Method& method, const LearnedFill& learned) {
   if (!method.about.learned || learned) return;
-  throw Error(
-      ErrorKind::usage,
-      fmt::format("fill: the method {0} needs a model that fills gaps: --model FILE; none "
-                  "ships, and kinemend-train paper --network ebd --head residual makes one of "
-                  "takes without gaps",
-                  method.about.name));
+  throw Error(ErrorKind::usage,
+              fmt::format("fill: the method {0} needs a model that fills gaps: --model FILE; none "
+                          "ships, and kinemend-train paper --network ebd --head pose makes one of "
+                          "takes without gaps",
+                          method.about.name));
 }
 
 bool fill_joint(const Method& method, Track& track, FrameSpan span, const JointContext& context) {
