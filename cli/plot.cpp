@@ -123,7 +123,7 @@ Drawing drawing_of(const Arguments& arguments) {
   return drawing;
 }
 
-Take read(const std::string& input, const Arguments& arguments) {
+Take read_and_warn(const std::string& input, const Arguments& arguments) {
   TakeResult result = read_take(fs::path(input), read_options(arguments));
   warn_of_repairs(source_of(result.take), result.diagnostics);
   return std::move(result.take);
@@ -139,9 +139,9 @@ int run_plot(const Arguments& arguments) {
   check_is_no_input("--output", output, inputs);
   check_free(output, force);
   const Drawing drawing = drawing_of(arguments);
-  const Take before = read(inputs[0], arguments);
+  const Take before = read_and_warn(inputs[0], arguments);
   std::optional<Take> after;
-  if (inputs.size() > 1) after = read(inputs[1], arguments);
+  if (inputs.size() > 1) after = read_and_warn(inputs[1], arguments);
   if (after && after->index() != before.index()) {
     throw Error(ErrorKind::usage, fmt::format("plot: {} and {} are not both joints or both markers",
                                               inputs[0], inputs[1]));

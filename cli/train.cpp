@@ -119,7 +119,7 @@ std::string command_text(const Arguments& arguments) {
     const auto value = arguments.values.find(name);
     if (value == arguments.values.end()) continue;
     text += " --" + dashed(name);
-    if (flag.takes != Takes::nothing) text += " " + shell_word(to_string(value->second));
+    if (flag.takes != Takes::nothing) text += " " + shell_word(kinemend::to_string(value->second));
   }
   for (const auto& [name, given] : arguments.group_texts) {
     const bool is_switch = given == "true" || given == "false";

@@ -25,7 +25,7 @@ endif()
 
 # Where several files are compiled as one (CMAKE_UNITY_BUILD), names of unnamed namespaces must not meet in a room. Left out are files
 # that Highway includes again for each instruction set, and those that take long enough to be worth a core of their own.
-set(CMAKE_UNITY_BUILD_BATCH_SIZE 10)
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 30)
 function(kinemend_compile_alone)
   foreach(source ${ARGN})
     file(STRINGS ${source} found REGEX "foreach_target.h|unsupported/Eigen" LIMIT_COUNT 1)

@@ -24,6 +24,8 @@ inline double variance_of(const std::vector<double>& x) {
   return x.empty() ? 0 : sum / static_cast<double>(x.size());
 }
 
+inline double deviation_of(const std::vector<double>& x) { return std::sqrt(variance_of(x)); }
+
 /// Fourth moment over the squared variance: 3 of Gaussian noise.
 inline double kurtosis_of(const std::vector<double>& x) {
   const double mean = mean_of(x), variance = variance_of(x);

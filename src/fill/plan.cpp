@@ -19,9 +19,6 @@ using fill::FilledGap, fill::GapRequest;
 const std::vector<std::string>& names_of(const Clip& clip) { return clip.skeleton.names; }
 const std::vector<std::string>& names_of(const MarkerClip& clip) { return clip.names; }
 
-constexpr bool is_joints(const Clip& /*clip*/) { return true; }
-constexpr bool is_joints(const MarkerClip& /*clip*/) { return false; }
-
 std::size_t donor_for(const Clip& /*clip*/, const FillSettings& /*settings*/) {
   return fill::MarkerRequest::no_marker;
 }
@@ -36,11 +33,11 @@ std::vector<FilledGap> fill_by_settings(AnyClip& clip, const FillSettings& setti
                                         const FillCheck& check) {
   clip.validate();
   GapRequest request;
-  request.method = &fill::find_method(settings.method, is_joints(clip));
+  request.method = &fill::find_method(settings.method, fill::is_joints(clip));
   fill::check_model(*request.method, settings.learned);
   request.learned = &settings.learned;
   const std::vector<std::uint8_t> chosen =
-      names_meant(names_of(clip), settings.names, is_joints(clip) ? "joint" : "marker");
+      names_meant(names_of(clip), settings.names, fill::is_joints(clip) ? "joint" : "marker");
   request.donor = donor_for(clip, settings);
   request.longest_gap_s = settings.longest_gap_s;
   request.fill_all = settings.fill_all;
@@ -79,26 +76,21 @@ PlannedFill plan_by_settings(AnyClip& clip, const FillSettings& settings, const 
   return made;
 }
 
-using RowKey = std::tuple<std::size_t, bool, std::size_t>;
-RowKey key_of(const Gap& gap, bool is_position) {
-  return {gap.track, is_position, gap.first_frame};
-}
-
 template <class AnyClip>
 PlannedFill apply_plan(AnyClip& clip, std::span<const PlannedGap> plan, const FillCheck& check,
                        const LearnedFill& learned) {
   clip.validate();
   fill::PlanRows rows(clip, &learned);
-  std::map<RowKey, const PlannedGap*> by_gap;
+  std::map<fill::GapKey, const PlannedGap*> by_gap;
   for (std::size_t i = 0; i < plan.size(); ++i) {
     if (const std::string problem = rows.add(plan[i]); !problem.empty())
       throw Error(ErrorKind::usage, fmt::format("fill: gap {} of the plan: {}", i + 1, problem));
-    by_gap.emplace(key_of(plan[i].gap, plan[i].is_position), &plan[i]);
+    by_gap.emplace(fill::key_of(plan[i].gap, plan[i].is_position), &plan[i]);
   }
   const std::vector<FilledGap> gaps = fill::fill_asked(clip, rows.request_of(), check);
   PlannedFill made{fill::report_of(gaps, names_of(clip)), {}};
   for (const FilledGap& filled : gaps) {
-    PlannedGap row = *by_gap.at(key_of(filled.outcome.gap, filled.outcome.is_position));
+    PlannedGap row = *by_gap.at(fill::key_of(filled.outcome.gap, filled.outcome.is_position));
     tell_found(filled, names_of(clip), row);
     made.plan.push_back(std::move(row));
   }

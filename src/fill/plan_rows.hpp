@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "fill/driver.hpp"
+#include "fill/gap_keys.hpp"
 #include "kinemend/experimental/gap_plan.hpp"
 
 namespace kinemend::fill {
@@ -34,17 +34,13 @@ class PlanRows {
   std::string frames_text(const Gap& gap) const;
 
  private:
-  using Key = std::tuple<std::size_t, bool, std::size_t, std::size_t>;
-  static Key key_of(const Gap& gap, bool is_position) {
-    return {gap.track, is_position, gap.first_frame, gap.last_frame};
-  }
   void add_gaps(const std::vector<OpenGap>& gaps);
 
   const MarkerClip* markers_ = nullptr;  // of a take of markers
   const LearnedFill* learned_;
   const std::vector<std::string>& names_;
   std::int64_t first_number_;
-  std::map<Key, std::optional<GapRequest>> requests_;
+  std::map<GapKey, std::optional<GapRequest>> requests_;
 };
 
 }  // namespace kinemend::fill

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <tuple>
 #include <utility>
 
+#include "fill/gap_keys.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/gap_plan.hpp"
 
@@ -15,14 +15,7 @@ namespace kinemend {
 
 namespace {
 
-constexpr bool is_joints(const Clip& /*clip*/) { return true; }
-constexpr bool is_joints(const MarkerClip& /*clip*/) { return false; }
-
-using RowKey = std::tuple<std::size_t, bool, std::size_t>;
-RowKey key_of(const Gap& gap, bool is_position) {
-  return {gap.track, is_position, gap.first_frame};
-}
-RowKey key_of(const PlannedGap& row) { return key_of(row.gap, row.is_position); }
+fill::GapKey key_of(const PlannedGap& row) { return fill::key_of(row.gap, row.is_position); }
 
 // Which of the clip's positions is that of the joint: 0 of joint 0, k + 1 of translated joint k.
 std::size_t position_index(const Clip& clip, std::size_t joint) {
@@ -78,7 +71,7 @@ std::vector<std::string> methods_of(const AnyClip& clip, const LearnedFill& lear
   std::vector<std::string> names;
   for (const FillMethod& method : fill_methods()) {
     if (method.learned && !learned) continue;
-    if (is_joints(clip) ? method.joints : method.markers) names.emplace_back(method.name);
+    if (fill::is_joints(clip) ? method.joints : method.markers) names.emplace_back(method.name);
   }
   return names;
 }
@@ -96,13 +89,13 @@ PlannedFill filled_as_planned(MarkerClip& clip, std::span<const PlannedGap> plan
 template <class AnyClip>
 struct Tried {
   AnyClip clip;
-  std::map<RowKey, GapOutcome> outcomes = {};
+  std::map<fill::GapKey, GapOutcome> outcomes = {};
 
   Tried(const AnyClip& gapped, std::span<const PlannedGap> plan, const FillCheck& check,
         const LearnedFill& learned)
       : clip(gapped) {
     for (GapOutcome& gap : filled_as_planned(clip, plan, check, learned).report.gaps)
-      outcomes.emplace(key_of(gap.gap, gap.is_position), std::move(gap));
+      outcomes.emplace(fill::key_of(gap.gap, gap.is_position), std::move(gap));
   }
 };
 

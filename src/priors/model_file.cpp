@@ -27,7 +27,6 @@ constexpr int format_version = 2;
 constexpr int first_with_checksum = 2;
 constexpr std::string_view format_key = "kinemend.model";
 constexpr std::string_view checksum_key = "kinemend.checksum";
-constexpr std::size_t checksum_digits = 32;
 // Tensors of the body, not of the method.
 constexpr std::string_view layout_prefix = "layout.";
 constexpr int most_json_depth = 3;
@@ -42,7 +41,7 @@ std::size_t checksum_place(std::string_view bytes) {
 
 // Checksum of the file with zeros in its place.
 std::string checksum_of(std::string bytes, std::size_t place) {
-  bytes.replace(place, checksum_digits, checksum_digits, '0');
+  bytes.replace(place, content_hash_digits, content_hash_digits, '0');
   return content_hash(bytes);
 }
 
@@ -101,8 +100,8 @@ class ModelReader {
     if (!is_stated && whole<int>(format_key, 1) < first_with_checksum) return;
     const std::string& stated = text(checksum_key);
     const std::size_t place = checksum_place(bytes_);
-    const bool has_place = place != bytes_.npos && place + checksum_digits <= bytes_.size() &&
-                           stated.size() == checksum_digits;
+    const bool has_place = place != bytes_.npos && place + content_hash_digits <= bytes_.size() &&
+                           stated.size() == content_hash_digits;
     const std::string found = has_place ? checksum_of(std::string(bytes_), place) : "";
     if (found != stated) {
       refuse(fmt::format("the file is damaged: its checksum is {}, that of what it holds {}",
@@ -309,7 +308,7 @@ std::string write_model(const Model& model) {
   TensorFile file;
   file.tensors = model.tensors;
   file.metadata = {{std::string(format_key), fmt::format("{}", format_version)},
-                   {std::string(checksum_key), std::string(checksum_digits, '0')},
+                   {std::string(checksum_key), std::string(content_hash_digits, '0')},
                    {"method", model.method},
                    {"version", fmt::format("{}", model.version)},
                    {"rate_hz", fmt::format("{}", model.rate_hz)},
@@ -328,7 +327,7 @@ std::string write_model(const Model& model) {
   }
   std::string bytes = write_tensors(file);
   const std::size_t place = checksum_place(bytes);
-  return bytes.replace(place, checksum_digits, checksum_of(bytes, place));
+  return bytes.replace(place, content_hash_digits, checksum_of(bytes, place));
 }
 
 std::string model_checksum(std::string_view bytes) { return content_hash(bytes); }

@@ -14,7 +14,6 @@ namespace {
 
 // A line of text, the checksum of the rest, and the rest.
 constexpr std::string_view first_line = "kinemend training 1\n";
-constexpr std::size_t checksum_digits = 32;
 
 [[noreturn]] void refuse_damaged(const std::string& name) {
   throw Error(ErrorKind::unreadable_input,
@@ -37,9 +36,9 @@ std::string read_text(StageReader& reader) {
 std::string_view checked_content(std::string_view bytes, const std::string& name) {
   if (!bytes.starts_with(first_line)) refuse_damaged(name);
   bytes.remove_prefix(first_line.size());
-  if (bytes.size() < checksum_digits) refuse_damaged(name);
-  const std::string_view content = bytes.substr(checksum_digits);
-  if (content_hash(content) != bytes.substr(0, checksum_digits)) refuse_damaged(name);
+  if (bytes.size() < content_hash_digits) refuse_damaged(name);
+  const std::string_view content = bytes.substr(content_hash_digits);
+  if (content_hash(content) != bytes.substr(0, content_hash_digits)) refuse_damaged(name);
   return content;
 }
 

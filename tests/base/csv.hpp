@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace kinemend::testing {
+namespace kinemend::test {
 
 // Rows of a comma-separated fixture; lines that start with # are comments.
 inline std::vector<std::vector<std::string>> read_csv(const std::string& name) {
@@ -23,4 +23,4 @@ inline std::vector<std::vector<std::string>> read_csv(const std::string& name) {
   return rows;
 }
 
-}  // namespace kinemend::testing
+}  // namespace kinemend::test

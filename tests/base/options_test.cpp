@@ -8,10 +8,10 @@
 namespace kinemend {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::Property;
-using ::testing::Throws;
-using ::testing::ThrowsMessage;
+using testing::AllOf;
+using testing::Property;
+using testing::Throws;
+using testing::ThrowsMessage;
 
 struct Settings {
   double cutoff_hz = 6;

@@ -14,7 +14,7 @@ namespace kinemend {
 namespace {
 
 TEST(Random, GivesTheNumbersOfXoshiro256PlusPlus) {
-  const auto rows = testing::read_csv("base/xoshiro256pp.csv");
+  const auto rows = test::read_csv("base/xoshiro256pp.csv");
   ASSERT_EQ(rows.size(), 28u);
   for (const auto& row : rows) {
     Random random(std::stoull(row[0]));
@@ -124,7 +124,7 @@ TEST(Random, NeighbouringForksAreUncorrelated) {
 }
 
 TEST(NormalQuantile, AgreesWithScipy) {
-  const auto rows = testing::read_csv("base/normal_quantile.csv");
+  const auto rows = test::read_csv("base/normal_quantile.csv");
   ASSERT_GT(rows.size(), 100u);
   for (const auto& row : rows) {
     const double p = std::stod(row[0]), expected = std::stod(row[1]);

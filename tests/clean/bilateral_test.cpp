@@ -77,12 +77,6 @@ std::vector<Vec3> bilateral_pass(const std::vector<Vec3>& x, int k, double sigma
   return result;
 }
 
-std::vector<Quat> track_of(const Clip& clip, std::size_t joint) {
-  std::vector<Quat> track;
-  for (std::size_t f = 0; f < clip.frame_count(); ++f) track.push_back(clip.rotation(f, joint));
-  return track;
-}
-
 // At 100 Hz: sigma_t of 1.5 frames, k = 5 (3 sigma, rounded).
 constexpr double sigma_t_s = 0.015;
 BilateralOptions options_with(double sigma_g_deg, std::int64_t passes, std::string ends) {

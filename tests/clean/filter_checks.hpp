@@ -10,18 +10,16 @@
 #include "kinemend/clip.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/rotation.hpp"
+#include "rotation/random_rotations.hpp"
 
 // What the tests of the orientation filters share.
 namespace kinemend::test {
 
-inline Vec3 random_vector(Random& random, double size = 1) {
-  const double x = random.normal(), y = random.normal(), z = random.normal();
-  return {size * x, size * y, size * z};
-}
-
-inline Quat random_rotation(Random& random) {
-  const double w = random.normal(), x = random.normal(), y = random.normal(), z = random.normal();
-  return normalized({w, x, y, z});
+/// The rotations of a joint, frame by frame.
+inline std::vector<Quat> track_of(const Clip& clip, std::size_t joint) {
+  std::vector<Quat> track;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) track.push_back(clip.rotation(f, joint));
+  return track;
 }
 
 /// Distance of the quaternions, up to sign: it sees what an angle, which has no digits left near 0,

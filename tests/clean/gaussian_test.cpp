@@ -117,12 +117,6 @@ std::vector<double> gaussian_mask(double sigma) {
   return mask;
 }
 
-std::vector<Quat> track_of(const Clip& clip, std::size_t joint) {
-  std::vector<Quat> track;
-  for (std::size_t f = 0; f < clip.frame_count(); ++f) track.push_back(clip.rotation(f, joint));
-  return track;
-}
-
 TEST(Gaussian, IsLeeAndShinsFilterWithAGaussianMask) {
   const Clip input = noisy_take(60);
   const Clip output = cleaned(input, *make_gaussian({0.03}));

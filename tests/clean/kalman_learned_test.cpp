@@ -14,14 +14,14 @@
 namespace kinemend::test {
 namespace {
 
-Clip walk(std::uint64_t seed, double rate_hz = 30) {
+Clip slow_walk(std::uint64_t seed, double rate_hz = 30) {
   SynthOptions options{.motion = "walk", .duration_s = 4, .frame_rate_hz = rate_hz};
   options.seed = seed;
   return synthesize(options);
 }
 
 std::shared_ptr<const Model> learned(const OptionValues& options = {}) {
-  static const std::vector<Clip> clips = {walk(1, 120), walk(2, 120), walk(3, 120)};
+  static const std::vector<Clip> clips = {slow_walk(1, 120), slow_walk(2, 120), slow_walk(3, 120)};
   return std::make_shared<const Model>(train_model(
       "kalman-learned",
       {clips.size(), [](std::size_t i) { return std::variant<Clip, MarkerClip>(clips[i]); }},
@@ -40,7 +40,7 @@ Clip cleaned(const Cleaner& cleaner, Clip clip) {
 }
 
 TEST(KalmanLearned, BringsANoisyWalkNearerToTheTruthThanAutoDoes) {
-  const Clip truth = walk(4), input = noisy(truth, 3);
+  const Clip truth = slow_walk(4), input = noisy(truth, 3);
   const double before = rms_deg(truth, input);
   const double by_auto = rms_deg(truth, cleaned(*make_auto(), input));
   const double smoothed = rms_deg(truth, cleaned(*make_kalman_learned({}, learned()), input));
@@ -55,7 +55,7 @@ TEST(KalmanLearned, BringsANoisyWalkNearerToTheTruthThanAutoDoes) {
 TEST(KalmanLearned, KeepsTheRateOfTheTake) {
   for (const double rate_hz : {120.0, 60.0, 25.0}) {
     for (const std::int64_t order : {1, 2}) {
-      const Clip truth = walk(4, rate_hz), input = noisy(truth, 3);
+      const Clip truth = slow_walk(4, rate_hz), input = noisy(truth, 3);
       const Clip result = cleaned(*make_kalman_learned({}, learned({{"order", order}})), input);
       EXPECT_EQ(result.frame_count(), truth.frame_count());
       EXPECT_LT(rms_deg(truth, result), 0.5 * rms_deg(truth, input)) << rate_hz << " " << order;
@@ -64,18 +64,18 @@ TEST(KalmanLearned, KeepsTheRateOfTheTake) {
 }
 
 TEST(KalmanLearned, WorksInASubspace) {
-  const Clip truth = walk(4), input = noisy(truth, 3);
+  const Clip truth = slow_walk(4), input = noisy(truth, 3);
   const auto cleaner = make_kalman_learned({}, learned({{"directions", std::int64_t{15}}}));
   EXPECT_LT(rms_deg(truth, cleaned(*cleaner, input)), 0.5 * rms_deg(truth, input));
 }
 
 TEST(KalmanLearned, LeavesACleanWalkAlone) {
-  const Clip truth = walk(4);
+  const Clip truth = slow_walk(4);
   EXPECT_LT(rms_deg(truth, cleaned(*make_kalman_learned({}, learned()), truth)), 0.2);
 }
 
 TEST(KalmanLearned, FillsAnArmThatIsMissingThroughout) {
-  const Clip truth = walk(4);
+  const Clip truth = slow_walk(4);
   Clip input = truth;
   input.observed.assign(truth.local_rotations.size(), 1);
   const auto arm = static_cast<std::size_t>(truth.skeleton.find("LeftArm"));

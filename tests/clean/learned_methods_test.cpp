@@ -44,13 +44,13 @@ std::shared_ptr<const Model> walking(const std::string& method) {
   return learned(method, clips);
 }
 
-struct LearnedMethod {
+struct LearnedFilter {
   const char* name;
   std::unique_ptr<Cleaner> (*make)(std::shared_ptr<const Model> model);
-  friend void PrintTo(const LearnedMethod& method, std::ostream* out) { *out << method.name; }
+  friend void PrintTo(const LearnedFilter& method, std::ostream* out) { *out << method.name; }
 };
 
-class Learned : public testing::TestWithParam<LearnedMethod> {
+class Learned : public testing::TestWithParam<LearnedFilter> {
  protected:
   // Each model is learned once.
   const Cleaner& cleaner() const {
@@ -200,11 +200,11 @@ TEST_P(Learned, WorksOnMarkersAndFillsThoseThatAreNeverSeen) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Learned,
-                         testing::Values(LearnedMethod{"example",
+                         testing::Values(LearnedFilter{"example",
                                                        [](std::shared_ptr<const Model> model) {
                                                          return make_example({}, std::move(model));
                                                        }},
-                                         LearnedMethod{"wiener",
+                                         LearnedFilter{"wiener",
                                                        [](std::shared_ptr<const Model> model) {
                                                          return make_wiener({}, std::move(model));
                                                        }}),

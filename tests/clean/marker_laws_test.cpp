@@ -24,10 +24,10 @@ class EveryOnMarkers : public testing::TestWithParam<std::string> {
   bool is_causal() const { return cleaner_->live_support(120).kind == LiveSupport::Kind::causal; }
 };
 
-MarkerClip noisy_take() { return damaged(marker_take(), 3, 0.003, 100, 1); }
+MarkerClip noisy_markers() { return damaged(marker_take(), 3, 0.003, 100, 1); }
 
 MarkerClip gappy_take() {
-  MarkerClip clip = noisy_take();
+  MarkerClip clip = noisy_markers();
   lose(clip, 0, 50, 60);
   lose(clip, 1, 0, 9);
   lose(clip, 2, 100, 160);
@@ -146,7 +146,7 @@ TEST_P(EveryOnMarkers, LeavesMarkersThatWereNotAskedForByteForByte) {
 }
 
 TEST_P(EveryOnMarkers, TakesAnyNumberOfFrames) {
-  const MarkerClip whole = noisy_take();
+  const MarkerClip whole = noisy_markers();
   for (const std::size_t frames : {0, 1, 2, 3, 4, 5, 7}) {
     const MarkerClip clip = slice(whole, 0, frames);
     const MarkerClip result = cleaned(clip);

@@ -9,14 +9,10 @@
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/experimental/synth.hpp"
 #include "kinemend/marker_clip.hpp"
+#include "rotation/random_rotations.hpp"
 
 // Marker takes whose truth is known.
 namespace kinemend::test {
-
-inline Vec3 random_vector(Random& random, double size) {
-  const double x = random.normal(), y = random.normal(), z = random.normal();
-  return {size * x, size * y, size * z};
-}
 
 /// Markers on a synthetic body, two on each joint that carries a bone, in millimetres, all
 /// observed.

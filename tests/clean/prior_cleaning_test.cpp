@@ -23,7 +23,7 @@ namespace {
 
 using testing::HasSubstr;
 
-Clip walk(double noise_deg = 0) {
+Clip noisy_walk(double noise_deg = 0) {
   SynthOptions options;
   options.motion = "walk";
   options.duration_s = 2;
@@ -93,7 +93,7 @@ PriorFilter unlimited(PriorFilter filter) {
 }
 
 TEST(PriorCleaning, BringsATakeBackThatTheFilterLeftAlone) {
-  const Clip before = walk(1.5);
+  const Clip before = noisy_walk(1.5);
   Clip after = before;
   const InPlaceTrace trace =
       clean_in_place(Filtering(layout_of(before), true, unlimited(keep)), after);
@@ -104,7 +104,7 @@ TEST(PriorCleaning, BringsATakeBackThatTheFilterLeftAlone) {
 }
 
 TEST(PriorCleaning, PutsTheMeanPoseWhereTheFilterAnswersZero) {
-  const Clip before = walk(2);
+  const Clip before = noisy_walk(2);
   Clip after = before;
   const BodyLayout layout = layout_of(before);
   clean_in_place(Filtering(layout, true, unlimited(flatten)), after);
@@ -115,7 +115,7 @@ TEST(PriorCleaning, PutsTheMeanPoseWhereTheFilterAnswersZero) {
 }
 
 TEST(PriorCleaning, KeepsItsHandsOffACleanTakeToTheLastDigit) {
-  const Clip before = walk();
+  const Clip before = noisy_walk();
   Clip after = before;
   const InPlaceTrace trace = clean_in_place(Filtering(layout_of(before), true, flatten), after);
   EXPECT_EQ(after.local_rotations, before.local_rotations);
@@ -129,11 +129,11 @@ TEST(PriorCleaning, KeepsItsHandsOffACleanTakeToTheLastDigit) {
 }
 
 TEST(PriorCleaning, GoesAsFarAsTheNoiseAsksFor) {
-  const Clip truth = walk();
+  const Clip truth = noisy_walk();
   const auto arm = static_cast<std::size_t>(truth.skeleton.find("LeftArm"));
   double before = 0;
   for (const double noise_deg : {0.3, 0.5, 0.6, 0.7, 0.9}) {
-    const Clip noisy = walk(noise_deg);
+    const Clip noisy = noisy_walk(noise_deg);
     Clip after = noisy;
     clean_in_place(Filtering(layout_of(truth), true, unlimited(flatten)), after);
     const double change = geodesic_rms_deg_per_joint(noisy, after)[arm];
@@ -176,7 +176,7 @@ TEST(PriorCleaning, AFilterOfWhiteNoiseLeavesNoiseWithAColourToAuto) {
 
 // What the filter puts into a gap joins the samples beside it, which it may not change.
 TEST(PriorCleaning, WhatIsFilledInACleanTakeMeetsTheSamplesBesideIt) {
-  const Clip truth = walk();
+  const Clip truth = noisy_walk();
   const auto arm = static_cast<std::size_t>(truth.skeleton.find("LeftArm"));
   Clip clip = truth;
   clip.observed.assign(clip.local_rotations.size(), 1);
@@ -191,7 +191,7 @@ TEST(PriorCleaning, WhatIsFilledInACleanTakeMeetsTheSamplesBesideIt) {
 }
 
 TEST(PriorCleaning, ChangesWhatIsSelectedOnly) {
-  const Clip before = walk(1.5);
+  const Clip before = noisy_walk(1.5);
   const auto arm = static_cast<std::size_t>(before.skeleton.find("LeftArm"));
   CleanSettings settings;
   settings.joints = {"LeftArm"};
@@ -208,7 +208,7 @@ TEST(PriorCleaning, ChangesWhatIsSelectedOnly) {
 }
 
 TEST(PriorCleaning, LeavesJointsThatTheModelDoesNotKnowToAuto) {
-  const Clip before = walk(1.5);
+  const Clip before = noisy_walk(1.5);
   const BodyLayout layout = layout_of(before, {"Hips", "*Leg", "*UpLeg"});
   Clip after = before, by_auto = before;
   clean_in_place(Filtering(layout, true, unlimited(keep)), after);
@@ -222,12 +222,12 @@ TEST(PriorCleaning, LeavesJointsThatTheModelDoesNotKnowToAuto) {
 }
 
 TEST(PriorCleaning, TellsTheFilterWhatIsMissingWhatIsSuspectAndHowLoudTheNoiseIs) {
-  Clip clip = walk(2);
+  Clip clip = noisy_walk(2);
   const auto arm = static_cast<std::size_t>(clip.skeleton.find("LeftArm"));
   clip.observed.assign(clip.local_rotations.size(), 1);
   for (std::size_t f = 20; f < 30; ++f) clip.observed[f * clip.joint_count() + arm] = 0;
   clip.rotation(60, arm) = clip.rotation(60, arm) * exp({0, 0.9, 0});
-  const BodyLayout layout = layout_of(walk());
+  const BodyLayout layout = layout_of(noisy_walk());
   const std::size_t part = part_called(layout, "LeftArm");
   const PriorFilter filter = [&](PriorWork& work) {
     const std::size_t channels = work.channels.poses.channels;
@@ -242,7 +242,7 @@ TEST(PriorCleaning, TellsTheFilterWhatIsMissingWhatIsSuspectAndHowLoudTheNoiseIs
 }
 
 TEST(PriorCleaning, FillsGapsOfJointsOrBridgesThem) {
-  Clip clip = walk();
+  Clip clip = noisy_walk();
   const auto arm = static_cast<std::size_t>(clip.skeleton.find("LeftArm"));
   const Clip truth = clip;
   const BodyLayout layout = layout_of(truth);
@@ -266,7 +266,7 @@ TEST(PriorCleaning, FillsGapsOfJointsOrBridgesThem) {
 }
 
 TEST(PriorCleaning, LeavesJointsThatFlipToAutoButNotThoseThatAreMissing) {
-  const Clip truth = walk();
+  const Clip truth = noisy_walk();
   const BodyLayout layout = layout_of(truth);
   Clip clip = truth;
   const auto left = static_cast<std::size_t>(clip.skeleton.find("LeftHand"));
@@ -289,7 +289,7 @@ TEST(PriorCleaning, LeavesJointsThatFlipToAutoButNotThoseThatAreMissing) {
 }
 
 TEST(PriorCleaning, ReportsRejectedMeasurementsAsSpikes) {
-  Clip clip = walk(1);
+  Clip clip = noisy_walk(1);
   const BodyLayout layout = layout_of(clip);
   const std::size_t part = part_called(layout, "RightArm");
   const auto joint = static_cast<std::size_t>(clip.skeleton.find("RightArm"));
@@ -305,7 +305,7 @@ TEST(PriorCleaning, ReportsRejectedMeasurementsAsSpikes) {
 }
 
 TEST(PriorCleaning, NamesWhatTheTakeLacks) {
-  Clip clip = walk();
+  Clip clip = noisy_walk();
   const BodyLayout layout = layout_of(clip);
   const auto hand = static_cast<std::size_t>(clip.skeleton.find("LeftHand"));
   clip.skeleton.names[hand] = "Gripper";
@@ -325,9 +325,9 @@ TEST(PriorCleaning, NamesWhatTheTakeLacks) {
 }
 
 TEST(PriorCleaning, TakesAnyNumberOfFrames) {
-  const BodyLayout layout = layout_of(walk());
+  const BodyLayout layout = layout_of(noisy_walk());
   for (const std::size_t frames : {0, 1, 2, 3, 5}) {
-    Clip clip = slice(walk(1), 0, frames);
+    Clip clip = slice(noisy_walk(1), 0, frames);
     clean_in_place(Filtering(layout, true, keep), clip);
     EXPECT_EQ(clip.frame_count(), frames);
   }

@@ -24,7 +24,7 @@ using testing::SizeIs;
 
 constexpr std::size_t first = 60, last = 119;
 
-Clip walk(double rate_hz = 120) {
+Clip walk_to_fill(double rate_hz = 120) {
   return synthesize({.motion = "walk", .duration_s = 2, .frame_rate_hz = rate_hz});
 }
 
@@ -56,7 +56,7 @@ std::size_t joint_of(const Clip& clip, const char* name) {
 }
 
 TEST(RecurrentFill, IsTheStraightLineAndWhatTheNetworkAddsToIt) {
-  const Clip truth = walk();
+  const Clip truth = walk_to_fill();
   const std::size_t knee = joint_of(truth, "LeftLeg");
   Clip straight = gapped(truth, {"LeftLeg"}), bent = straight;
   const FillReport report = filled(straight, adding(truth, 0));
@@ -76,7 +76,7 @@ TEST(RecurrentFill, IsTheStraightLineAndWhatTheNetworkAddsToIt) {
 }
 
 TEST(RecurrentFill, LeavesTheRootAndUnknownJointsToAutoAndSaysSo) {
-  const Clip truth = walk();
+  const Clip truth = walk_to_fill();
   Clip clip = gapped(truth, {"LeftLeg", "Hips", "Head"});
   std::vector<std::string> known = truth.skeleton.names;
   std::erase(known, "Head");
@@ -96,7 +96,7 @@ TEST(RecurrentFill, LeavesTheRootAndUnknownJointsToAutoAndSaysSo) {
 }
 
 TEST(RecurrentFill, LeavesATakeAtAnotherRateToAuto) {
-  const Clip truth = walk(60);
+  const Clip truth = walk_to_fill(60);
   Clip clip = gapped(truth, {"LeftLeg"}), automatic = clip;
   const FillReport report = filled(clip, adding(truth, 5));
   fill_gaps(automatic);
@@ -106,7 +106,7 @@ TEST(RecurrentFill, LeavesATakeAtAnotherRateToAuto) {
 }
 
 TEST(RecurrentFill, RefusesAModelThatFillsNoGaps) {
-  const Clip clip = walk();
+  const Clip clip = walk_to_fill();
   EXPECT_THROW(make_recurrent_fill({}), Error);  // the model that ships
   BodyLayoutBuilder builder;
   builder.add(clip);
@@ -130,7 +130,7 @@ class RecurrentPair : public testing::Test {
     apply_damage(clip, "gaussian", {{"std_deg", 3.0}}, random);
     return gapped(clip, {"LeftLeg"});
   }
-  const Clip truth_ = walk();
+  const Clip truth_ = walk_to_fill();
 };
 
 TEST_F(RecurrentPair, FillsTheGapsThatTheFilterSees) {

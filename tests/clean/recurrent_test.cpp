@@ -22,12 +22,12 @@ namespace {
 
 using testing::HasSubstr;
 
-Clip walk(double rate_hz, double duration_s = 1.5) {
+Clip walk_at(double rate_hz, double duration_s = 1.5) {
   SynthOptions options{.motion = "walk", .duration_s = duration_s, .frame_rate_hz = rate_hz};
   return synthesize(options);
 }
 
-Clip damaged(Clip clip, const std::string& damage, const OptionValues& options) {
+Clip damaged_by(Clip clip, const std::string& damage, const OptionValues& options) {
   Random random(5);
   apply_damage(clip, damage, options, random);
   return clip;
@@ -40,24 +40,24 @@ const Cleaner& cleaner() {
 
 TEST(Recurrent, TakesNoiseAwayAtAnyRate) {
   for (const double rate_hz : {30.0, 120.0, 240.0}) {
-    const Clip truth = walk(rate_hz);
-    const Clip noisy = damaged(truth, "gaussian", {{"std_deg", 3.0}});
+    const Clip truth = walk_at(rate_hz);
+    const Clip noisy = damaged_by(truth, "gaussian", {{"std_deg", 3.0}});
     const Clip cleaned = clean_clip(noisy, cleaner()).clip;
     EXPECT_LT(rms_deg(truth, cleaned), 0.7 * rms_deg(truth, noisy)) << rate_hz << " Hz";
   }
 }
 
 TEST(Recurrent, ChangesWhatAutoMakesOfNoise) {
-  const Clip noisy = damaged(walk(120), "gaussian", {{"std_deg", 3.0}});
+  const Clip noisy = damaged_by(walk_at(120), "gaussian", {{"std_deg", 3.0}});
   EXPECT_GT(rms_deg(clean_clip(noisy, *make_auto()).clip, clean_clip(noisy, cleaner()).clip), 0.02);
 }
 
-// Without the trial the network doubles the error of this walk, which is like none that it has
+// Without the trial the network doubles the error of this walk_at, which is like none that it has
 // seen.
 TEST(Recurrent, IsNoWorseThanAutoOnABodyThatTheNetworkDoesNotKnow) {
-  const Clip truth = walk(120, 3);
+  const Clip truth = walk_at(120, 3);
   for (const double noise_deg : {1.0, 3.0}) {
-    const Clip noisy = damaged(truth, "gaussian", {{"std_deg", noise_deg}});
+    const Clip noisy = damaged_by(truth, "gaussian", {{"std_deg", noise_deg}});
     const double automatic = rms_deg(truth, clean_clip(noisy, *make_auto()).clip);
     EXPECT_LT(rms_deg(truth, clean_clip(noisy, cleaner()).clip), 1.03 * automatic) << noise_deg;
   }
@@ -65,13 +65,13 @@ TEST(Recurrent, IsNoWorseThanAutoOnABodyThatTheNetworkDoesNotKnow) {
 
 TEST(Recurrent, LeavesACleanTakeAsItIs) {
   for (const double rate_hz : {60.0, 120.0}) {
-    const Clip truth = walk(rate_hz);
+    const Clip truth = walk_at(rate_hz);
     EXPECT_EQ(clean_clip(truth, cleaner()).clip.local_rotations, truth.local_rotations);
   }
 }
 
 TEST(Recurrent, RefusesATakeOfMarkersAndSaysWhy) {
-  const MarkerClip markers = joint_markers(walk(120));
+  const MarkerClip markers = joint_markers(walk_at(120));
   try {
     clean_markers(markers, cleaner());
     FAIL() << "was cleaned";
@@ -89,18 +89,18 @@ TEST(Recurrent, RefusesAModelOfAnotherMethodAndOneThatLacksALayer) {
 }
 
 TEST(Recurrent, FillsGapsOrLeavesThemBridged) {
-  Clip clip = damaged(walk(120), "gaussian", {{"std_deg", 2.0}});
+  Clip clip = damaged_by(walk_at(120), "gaussian", {{"std_deg", 2.0}});
   const auto knee = static_cast<std::size_t>(clip.skeleton.find("LeftLeg"));
   clip.observed.assign(clip.frame_count() * clip.joint_count(), 1);
   for (std::size_t f = 60; f < 90; ++f) clip.observed[f * clip.joint_count() + knee] = 0;
   const Clip filled = clean_clip(clip, cleaner()).clip;
-  const Clip truth = walk(120);
+  const Clip truth = walk_at(120);
   for (std::size_t f = 60; f < 90; ++f)
     EXPECT_LT(angle_between(filled.rotation(f, knee), truth.rotation(f, knee)), 0.8) << f;
 }
 
 TEST(Recurrent, IsTheSameForAnyNumberOfRuns) {
-  const Clip noisy = damaged(walk(120), "gaussian", {{"std_deg", 2.0}});
+  const Clip noisy = damaged_by(walk_at(120), "gaussian", {{"std_deg", 2.0}});
   EXPECT_EQ(clean_clip(noisy, cleaner()).clip.local_rotations,
             clean_clip(noisy, *make_recurrent()).clip.local_rotations);
 }
@@ -115,8 +115,8 @@ std::shared_ptr<const Model> constant_filter(const Clip& clip, FilterHead head,
 }
 
 TEST(Recurrent, CleansJointsWithTheFiltersThatANetworkOfThePaperPredicts) {
-  const Clip truth = walk(120, 3);
-  const Clip noisy = damaged(truth, "gaussian", {{"std_deg", 4.0}});
+  const Clip truth = walk_at(120, 3);
+  const Clip noisy = damaged_by(truth, "gaussian", {{"std_deg", 4.0}});
   const auto cleaner = make_recurrent({}, constant_filter(truth, FilterHead::gaussian));
   const Clip cleaned = clean_clip(noisy, *cleaner).clip;
   const Clip gaussian = clean_clip(noisy, *make_cleaner("gaussian", {{"width_s", 0.025}})).clip;
@@ -129,14 +129,14 @@ TEST(Recurrent, CleansJointsWithTheFiltersThatANetworkOfThePaperPredicts) {
 }
 
 TEST(Recurrent, LeavesATakeAtAnotherRateThanThatOfThePapersNetworkToAuto) {
-  const Clip noisy = damaged(walk(60), "gaussian", {{"std_deg", 4.0}});
+  const Clip noisy = damaged_by(walk_at(60), "gaussian", {{"std_deg", 4.0}});
   const auto cleaner = make_recurrent({}, constant_filter(noisy, FilterHead::gaussian));
   const CleanResult result = clean_clip(noisy, *cleaner);
   EXPECT_LT(rms_deg(clean_clip(noisy, *make_auto()).clip, result.clip), 1e-6);
 }
 
 TEST(Recurrent, RefusesANetworkThatFillsGaps) {
-  const Clip clip = walk(120);
+  const Clip clip = walk_at(120);
   EXPECT_THROW(make_recurrent({}, constant_filter(clip, FilterHead::residual, {false, true})),
                Error);
 }

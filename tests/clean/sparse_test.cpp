@@ -18,7 +18,7 @@
 namespace kinemend::test {
 namespace {
 
-Clip walk(std::uint64_t seed) {
+Clip seeded_walk(std::uint64_t seed) {
   SynthOptions options{.motion = "walk", .duration_s = 3, .frame_rate_hz = 60};
   options.seed = seed;
   return synthesize(options);
@@ -33,12 +33,12 @@ std::shared_ptr<const Model> learned(const std::vector<AnyClip>& clips) {
 }
 
 std::shared_ptr<const Model> joints() {
-  static const auto model = learned(std::vector<Clip>{walk(1), walk(2)});
+  static const auto model = learned(std::vector<Clip>{seeded_walk(1), seeded_walk(2)});
   return model;
 }
 std::shared_ptr<const Model> markers() {
-  static const auto model =
-      learned(std::vector<MarkerClip>{joint_markers(walk(1)), joint_markers(walk(2))});
+  static const auto model = learned(
+      std::vector<MarkerClip>{joint_markers(seeded_walk(1)), joint_markers(seeded_walk(2))});
   return model;
 }
 
@@ -61,7 +61,7 @@ MarkerClip shaken(MarkerClip clip, double size, double outliers) {
 }
 
 TEST(Sparse, TakesStrongNoiseAndOutliersOffMarkers) {
-  const MarkerClip truth = joint_markers(walk(4));
+  const MarkerClip truth = joint_markers(seeded_walk(4));
   for (const double outliers : {0.0, 0.1}) {
     const MarkerClip noisy = shaken(truth, 2, outliers);  // cm
     for (const char* solver : {"quick", "paper"}) {
@@ -76,7 +76,7 @@ TEST(Sparse, TakesStrongNoiseAndOutliersOffMarkers) {
 }
 
 TEST(Sparse, BringsNoisyRotationsNearerToTheTruth) {
-  const Clip truth = walk(5);
+  const Clip truth = seeded_walk(5);
   Clip noisy = truth;
   Random random(6);
   apply_damage(noisy, "gaussian", {{"std_deg", 4.0}}, random);
@@ -87,12 +87,12 @@ TEST(Sparse, BringsNoisyRotationsNearerToTheTruth) {
 }
 
 TEST(Sparse, LeavesACleanWalkNearlyAlone) {
-  const Clip truth = walk(7);
+  const Clip truth = seeded_walk(7);
   EXPECT_LT(geodesic_rms_deg(truth, clean_clip(truth, *make_sparse({}, joints())).clip), 0.05);
 }
 
 TEST(Sparse, LeavesNoiseWithAColourToAuto) {
-  Clip noisy = walk(9);
+  Clip noisy = seeded_walk(9);
   Random random(10);
   apply_damage(noisy, "ar1", {{"std_deg", 2.0}, {"correlation", 0.9}}, random);
   const Clip own = clean_clip(noisy, *make_sparse({}, joints())).clip;
@@ -100,7 +100,7 @@ TEST(Sparse, LeavesNoiseWithAColourToAuto) {
 }
 
 TEST(Sparse, FillsAMarkerFromTheOthersOfItsPoselet) {
-  const MarkerClip truth = joint_markers(walk(8));
+  const MarkerClip truth = joint_markers(seeded_walk(8));
   MarkerClip gapped = truth;
   const std::size_t marker = 5, first = 60, last = 110;
   for (std::size_t f = first; f < last; ++f) {

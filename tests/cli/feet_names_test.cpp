@@ -125,7 +125,7 @@ TEST_F(FeetNames, AMapThatNamesWhatIsNotThereIsRefused) {
 }
 
 /// The rows of a table of markers by their cells.
-std::vector<std::vector<std::string>> cells_of(const std::string& text) {
+std::vector<std::vector<std::string>> rows_of(const std::string& text) {
   std::vector<std::vector<std::string>> rows;
   for (const std::string& line : lines_of(text)) {
     std::vector<std::string> cells;
@@ -143,7 +143,7 @@ class People : public FeetNames {
   void make_people() {
     synth("walk.bvh", "walk", "3");
     ASSERT_EQ(run({"convert", "walk.bvh", "ann.trc"}).code, 0);
-    const auto ann = cells_of(contents(folder / "ann.trc"));
+    const auto ann = rows_of(contents(folder / "ann.trc"));
     std::string text;
     const std::size_t markers = std::stoul(ann[2][3]);
     for (std::size_t row = 0; row < ann.size(); ++row) {

@@ -19,7 +19,7 @@ TEST(BodyParts, AreToldByTheNamesOfJointsAndMarkers) {
 TEST(BodyParts, OfOneSideAreOneLimb) {
   const auto limbs = named_limbs({"LeftArm", "LeftHand", "RightArm", "Left_Knee", "LKNE",
                                   "Ann:LTOE", "RToe", "Head", "C7", "HandRight", "hand_r"});
-  EXPECT_THAT(limbs, ::testing::ElementsAre(0, 0, 1, 2, 2, 2, 3, 4, 4, 1, 1));
+  EXPECT_THAT(limbs, testing::ElementsAre(0, 0, 1, 2, 2, 2, 3, 4, 4, 1, 1));
 }
 
 }  // namespace

@@ -7,8 +7,9 @@
 
 #include "kinemend/experimental/corrupt.hpp"
 #include "motion/clips.hpp"
+#include "noise_measures.hpp"
 
-namespace kinemend::testing {
+namespace kinemend::test {
 
 struct Damaged {
   Clip clip;
@@ -32,19 +33,6 @@ inline std::vector<Vec3> errors_of(const Clip& clean, const Clip& other, std::si
     errors.push_back(log(conjugate(clean.rotation(f, joint)) * other.rotation(f, joint)));
   }
   return errors;
-}
-
-inline double mean_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double v : values) sum += v;
-  return sum / static_cast<double>(values.size());
-}
-
-inline double deviation_of(const std::vector<double>& values) {
-  const double mean = mean_of(values);
-  double sum = 0;
-  for (const double v : values) sum += (v - mean) * (v - mean);
-  return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
 // A figure in the CMU style of names: pelvis, two legs, spine, head, two arms with hands. Y up, 170
@@ -100,4 +88,4 @@ inline Clip moving_humanoid(std::size_t frames, double frame_rate_hz = 120) {
   return clip;
 }
 
-}  // namespace kinemend::testing
+}  // namespace kinemend::test

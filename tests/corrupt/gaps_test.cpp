@@ -7,12 +7,12 @@
 namespace kinemend {
 namespace {
 
-using testing::chain_clip;
-using testing::damaged;
-using ::testing::HasSubstr;
-using testing::moving_chain;
-using testing::moving_humanoid;
-using testing::same_bits;
+using test::chain_clip;
+using test::damaged;
+using test::moving_chain;
+using test::moving_humanoid;
+using test::same_bits;
+using testing::HasSubstr;
 
 struct LostRun {
   std::size_t first = 0, length = 0;

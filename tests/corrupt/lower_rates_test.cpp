@@ -7,11 +7,11 @@
 namespace kinemend {
 namespace {
 
-using ::testing::Contains;
-using testing::damaged;
-using ::testing::HasSubstr;
-using testing::moving_humanoid;
-using testing::same_bits;
+using test::damaged;
+using test::moving_humanoid;
+using test::same_bits;
+using testing::Contains;
+using testing::HasSubstr;
 
 MarkerClip line(std::size_t frames, double rate_hz) {
   MarkerClip clip = make_marker_clip({"A"}, frames, rate_hz);

@@ -6,12 +6,12 @@
 namespace kinemend {
 namespace {
 
-using testing::damaged;
-using testing::degree;
-using testing::errors_of;
-using testing::moving_chain;
-using testing::moving_humanoid;
-using testing::same_bits;
+using test::damaged;
+using test::degree;
+using test::errors_of;
+using test::moving_chain;
+using test::moving_humanoid;
+using test::same_bits;
 
 TEST(Outliers, HitTheShareAskedForAndNothingElse) {
   const Clip clean = moving_chain(10, 10000);

@@ -8,11 +8,11 @@
 namespace kinemend {
 namespace {
 
-using testing::damaged;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using testing::moving_humanoid;
-using testing::same_bits;
+using test::damaged;
+using test::moving_humanoid;
+using test::same_bits;
+using testing::ElementsAre;
+using testing::HasSubstr;
 
 // A star of long bones about a still root: each arm's end has one bone of its own.
 Clip star_clip(std::size_t frames) {
@@ -25,7 +25,7 @@ Clip star_clip(std::size_t frames) {
     s.add_joint("end" + std::to_string(i), static_cast<std::int32_t>(s.joint_count()) - 1, arms[i],
                 turns);
   }
-  return testing::resting_clip(std::move(s), frames, 100);
+  return test::resting_clip(std::move(s), frames, 100);
 }
 
 TEST(PositionNoise, HasTheDeviationAskedForAcrossABone) {
@@ -41,9 +41,9 @@ TEST(PositionNoise, HasTheDeviationAskedForAcrossABone) {
     y.push_back(d.y);
     z.push_back(d.z);
   }
-  EXPECT_NEAR(testing::deviation_of(y), 0.5, 0.01);
-  EXPECT_NEAR(testing::deviation_of(z), 0.5, 0.01);
-  EXPECT_LT(testing::deviation_of(along), 0.01);
+  EXPECT_NEAR(test::deviation_of(y), 0.5, 0.01);
+  EXPECT_NEAR(test::deviation_of(z), 0.5, 0.01);
+  EXPECT_LT(test::deviation_of(along), 0.01);
 }
 
 TEST(PositionNoise, KeepsBoneLengthsRootAndLeafRotations) {
@@ -82,7 +82,7 @@ TEST(PositionNoise, MovesTheRootToo) {
           .clip;
   std::vector<double> x;
   for (const Vec3 p : noisy.root_positions) x.push_back(p.x);
-  EXPECT_NEAR(testing::deviation_of(x), 2.0, 0.1);
+  EXPECT_NEAR(test::deviation_of(x), 2.0, 0.1);
 }
 
 TEST(PositionNoise, IsLargerAtWristsAndAnkles) {
@@ -143,7 +143,7 @@ TEST(Snr, AgreesWithItsDefinitionOnTheStar) {
   std::vector<double> y;
   for (std::size_t i = 2; i < before.size(); i += clean.joint_count())
     y.push_back(after[i].y - before[i].y);
-  EXPECT_NEAR(testing::deviation_of(y), 100 / std::sqrt(600.0), 0.1);
+  EXPECT_NEAR(test::deviation_of(y), 100 / std::sqrt(600.0), 0.1);
 }
 
 }  // namespace

@@ -10,10 +10,10 @@ namespace kinemend {
 namespace {
 
 using corrupt::fit_rotation;
-using testing::moving_humanoid;
-using testing::random_rotation;
-using testing::random_vector;
-using testing::same_bits;
+using test::moving_humanoid;
+using test::random_rotation;
+using test::random_vector;
+using test::same_bits;
 
 double misfit(Quat rotation, const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
   double sum = 0;
@@ -76,14 +76,14 @@ TEST(FitRotation, OfSeveralBonesFindsAnExactRotation) {
 }
 
 TEST(FitRotation, KeepsTheTwistThatBonesOnOneLineLeaveOpen) {
-  const Quat clean = testing::about_x(0.7);  // hips: two bones along x, opposite
+  const Quat clean = test::about_x(0.7);  // hips: two bones along x, opposite
   const Quat fitted = fit_rotation(clean, std::vector<Vec3>{{1, 0, 0}, {-1, 0, 0}},
                                    std::vector<Vec3>{{1, 0, 0}, {-1, 0, 0}});
   EXPECT_LT(angle_between(fitted, clean), 1e-6);
 }
 
 TEST(FitRotation, IsCleanWhereBonesHaveNoLength) {
-  const Quat clean = testing::about_y(0.3);
+  const Quat clean = test::about_y(0.3);
   EXPECT_TRUE(same_bits(
       fit_rotation(clean, std::vector<Vec3>{{}, {}}, std::vector<Vec3>{{1, 0, 0}, {}}), clean));
   EXPECT_TRUE(same_bits(fit_rotation(clean, {}, {}), clean));
@@ -133,7 +133,7 @@ TEST(Refit, WorksWithRestRotationsAndTranslatedJoints) {
 }
 
 TEST(Limbs, AreLegsTrunkHeadAndArms) {
-  const Skeleton skeleton = testing::humanoid_skeleton();
+  const Skeleton skeleton = test::humanoid_skeleton();
   const auto limb = corrupt::limbs(skeleton);
   const auto of = [&](const char* name) {
     return limb[static_cast<std::size_t>(skeleton.find(name))];

@@ -7,14 +7,14 @@
 namespace kinemend {
 namespace {
 
-using testing::chain_clip;
-using testing::damaged;
-using testing::degree;
-using testing::deviation_of;
-using testing::errors_of;
-using testing::mean_of;
-using testing::moving_chain;
-using testing::same_bits;
+using test::chain_clip;
+using test::damaged;
+using test::degree;
+using test::deviation_of;
+using test::errors_of;
+using test::mean_of;
+using test::moving_chain;
+using test::same_bits;
 
 constexpr std::size_t many =
     20000;  // frames: a standard deviation is known to 0.5 %, a mean to 0.7 % of it
@@ -149,7 +149,7 @@ TEST(GaussianChannels, HasSixDecibelAtOneHalf) {
 TEST(GaussianChannels, LeavesRootsAndRestingJointsByDefault) {
   Clip clean = turning_clip(100);
   for (std::size_t f = 0; f < 100; ++f)
-    clean.rotation(f, 0) = testing::about_x(0.01 * static_cast<double>(f));
+    clean.rotation(f, 0) = test::about_x(0.01 * static_cast<double>(f));
   const auto [noisy, report] = damaged(clean, "gaussian-channels");
   EXPECT_EQ(report.samples_damaged, 100u);
   const auto [still, still_report] = damaged(chain_clip(2, 10), "gaussian-channels");

@@ -11,11 +11,11 @@
 namespace kinemend {
 namespace {
 
-using testing::damaged;
-using ::testing::HasSubstr;
-using testing::moving_humanoid;
-using testing::same_bits;
-using ::testing::ThrowsMessage;
+using test::damaged;
+using test::moving_humanoid;
+using test::same_bits;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
 
 OptionValues kind(const std::string& name, OptionValues more = {}) {
   more["kind"] = name;
@@ -165,8 +165,7 @@ TEST(SystemNoise, TurnsJointsByDegrees) {
           .clip;
   double square = 0;
   for (const std::size_t joint : {1, 5, 9, 12}) {
-    for (const Vec3 e : testing::errors_of(clean, noisy, joint))
-      square += dot(e, e) / 12000 / 4 / 3;
+    for (const Vec3 e : test::errors_of(clean, noisy, joint)) square += dot(e, e) / 12000 / 4 / 3;
   }
   EXPECT_NEAR(degrees_per_radian * std::sqrt(square), 4, 0.6);
 }

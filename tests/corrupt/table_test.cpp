@@ -8,15 +8,15 @@
 namespace kinemend {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::Contains;
-using testing::damaged;
-using ::testing::HasSubstr;
-using testing::moving_humanoid;
-using ::testing::Property;
-using testing::same_bits;
-using ::testing::Throws;
-using ::testing::ThrowsMessage;
+using test::damaged;
+using test::moving_humanoid;
+using test::same_bits;
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Property;
+using testing::Throws;
+using testing::ThrowsMessage;
 
 TEST(Damages, AreAllThereWithTextsAndOptions) {
   std::set<std::string> names;
@@ -35,9 +35,9 @@ TEST(Damages, AreAllThereWithTextsAndOptions) {
   EXPECT_EQ(names, wanted);
 }
 
-class EveryDamage : public ::testing::TestWithParam<std::string> {};
+class EveryDamage : public testing::TestWithParam<std::string> {};
 
-INSTANTIATE_TEST_SUITE_P(Table, EveryDamage, ::testing::ValuesIn([] {
+INSTANTIATE_TEST_SUITE_P(Table, EveryDamage, testing::ValuesIn([] {
                            std::vector<std::string> names;
                            for (const Damage& damage : damages()) names.push_back(damage.name);
                            return names;
@@ -78,7 +78,7 @@ TEST_P(EveryDamage, LeavesAValidClipAndReportsWhatItDid) {
     const bool lost = !clip.observed.empty() && !clip.observed[i];
     changed += lost || !same_bits(clean.local_rotations[i], clip.local_rotations[i]);
     const double angle =
-        angle_between(clean.local_rotations[i], clip.local_rotations[i]) / testing::degree;
+        angle_between(clean.local_rotations[i], clip.local_rotations[i]) / test::degree;
     square += angle * angle;
     largest = std::max(largest, angle);
   }
@@ -116,7 +116,7 @@ TEST_P(EveryDamage, KeepsHingesOnTheirAxis) {
   const std::size_t hinge = static_cast<std::size_t>(clean.skeleton.find("LeftLeg"));
   clean.skeleton.channels[hinge] = {Channel::x_rotation};
   for (std::size_t f = 0; f < 100; ++f)
-    clean.rotation(f, hinge) = testing::about_x(0.01 * static_cast<double>(f));
+    clean.rotation(f, hinge) = test::about_x(0.01 * static_cast<double>(f));
   const auto [clip, report] = damaged(clean, GetParam());
   for (std::size_t f = 0; f < 100; ++f) {
     const Quat q = clip.rotation(f, hinge);
@@ -126,11 +126,11 @@ TEST_P(EveryDamage, KeepsHingesOnTheirAxis) {
 
 TEST_P(EveryDamage, LeavesTheCalibrationPoseAloneAndSaysSo) {
   const Clip motion = moving_humanoid(100);
-  Clip clean = testing::resting_clip(motion.skeleton, 101, 120);
+  Clip clean = test::resting_clip(motion.skeleton, 101, 120);
   for (std::size_t f = 0; f < 100; ++f) {
     clean.root_positions[f + 1] = motion.root_positions[f];
     for (std::size_t j = 0; j < clean.joint_count(); ++j) {
-      clean.rotation(f + 1, j) = motion.rotation(f, j) * testing::about_z(0.6);
+      clean.rotation(f + 1, j) = motion.rotation(f, j) * test::about_z(0.6);
     }
   }
   ASSERT_EQ(leading_calibration_frames(clean), 1u);
@@ -202,8 +202,7 @@ TEST(Damages, ComposeAndDrawNewNoiseEachTime) {
   const auto rms = [](const Clip& a, const Clip& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.local_rotations.size(); ++i) {
-      const double angle =
-          angle_between(a.local_rotations[i], b.local_rotations[i]) / testing::degree;
+      const double angle = angle_between(a.local_rotations[i], b.local_rotations[i]) / test::degree;
       sum += angle * angle;
     }
     return std::sqrt(sum / static_cast<double>(a.local_rotations.size()));

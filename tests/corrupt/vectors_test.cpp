@@ -13,7 +13,7 @@
 namespace kinemend {
 namespace {
 
-using testing::moving_humanoid;
+using test::moving_humanoid;
 
 // The positions of the joints, some of them missing, and a point that is none.
 MarkerClip markers(std::size_t frames = 400) {
@@ -74,8 +74,8 @@ Quat rotation_of(const VectorMotion& motion, std::size_t sample) {
   return exp(radians_per_degree * Vec3{v[0], v[1], v[2]});
 }
 
-class DamageOfVectors : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Table, DamageOfVectors, ::testing::ValuesIn([] {
+class DamageOfVectors : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Table, DamageOfVectors, testing::ValuesIn([] {
                            std::vector<std::string> names;
                            for (const Damage& damage : damages()) {
                              if (damage.apply_to_vectors != nullptr) names.push_back(damage.name);
@@ -162,7 +162,7 @@ TEST(DamageOfRotationVectors, IsThatOfTheRotations) {
       {"bias", {}},     {"sinusoid", {}},      {"outliers", {{"share", 0.2}, {"std_deg", 90.0}}},
       {"impulse", {}},  {"frozen", with_root}, {"gaps", with_root}};
   for (const auto& [name, values] : cases) {
-    const Clip expected = testing::damaged(clip, name, values, 5).clip;
+    const Clip expected = test::damaged(clip, name, values, 5).clip;
     VectorMotion motion = rotation_vectors(clip);
     Random random(5);
     apply_damage(motion, name, values, random);
@@ -194,7 +194,7 @@ TEST(DamageOfMarkers, HasTheSizeThatIsAskedFor) {
       const Vec3 d = clip.position(f, 5) - clean.position(f, 5);
       differences.insert(differences.end(), {d.x, d.y, d.z});
     }
-    return testing::deviation_of(differences);
+    return test::deviation_of(differences);
   };
   // 6,000 draws: 1 % of deviation.
   EXPECT_NEAR(deviation(damaged(clean, "gaussian", {{"std_deg", 2.0}}).clip),

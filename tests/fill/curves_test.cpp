@@ -14,8 +14,8 @@
 namespace kinemend::fill {
 namespace {
 
-using ::testing::Each;
-using ::testing::Pointwise;
+using testing::Each;
+using testing::Pointwise;
 
 MATCHER_P(NearTo, tolerance, "") {
   return std::fabs(std::get<0>(arg) - std::get<1>(arg)) <= tolerance;
@@ -25,7 +25,7 @@ MATCHER_P(NearTo, tolerance, "") {
 const std::vector<double>& reference(const std::string& name) {
   static const auto records = [] {
     std::map<std::string, std::vector<double>> result;
-    for (const auto& row : kinemend::testing::read_csv("fill/curves.csv")) {
+    for (const auto& row : test::read_csv("fill/curves.csv")) {
       for (std::size_t i = 1; i < row.size(); ++i) result[row[0]].push_back(std::stod(row[i]));
     }
     return result;

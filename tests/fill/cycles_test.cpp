@@ -10,7 +10,7 @@
 namespace kinemend::fill {
 namespace {
 
-constexpr CurveSettings settings{.frame_rate_hz = 120};
+constexpr CurveSettings cycle_settings{.frame_rate_hz = 120};
 constexpr std::size_t frames = 700;
 
 // Steps of 1.1 s with a drift, as a marker of a walker moves.
@@ -42,7 +42,7 @@ double error_of(const Track& track, FrameSpan span) {
 TEST(Cycles, AreFoundWholePeriodsAway) {
   const FrameSpan span{300, 380};
   Track walk = walk_without(span);
-  const auto cycles = find_cycles(walk, span, settings);
+  const auto cycles = find_cycles(walk, span, cycle_settings);
   ASSERT_FALSE(cycles.empty());
   for (const Cycle& cycle : cycles) {
     EXPECT_EQ(cycle.lag % 132, 0) << cycle.lag;
@@ -54,7 +54,7 @@ TEST(Cycles, FillAGapThatIsNearlyACycleLong) {
   for (const FrameSpan span :
        {FrameSpan{300, 380}, FrameSpan{250, 370}, FrameSpan{640, 699}, FrameSpan{0, 50}}) {
     Track walk = walk_without(span);
-    ASSERT_TRUE(fill_by_cycles(walk, span, settings, 1));
+    ASSERT_TRUE(fill_by_cycles(walk, span, cycle_settings, 1));
     // At the ends of the take nothing holds the drift but the cycle itself.
     EXPECT_LT(error_of(walk, span), 1e-6) << span.first;
   }
@@ -63,10 +63,10 @@ TEST(Cycles, FillAGapThatIsNearlyACycleLong) {
 TEST(Cycles, BearNoise) {
   const FrameSpan span{300, 380};
   Track walk = walk_without(span, 0.5);
-  ASSERT_TRUE(fill_by_cycles(walk, span, settings, 1));
+  ASSERT_TRUE(fill_by_cycles(walk, span, cycle_settings, 1));
   EXPECT_LT(error_of(walk, span), 2.5);
   Track spline = walk_without(span, 0.5);
-  fill_with_curve(spline, span, Curve::quintic, settings);
+  fill_with_curve(spline, span, Curve::quintic, cycle_settings);
   EXPECT_GT(error_of(spline, span), 10);
 }
 
@@ -74,7 +74,7 @@ TEST(Cycles, AreNotTakenFromFramesThatAreMissing) {
   const FrameSpan span{300, 380};
   Track walk = walk_without(span);
   for (std::size_t f = 400; f < frames; ++f) walk.observed[f] = f % 40 != 0;
-  for (const Cycle& cycle : find_cycles(walk, span, settings)) EXPECT_LT(cycle.lag, 0);
+  for (const Cycle& cycle : find_cycles(walk, span, cycle_settings)) EXPECT_LT(cycle.lag, 0);
 }
 
 TEST(Cycles, AreNotFoundInMotionThatDoesNotRepeat) {
@@ -84,15 +84,15 @@ TEST(Cycles, AreNotFoundInMotionThatDoesNotRepeat) {
     const double t = static_cast<double>(f) / 120;
     walk.values[f] = {30 * std::sin(t * t * t), std::exp(t), 0};
   }
-  EXPECT_TRUE(find_cycles(walk, span, settings).empty());
-  EXPECT_FALSE(fill_by_cycles(walk, span, settings, 1));
+  EXPECT_TRUE(find_cycles(walk, span, cycle_settings).empty());
+  EXPECT_FALSE(fill_by_cycles(walk, span, cycle_settings, 1));
 }
 
 TEST(Cycles, AreNotFoundWhereNothingMoves) {
   const FrameSpan span{300, 360};
   Track walk = walk_without(span);
   std::fill(walk.values.begin(), walk.values.end(), Vec3{5, 5, 5});
-  EXPECT_TRUE(find_cycles(walk, span, settings).empty());
+  EXPECT_TRUE(find_cycles(walk, span, cycle_settings).empty());
 }
 
 }  // namespace

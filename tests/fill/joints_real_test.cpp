@@ -86,7 +86,7 @@ std::map<std::string, double> errors_of(double gap_s) {
   }
   for (auto& [name, sum] : sums) {
     sum /= count;
-    ::testing::Test::RecordProperty(name, std::to_string(sum));
+    testing::Test::RecordProperty(name, std::to_string(sum));
   }
   return sums;
 }

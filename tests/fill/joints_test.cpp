@@ -13,9 +13,9 @@ namespace kinemend {
 namespace {
 
 using fill::fill_with;
-using testing::about_x;
-using testing::about_y;
-using testing::degree;
+using test::about_x;
+using test::about_y;
+using test::degree;
 
 std::vector<std::string> joint_methods() {
   std::vector<std::string> names;
@@ -39,7 +39,7 @@ double error_deg(const Clip& a, const Clip& b, std::size_t joint, std::size_t fi
 }
 
 TEST(FillJoints, SlerpIsTheGeodesic) {
-  Clip truth = testing::moving_chain(3, 100);
+  Clip truth = test::moving_chain(3, 100);
   Clip clip = with_gaps(truth, {{"joint1", 40, 48}});
   fill_with(clip, "slerp", true);
   for (std::size_t f = 40; f <= 48; ++f) {
@@ -51,7 +51,7 @@ TEST(FillJoints, SlerpIsTheGeodesic) {
 
 // A joint that spins about its own axis, with a wobble.
 Clip spinning(double degrees_per_frame) {
-  Clip clip = testing::chain_clip(2, 300);
+  Clip clip = test::chain_clip(2, 300);
   for (std::size_t f = 0; f < 300; ++f) {
     const auto t = static_cast<double>(f);
     clip.rotation(f, 1) =
@@ -73,7 +73,7 @@ TEST(FillJoints, TurnsOnThroughHalfATurnAndMore) {
 
 TEST(FillJoints, PassesThroughGimbalLock) {
   // ZXY is locked where x is 90 degrees, which is in the middle of the gap.
-  Clip truth = testing::chain_clip(2, 200);
+  Clip truth = test::chain_clip(2, 200);
   for (std::size_t f = 0; f < 200; ++f) {
     const double t = static_cast<double>(f) - 100;
     truth.rotation(f, 1) = about_x((90 + 0.8 * t) * degree) * about_y(0.3 * t * degree);
@@ -84,10 +84,10 @@ TEST(FillJoints, PassesThroughGimbalLock) {
 }
 
 TEST(FillJoints, GivesHingesWhatTheirChannelsCanHold) {
-  Skeleton skeleton = testing::chain_skeleton(4);
+  Skeleton skeleton = test::chain_skeleton(4);
   skeleton.channels[1] = make_channels(false, parse_rotation_order("X"));
   skeleton.channels[2] = make_channels(false, parse_rotation_order("ZX"));
-  Clip truth = testing::resting_clip(skeleton, 200, 100);
+  Clip truth = test::resting_clip(skeleton, 200, 100);
   for (std::size_t f = 0; f < 200; ++f) {
     const double t = 0.06 * static_cast<double>(f);
     truth.rotation(f, 1) = from_euler({std::sin(t)}, parse_rotation_order("X"));
@@ -110,7 +110,7 @@ TEST(FillJoints, GivesHingesWhatTheirChannelsCanHold) {
 
 // Joint 5 follows from joints 1 to 4, which move without a period.
 Clip follower(std::size_t frames) {
-  Clip clip = testing::chain_clip(6, frames);
+  Clip clip = test::chain_clip(6, frames);
   for (std::size_t f = 0; f < frames; ++f) {
     const double t = 0.03 * static_cast<double>(f);
     Vec3 sum;
@@ -147,7 +147,7 @@ TEST(FillJoints, AutoTakesWhatDoesBestInTheTake) {
 }
 
 TEST(FillJoints, RefusesWhatItsRulesDoNotAllow) {
-  const Clip truth = testing::moving_chain(6, 600);
+  const Clip truth = test::moving_chain(6, 600);
   Clip clip = with_gaps(truth, {{"joint1", 50, 99}, {"joint2", 50, 60}});
   const Clip before = clip;
   const FillReport report = fill_with(clip, "spline");
@@ -170,7 +170,7 @@ TEST(FillJoints, RefusesWhatItsRulesDoNotAllow) {
 }
 
 TEST(FillJoints, FillsTheRootsPositionToo) {
-  Clip truth = testing::moving_chain(4, 300);
+  Clip truth = test::moving_chain(4, 300);
   for (std::size_t f = 0; f < 300; ++f) {
     const auto t = static_cast<double>(f);
     truth.root_positions[f] = {0.02 * t, 1 + 0.05 * std::sin(0.1 * t), 0};
@@ -189,7 +189,7 @@ TEST(FillJoints, FillsTheRootsPositionToo) {
 
 TEST(FillJoints, TakesNoCalibrationPoseForMotion) {
   // Frame 0 is the rest pose; the motion begins elsewhere.
-  Clip truth = testing::moving_chain(6, 300);
+  Clip truth = test::moving_chain(6, 300);
   const Quat away = about_x(70 * degree);
   for (std::size_t f = 0; f < 300; ++f) {
     for (std::size_t j = 0; j < 6; ++j)

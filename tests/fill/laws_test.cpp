@@ -17,8 +17,8 @@
 namespace kinemend::fill {
 namespace {
 
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
+using testing::HasSubstr;
+using testing::IsEmpty;
 
 struct Case {
   std::string method;
@@ -50,7 +50,7 @@ Taken<MarkerClip> moving(const MarkerClip*) {
   return {marker_take("walk", 5, 0.8), {"LeftLeg_b", "LeftLeg_c", "Head_a", "LeftFoot_a"}};
 }
 Taken<Clip> moving(const Clip*) {
-  return {testing::moving_chain(6, 500), {"joint1", "joint3", "root", "joint4"}};
+  return {test::moving_chain(6, 500), {"joint1", "joint3", "root", "joint4"}};
 }
 
 template <class AnyClip>
@@ -119,7 +119,7 @@ double kink(const AnyClip& clip, std::size_t track, const std::vector<std::size_
   return largest;
 }
 
-class Laws : public ::testing::TestWithParam<Case> {
+class Laws : public testing::TestWithParam<Case> {
  protected:
   // Calls the law with a take of the kind that the case is about.
   template <class Law>
@@ -133,7 +133,7 @@ class Laws : public ::testing::TestWithParam<Case> {
   static const std::string& method() { return GetParam().method; }
 };
 
-INSTANTIATE_TEST_SUITE_P(Methods, Laws, ::testing::ValuesIn(cases()), [](const auto& tried) {
+INSTANTIATE_TEST_SUITE_P(Methods, Laws, testing::ValuesIn(cases()), [](const auto& tried) {
   std::string name = (tried.param.joints ? "joints_" : "markers_") + tried.param.method;
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
@@ -324,7 +324,7 @@ std::string complaint(const AnyClip& take, const FillSettings& settings) {
 
 TEST(Fill, SaysWhichMethodTrackOrDonorThereIsNot) {
   const MarkerClip markers = marker_take("walk", 0.5);
-  const Clip joints = testing::moving_chain(3, 30);
+  const Clip joints = test::moving_chain(3, 30);
   FillSettings settings;
   settings.method = "magic";
   EXPECT_THAT(complaint(markers, settings),

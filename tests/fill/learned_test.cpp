@@ -13,9 +13,9 @@
 namespace kinemend::fill {
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
 
 constexpr const char* unknown = "the model does not know them";
 
@@ -40,7 +40,7 @@ FillSettings by_model() {
 }
 
 Clip gapped() {
-  Clip clip = testing::moving_chain(6, 500);
+  Clip clip = test::moving_chain(6, 500);
   hide(clip, "joint1", 200, 260);
   hide(clip, "joint3", 300, 320);
   hide(clip, "joint4", 300, 312);
@@ -72,7 +72,7 @@ TEST(LearnedFilling, LeavesToAutoWhatTheModelDoesNotKnowAndSaysSo) {
 }
 
 TEST(LearnedFilling, IsRefusedWhereTheGapIsTooLong) {
-  Clip clip = testing::moving_chain(6, 500);
+  Clip clip = test::moving_chain(6, 500);
   hide(clip, "joint1", 100, 300);
   FillSettings settings = by_model();
   settings.longest_gap_s = 0.5;
@@ -115,7 +115,7 @@ TEST(LearnedFilling, StandsInPreviewsWhereThereIsAModel) {
 // A model sees the doubted sample as missing, and what it then says of it tells that it is a spike.
 TEST(LearnedFilling, IsNotMadeFromASpikeBesideTheGap) {
   constexpr std::size_t frames = 1200, first = 600, last = 620;
-  const Clip truth = testing::moving_chain(6, frames);
+  const Clip truth = test::moving_chain(6, frames);
   Clip clip = truth;
   hide(clip, "joint3", first, last);
   const std::size_t joint = track_of(clip, "joint3");

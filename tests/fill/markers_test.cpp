@@ -10,7 +10,7 @@
 namespace kinemend::fill {
 namespace {
 
-using ::testing::HasSubstr;
+using testing::HasSubstr;
 
 double largest_error(const MarkerClip& truth, const MarkerClip& filled) {
   double largest = 0;
@@ -215,7 +215,7 @@ TEST(MarkerFill, LeavesWhatIsNoPositionAlone) {
 }
 
 // Takes that give little to go by.
-class MeagreTakes : public ::testing::TestWithParam<std::string> {
+class MeagreTakes : public testing::TestWithParam<std::string> {
  protected:
   static FillSettings settings() {
     FillSettings settings;
@@ -253,9 +253,8 @@ class MeagreTakes : public ::testing::TestWithParam<std::string> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Methods, MeagreTakes,
-                         ::testing::Values("auto", "spline", "quintic", "pchip", "hermite",
-                                           "pattern", "rigid-body", "pca", "local-regression",
-                                           "cyclic"),
+                         testing::Values("auto", "spline", "quintic", "pchip", "hermite", "pattern",
+                                         "rigid-body", "pca", "local-regression", "cyclic"),
                          [](const auto& method) {
                            std::string name = method.param;
                            std::erase(name, '-');

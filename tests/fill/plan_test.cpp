@@ -14,7 +14,7 @@
 namespace kinemend::fill {
 namespace {
 
-using ::testing::HasSubstr;
+using testing::HasSubstr;
 
 MarkerClip markers_with_gaps() {
   MarkerClip clip = marker_take("walk", 4, 0.8);
@@ -28,7 +28,7 @@ MarkerClip markers_with_gaps() {
 }
 
 Clip joints_with_gaps() {
-  Clip clip = testing::moving_chain(6, 500);
+  Clip clip = test::moving_chain(6, 500);
   hide(clip, "joint1", 200, 223);
   hide(clip, "joint3", 410, 417);
   hide(clip, "root", 210, 214);
@@ -131,12 +131,12 @@ TEST(GapPlan, SaysWhichMarkersAGapWasFilledFrom) {
   MarkerClip by_donor = clip;
   const PlannedFill made = fill_with_plan(clip, FillSettings{});
   ASSERT_EQ(made.plan.size(), 1u);
-  EXPECT_THAT(made.plan[0].evidence, ::testing::Contains("LeftLeg_a"));
+  EXPECT_THAT(made.plan[0].evidence, testing::Contains("LeftLeg_a"));
   FillSettings settings;
   settings.method = "pattern";
   settings.donor = "LeftLeg_c";
   EXPECT_THAT(fill_with_plan(by_donor, settings).plan[0].evidence,
-              ::testing::ElementsAre("LeftLeg_c"));
+              testing::ElementsAre("LeftLeg_c"));
 }
 
 TEST(GapPlan, PreviewsEveryMethodBesideWhatFillsTheGap) {

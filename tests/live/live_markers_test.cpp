@@ -28,7 +28,7 @@ MarkerClip live_take() {
   return clip;
 }
 
-StreamText stream_text(const MarkerClip& clip) {
+StreamText marker_stream_text(const MarkerClip& clip) {
   StreamText stream{"MARKERS 120 ", {}};
   for (std::size_t m = 0; m < clip.marker_count(); ++m)
     stream.header += (m > 0 ? "," : "") + clip.names[m];
@@ -62,7 +62,7 @@ std::vector<std::string> cells_of(const std::string& line) {
 TEST(LiveMarkers, GivesWhatTheMethodMakesOfTheWholeTake) {
   MarkerClip clip = live_take();
   clip.frame_rate_hz = 120;
-  const StreamText stream = stream_text(clip);
+  const StreamText stream = marker_stream_text(clip);
   for (const char* method : {"median", "one-euro", "bilateral"}) {
     const auto cleaner = make_cleaner(method);
     MarkerClip offline = clip;

@@ -7,7 +7,7 @@
 namespace kinemend {
 namespace {
 
-using testing::resting_clip;
+using test::resting_clip;
 
 // A stick of 170 units with one toe joint at the floor; the root carries everything.
 Skeleton one_legged() {

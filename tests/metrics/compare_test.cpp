@@ -9,21 +9,21 @@
 namespace kinemend {
 namespace {
 
-using testing::about_x;
-using ::testing::AllOf;
-using testing::chain_clip;
-using testing::degree;
-using ::testing::HasSubstr;
-using testing::moving_chain;
-using ::testing::Property;
-using ::testing::Throws;
-using ::testing::ThrowsMessage;
+using test::about_x;
+using test::chain_clip;
+using test::degree;
+using test::moving_chain;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Property;
+using testing::Throws;
+using testing::ThrowsMessage;
 
 TEST(CompareClips, AgreesWithEachFigureAlone) {
   const Clip reference = moving_chain(4, 30);
   Clip other = reference;
   Random random(5);
-  for (Quat& q : other.local_rotations) q = q * exp(testing::random_vector(random, 0.05));
+  for (Quat& q : other.local_rotations) q = q * exp(test::random_vector(random, 0.05));
   ComparisonSettings settings;
   settings.first_frame = 2;
   settings.psnr_peak = 3;

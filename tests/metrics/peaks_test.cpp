@@ -12,7 +12,7 @@
 namespace kinemend {
 namespace {
 
-using testing::moving_chain;
+using test::moving_chain;
 
 // By drawing: one set in twenty holds a longer vector.
 TEST(LongestOfNoise, IsPassedByOneSetInTwenty) {
@@ -23,7 +23,7 @@ TEST(LongestOfNoise, IsPassedByOneSetInTwenty) {
     for (int set = 0; set < sets; ++set) {
       double longest = 0;
       for (std::size_t i = 0; i < count; ++i)
-        longest = std::max(longest, norm(testing::random_vector(random, 1)));
+        longest = std::max(longest, norm(test::random_vector(random, 1)));
       longer += longest > longest_of_noise(count) ? 1 : 0;
     }
     const double expected = 0.05 * sets, deviation = std::sqrt(expected);
@@ -49,11 +49,10 @@ TEST(SampleNoise, KnowsHowFarSamplesThatDependOnEachOtherGoApart) {
 }
 
 Clip turning(double speed_deg_s, std::size_t frames = 240) {
-  Clip clip = testing::chain_clip(2, frames);
+  Clip clip = test::chain_clip(2, frames);
   for (std::size_t f = 0; f < frames; ++f) {
     const double t = static_cast<double>(f) / clip.frame_rate_hz;
-    clip.rotation(f, 1) =
-        testing::about_x(0.3 * std::sin(speed_deg_s * radians_per_degree / 0.3 * t));
+    clip.rotation(f, 1) = test::about_x(0.3 * std::sin(speed_deg_s * radians_per_degree / 0.3 * t));
   }
   return clip;
 }
@@ -63,7 +62,7 @@ TEST(PeakSpeeds, AreThoseOfTheMotionBesideNoiseAndSpikes) {
   Clip other = truth;
   Random random(4);
   for (std::size_t f = 0; f < other.frame_count(); ++f)
-    other.rotation(f, 1) = other.rotation(f, 1) * exp(testing::random_vector(random, 0.002));
+    other.rotation(f, 1) = other.rotation(f, 1) * exp(test::random_vector(random, 0.002));
   other.rotation(100, 1) = other.rotation(100, 1) * exp({0, 1, 0});
   const JointComparison joint = compare_clips(truth, other).joints[1];
   EXPECT_NEAR(joint.peak_speed_reference_deg_s, 90, 2);

@@ -9,8 +9,8 @@
 namespace kinemend {
 namespace {
 
-using testing::about_z;
-using testing::chain_clip;
+using test::about_z;
+using test::chain_clip;
 
 TEST(Mpjpe, IsTheMeanDistanceOfJointPositions) {
   // The root turns by 90 degrees in frame 0: joints at 0, 1, 2 along x go to y. Distances 0, sqrt

@@ -10,13 +10,13 @@
 namespace kinemend {
 namespace {
 
-using testing::about_x;
-using testing::about_y;
-using testing::about_z;
-using testing::chain_clip;
-using testing::degree;
-using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
+using test::about_x;
+using test::about_y;
+using test::about_z;
+using test::chain_clip;
+using test::degree;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
 
 // Three joints, two frames; joint 1 turns about z and joint 2 about x in the reference, nothing
 // else moves.

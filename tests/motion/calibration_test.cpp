@@ -12,13 +12,13 @@ constexpr std::size_t joints = 4, frames = 10, tracks = 3;
 
 // Four joints of which two are translated; no sample is like another.
 Clip moving_clip() {
-  Clip clip = testing::chain_clip(joints, frames);
+  Clip clip = test::chain_clip(joints, frames);
   clip.translated_joints = {1, 3};
   for (std::size_t f = 0; f < frames; ++f) {
     const double at = static_cast<double>(f);
     clip.root_positions[f] = {at, 0, 0};
     for (std::size_t j = 0; j < joints; ++j)
-      clip.rotation(f, j) = testing::about_z(0.01 * at + 0.1 * static_cast<double>(j));
+      clip.rotation(f, j) = test::about_z(0.01 * at + 0.1 * static_cast<double>(j));
     clip.joint_translations.insert(clip.joint_translations.end(), {{at, 1, 0}, {at, 3, 0}});
   }
   return clip;
@@ -26,7 +26,7 @@ Clip moving_clip() {
 
 void damage(Clip& motion) {
   for (Vec3& position : motion.root_positions) position.y += 1;
-  for (Quat& rotation : motion.local_rotations) rotation = rotation * testing::about_z(1);
+  for (Quat& rotation : motion.local_rotations) rotation = rotation * test::about_z(1);
   for (Vec3& translation : motion.joint_translations) translation.z += 2;
   motion.observed.assign(motion.local_rotations.size(), 0);
   motion.observed_positions.assign(motion.frame_count() * tracks, 0);

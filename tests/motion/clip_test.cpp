@@ -10,17 +10,17 @@
 namespace kinemend {
 namespace {
 
-using testing::about_x;
-using testing::about_z;
-using ::testing::AllOf;
-using testing::chain_clip;
-using testing::chain_skeleton;
-using testing::degree;
-using testing::moving_chain;
-using ::testing::Property;
-using testing::random_vector;
-using ::testing::Throws;
-using ::testing::ThrowsMessage;
+using test::about_x;
+using test::about_z;
+using test::chain_clip;
+using test::chain_skeleton;
+using test::degree;
+using test::moving_chain;
+using test::random_vector;
+using testing::AllOf;
+using testing::Property;
+using testing::Throws;
+using testing::ThrowsMessage;
 
 auto usage(const char* message) {
   return AllOf(Throws<Error>(Property(&Error::kind, ErrorKind::usage)),
@@ -117,7 +117,7 @@ TEST(Slice, HoldsTheFramesAskedForAndNoSourceDocument) {
 // T-pose before it.
 Clip take_with_pose(std::size_t pose_frames, std::size_t frames) {
   const Clip motion = moving_chain(8, frames, 120);
-  Clip clip = testing::resting_clip(motion.skeleton, pose_frames + frames, 120);
+  Clip clip = test::resting_clip(motion.skeleton, pose_frames + frames, 120);
   for (std::size_t f = 0; f < frames; ++f) {
     for (std::size_t j = 0; j < 8; ++j)
       clip.rotation(pose_frames + f, j) = about_z(0.7) * motion.rotation(f, j);
@@ -132,7 +132,7 @@ TEST(LeadingCalibrationFrames, FindsATPoseFirst) {
 
 TEST(LeadingCalibrationFrames, FindsATPoseWithATurnedRootAndHips) {
   Clip clip = take_with_pose(1, 300);
-  clip.rotation(0, 0) = testing::about_y(2);
+  clip.rotation(0, 0) = test::about_y(2);
   clip.rotation(0, 1) = about_z(21 * degree);
   clip.rotation(0, 2) = about_z(-21 * degree);
   EXPECT_EQ(leading_calibration_frames(clip), 1u);

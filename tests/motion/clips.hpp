@@ -6,26 +6,15 @@
 #include <vector>
 
 #include "kinemend/clip.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "rotation/random_rotations.hpp"
 
-namespace kinemend::testing {
+namespace kinemend::test {
 
 inline constexpr double degree = radians_per_degree;
 
 inline Quat about_x(double angle) { return exp({angle, 0, 0}); }
 inline Quat about_y(double angle) { return exp({0, angle, 0}); }
 inline Quat about_z(double angle) { return exp({0, 0, angle}); }
-
-inline Vec3 random_vector(Random& random, double deviation = 1.0) {
-  const double x = random.normal(), y = random.normal(), z = random.normal();
-  return {deviation * x, deviation * y, deviation * z};
-}
-
-// Uniform over the rotations.
-inline Quat random_rotation(Random& random) {
-  const double w = random.normal(), x = random.normal(), y = random.normal(), z = random.normal();
-  return normalized({w, x, y, z});
-}
 
 // All joints at rest, the root at its offset.
 inline Clip resting_clip(Skeleton skeleton, std::size_t frames, double frame_rate_hz) {
@@ -70,4 +59,4 @@ inline Clip moving_chain(std::size_t joints, std::size_t frames, double frame_ra
   return clip;
 }
 
-}  // namespace kinemend::testing
+}  // namespace kinemend::test

@@ -12,9 +12,9 @@
 namespace kinemend {
 namespace {
 
-using testing::moving_chain;
-using testing::random_rotation;
-using testing::random_vector;
+using test::moving_chain;
+using test::random_rotation;
+using test::random_vector;
 
 void expect_near(Vec3 a, Vec3 b, double tolerance) {
   EXPECT_NEAR(a.x, b.x, tolerance);
@@ -234,8 +234,7 @@ TEST(JointMarkers, AreMissingBelowARotationThatIsMissing) {
   clip.observed.assign(12, 1);
   clip.observed[4 + 1] = 0;  // joint1 in frame 1
   const MarkerClip markers = joint_markers(clip, true);
-  EXPECT_THAT(markers.observed,
-              ::testing::ElementsAre(1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 1, 1, 1, 1, 1));
+  EXPECT_THAT(markers.observed, testing::ElementsAre(1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 1, 1, 1, 1, 1));
 }
 
 TEST(ScaleLengths, ScalesPositionsAndKeepsAngles) {

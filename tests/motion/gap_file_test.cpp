@@ -17,8 +17,8 @@ void PrintTo(const NamedGap& gap, std::ostream* out) {
 
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
+using testing::ElementsAre;
+using testing::IsEmpty;
 
 std::string complaint(const std::string& text) {
   try {

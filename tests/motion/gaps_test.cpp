@@ -8,12 +8,12 @@
 namespace kinemend {
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
 
 TEST(MarkGaps, OfAJointMarksItsRotation) {
-  Clip clip = testing::chain_clip(3, 20);
+  Clip clip = test::chain_clip(3, 20);
   mark_gaps(clip, std::vector<NamedGap>{{"joint1", 4, 6}, {"joint2", 0, 0}, {"joint1", 7, 8}});
   clip.validate();
   EXPECT_THAT(find_gaps(clip), ElementsAre(Gap{1, 4, 8}, Gap{2, 0, 0}));
@@ -21,7 +21,7 @@ TEST(MarkGaps, OfAJointMarksItsRotation) {
 }
 
 TEST(MarkGaps, OfTheRootMarksItsPositionToo) {
-  Clip clip = testing::chain_clip(3, 20);
+  Clip clip = test::chain_clip(3, 20);
   mark_gaps(clip, std::vector<NamedGap>{{"root", 4, 6}});
   EXPECT_THAT(find_gaps(clip), ElementsAre(Gap{0, 4, 6}));
   EXPECT_THAT(find_position_gaps(clip), ElementsAre(Gap{0, 4, 6}));
@@ -34,13 +34,13 @@ TEST(MarkGaps, OfTheRootMarksItsPositionToo) {
 TEST(MarkGaps, LeavesThePositionOfARootThatHasNoChannelsForIt) {
   Skeleton skeleton;
   skeleton.add_joint("root", -1, {}, make_channels(false, parse_rotation_order("ZXY")));
-  Clip clip = testing::resting_clip(skeleton, 9, 100);
+  Clip clip = test::resting_clip(skeleton, 9, 100);
   mark_gaps(clip, std::vector<NamedGap>{{"root", 4, 6}});
   EXPECT_THAT(find_position_gaps(clip), IsEmpty());
 }
 
 TEST(MarkGaps, OfATranslatedJointMarksItsTranslation) {
-  Clip clip = testing::chain_clip(4, 10);
+  Clip clip = test::chain_clip(4, 10);
   clip.translated_joints = {1, 3};
   clip.joint_translations.assign(20, Vec3{1, 0, 0});
   mark_gaps(clip, std::vector<NamedGap>{{"joint3", 2, 3}, {"joint2", 5, 5}});
@@ -52,14 +52,14 @@ TEST(MarkGaps, OfATranslatedJointMarksItsTranslation) {
 }
 
 TEST(MarkGaps, KnowsNamesAsEveryOptionDoesButTheExactNameFirst) {
-  Clip clip = testing::chain_clip(4, 10);
+  Clip clip = test::chain_clip(4, 10);
   clip.skeleton.names = {"Ann:Hips", "Ann:LArm", "*1", "11"};
   mark_gaps(clip, std::vector<NamedGap>{{"hips", 1, 1}, {"L*", 2, 3}, {"*1", 5, 5}});
   EXPECT_THAT(find_gaps(clip), ElementsAre(Gap{0, 1, 1}, Gap{1, 2, 3}, Gap{2, 5, 5}));
 }
 
 TEST(MarkGaps, SaysWhatTheTakeDoesNotHave) {
-  Clip clip = testing::chain_clip(2, 10);
+  Clip clip = test::chain_clip(2, 10);
   const auto complaint = [&](const NamedGap& gap) -> std::string {
     try {
       mark_gaps(clip, std::vector<NamedGap>{gap});

@@ -7,14 +7,14 @@
 namespace kinemend {
 namespace {
 
-using testing::about_x;
-using testing::about_y;
-using testing::about_z;
-using testing::chain_clip;
-using testing::random_rotation;
-using testing::random_vector;
+using test::about_x;
+using test::about_y;
+using test::about_z;
+using test::chain_clip;
+using test::random_rotation;
+using test::random_vector;
 
-void expect_near(Vec3 found, Vec3 expected, double tolerance = 1e-14) {
+void expect_close(Vec3 found, Vec3 expected, double tolerance = 1e-14) {
   EXPECT_NEAR(found.x, expected.x, tolerance);
   EXPECT_NEAR(found.y, expected.y, tolerance);
   EXPECT_NEAR(found.z, expected.z, tolerance);
@@ -30,12 +30,12 @@ TEST(ForwardKinematics, OfAPlanarChainIsASumOfAngles) {
   const Pose pose = forward_kinematics(clip, 0);
   Vec3 p{10, 20, 30};
   double sum = 0;
-  expect_near(pose.positions[0], p);
+  expect_close(pose.positions[0], p);
   int joint = 1;
   for (const double angle : {a, b, c}) {
     sum += angle;
     p += Vec3{std::cos(sum), std::sin(sum), 0};
-    expect_near(pose.positions[static_cast<std::size_t>(joint++)], p);
+    expect_close(pose.positions[static_cast<std::size_t>(joint++)], p);
   }
   EXPECT_LT(angle_between(pose.rotations[3], about_z(sum)), 1e-15);
 }
@@ -44,7 +44,7 @@ TEST(ForwardKinematics, TurnsALeafWithoutMovingIt) {
   Clip clip = chain_clip(3, 1);
   clip.rotation(0, 2) = about_x(1);
   const Pose pose = forward_kinematics(clip, 0);
-  expect_near(pose.positions[2], {2, 0, 0});
+  expect_close(pose.positions[2], {2, 0, 0});
   EXPECT_LT(angle_between(pose.rotations[2], about_x(1)), 1e-15);
 }
 
@@ -53,11 +53,11 @@ TEST(ForwardKinematics, PutsRestRotationsBeforeLocalOnes) {
   // parent's y.
   Clip clip = chain_clip(3, 1);
   clip.skeleton.rest_rotations[1] = about_z(pi / 2);
-  expect_near(forward_kinematics(clip, 0).positions[2], {1, 1, 0});
+  expect_close(forward_kinematics(clip, 0).positions[2], {1, 1, 0});
   clip.rotation(0, 1) = about_y(-pi / 2);  // own x to own z, which is the parent's z
-  expect_near(forward_kinematics(clip, 0).positions[2], {1, 0, 1});
+  expect_close(forward_kinematics(clip, 0).positions[2], {1, 0, 1});
   clip.skeleton.rest_rotations[0] = about_x(pi / 2);
-  expect_near(forward_kinematics(clip, 0).positions[2], {1, -1, 0});
+  expect_close(forward_kinematics(clip, 0).positions[2], {1, -1, 0});
 }
 
 TEST(ForwardKinematics, ReplacesOffsetsByTranslations) {
@@ -66,10 +66,10 @@ TEST(ForwardKinematics, ReplacesOffsetsByTranslations) {
   clip.joint_translations = {{0, 0, 0}, {0, 0, 0}, {0, 5, 0}, {0, 0, 7}};
   clip.rotation(1, 0) = about_z(pi / 2);
   const Pose pose = forward_kinematics(clip, 1);
-  expect_near(pose.positions[1], {-5, 0, 0});
-  expect_near(pose.positions[2], {-5, 1, 0});
-  expect_near(pose.positions[3], {-5, 1, 7});
-  expect_near(forward_kinematics(clip, 0).positions[3], {1, 0, 0});
+  expect_close(pose.positions[1], {-5, 0, 0});
+  expect_close(pose.positions[2], {-5, 1, 0});
+  expect_close(pose.positions[3], {-5, 1, 7});
+  expect_close(forward_kinematics(clip, 0).positions[3], {1, 0, 0});
 }
 
 TEST(ForwardKinematics, TakesRootPositionsForJoint0AndOffsetsForOtherRoots) {
@@ -80,9 +80,9 @@ TEST(ForwardKinematics, TakesRootPositionsForJoint0AndOffsetsForOtherRoots) {
   clip.root_positions[0] = {1, 2, 3};
   clip.rotation(0, 2) = about_z(pi / 2);
   const Pose pose = forward_kinematics(clip, 0);
-  expect_near(pose.positions[0], {1, 2, 3});
-  expect_near(pose.positions[2], {7, 8, 9});
-  expect_near(pose.positions[3], {7, 9, 9});
+  expect_close(pose.positions[0], {1, 2, 3});
+  expect_close(pose.positions[2], {7, 8, 9});
+  expect_close(pose.positions[3], {7, 9, 9});
 }
 
 TEST(ForwardKinematics, AgreesWithProductsOfMatrices) {
@@ -107,7 +107,7 @@ TEST(ForwardKinematics, AgreesWithProductsOfMatrices) {
       point = offset +
               rotate(clip.skeleton.rest_rotations[joint], rotate(clip.rotation(0, joint), point));
     }
-    expect_near(pose.positions[j] + rotate(pose.rotations[j], local), point, 1e-13);
+    expect_close(pose.positions[j] + rotate(pose.rotations[j], local), point, 1e-13);
   }
 }
 
@@ -126,10 +126,10 @@ TEST(JointPositions, AreThoseOfEveryFrameWithEndSitesBehind) {
       EXPECT_EQ(all[f * 5 + j], pose.positions[j]);
     }
   }
-  expect_near(all[3], {3, 0, 0});
-  expect_near(all[4], {0, 2, 0});
-  expect_near(all[8], {0, 3, 0});
-  expect_near(all[9], {-2, 0, 0});
+  expect_close(all[3], {3, 0, 0});
+  expect_close(all[4], {0, 2, 0});
+  expect_close(all[8], {0, 3, 0});
+  expect_close(all[9], {-2, 0, 0});
 }
 
 }  // namespace

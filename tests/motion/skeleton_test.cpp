@@ -10,11 +10,11 @@
 namespace kinemend {
 namespace {
 
-using ::testing::AllOf;
-using testing::chain_skeleton;
-using ::testing::Property;
-using ::testing::Throws;
-using ::testing::ThrowsMessage;
+using test::chain_skeleton;
+using testing::AllOf;
+using testing::Property;
+using testing::Throws;
+using testing::ThrowsMessage;
 
 auto usage(const char* message) {
   return AllOf(Throws<Error>(Property(&Error::kind, ErrorKind::usage)),

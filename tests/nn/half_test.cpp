@@ -14,7 +14,7 @@ namespace {
 
 // Numbers and bits by tools/reference/tensors.py.
 TEST(Half, RoundsAsPythonsStructDoes) {
-  const auto rows = testing::read_csv("tensors/halves.csv");
+  const auto rows = test::read_csv("tensors/halves.csv");
   ASSERT_GT(rows.size(), 2000u);
   for (const auto& row : rows) {
     const double value = std::strtod(row[0].c_str(), nullptr);

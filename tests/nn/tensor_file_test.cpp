@@ -16,8 +16,8 @@
 namespace kinemend {
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
+using testing::ElementsAre;
+using testing::HasSubstr;
 
 std::vector<std::filesystem::path> fixtures(const char* folder) {
   const auto path = std::filesystem::path(KINEMEND_TEST_FIXTURES) / "tensors" / folder;
@@ -109,7 +109,7 @@ TEST(TensorFile, RefusesEveryBadFixtureInOneLineWithItsName) {
   ASSERT_GT(fixtures("bad").size(), 50u);
   for (const auto& path : fixtures("bad")) {
     const std::string message = message_of(file_bytes(path));
-    EXPECT_THAT(message, ::testing::StartsWith("a.kmodel: byte ")) << path;
+    EXPECT_THAT(message, testing::StartsWith("a.kmodel: byte ")) << path;
     EXPECT_EQ(message.find_first_of("\r\n"), message.npos) << path;
     EXPECT_LT(message.size(), 250u) << message;
   }

@@ -16,8 +16,8 @@
 namespace kinemend {
 namespace {
 
-using ::testing::HasSubstr;
-using ::testing::StartsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
 
 TrainingTakes walks(std::size_t count, std::uint64_t first_seed = 1) {
   return {count, [first_seed](std::size_t index) {

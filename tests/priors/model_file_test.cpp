@@ -16,8 +16,8 @@
 namespace kinemend {
 namespace {
 
-using ::testing::HasSubstr;
-using ::testing::StartsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
 
 Model joints_model() {
   Model model;
@@ -164,7 +164,7 @@ TEST(ModelFile, HoldsTheHashOfItselfWithZerosInItsPlace) {
 }
 
 TEST(ModelFile, IsReadFromDisk) {
-  const auto path = std::filesystem::path(::testing::TempDir()) / "kinemend-model-test.kmodel";
+  const auto path = std::filesystem::path(testing::TempDir()) / "kinemend-model-test.kmodel";
   std::ofstream(path, std::ios::binary) << write_model(markers_model());
   expect_same(read_model(path), markers_model());
   std::filesystem::remove(path);
@@ -275,14 +275,14 @@ TEST(ShippedModels, AreTheFilesOfTheFolder) {
     files.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
   }
   for (const ShippedModel& model : shipped_models()) shipped.emplace_back(model.bytes);
-  EXPECT_THAT(shipped, ::testing::UnorderedElementsAreArray(files));
+  EXPECT_THAT(shipped, testing::UnorderedElementsAreArray(files));
 }
 
 TEST(ModelFor, SaysWhereAModelComesFrom) {
   EXPECT_EQ(error_of([] { model_for("kalman-learned", ""); }, ErrorKind::usage),
             "method kalman-learned needs a model: --model FILE, made by kinemend train "
             "kalman-learned");
-  const auto path = std::filesystem::path(::testing::TempDir()) / "kinemend-model-for.kmodel";
+  const auto path = std::filesystem::path(testing::TempDir()) / "kinemend-model-for.kmodel";
   std::ofstream(path, std::ios::binary) << write_model(joints_model());
   EXPECT_EQ(model_for("wiener", path.string())->takes, 3u);
   EXPECT_THAT(error_of([&] { model_for("example", path.string()); }, ErrorKind::usage),

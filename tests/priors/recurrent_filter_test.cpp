@@ -13,7 +13,7 @@ namespace {
 
 using test::constant_network_model;
 
-constexpr std::size_t channels = 6;
+constexpr std::size_t filter_channels = 6;
 
 struct Take {
   PoseMatrix measured, automatic;
@@ -24,11 +24,12 @@ struct Take {
 };
 
 Take noisy_take(std::size_t frames, double rate_hz) {
-  Take take{PoseMatrix(frames, channels), PoseMatrix(frames, channels),
-            std::vector<std::uint8_t>(frames * channels), rate_hz};
-  const std::vector<double> noise = test::random_values(frames * channels, 1);
+  Take take{PoseMatrix(frames, filter_channels), PoseMatrix(frames, filter_channels),
+            std::vector<std::uint8_t>(frames * filter_channels), rate_hz};
+  const std::vector<double> noise = test::random_values(frames * filter_channels, 1);
   for (std::size_t i = 0; i < noise.size(); ++i) {
-    take.automatic.values[i] = 20 * std::sin(2 * static_cast<double>(i / channels) / rate_hz);
+    take.automatic.values[i] =
+        20 * std::sin(2 * static_cast<double>(i / filter_channels) / rate_hz);
     take.measured.values[i] = take.automatic.values[i] + noise[i];
   }
   return take;
@@ -48,7 +49,7 @@ TEST(RecurrentFilter, OfGainsOfOneIsWhatWasMeasuredAtTheNetworksRate) {
   const Take take = noisy_take(9000, 120);
   const PoseMatrix result = recurrent_filter(network, take.facts());
   for (std::size_t i = 0; i < result.values.size(); ++i)
-    ASSERT_NEAR(result.values[i], take.measured.values[i], 0.15) << "frame " << i / channels;
+    ASSERT_NEAR(result.values[i], take.measured.values[i], 0.15) << "frame " << i / filter_channels;
 }
 
 TEST(RecurrentFilter, KeepsItsTimeAtOtherRates) {
@@ -57,12 +58,12 @@ TEST(RecurrentFilter, KeepsItsTimeAtOtherRates) {
     Take take = noisy_take(400, rate_hz);
     // A slow difference to what was measured, which every rate can carry.
     for (std::size_t i = 0; i < take.measured.values.size(); ++i)
-      take.measured.values[i] =
-          take.automatic.values[i] + std::sin(3 * static_cast<double>(i / channels) / rate_hz);
+      take.measured.values[i] = take.automatic.values[i] +
+                                std::sin(3 * static_cast<double>(i / filter_channels) / rate_hz);
     const PoseMatrix result = recurrent_filter(network, take.facts());
     for (std::size_t i = 0; i < result.values.size(); ++i)
       ASSERT_NEAR(result.values[i], take.measured.values[i], 0.06)
-          << rate_hz << " Hz, frame " << i / channels;
+          << rate_hz << " Hz, frame " << i / filter_channels;
   }
 }
 
@@ -70,7 +71,7 @@ TEST(RecurrentFilter, ReadsNothingWhereSamplesAreMissing) {
   const RecurrentNetwork network = recurrent_network_of(test::small_network_model());
   Take take = noisy_take(300, 120);
   for (std::size_t f = 100; f < 120; ++f) {
-    for (std::size_t c = 0; c < 3; ++c) take.missing[f * channels + c] = 1;
+    for (std::size_t c = 0; c < 3; ++c) take.missing[f * filter_channels + c] = 1;
   }
   const PoseMatrix before = recurrent_filter(network, take.facts());
   for (std::size_t f = 100; f < 120; ++f) take.measured(f, 0) = 1e6;
@@ -97,7 +98,8 @@ TEST(GuardedRecurrentFilter, AddsTheShareOfTheCorrectionThatItFinds) {
   const PoseMatrix whole = recurrent_filter(network, take.facts());
   for (std::size_t i = 0; i < result.values.size(); ++i) {
     const double a = take.automatic.values[i];
-    ASSERT_NEAR(result.values[i] - a, shares[i % channels / 3] * (whole.values[i] - a), 1e-9);
+    ASSERT_NEAR(result.values[i] - a, shares[i % filter_channels / 3] * (whole.values[i] - a),
+                1e-9);
   }
   for (const double share : shares) EXPECT_TRUE(share >= 0 && share <= 1);
 }
@@ -107,7 +109,8 @@ TEST(GuardedRecurrentFilter, LeavesToAutoLowRatesHeldSamplesAndThePlace) {
   const RecurrentNetwork network = recurrent_network_of(model);
   Take held = noisy_take(600, 120);
   for (std::size_t i = 0; i < held.measured.values.size(); ++i) {
-    if (i / channels % 2 == 1) held.measured.values[i] = held.measured.values[i - channels];
+    if (i / filter_channels % 2 == 1)
+      held.measured.values[i] = held.measured.values[i - filter_channels];
   }
   for (const Take& take : {noisy_take(200, 30), held}) {
     std::vector<double> shares;

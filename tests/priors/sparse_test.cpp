@@ -170,11 +170,11 @@ TEST(Poselets, OfMarkersGoByNamesOrByWhereTheyAre) {
                   {0.2, 0.6, 0},  {-0.25, 0.6, 0}, {0.1, 0.1, 0}};
   const std::vector<SparsePoselet> poselets = find_poselets(layout, marker_points(layout));
   ASSERT_EQ(poselets.size(), 5u);
-  EXPECT_THAT(poselets[0].points, ::testing::ElementsAre(0, 2));
-  EXPECT_THAT(poselets[1].points, ::testing::ElementsAre(3));
-  EXPECT_THAT(poselets[2].points, ::testing::ElementsAre(4));
-  EXPECT_THAT(poselets[3].points, ::testing::ElementsAre(0, 5));
-  EXPECT_THAT(poselets[4].points, ::testing::ElementsAre(1));
+  EXPECT_THAT(poselets[0].points, testing::ElementsAre(0, 2));
+  EXPECT_THAT(poselets[1].points, testing::ElementsAre(3));
+  EXPECT_THAT(poselets[2].points, testing::ElementsAre(4));
+  EXPECT_THAT(poselets[3].points, testing::ElementsAre(0, 5));
+  EXPECT_THAT(poselets[4].points, testing::ElementsAre(1));
 }
 
 BodyLayout layout_of_four() {
@@ -197,9 +197,9 @@ TEST(PoseletFile, SaysWhichJointsArePartsOfWhat) {
       layout_of_four(), points_of_four());
   ASSERT_EQ(poselets.size(), 2u);
   EXPECT_EQ(poselets[0].name, "middle");
-  EXPECT_THAT(poselets[0].points, ::testing::ElementsAre(0, 1));
+  EXPECT_THAT(poselets[0].points, testing::ElementsAre(0, 1));
   EXPECT_EQ(poselets[1].name, "arms");
-  EXPECT_THAT(poselets[1].points, ::testing::ElementsAre(1, 2, 3, 4, 5));
+  EXPECT_THAT(poselets[1].points, testing::ElementsAre(1, 2, 3, 4, 5));
 }
 
 TEST(PoseletFile, IsRefusedWithTheLineAndWhatIsWrongWithIt) {
@@ -224,7 +224,7 @@ TEST(PoseletFile, IsRefusedWithTheLineAndWhatIsWrongWithIt) {
 }
 
 TEST(SparseTraining, LearnsThePoseletsOfAFileAndKeepsThemInTheModel) {
-  const std::string path = ::testing::TempDir() + "poselets.txt";
+  const std::string path = testing::TempDir() + "poselets.txt";
   std::ofstream(path) << "left: *Left*, Hips\nothers: *\n";
   const Model model = trained(std::vector<Clip>{walk(1, 1)}, {{"poselets", path}});
   const SparsePrior prior = sparse_prior_of(parse_model(write_model(model), "own"));

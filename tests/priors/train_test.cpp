@@ -13,7 +13,7 @@
 namespace kinemend {
 namespace {
 
-using ::testing::HasSubstr;
+using testing::HasSubstr;
 
 std::string usage_error_of(const std::function<void()>& action) {
   try {
@@ -42,7 +42,7 @@ TEST(LearnedMethods, AreCleaningMethodsWithOptionsOfTheirOwn) {
     EXPECT_FALSE(method.summary.empty()) << method.name;
     for (const OptionSpec& option : method.options) EXPECT_FALSE(option.help.empty());
   }
-  EXPECT_THAT(names, ::testing::ElementsAre("example", "wiener", "sparse", "kalman-learned"));
+  EXPECT_THAT(names, testing::ElementsAre("example", "wiener", "sparse", "kalman-learned"));
 }
 
 TEST(LearnedMethods, AnswersAnUnknownNameWithTheOneMeant) {

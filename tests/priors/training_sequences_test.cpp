@@ -19,7 +19,7 @@ namespace {
 
 using AnyTake = std::variant<Clip, MarkerClip>;
 
-Clip walk(std::uint64_t seed, double rate_hz = 60) {
+Clip walk_at(std::uint64_t seed, double rate_hz = 60) {
   SynthOptions options;
   options.duration_s = 3;
   options.frame_rate_hz = rate_hz;
@@ -47,12 +47,12 @@ TrainingTakes takes_of(const std::vector<AnyTake>& takes) {
 }
 
 std::vector<AnyTake> joint_takes() {
-  std::vector<AnyTake> takes = {walk(1), walk(2, 120), walk(3, 50), walk(4)};
+  std::vector<AnyTake> takes = {walk_at(1), walk_at(2, 120), walk_at(3, 50), walk_at(4)};
   lose_frames(std::get<Clip>(takes[0]));
   return takes;
 }
 std::vector<AnyTake> marker_takes() {
-  return {markers_of(walk(1)), markers_of(walk(2, 120)), markers_of(walk(3, 50))};
+  return {markers_of(walk_at(1)), markers_of(walk_at(2, 120)), markers_of(walk_at(3, 50))};
 }
 
 // Small and quick; what is learned does not matter here.
@@ -73,7 +73,7 @@ Model trained(const LearnedMethod& method, const TrainingTakes& takes,
 }
 
 TEST(TakeStore, GivesTakesBackToTheBit) {
-  Clip clip = walk(1);
+  Clip clip = walk_at(1);
   lose_frames(clip);
   clip.translated_joints = {2};
   clip.joint_translations.assign(clip.frame_count(), {1, 2, 3});
@@ -131,7 +131,7 @@ TEST(TrainingSequences, AreTheChannelsOfWholeStretchesInEveryPhase) {
 }
 
 TEST(TrainingSequences, GiveAnyFramesOfThem) {
-  const std::vector<AnyTake> takes = {walk(1)};
+  const std::vector<AnyTake> takes = {walk_at(1)};
   const TrainingSequences sequences = encode_takes(takes_of(takes), {}, 60);
   const PoseMatrix all = sequence_at(sequences, 0).poses;
   const PoseMatrix part = sequence_at(sequences, 0, 20, 52).poses;
@@ -146,7 +146,7 @@ TEST(TrainingSequences, AreWalkedThroughAsOftenAsOneLikesButReadOnce) {
     std::vector<std::size_t> asked;
     trained(method, {3, [&](std::size_t i) {
                        asked.push_back(i);
-                       return walk(i + 1);
+                       return walk_at(i + 1);
                      }});
     EXPECT_EQ(asked, (std::vector<std::size_t>{0, 1, 2})) << method.name;
   }

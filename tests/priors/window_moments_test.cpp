@@ -12,10 +12,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-MatrixXd random_matrix(Random& random, Index rows, Index columns) {
-  return MatrixXd::NullaryExpr(rows, columns, [&] { return random.normal(); });
-}
-
 TEST(WindowMoments, AreThoseOfAllWindowsByTheirWeights) {
   Random random(1);
   const MatrixXd a = random_matrix(random, 3, 5), b = random_matrix(random, 3, 4);

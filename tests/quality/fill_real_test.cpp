@@ -28,7 +28,8 @@ struct Figures {
   std::size_t refused = 0;
 };
 
-Figures figures(const MarkerClip& truth, std::size_t length, const std::string& method = "auto") {
+Figures fill_figures(const MarkerClip& truth, std::size_t length,
+                     const std::string& method = "auto") {
   constexpr std::uint64_t seeds = 10;
   Figures figures;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
@@ -48,8 +49,8 @@ Figures figures(const MarkerClip& truth, std::size_t length, const std::string& 
     figures.mean += sum / count / static_cast<double>(seeds);
     figures.worst = std::max(figures.worst, sum / count);
   }
-  ::testing::Test::RecordProperty("mean", std::to_string(figures.mean));
-  ::testing::Test::RecordProperty("worst", std::to_string(figures.worst));
+  testing::Test::RecordProperty("mean", std::to_string(figures.mean));
+  testing::Test::RecordProperty("worst", std::to_string(figures.worst));
   printf("  %s, %zu frames: mean %.2f, worst seed %.2f, refused %zu\n", method.c_str(), length,
          figures.mean, figures.worst, figures.refused);
   return figures;
@@ -58,39 +59,40 @@ Figures figures(const MarkerClip& truth, std::size_t length, const std::string& 
 constexpr std::size_t body_markers = 41;
 
 TEST(FillRealTakes, ThirtyFramesOfAcrobaticsAreOffByLessThanEightMillimetres) {
-  const Figures f = figures(take_points("cmu/c3d/85_02.c3d", 0, body_markers), 30);
+  const Figures f = fill_figures(take_points("cmu/c3d/85_02.c3d", 0, body_markers), 30);
   EXPECT_LT(f.mean, 3.5);
   EXPECT_LT(f.worst, 8.0);
   EXPECT_EQ(f.refused, 0U);
 }
 
 TEST(FillRealTakes, AHundredAndTwentyFramesOfAcrobaticsAreOffByLessThanEighteenMillimetres) {
-  const Figures f = figures(take_points("cmu/c3d/85_02.c3d", 0, body_markers), 120);
+  const Figures f = fill_figures(take_points("cmu/c3d/85_02.c3d", 0, body_markers), 120);
   EXPECT_LT(f.mean, 9.0);
   EXPECT_LT(f.worst, 18.0);
 }
 
 TEST(FillRealTakes, AHundredAndTwentyFramesOfALongTakeAreOffByLessThanNineMillimetres) {
-  const Figures f = figures(take_points("cmu/c3d/85_12.c3d", 0, body_markers), 120);
+  const Figures f = fill_figures(take_points("cmu/c3d/85_12.c3d", 0, body_markers), 120);
   EXPECT_LT(f.mean, 8.0);
   EXPECT_LT(f.worst, 14.0);
 }
 
 // Other bodies, rooms and movements.
 TEST(FillRealTakes, OtherTakesAreOffByAsLittle) {
-  EXPECT_LT(figures(take_points("cmu/c3d/05_13.c3d", 0, body_markers), 120).mean, 10.0);
-  EXPECT_LT(figures(take_points("c3d/other/HDM_bd_05-01_01_120.c3d", 3, body_markers), 120).mean,
-            3.0);
+  EXPECT_LT(fill_figures(take_points("cmu/c3d/05_13.c3d", 0, body_markers), 120).mean, 10.0);
+  EXPECT_LT(
+      fill_figures(take_points("c3d/other/HDM_bd_05-01_01_120.c3d", 3, body_markers), 120).mean,
+      3.0);
   // Nine points of the legs and the pelvis: joint centres, no clusters.
-  EXPECT_LT(figures(take_points("paired/S02-Trial-Walk-1-vicon.c3d", 0, 9), 100).mean, 10.0);
+  EXPECT_LT(fill_figures(take_points("paired/S02-Trial-Walk-1-vicon.c3d", 0, 9), 100).mean, 10.0);
 }
 
 TEST(FillRealTakes, AutoIsBetterThanEachMethodByItself) {
   const MarkerClip truth = take_points("cmu/c3d/85_02.c3d", 0, body_markers);
-  const double chosen = figures(truth, 30).mean;
+  const double chosen = fill_figures(truth, 30).mean;
   for (const char* method :
        {"spline", "quintic", "pchip", "rigid-body", "pca", "local-regression"}) {
-    EXPECT_LT(chosen, figures(truth, 30, method).mean) << method;
+    EXPECT_LT(chosen, fill_figures(truth, 30, method).mean) << method;
   }
 }
 

@@ -16,14 +16,14 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-Clip take(const char* motion, double duration_s) {
+Clip take_at_60_hz(const char* motion, double duration_s) {
   return synthesize({.motion = motion, .duration_s = duration_s, .frame_rate_hz = 60});
 }
 
 TEST(ReportWords, NoiseAloneLosesNoPeakOfSpeed) {
   for (const char* motion : {"wave", "walk", "turn", "stroll"}) {
     for (const double noise_deg : {0.5, 3.0}) {
-      const Clip noisy = damaged(take(motion, 20), noise_deg, 0, 11);
+      const Clip noisy = damaged(take_at_60_hz(motion, 20), noise_deg, 0, 11);
       EXPECT_THAT(clean_clip(noisy, *make_cleaner("auto")).report.warnings, IsEmpty())
           << motion << " " << noise_deg;
     }
@@ -31,7 +31,7 @@ TEST(ReportWords, NoiseAloneLosesNoPeakOfSpeed) {
 }
 
 TEST(ReportWords, NoiseIsTheMeasuredOneAtAnySensitivity) {
-  const Clip noisy = damaged(take("walk", 3), 1.5, 0, 5);
+  const Clip noisy = damaged(take_at_60_hz("walk", 3), 1.5, 0, 5);
   const CleanReport usual = clean_clip(noisy, *make_cleaner("auto")).report;
   for (const double sensitivity : {0.0, 0.5, 3.0}) {
     const CleanReport other =
@@ -42,7 +42,7 @@ TEST(ReportWords, NoiseIsTheMeasuredOneAtAnySensitivity) {
 }
 
 TEST(ReportWords, SmoothingThatIsFarMoreThanNoiseIsSaid) {
-  Clip clip = damaged(take("walk", 3), 1.5, 0, 5);
+  Clip clip = damaged(take_at_60_hz("walk", 3), 1.5, 0, 5);
   const auto elbow = static_cast<std::size_t>(clip.skeleton.find("LeftForeArm"));
   clip.rotation(90, elbow) = clip.rotation(90, elbow) * exp({1.1, 0, 0});
   for (const char* method : {"gaussian", "butterworth", "weighted-mean"}) {
@@ -64,7 +64,7 @@ class FallBacks : public testing::TestWithParam<const char*> {};
 TEST_P(FallBacks, AreNamedAndReportedAsWhatTheyAre) {
   std::size_t fallen_back = 0;
   for (const char* motion : {"walk", "wave"}) {
-    const Clip noisy = damaged(take(motion, 4), 1.5, 0.004, 3);
+    const Clip noisy = damaged(take_at_60_hz(motion, 4), 1.5, 0.004, 3);
     const CleanResult other = clean_clip(noisy, *make_cleaner("auto"));
     const CleanResult result = clean_clip(noisy, *make_cleaner(GetParam()));
     std::map<std::int32_t, double> shares;
@@ -101,7 +101,7 @@ GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(FallBacks);
 #endif
 
 TEST(FallBack, IsNoneOfAMethodThatDoesWhatItSays) {
-  const Clip noisy = damaged(take("walk", 2), 1.5, 0.004, 3);
+  const Clip noisy = damaged(take_at_60_hz("walk", 2), 1.5, 0.004, 3);
   for (const Method& method : methods()) {
     if (method.learned) continue;
     EXPECT_THAT(clean_clip(noisy, *make_cleaner(method.name)).report.fall_backs, IsEmpty())

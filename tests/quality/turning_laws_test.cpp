@@ -9,29 +9,25 @@
 #include "kinemend/experimental/synth.hpp"
 #include "kinemend/methods.hpp"
 #include "quality/quality.hpp"
+#include "rotation/random_rotations.hpp"
 
 namespace kinemend::quality {
 namespace {
 
 constexpr double rate_hz = 60, noise_deg = 1.5, noise_cm = 0.3;
 
-Clip take(const char* motion, double duration_s) {
+Clip take_to_turn(const char* motion, double duration_s) {
   return synthesize({.motion = motion, .duration_s = duration_s, .frame_rate_hz = rate_hz});
-}
-
-Vec3 random_step(Random& random, double size) {
-  const double x = random.normal(), y = random.normal(), z = random.normal();
-  return {size * x, size * y, size * z};
 }
 
 Clip noisy(const Clip& truth, std::uint64_t seed = 7) {
   Clip clip = damaged(truth, noise_deg, 0, seed);
   Random random(seed + 1);
-  for (Vec3& p : clip.root_positions) p += random_step(random, noise_cm);
+  for (Vec3& p : clip.root_positions) p += test::random_vector(random, noise_cm);
   return clip;
 }
 
-// The whole take turns about the origin, or stands elsewhere.
+// The whole take_to_turn turns about the origin, or stands elsewhere.
 Vec3 turned(Vec3 p, Vec3 speed_deg_s, double time_s) {
   return rotate(exp(radians_per_degree * time_s * speed_deg_s), p);
 }
@@ -76,7 +72,7 @@ class OfAnyMethod : public testing::TestWithParam<std::string> {
   bool is_causal() const {
     return cleaner_->live_support(rate_hz).kind == LiveSupport::Kind::causal;
   }
-  // A filter of fixed weights turns with the take; others measure, compare or choose anew.
+  // A filter of fixed weights turns with the take_to_turn; others measure, compare or choose anew.
   bool has_fixed_weights() const {
     for (const char* name : {"gaussian", "butterworth", "weighted-mean", "kalman"})
       if (GetParam() == name) return true;
@@ -97,15 +93,16 @@ class OfAnyMethod : public testing::TestWithParam<std::string> {
   }
 };
 
-// About an axis through the take, as a person turns who walks in a circle. A position that goes
-// round is another motion: who walks at 1.2 m/s and is turned by 60 degrees a second is accelerated
-// by 2.5 m/s^2, as much as by each step. An average over a window cuts that curve, and strengths
-// chosen by evidence follow it; over many seeds the error of `auto` changes by -5 to 9 % a motion,
-// less and more alike.
+// About an axis through the take_to_turn, as a person turns who walks in a circle. A position that
+// goes round is another motion: who walks at 1.2 m/s and is turned by 60 degrees a second is
+// accelerated by 2.5 m/s^2, as much as by each step. An average over a window cuts that curve, and
+// strengths chosen by evidence follow it; over many seeds the error of `auto` changes by -5 to 9 %
+// a motion, less and more alike.
 TEST_P(OfAnyMethod, TheErrorDoesNotDependOnHowTheTakeTurns) {
   Squares still;
-  std::vector<Clip> truths = {about_its_middle(take("walk", 3)), about_its_middle(take("wave", 2)),
-                              about_its_middle(take("run", 2))};
+  std::vector<Clip> truths = {about_its_middle(take_to_turn("walk", 3)),
+                              about_its_middle(take_to_turn("wave", 2)),
+                              about_its_middle(take_to_turn("run", 2))};
   std::vector<Clip> inputs, results;
   for (const Clip& truth : truths) {
     inputs.push_back(noisy(truth));
@@ -136,7 +133,7 @@ TEST_P(OfAnyMethod, TheErrorDoesNotDependOnHowTheTakeTurns) {
 }
 
 TEST_P(OfAnyMethod, TheErrorDoesNotDependOnWhereTheTakeStands) {
-  const Clip truth = about_its_middle(take("walk", 3)), input = noisy(truth);
+  const Clip truth = about_its_middle(take_to_turn("walk", 3)), input = noisy(truth);
   const Vec3 far{1e6, -2e5, 5e5};  // ten kilometres away
   const Clip near_result = cleaned(input), far_result = cleaned(moved(input, far));
   Squares error, difference;
@@ -148,7 +145,7 @@ TEST_P(OfAnyMethod, TheErrorDoesNotDependOnWhereTheTakeStands) {
 
 TEST_P(OfAnyMethod, TheErrorDoesNotGrowWithTheLengthOfTheTake) {
   for (const char* motion : {"turn", "stroll"}) {
-    const Clip once = take(motion, 10), often = take(motion, 50);
+    const Clip once = take_to_turn(motion, 10), often = take_to_turn(motion, 50);
     Squares error_once, error_often;
     error_once.add(once, cleaned(noisy(once)));
     error_often.add(often, cleaned(noisy(often)));
@@ -163,10 +160,10 @@ TEST_P(OfAnyMethod, TheErrorDoesNotGrowWithTheLengthOfTheTake) {
 
 TEST_P(OfAnyMethod, MarkersTurnAndStandAnywhere) {
   if (is_causal() || find_method(GetParam()).learned) return;  // the models that ship know joints
-  const MarkerClip truth = joint_markers(about_its_middle(take("walk", 3)));
+  const MarkerClip truth = joint_markers(about_its_middle(take_to_turn("walk", 3)));
   MarkerClip input = truth;
   Random random(9);
-  for (Vec3& p : input.positions) p += random_step(random, noise_cm);
+  for (Vec3& p : input.positions) p += test::random_vector(random, noise_cm);
   const auto clean = [&](const MarkerClip& clip) { return clean_markers(clip, *cleaner_).clip; };
   const auto map = [&](MarkerClip clip, Vec3 speed, Vec3 shift) {
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -200,7 +197,7 @@ std::vector<std::string> with_models_that_ship() {
   std::vector<std::string> names;
   for (const Method& method : methods()) {
 #if defined(KINEMEND_SANITIZED)
-    if (method.learned) continue;  // their products take minutes
+    if (method.learned) continue;  // their products take_to_turn minutes
 #endif
     if (method.name != "kalman-learned") names.push_back(method.name);
   }

@@ -10,6 +10,7 @@
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/svg.hpp"
 #include "kinemend/experimental/synth.hpp"
+#include "report/support.hpp"
 
 namespace kinemend::test {
 namespace {
@@ -17,12 +18,6 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++found;
-  return found;
-}
 
 MarkerClip markers() {
   MarkerClip clip = make_marker_clip({"A", "B<&>"}, 100, 50);
@@ -84,7 +79,7 @@ TEST(Curves, OfMarkersBreakWhereTheyAreMissing) {
   EXPECT_THAT(svg, HasSubstr(">A, mm</text>"));
   EXPECT_THAT(svg, HasSubstr(">120</text>")) << "frames as the file counts them";
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
-  EXPECT_EQ(count(svg, "<g"), count(svg, "</g>"));
+  EXPECT_EQ(test::count_of(svg, "<g"), test::count_of(svg, "</g>"));
 }
 
 TEST(Curves, ShowFindingsOfTheTrackAsBands) {
@@ -99,10 +94,10 @@ TEST(Curves, ShowFindingsOfTheTrackAsBands) {
   ReportFinding turn = spike;
   turn.quantity = "rotation";
   const std::vector<ReportFinding> findings = {spike, other, noise, turn};
-  EXPECT_EQ(count(curves_svg(curves, findings), "opacity=\".5\""), 1U);
+  EXPECT_EQ(test::count_of(curves_svg(curves, findings), "opacity=\".5\""), 1U);
   CurveStyle late;
   late.first_frame = 50;
-  EXPECT_EQ(count(curves_svg(curves, findings, late), "opacity=\".5\""), 0U);
+  EXPECT_EQ(test::count_of(curves_svg(curves, findings, late), "opacity=\".5\""), 0U);
 }
 
 TEST(Curves, OfAnyLengthAreDrawn) {

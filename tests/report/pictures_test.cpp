@@ -9,6 +9,7 @@
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/synth.hpp"
+#include "report/support.hpp"
 
 namespace kinemend::test {
 namespace {
@@ -20,21 +21,15 @@ using testing::StartsWith;
 
 constexpr FrameSpanToDraw all_frames{0, std::numeric_limits<std::size_t>::max()};
 
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++found;
-  return found;
-}
-
 void expect_svg(const std::string& svg) {
   EXPECT_THAT(svg, StartsWith("<svg "));
   EXPECT_THAT(svg, EndsWith("</svg>\n"));
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
   EXPECT_THAT(svg, Not(HasSubstr("inf")));
-  EXPECT_EQ(count(svg, "<g"), count(svg, "</g>"));
+  EXPECT_EQ(test::count_of(svg, "<g"), test::count_of(svg, "</g>"));
 }
 
-MarkerClip markers() {
+MarkerClip gapped_markers() {
   MarkerClip clip = make_marker_clip({"A", "B<&>", "C"}, 100, 50);
   clip.unit = "mm";
   clip.first_frame = 101;
@@ -96,7 +91,7 @@ TEST(Pictures, OfASpectrumLeaveWindowsWithGapsOut) {
 }
 
 TEST(Pictures, OfGapsHaveARowForEachTrackThatHasSome) {
-  const MarkerClip before = markers();
+  const MarkerClip before = gapped_markers();
   MarkerClip after = before;
   after.observed.assign(300, 1);
   const std::string one = gap_chart_svg(before, nullptr);
@@ -114,12 +109,12 @@ TEST(Pictures, OfPosesStandInARow) {
   const Clip clip = synthesize({.duration_s = 2, .frame_rate_hz = 60});
   const std::string svg = film_strip_svg(clip, &clip, all_frames, 5);
   expect_svg(svg);
-  EXPECT_EQ(count(svg, "<path"), 11u) << "two a pose, and the floor";
+  EXPECT_EQ(test::count_of(svg, "<path"), 11u) << "two a pose, and the floor";
   EXPECT_THAT(svg, HasSubstr(">1</text>"));
   EXPECT_THAT(svg, HasSubstr(">120</text>"));
-  const std::string dots = film_strip_svg(markers(), nullptr, {30, 30}, 5);
+  const std::string dots = film_strip_svg(gapped_markers(), nullptr, {30, 30}, 5);
   expect_svg(dots);
-  EXPECT_EQ(count(dots, "<circle"), 2u) << "one of three is missing";
+  EXPECT_EQ(test::count_of(dots, "<circle"), 2u) << "one of three is missing";
 }
 
 TEST(Pictures, AreDrawnOfTakesWithNothingInThem) {

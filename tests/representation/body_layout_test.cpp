@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 template <class Work>
-std::string message_of(Work work) {
+std::string usage_error_of(Work work) {
   try {
     work();
   } catch (const Error& error) {
@@ -44,7 +44,7 @@ TEST(BodyLayout, SaysWhichTrackBreaksARule) {
   const auto broken = [&](auto change) {
     BodyLayout layout = good;
     change(layout);
-    return message_of([&] { layout.validate(); });
+    return usage_error_of([&] { layout.validate(); });
   };
   EXPECT_THAT(broken([](BodyLayout& l) {
                 l.references[3] = {2, 0, 0, 0};
@@ -61,7 +61,7 @@ TEST(BodyLayout, SaysWhichTrackBreaksARule) {
   const auto broken_markers = [&](auto change) {
     BodyLayout layout = markers;
     change(layout);
-    return message_of([&] { layout.validate(); });
+    return usage_error_of([&] { layout.validate(); });
   };
   EXPECT_THAT(broken_markers([](BodyLayout& l) { l.means[1].x = INFINITY; }),
               HasSubstr("marker 1"));
@@ -105,7 +105,7 @@ TEST(BodyLayoutBuilder, LearnsTheNamesAskedForAndTheRoot) {
   EXPECT_THAT(builder.finish().names,
               ElementsAre("Hips", "LeftUpLeg", "LeftLeg", "LeftFoot", "RightUpLeg", "RightLeg"));
   BodyLayoutBuilder other({"Tail*"});
-  EXPECT_THAT(message_of([&] { other.add(walk()); }), HasSubstr("no joint matches \"Tail*\""));
+  EXPECT_THAT(usage_error_of([&] { other.add(walk()); }), HasSubstr("no joint matches \"Tail*\""));
 }
 
 TEST(BodyLayoutBuilder, DropsWhatMostTakesLack) {
@@ -121,16 +121,16 @@ TEST(BodyLayoutBuilder, DropsWhatMostTakesLack) {
 }
 
 TEST(BodyLayoutBuilder, RefusesTakesThatItCannotLearnFrom) {
-  EXPECT_THAT(message_of([] { BodyLayoutBuilder().finish(); }), HasSubstr("no takes"));
-  EXPECT_THAT(message_of([] { BodyLayoutBuilder({}, -1); }), HasSubstr("trend of -1 s"));
+  EXPECT_THAT(usage_error_of([] { BodyLayoutBuilder().finish(); }), HasSubstr("no takes"));
+  EXPECT_THAT(usage_error_of([] { BodyLayoutBuilder({}, -1); }), HasSubstr("trend of -1 s"));
   BodyLayoutBuilder builder;
   builder.add(walk());
-  EXPECT_THAT(message_of([&] { builder.add(joint_markers(walk())); }),
+  EXPECT_THAT(usage_error_of([&] { builder.add(joint_markers(walk())); }),
               HasSubstr("takes of different kinds"));
   const Clip chain = synthesize({"spin", 2, 60, 1, false});
-  EXPECT_THAT(message_of([&] { builder.add(chain); }), HasSubstr("of which the take lacks"));
+  EXPECT_THAT(usage_error_of([&] { builder.add(chain); }), HasSubstr("of which the take lacks"));
   Clip still = slice(walk(), 0, 1);
-  EXPECT_THAT(message_of([&] { layout_of(still); }), HasSubstr("nothing moves"));
+  EXPECT_THAT(usage_error_of([&] { layout_of(still); }), HasSubstr("nothing moves"));
 }
 
 TEST(BodyLayoutBuilder, LearnsChainsThatAreNoBody) {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "rotation/random_rotations.hpp"
 
 namespace kinemend {
 namespace {
@@ -21,10 +21,6 @@ Clip chain(std::size_t joints, std::size_t frames) {
   clip.root_positions.assign(frames, {});
   clip.local_rotations.assign(frames * joints, {});
   return clip;
-}
-
-Quat random_rotation(Random& random) {
-  return normalized({random.normal(), random.normal(), random.normal(), random.normal()});
 }
 
 double largest_difference(const Clip& a, const Clip& b) {
@@ -74,7 +70,7 @@ double largest_step(const EncodedClip& encoded, std::size_t joint) {
 TEST(Representation, RandomRotationsComeBackExactly) {
   Random random(1);
   Clip clip = chain(5, 200);
-  for (Quat& q : clip.local_rotations) q = random_rotation(random);
+  for (Quat& q : clip.local_rotations) q = test::random_rotation(random);
   EXPECT_LT(round_trip_error(clip, Encoding::tangent), 1e-12);
   EXPECT_LT(round_trip_error(clip, Encoding::quaternion), 1e-12);
 }
@@ -129,7 +125,7 @@ TEST(Representation, NoisyChannelsHaveNoJumpWherePiIsPassed) {
 TEST(Representation, AContinuedVectorIsTheNearestOfAllThatMeanTheSame) {
   Random random(4);
   for (int trial = 0; trial < 200; ++trial) {
-    const Vec3 v = log(random_rotation(random));
+    const Vec3 v = log(test::random_rotation(random));
     const Vec3 previous{5 * random.normal(), 5 * random.normal(), 5 * random.normal()};
     const double found = norm(continue_rotation_vector(v, previous) - previous);
     double best = 1e9;
@@ -162,7 +158,7 @@ TEST(Representation, FramesThrownFarOffDoNotTurnTheSignOfWhatFollows) {
   for (int trial = 0; trial < 20; ++trial) {
     Clip clip = clean;
     for (std::size_t f = 1; f < 300; ++f) {
-      if (random.chance(0.1)) clip.rotation(f, 0) = random_rotation(random);
+      if (random.chance(0.1)) clip.rotation(f, 0) = test::random_rotation(random);
     }
     const EncodedClip encoded = encode(clip, Encoding::quaternion);
     for (std::size_t f = 0; f < 300; ++f) {  // the turn's own quaternion is continuous as it stands
@@ -206,7 +202,7 @@ TEST(Representation, PositionsComeLastAboutTheirMeanAndComeBack) {
 TEST(Representation, DecodingTouchesNothingThatWasNotEncoded) {
   Random random(7);
   Clip clip = chain(3, 5);
-  for (Quat& q : clip.local_rotations) q = random_rotation(random);
+  for (Quat& q : clip.local_rotations) q = test::random_rotation(random);
   EncodedClip encoded = encode(clip, Encoding::tangent, {1}, false);
   for (double& v : encoded.poses.values) v = 0.1;
   Clip changed = clip;

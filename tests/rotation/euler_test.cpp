@@ -9,9 +9,9 @@
 namespace kinemend {
 namespace {
 
-using testing::degree;
-using testing::random_rotation;
-using testing::random_vector;
+using test::degree;
+using test::random_rotation;
+using test::random_vector;
 using Angles = std::array<double, 3>;
 
 // The product of three turns, straight from the definition.
@@ -37,8 +37,8 @@ TEST(EulerOrders, AreTwelveAndNamedByTheirLetters) {
     names.push_back(to_string(order));
     EXPECT_EQ(parse_rotation_order(names.back()), order);
   }
-  EXPECT_THAT(names, ::testing::UnorderedElementsAre("XYX", "XYZ", "XZX", "XZY", "YXY", "YXZ",
-                                                     "YZX", "YZY", "ZXY", "ZXZ", "ZYX", "ZYZ"));
+  EXPECT_THAT(names, testing::UnorderedElementsAre("XYX", "XYZ", "XZX", "XZY", "YXY", "YXZ", "YZX",
+                                                   "YZY", "ZXY", "ZXZ", "ZYX", "ZYZ"));
   EXPECT_EQ(to_string(parse_rotation_order("zx")), "ZX");
 }
 
@@ -49,7 +49,7 @@ TEST(EulerOrders, RefuseOtherLetters) {
 }
 
 TEST(Euler, AgreesWithScipyInAllOrders) {
-  const auto rows = testing::read_csv("rotation/euler_orders.csv");
+  const auto rows = test::read_csv("rotation/euler_orders.csv");
   ASSERT_EQ(rows.size(), 60u);
   for (const auto& row : rows) {
     const RotationOrder order = parse_rotation_order(row[0]);
@@ -210,7 +210,7 @@ TEST(Hinge, FindsItsAngleAndContinuesIt) {
   double previous = 0;
   for (int f = 0; f <= 100; ++f) {
     const double angle = 0.2 * f;
-    const Angles found = to_euler_near(testing::about_y(angle), order, {previous, 0, 0});
+    const Angles found = to_euler_near(test::about_y(angle), order, {previous, 0, 0});
     EXPECT_NEAR(found[0], angle, 1e-12);
     previous = found[0];
   }
@@ -262,7 +262,7 @@ TEST(Saddle, FindsAnglesThatItCanReachAndContinuesThem) {
 
 TEST(Euler, OfAJointWithoutAxesIsNothing) {
   const RotationOrder none;
-  EXPECT_EQ(to_euler(testing::about_x(1), none), Angles{});
+  EXPECT_EQ(to_euler(test::about_x(1), none), Angles{});
   EXPECT_EQ(from_euler({1, 2, 3}, none), Quat{});
 }
 

@@ -7,8 +7,8 @@
 namespace kinemend {
 namespace {
 
-using testing::random_rotation;
-using testing::random_vector;
+using test::random_rotation;
+using test::random_vector;
 
 // Elements on which every law is tried: identity, nearly identity, half turns, nearly half turns,
 // ordinary and random ones.
@@ -60,9 +60,9 @@ TEST(RotationGroup, RotatesAsRodriguesSays) {
 }
 
 TEST(RotationGroup, TurnsByTheRightHand) {
-  EXPECT_LT(norm(rotate(testing::about_z(pi / 2), {1, 0, 0}) - Vec3{0, 1, 0}), 1e-15);
-  EXPECT_LT(norm(rotate(testing::about_x(pi / 2), {0, 1, 0}) - Vec3{0, 0, 1}), 1e-15);
-  EXPECT_LT(norm(rotate(testing::about_y(pi / 2), {0, 0, 1}) - Vec3{1, 0, 0}), 1e-15);
+  EXPECT_LT(norm(rotate(test::about_z(pi / 2), {1, 0, 0}) - Vec3{0, 1, 0}), 1e-15);
+  EXPECT_LT(norm(rotate(test::about_x(pi / 2), {0, 1, 0}) - Vec3{0, 0, 1}), 1e-15);
+  EXPECT_LT(norm(rotate(test::about_y(pi / 2), {0, 0, 1}) - Vec3{1, 0, 0}), 1e-15);
 }
 
 TEST(RotationGroup, KeepsItsNormOverNineThousandProducts) {

@@ -8,8 +8,8 @@
 namespace kinemend {
 namespace {
 
-using testing::random_rotation;
-using testing::random_vector;
+using test::random_rotation;
+using test::random_vector;
 
 struct Sample {
   std::vector<Quat> rotations;
@@ -100,7 +100,7 @@ TEST(KarcherMean, MovesWithTheFrameOfCoordinates) {
 TEST(Means, OfNothingAreTheIdentityAndOfOneItself) {
   EXPECT_EQ(karcher_mean({}), Quat{});
   EXPECT_EQ(chordal_mean({}), Quat{});
-  const std::vector<Quat> one{testing::about_x(3.0)};
+  const std::vector<Quat> one{test::about_x(3.0)};
   EXPECT_LT(angle_between(karcher_mean(one), one[0]), 1e-15);
   EXPECT_LT(angle_between(chordal_mean(one), one[0]), 1e-15);
   EXPECT_LT(angle_between(log_mean({}, one), one[0]), 1e-15);
@@ -139,7 +139,7 @@ TEST(Means, DoNotDependOnTheScaleOfTheWeights) {
 }
 
 TEST(LogMean, IsTheMeanInTheTangentOfItsReference) {
-  const Quat r = testing::about_z(0.4);
+  const Quat r = test::about_z(0.4);
   const std::vector<Vec3> tangents{{0.3, 0, 0.1}, {-0.1, 0.5, 0}, {0, 0.2, -0.4}};
   std::vector<Quat> rotations;
   for (const Vec3 v : tangents) rotations.push_back(r * exp(v));
@@ -151,7 +151,7 @@ TEST(LogMean, IsTheMeanInTheTangentOfItsReference) {
 TEST(ChordalMean, AgreesWithNumpysEigenvector) {
   std::map<int, Sample> sets;
   std::map<int, Quat> means;
-  for (const auto& row : testing::read_csv("rotation/chordal_means.csv")) {
+  for (const auto& row : test::read_csv("rotation/chordal_means.csv")) {
     const int set = std::stoi(row[0]);
     const Quat q{std::stod(row[2]), std::stod(row[3]), std::stod(row[4]), std::stod(row[5])};
     const double weight = std::stod(row[1]);

@@ -10,15 +10,15 @@
 namespace kinemend::sparse {
 namespace {
 
-struct Problems {
+struct TwoAtomProblems {
   Dictionary dictionary;
   std::vector<double> signals, weights, lambdas;
   SparseProblem as(Loss loss) const { return {loss, signals, weights, lambdas, {}}; }
 };
 
-Problems random_problems(std::size_t rows, std::size_t atoms, std::size_t count, double lambda,
-                         std::uint64_t seed) {
-  Problems problems{random_dictionary(rows, atoms, seed), {}, {}, {}};
+TwoAtomProblems two_atom_problems(std::size_t rows, std::size_t atoms, std::size_t count,
+                                  double lambda, std::uint64_t seed) {
+  TwoAtomProblems problems{random_dictionary(rows, atoms, seed), {}, {}, {}};
   Random random(seed + 100);
   for (std::size_t s = 0; s < count; ++s) {
     const std::size_t one = random.below(atoms), other = random.below(atoms);
@@ -34,7 +34,7 @@ Problems random_problems(std::size_t rows, std::size_t atoms, std::size_t count,
 }
 
 TEST(DescentSolver, FindsTheSquaresMinimumOfTheDualSolver) {
-  const Problems problems = random_problems(30, 90, 70, 0.8, 1);
+  const TwoAtomProblems problems = two_atom_problems(30, 90, 70, 0.8, 1);
   DescentSettings settings;
   settings.tolerance = 1e-5;
   settings.sweeps = 10'000;
@@ -48,7 +48,7 @@ TEST(DescentSolver, FindsTheSquaresMinimumOfTheDualSolver) {
 }
 
 TEST(DescentSolver, ComesNearTheAbsoluteMinimumAndNeverBelow) {
-  const Problems problems = random_problems(40, 60, 30, 0.6, 2);
+  const TwoAtomProblems problems = two_atom_problems(40, 60, 30, 0.6, 2);
   const SparseSolution quick = descend_sparse(problems.dictionary, problems.as(Loss::absolute));
   const SparseSolution exact = solve_sparse(problems.dictionary, problems.as(Loss::absolute),
                                             {.tolerance = 1e-4, .iterations = 10'000});

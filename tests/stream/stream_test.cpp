@@ -48,17 +48,17 @@ void expect_equal(const std::vector<Frame>& live, const Clip& offline, std::size
   EXPECT_LT(shift, 1e-10);  // of positions of about 100
 }
 
-struct Live {
+struct NamedLive {
   std::string name;
   std::string method;
   OptionValues options;
 
-  friend void PrintTo(const Live& live, std::ostream* out) { *out << live.name; }
+  friend void PrintTo(const NamedLive& live, std::ostream* out) { *out << live.name; }
 };
 
 // Every method of the table that runs live as it is, and the causal forms of the others.
-std::vector<Live> live_methods() {
-  std::vector<Live> list;
+std::vector<NamedLive> live_methods() {
+  std::vector<NamedLive> list;
   for (const std::string& name : method_names()) {
     const bool live = make_cleaner(name)->live_support(120).kind != LiveSupport::Kind::none;
     if (live) list.push_back({camel_case(name), name, {}});
@@ -75,7 +75,7 @@ std::vector<Live> live_methods() {
   return list;
 }
 
-class LiveMethod : public testing::TestWithParam<Live> {
+class LiveMethod : public testing::TestWithParam<NamedLive> {
  protected:
   std::unique_ptr<Cleaner> cleaner_ = make_cleaner(GetParam().method, GetParam().options);
 

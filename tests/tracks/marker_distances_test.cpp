@@ -4,18 +4,13 @@
 
 #include <cmath>
 
-#include "kinemend/experimental/random.hpp"
+#include "rotation/random_rotations.hpp"
 #include "tracks/track_cleaning.hpp"
 
 namespace kinemend {
 namespace {
 
 constexpr std::size_t frames = 600;
-
-Vec3 random_vector(Random& random) {
-  const double x = random.normal(), y = random.normal(), z = random.normal();
-  return {x, y, z};
-}
 
 // Two segments of four markers each that swing about points that travel.
 VectorTracks two_segments() {
@@ -36,11 +31,11 @@ VectorTracks two_segments() {
 void add_noise(VectorTracks& tracks, Vec3 deviation, double correlation, std::uint64_t seed) {
   Random random(seed);
   for (std::size_t n = 0; n < tracks.tracks(); ++n) {
-    Vec3 noise = random_vector(random);
+    Vec3 noise = test::random_vector(random);
     for (std::size_t t = 0; t < tracks.frames(); ++t) {
       if (t > 0)
-        noise =
-            correlation * noise + std::sqrt(1 - correlation * correlation) * random_vector(random);
+        noise = correlation * noise +
+                std::sqrt(1 - correlation * correlation) * test::random_vector(random);
       const Vec3 off{deviation.x * noise.x, deviation.y * noise.y, deviation.z * noise.z};
       tracks.set(t, n, tracks.at(t, n) + off);
     }
@@ -69,7 +64,7 @@ TEST(NoiseInDistances, IsNothingOfMotionOrOfWhatAllMarkersShare) {
   EXPECT_LT(in_distances(tracks, {2, 2, 2}, 0.9), 1e-9);
   Random random(3);
   for (std::size_t t = 0; t < frames; ++t) {
-    const Vec3 shaken = random_vector(random);
+    const Vec3 shaken = test::random_vector(random);
     for (std::size_t n = 0; n < tracks.tracks(); ++n) tracks.set(t, n, tracks.at(t, n) + shaken);
   }
   EXPECT_LT(in_distances(tracks, {2, 2, 2}, 0.9), 1e-9);
@@ -80,7 +75,7 @@ TEST(NoiseInDistances, LooksAtNoMarkedSample) {
   SampleMarks marked(frames, 8);
   Random random(4);
   for (std::size_t t = 0; t < frames; t += 3) {
-    tracks.set(t, 2, tracks.at(t, 2) + 50 * random_vector(random));
+    tracks.set(t, 2, tracks.at(t, 2) + 50 * test::random_vector(random));
     marked(t, 2) = 1;
   }
   EXPECT_LT(noise_in_distances(tracks, marked, std::vector<Vec3>(8, {2, 2, 2}), 0), 1e-9);

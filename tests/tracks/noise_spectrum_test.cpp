@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "kinemend/experimental/random.hpp"
+#include "rotation/random_rotations.hpp"
 #include "tracks/track_cleaning.hpp"
 
 namespace kinemend {
@@ -18,22 +18,17 @@ Vec3 curve(std::size_t frame, std::size_t track) {
   return {30 * std::sin(6 * s + phase), 10 * std::cos(9 * s + phase), 5 * std::sin(2 * s)};
 }
 
-Vec3 random_vector(Random& random) {
-  const double x = random.normal(), y = random.normal(), z = random.normal();
-  return {x, y, z};
-}
-
 // Curves under noise of this deviation (the z axis `deep` times as much) and correlation.
-VectorTracks noisy_curves(std::size_t frames, double deviation, double correlation,
-                          std::uint64_t seed, double deep = 1) {
+VectorTracks correlated_curves(std::size_t frames, double deviation, double correlation,
+                               std::uint64_t seed, double deep = 1) {
   Random random(seed);
   VectorTracks tracks(frames, tracks_count);
   for (std::size_t n = 0; n < tracks_count; ++n) {
-    Vec3 noise = random_vector(random);
+    Vec3 noise = test::random_vector(random);
     for (std::size_t t = 0; t < frames; ++t) {
       if (t > 0)
-        noise =
-            correlation * noise + std::sqrt(1 - correlation * correlation) * random_vector(random);
+        noise = correlation * noise +
+                std::sqrt(1 - correlation * correlation) * test::random_vector(random);
       tracks.set(t, n, curve(t, n) + deviation * Vec3{noise.x, noise.y, deep * noise.z});
     }
   }
@@ -63,7 +58,7 @@ CleanedTracks clean(VectorTracks& tracks, TrackKind kind = TrackKind::rotations)
 
 TEST(NoiseSpectrum, HasTheColourAndTheStrengthOfTheNoise) {
   for (const double correlation : {0.5, 0.8}) {
-    const NoiseSpectrum found = spectrum_of(noisy_curves(720, 1.5, correlation, 1));
+    const NoiseSpectrum found = spectrum_of(correlated_curves(720, 1.5, correlation, 1));
     EXPECT_TRUE(found.is_clear);
     EXPECT_NEAR(found.correlation, correlation, 0.21);
     for (const double strength : found.strengths())
@@ -73,7 +68,7 @@ TEST(NoiseSpectrum, HasTheColourAndTheStrengthOfTheNoise) {
 }
 
 TEST(NoiseSpectrum, SeesTheAxesApart) {
-  const NoiseSpectrum found = spectrum_of(noisy_curves(1200, 1.5, 0.8, 2, 3));
+  const NoiseSpectrum found = spectrum_of(correlated_curves(1200, 1.5, 0.8, 2, 3));
   for (const Vec3 deviations : found.deviations) {
     EXPECT_NEAR(deviations.z / deviations.x, 3, 0.7);
     EXPECT_NEAR(deviations.y / deviations.x, 1, 0.3);
@@ -83,7 +78,7 @@ TEST(NoiseSpectrum, SeesTheAxesApart) {
 TEST(NoiseSpectrum, IsWhiteWhereTheNoiseIsWhite) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     for (const double deviation : {0.3, 1.5, 5.0}) {
-      const NoiseSpectrum found = spectrum_of(noisy_curves(400, deviation, 0, seed));
+      const NoiseSpectrum found = spectrum_of(correlated_curves(400, deviation, 0, seed));
       EXPECT_EQ(found.correlation, 0);
       EXPECT_FALSE(found.is_clear);
     }
@@ -93,8 +88,8 @@ TEST(NoiseSpectrum, IsWhiteWhereTheNoiseIsWhite) {
 // White noise of some tracks, and the roughness of the motion of others.
 TEST(NoiseSpectrum, IsWhiteWhereTracksDoNotAgree) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    VectorTracks tracks = noisy_curves(720, 1.5, 0, seed);
-    const VectorTracks rough = noisy_curves(720, 4, 0.98, seed + 10);
+    VectorTracks tracks = correlated_curves(720, 1.5, 0, seed);
+    const VectorTracks rough = correlated_curves(720, 4, 0.98, seed + 10);
     for (std::size_t t = 0; t < tracks.frames(); ++t) {
       for (std::size_t n = 4; n < tracks_count; ++n) tracks.set(t, n, rough.at(t, n));
     }
@@ -119,9 +114,9 @@ TEST(NoiseSpectrum, SaysWhatShareOfTheNoiseIsSlow) {
 }
 
 TEST(NoiseSpectrum, LeavesShortTakesAndFewTracksAlone) {
-  EXPECT_FALSE(spectrum_of(noisy_curves(20, 1.5, 0.8, 1)).is_clear);
+  EXPECT_FALSE(spectrum_of(correlated_curves(20, 1.5, 0.8, 1)).is_clear);
   VectorTracks few(400, 2);
-  const VectorTracks tracks = noisy_curves(400, 1.5, 0.8, 1);
+  const VectorTracks tracks = correlated_curves(400, 1.5, 0.8, 1);
   for (std::size_t t = 0; t < 400; ++t) {
     for (std::size_t n = 0; n < 2; ++n) few.set(t, n, tracks.at(t, n));
   }
@@ -130,7 +125,7 @@ TEST(NoiseSpectrum, LeavesShortTakesAndFewTracksAlone) {
 
 TEST(CleanTracks, TakeColouredNoiseForWhatItIs) {
   for (const auto& [correlation, most] : {std::pair{0.5, 0.5}, std::pair{0.8, 0.65}}) {
-    VectorTracks tracks = noisy_curves(720, 1.5, correlation, 3);
+    VectorTracks tracks = correlated_curves(720, 1.5, correlation, 3);
     const CleanedTracks verdicts = clean(tracks);
     EXPECT_TRUE(verdicts.spectrum.is_clear);
     EXPECT_LT(error_of(tracks), 1.5 * most) << correlation;
@@ -138,7 +133,7 @@ TEST(CleanTracks, TakeColouredNoiseForWhatItIs) {
 }
 
 TEST(CleanTracks, BridgeSpikesInColouredNoise) {
-  VectorTracks tracks = noisy_curves(720, 1.5, 0.8, 4);
+  VectorTracks tracks = correlated_curves(720, 1.5, 0.8, 4);
   for (std::size_t t = 30; t < 720; t += 90)
     tracks.set(t, t % tracks_count, tracks.at(t, t % tracks_count) + Vec3{60, -60, 60});
   const CleanedTracks verdicts = clean(tracks);
@@ -157,11 +152,12 @@ TEST(CleanTracks, KeepSlowMotionOfCleanTakes) {
         const double s = static_cast<double>(t) / rate_hz;
         for (std::size_t n = 0; n < tracks_count; ++n) {
           const double phase = static_cast<double>(n);
-          sway[n] = 0.995 * sway[n] + 0.002 * random_vector(random);
+          sway[n] = 0.995 * sway[n] + 0.002 * test::random_vector(random);
           const Vec3 breath{2 * std::sin(1.6 * s + phase), 0, 0};
           const Vec3 tremor{0, 1.5 * std::sin(2 * pi * 5 * s + phase), 0};
           const Vec3 roll{0, 0, 8 * std::sin(2 * pi * 7 * s + phase) * (n % 2 ? 1.0 : 0.0)};
-          tracks.set(t, n, breath + tremor + roll + sway[n] + measured * random_vector(random));
+          tracks.set(t, n,
+                     breath + tremor + roll + sway[n] + measured * test::random_vector(random));
         }
       }
       const VectorTracks before = tracks;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "kinemend/experimental/random.hpp"
+#include "rotation/random_rotations.hpp"
 #include "tracks/smooth_chart.hpp"
 #include "tracks/spikes.hpp"
 #include "tracks/track_smoother.hpp"
@@ -14,23 +14,21 @@
 namespace kinemend {
 namespace {
 
-constexpr double rate_hz = 120;
+constexpr double chart_rate_hz = 120;
 
 // A joint that turns more than once about an axis that itself moves.
 std::vector<Quat> turning_track(std::size_t frames) {
   std::vector<Quat> track;
   for (std::size_t t = 0; t < frames; ++t) {
-    const double s = static_cast<double>(t) / rate_hz;
+    const double s = static_cast<double>(t) / chart_rate_hz;
     track.push_back(exp({0, 3.0 * s, 0}) * exp({1.4 * std::sin(2 * s), 0, 0.5 * std::cos(3 * s)}));
   }
   return track;
 }
 
-Vec3 random_vector(Random& random) { return {random.normal(), random.normal(), random.normal()}; }
-
 TEST(SmoothChart, GivesBackEveryRotation) {
   const std::vector<Quat> track = turning_track(400);
-  const RotationChart chart = smooth_chart(track, rate_hz);
+  const RotationChart chart = smooth_chart(track, chart_rate_hz);
   for (std::size_t t = 0; t < track.size(); ++t) {
     EXPECT_LT(angle_between(track[t], chart.rotation_of(t, chart.vector_of(t, track[t]))), 1e-12);
   }
@@ -38,7 +36,7 @@ TEST(SmoothChart, GivesBackEveryRotation) {
 
 TEST(SmoothChart, IsContinuousThroughWholeTurns) {
   const std::vector<Quat> track = turning_track(600);
-  const RotationChart chart = smooth_chart(track, rate_hz);
+  const RotationChart chart = smooth_chart(track, chart_rate_hz);
   for (std::size_t t = 1; t < track.size(); ++t) {
     const double step = norm(chart.vector_of(t, track[t]) - chart.vector_of(t - 1, track[t - 1]));
     EXPECT_NEAR(step, angle_between(track[t - 1], track[t]), 2e-3);
@@ -48,9 +46,9 @@ TEST(SmoothChart, IsContinuousThroughWholeTurns) {
 TEST(SmoothChart, KeepsTheSizeOfNoise) {
   Random random(1);
   const std::vector<Quat> track = turning_track(500);
-  const RotationChart chart = smooth_chart(track, rate_hz);
+  const RotationChart chart = smooth_chart(track, chart_rate_hz);
   for (std::size_t t = 0; t < track.size(); ++t) {
-    const Vec3 noise = 0.02 * random_vector(random);
+    const Vec3 noise = 0.02 * test::random_vector(random);
     const Vec3 moved = chart.vector_of(t, track[t] * exp(noise)) - chart.vector_of(t, track[t]);
     EXPECT_NEAR(norm(moved), norm(noise), 0.03 * norm(noise) + 1e-12);
   }
@@ -58,9 +56,9 @@ TEST(SmoothChart, KeepsTheSizeOfNoise) {
 
 TEST(SmoothChart, TakesNoNoticeOfSigns) {
   std::vector<Quat> track = turning_track(50);
-  const RotationChart chart = smooth_chart(track, rate_hz);
+  const RotationChart chart = smooth_chart(track, chart_rate_hz);
   for (std::size_t t = 1; t < track.size(); t += 2) track[t] = -track[t];
-  const RotationChart other = smooth_chart(track, rate_hz);
+  const RotationChart other = smooth_chart(track, chart_rate_hz);
   for (std::size_t t = 0; t < track.size(); ++t) {
     EXPECT_LT(norm(chart.vector_of(t, track[t]) - other.vector_of(t, -track[t])), 1e-12);
   }
@@ -71,11 +69,11 @@ VectorTracks noisy_curves(std::size_t frames, const std::vector<double>& deviati
                           Random& random) {
   VectorTracks tracks(frames, deviations.size());
   for (std::size_t t = 0; t < frames; ++t) {
-    const double s = static_cast<double>(t) / rate_hz;
+    const double s = static_cast<double>(t) / chart_rate_hz;
     for (std::size_t n = 0; n < deviations.size(); ++n) {
       const double phase = static_cast<double>(n);
       const Vec3 curve{30 * std::sin(6 * s + phase), 10 * std::cos(9 * s + phase), 5 * s};
-      tracks.set(t, n, curve + deviations[n] * random_vector(random));
+      tracks.set(t, n, curve + deviations[n] * test::random_vector(random));
     }
   }
   return tracks;
@@ -102,7 +100,7 @@ TEST(NoiseLevels, LeaveMarkedSamplesOut) {
 }
 
 TEST(SmoothingShares, GrowFromZeroToOne) {
-  const std::vector<double> shares = smoothing_shares({0.01, 0.2, 0.3, 0.5, 1.5, 3}, rate_hz);
+  const std::vector<double> shares = smoothing_shares({0.01, 0.2, 0.3, 0.5, 1.5, 3}, chart_rate_hz);
   EXPECT_EQ(shares.front(), 0);
   EXPECT_EQ(shares.back(), 1);
   for (std::size_t i = 1; i < shares.size(); ++i) EXPECT_GE(shares[i], shares[i - 1]);
@@ -129,10 +127,11 @@ TEST(FindSpikes, FindsAlmostAllAndHardlyAnythingElse) {
     const std::size_t t = random.below(frames), n = random.below(count);
     if (truth(t, n) != 0) continue;
     truth(t, n) = 1;
-    tracks.set(t, n, tracks.at(t, n) + 25.0 * random_vector(random));
+    tracks.set(t, n, tracks.at(t, n) + 25.0 * test::random_vector(random));
   }
-  const DetectedSpikes detected = find_spikes(
-      tracks, SampleMarks(frames, count), std::vector<std::vector<std::size_t>>(count), rate_hz);
+  const DetectedSpikes detected =
+      find_spikes(tracks, SampleMarks(frames, count), std::vector<std::vector<std::size_t>>(count),
+                  chart_rate_hz);
   std::size_t found = 0, spikes = 0, wrong = 0;
   for (std::size_t i = 0; i < truth.marks.size(); ++i) {
     spikes += truth.marks[i];
@@ -150,9 +149,9 @@ TEST(FindSpikes, ASuddenStopIsNoSpike) {
   for (std::size_t t = 0; t < 240; ++t) {
     const double angle =
         t < 120 ? 15.0 * static_cast<double>(t) : 15.0 * 119;  // 1,800 degrees a second, then still
-    tracks.set(t, 0, Vec3{angle, 0, 0} + 0.5 * random_vector(random));
+    tracks.set(t, 0, Vec3{angle, 0, 0} + 0.5 * test::random_vector(random));
   }
-  const DetectedSpikes detected = find_spikes(tracks, SampleMarks(240, 1), {{}}, rate_hz);
+  const DetectedSpikes detected = find_spikes(tracks, SampleMarks(240, 1), {{}}, chart_rate_hz);
   for (std::size_t t = 0; t < 240; ++t) EXPECT_EQ(detected.marked(t, 0), 0) << "frame " << t;
 }
 
@@ -164,7 +163,7 @@ TEST(FindSpikes, OnAQuietTakeOnlyWhatExceedsTheSpeedOfJoints) {
   };
   push(100, 0, 170);  // a flip
   push(300, 1, 20);   // within the speed of joints
-  const DetectedSpikes detected = find_spikes(tracks, SampleMarks(500, 2), {{}, {}}, rate_hz);
+  const DetectedSpikes detected = find_spikes(tracks, SampleMarks(500, 2), {{}, {}}, chart_rate_hz);
   EXPECT_EQ(detected.marked(100, 0), 1);
   EXPECT_EQ(detected.marked(300, 1), 0);
   EXPECT_EQ(std::count(detected.marked.marks.begin(), detected.marked.marks.end(), 1), 1);
@@ -176,13 +175,14 @@ bool finds_fast_motion_among(const std::function<double(Random&)>& size_of_spike
   const std::size_t frames = 500, count = 8;
   VectorTracks tracks = noisy_curves(frames, std::vector<double>(count, 0.02), random);
   const auto push = [&](std::size_t t, std::size_t n, double degrees) {
-    const Vec3 direction = random_vector(random);
+    const Vec3 direction = test::random_vector(random);
     tracks.set(t, n, tracks.at(t, n) + degrees / norm(direction) * direction);
   };
   for (std::size_t i = 0; i < 40; ++i) push(20 + 11 * i, i % count, size_of_spikes(random));
   push(253, 3, 15);
-  const DetectedSpikes detected = find_spikes(
-      tracks, SampleMarks(frames, count), std::vector<std::vector<std::size_t>>(count), rate_hz);
+  const DetectedSpikes detected =
+      find_spikes(tracks, SampleMarks(frames, count), std::vector<std::vector<std::size_t>>(count),
+                  chart_rate_hz);
   for (std::size_t i = 0; i < 40; ++i) EXPECT_EQ(detected.marked(20 + 11 * i, i % count), 1) << i;
   return detected.marked(253, 3) != 0;
 }
@@ -218,7 +218,7 @@ TEST(SmoothTracks, LeavesTracksOfShareZeroAndShortTakesAlone) {
   VectorTracks tracks = noisy_curves(100, {1.0, 1.0}, random);
   const VectorTracks before = tracks;
   smooth_tracks(tracks, SampleMarks(100, 2), std::vector<double>{1, 1}, std::vector<double>{0, 1},
-                rate_hz);
+                chart_rate_hz);
   double change = 0;
   for (std::size_t t = 0; t < 100; ++t) {
     EXPECT_EQ(tracks.at(t, 0), before.at(t, 0));
@@ -227,7 +227,8 @@ TEST(SmoothTracks, LeavesTracksOfShareZeroAndShortTakesAlone) {
   EXPECT_GT(change, 50);
   VectorTracks tiny = noisy_curves(3, {1.0}, random);
   const VectorTracks tiny_before = tiny;
-  smooth_tracks(tiny, SampleMarks(3, 1), std::vector<double>{1}, std::vector<double>{1}, rate_hz);
+  smooth_tracks(tiny, SampleMarks(3, 1), std::vector<double>{1}, std::vector<double>{1},
+                chart_rate_hz);
   EXPECT_EQ(tiny.values, tiny_before.values);
 }
 
@@ -237,8 +238,8 @@ TEST(SmoothTracks, TurningTheTracksTurnsTheResult) {
   const Quat turn = exp({0.4, -1.1, 0.7});
   for (std::size_t t = 0; t < 200; ++t) turned.set(t, 0, rotate(turn, tracks.at(t, 0)));
   const SampleMarks none(200, 1);
-  smooth_tracks(tracks, none, std::vector<double>{1.5}, std::vector<double>{1}, rate_hz);
-  smooth_tracks(turned, none, std::vector<double>{1.5}, std::vector<double>{1}, rate_hz);
+  smooth_tracks(tracks, none, std::vector<double>{1.5}, std::vector<double>{1}, chart_rate_hz);
+  smooth_tracks(turned, none, std::vector<double>{1.5}, std::vector<double>{1}, chart_rate_hz);
   double largest = 0;
   for (std::size_t t = 0; t < 200; ++t) {
     largest = std::max(largest, norm(turned.at(t, 0) - rotate(turn, tracks.at(t, 0))));

@@ -13,12 +13,12 @@
 namespace kinemend::train {
 namespace {
 
-const TrainingSequences& walks() {
+const TrainingSequences& two_walks() {
   static const TrainingSequences sequences = encoded_walks(2);
   return sequences;
 }
 
-RecurrentTraining tiny() {
+RecurrentTraining tiny_training() {
   RecurrentTraining training;
   training.batches = 12;
   training.batch = 2;
@@ -31,7 +31,8 @@ RecurrentTraining tiny() {
 }
 
 TEST(RecurrentTraining, GoesOnFromACheckpointToTheSameResult) {
-  RecurrentTrainer whole(walks(), tiny()), first(walks(), tiny()), second(walks(), tiny());
+  RecurrentTrainer whole(two_walks(), tiny_training()), first(two_walks(), tiny_training()),
+      second(two_walks(), tiny_training());
   for (int i = 0; i < 12; ++i) whole.step();
   // In the middle of the second pool of samples.
   for (int i = 0; i < 10; ++i) first.step();
@@ -43,9 +44,9 @@ TEST(RecurrentTraining, GoesOnFromACheckpointToTheSameResult) {
 }
 
 TEST(RecurrentTraining, DependsOnItsSeed) {
-  RecurrentTraining other = tiny();
+  RecurrentTraining other = tiny_training();
   other.seed = 2;
-  RecurrentTrainer a(walks(), tiny()), b(walks(), other);
+  RecurrentTrainer a(two_walks(), tiny_training()), b(two_walks(), other);
   a.step(), b.step();
   EXPECT_NE(write_model(a.model()), write_model(b.model()));
   EXPECT_THROW(b.resume(a.checkpoint(), "checkpoint"), Error);
@@ -53,14 +54,14 @@ TEST(RecurrentTraining, DependsOnItsSeed) {
 }
 
 TEST(RecurrentTraining, BeginsAtAutoAndGetsBetterThanIt) {
-  RecurrentTraining training = tiny();
+  RecurrentTraining training = tiny_training();
   training.batches = 60;
   training.hidden = 16;
   training.rate = 5e-3;
   training.descent.average_decay = 0.8;
-  RecurrentTrainer trainer(walks(), training);
+  RecurrentTrainer trainer(two_walks(), training);
   const RecurrentSample sample =
-      recurrent_sample(walks().layout, 120, sequence_at(walks(), 0).poses, Random(3));
+      recurrent_sample(two_walks().layout, 120, sequence_at(two_walks(), 0).poses, Random(3));
   EXPECT_EQ(trainer.share_left(sample), 1);
   double first = 0, last = 0;
   for (int i = 0; i < 60; ++i) {
@@ -71,12 +72,12 @@ TEST(RecurrentTraining, BeginsAtAutoAndGetsBetterThanIt) {
 }
 
 TEST(RecurrentTraining, TheNetworkOfTheLibraryGivesWhatLibTorchGives) {
-  RecurrentTrainer trainer(walks(), tiny());
+  RecurrentTrainer trainer(two_walks(), tiny_training());
   for (int i = 0; i < 3; ++i) trainer.step();
   Model model = trainer.model();
   model.takes = 2;
   const RecurrentSample sample =
-      recurrent_sample(walks().layout, 120, sequence_at(walks(), 0).poses, Random(3));
+      recurrent_sample(two_walks().layout, 120, sequence_at(two_walks(), 0).poses, Random(3));
   // In the precision of the file.
   const Model read = parse_model(write_model(model), "model");
   const RecurrentNetwork network = recurrent_network_of(read);
@@ -88,7 +89,7 @@ TEST(RecurrentTraining, TheNetworkOfTheLibraryGivesWhatLibTorchGives) {
 }
 
 TEST(Checkpoints, WithoutTheirNumbersAreRefused) {
-  RecurrentTrainer trainer(walks(), tiny());
+  RecurrentTrainer trainer(two_walks(), tiny_training());
   TensorFile file = parse_tensors(trainer.checkpoint(), "good");
   file.metadata["batch"] = "many";
   EXPECT_THROW(trainer.resume(write_tensors(file), "damaged"), Error);

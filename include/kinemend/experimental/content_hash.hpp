@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -8,5 +9,7 @@ namespace kinemend {
 /// 128 bits of XXH3 as 32 hexadecimal digits: the same on every machine. Tells whether bytes are
 /// those of another time; no protection against people who want it to err.
 std::string content_hash(std::string_view bytes);
+
+inline constexpr std::size_t content_hash_digits = 32;
 
 }  // namespace kinemend

@@ -318,7 +318,7 @@ class MotionHeaderParser {
   bool seen_time_ = false;
 };
 
-std::size_t after_byte_order_mark(const SourceText& text) {
+std::size_t first_text_byte(const SourceText& text) {
   const std::string_view bytes = text.bytes;
   if (bytes.substr(0, 2) == "\xFF\xFE" || bytes.substr(0, 2) == "\xFE\xFF") {
     throw text.error_at(std::size_t{0}, "the text is UTF-16; save it as UTF-8");
@@ -330,7 +330,7 @@ std::size_t after_byte_order_mark(const SourceText& text) {
 
 BvhHeader read_bvh_header(const SourceText& text, Diagnostics& diagnostics, std::size_t max_depth,
                           double unknown_rate_hz) {
-  TextScanner scanner(text.bytes, after_byte_order_mark(text));
+  TextScanner scanner(text.bytes, first_text_byte(text));
   if (scanner.peek().empty()) throw text.error_at(std::size_t{0}, "the file is empty");
   HierarchyParser parser(text, diagnostics, scanner, max_depth);
   if (!scanner.accept("HIERARCHY")) {

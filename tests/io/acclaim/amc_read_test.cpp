@@ -171,7 +171,7 @@ TEST(AmcReader, DamagedFramesAreRefusedWithTheirLine) {
             "take.amc:4: expected only the number of a frame, found \"2\"");
 }
 
-class SkeletonFolder : public ::testing::Test {
+class SkeletonFolder : public testing::Test {
  protected:
   void SetUp() override {
     std::string pattern = (std::filesystem::temp_directory_path() / "kinemend-amc-XXXXXX").string();

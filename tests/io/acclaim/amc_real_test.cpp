@@ -8,11 +8,11 @@ namespace {
 using namespace test;
 namespace fs = std::filesystem;
 
-const fs::path data = KINEMEND_DATA_FOLDER;
+const fs::path takes = KINEMEND_DATA_FOLDER;
 
 std::vector<fs::path> files_with(const char* extension) {
   std::vector<fs::path> paths;
-  for (const auto& entry : fs::recursive_directory_iterator(data)) {
+  for (const auto& entry : fs::recursive_directory_iterator(takes)) {
     if (entry.path().extension() == extension) paths.push_back(entry.path());
   }
   std::sort(paths.begin(), paths.end());
@@ -63,7 +63,7 @@ TEST(RealAmc, EverySkeletonIsValidAndOfAPerson) {
 }
 
 TEST(RealAmc, GapsAreFoundWhereAProgramWroteNan) {
-  const fs::path folder = data / "amc-odd/csci520-shreyabhaumik";
+  const fs::path folder = takes / "amc-odd/csci520-shreyabhaumik";
   const ReadResult result = read_clip(folder / "131_04-dance-bq-N20.amc");
   EXPECT_EQ(result.diagnostics.count("value_not_finite"), 4082u);
   const auto fingers = static_cast<std::size_t>(result.clip.skeleton.find("lfingers"));
@@ -73,8 +73,8 @@ TEST(RealAmc, GapsAreFoundWhereAProgramWroteNan) {
 // The same take from BVH, whose first frame is a T-pose and whose file lacks the bones that lead to
 // the neck, the collar bones, the thumbs and the fingers.
 TEST(RealAmc, JointsStandWhereTheBvhOfTheSameTakePutsThem) {
-  const Clip amc = read_clip(data / "cmu/amc/35/35_01.amc").clip;
-  const Clip bvh = read_clip(data / "cmu/bvh/35_01.bvh").clip;
+  const Clip amc = read_clip(takes / "cmu/amc/35/35_01.amc").clip;
+  const Clip bvh = read_clip(takes / "cmu/bvh/35_01.bvh").clip;
   ASSERT_EQ(amc.joint_count(), bvh.joint_count());
   ASSERT_EQ(amc.frame_count() + 1, bvh.frame_count());
   const auto thorax = static_cast<std::size_t>(amc.skeleton.find("thorax"));
@@ -95,8 +95,8 @@ TEST(RealAmc, JointsStandWhereTheBvhOfTheSameTakePutsThem) {
 // The C3D of the take holds the joints as the program that wrote the AMC had them, in millimetres,
 // z up, rounded to its scale of 0.16 mm. Its feet turn about three axes, of which the AMC has two.
 TEST(RealAmc, JointsStandWhereTheC3dOfTheSameTakePutsThem) {
-  const Clip amc = read_clip(data / "cmu/amc/05/05_13.amc").clip;
-  const auto c3d = std::get<MarkerClip>(read_take(data / "cmu/c3d/05_13.c3d").take);
+  const Clip amc = read_clip(takes / "cmu/amc/05/05_13.amc").clip;
+  const auto c3d = std::get<MarkerClip>(read_take(takes / "cmu/c3d/05_13.c3d").take);
   ASSERT_EQ(amc.frame_count(), c3d.frame_count());
   const std::vector<std::pair<std::string, std::string>> pairs{
       {"root", "PEL0"},     {"lfemur", "LHJ0"},    {"rfemur", "RHJ0"},  {"ltibia", "LFE0"},
@@ -144,7 +144,7 @@ TEST(RealAmc, TakesOfBvhKeepTheirJointPositions) {
                            "bvh-other/bandai-namco/dataset-1_bow_happy_001.bvh",
                            "bvh-other/pybvh/bvh_data_bvh_test3.bvh"}) {
     SCOPED_TRACE(name);
-    const Clip clip = read_clip(data / name).clip;
+    const Clip clip = read_clip(takes / name).clip;
     const Clip again = read_pair(write_clip(clip, "amc"), write_clip(clip, "asf")).clip;
     const double size = body_height(clip.skeleton);
     for (std::size_t f = 0; f < clip.frame_count(); f += 5) {

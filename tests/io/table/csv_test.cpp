@@ -3,7 +3,7 @@
 #include <map>
 
 #include "io/hostile.hpp"
-#include "io/support.hpp"
+#include "io/table/support.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/random.hpp"
 
@@ -31,13 +31,6 @@ std::map<std::string, std::size_t> repairs_of(const std::string& name) {
   const TakeResult result = read_table(csv_fixture(name));
   for (const auto& entry : result.diagnostics.entries()) counts[entry.name] = entry.count;
   return counts;
-}
-
-std::string with(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, text.npos) << from;
-  EXPECT_EQ(text.find(from, at + 1), text.npos) << from;
-  return text.replace(at, from.size(), to);
 }
 
 TEST(CsvReader, ReadsNamesPositionsRateAndUnit) {

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "io/hostile.hpp"
-#include "io/support.hpp"
+#include "io/table/support.hpp"
 
 namespace kinemend {
 namespace {
@@ -12,17 +12,9 @@ namespace {
 using namespace test;
 using testing::ElementsAre;
 
-std::string trc_fixture(const std::string& name) {
-  return read_file(std::filesystem::path(KINEMEND_TEST_FIXTURES) / "trc" / name);
-}
-
 TakeResult read_trc_take(std::string bytes, ReadOptions options = {}) {
   options.format = "trc";
   return read_take(std::move(bytes), "take.trc", options);
-}
-
-MarkerClip read_markers(std::string bytes) {
-  return std::get<MarkerClip>(read_trc_take(std::move(bytes)).take);
 }
 
 std::string trc_error(std::string bytes, ErrorKind kind = ErrorKind::unreadable_input,
@@ -31,7 +23,7 @@ std::string trc_error(std::string bytes, ErrorKind kind = ErrorKind::unreadable_
 }
 
 // Names of the diagnostics, with their counts.
-std::map<std::string, std::size_t> repairs_of(const std::string& name) {
+std::map<std::string, std::size_t> trc_repairs_of(const std::string& name) {
   std::map<std::string, std::size_t> counts;
   const TakeResult result = read_trc_take(trc_fixture(name));
   for (const auto& entry : result.diagnostics.entries()) counts[entry.name] = entry.count;
@@ -50,8 +42,8 @@ std::string observed_text(const MarkerClip& clip) {
 
 void expect_like_plain(const std::string& name) {
   SCOPED_TRACE(name);
-  const MarkerClip plain = read_markers(trc_fixture("good/plain.trc"));
-  const MarkerClip clip = read_markers(trc_fixture(name));
+  const MarkerClip plain = read_trc(trc_fixture("good/plain.trc"));
+  const MarkerClip clip = read_trc(trc_fixture(name));
   EXPECT_EQ(clip.names, plain.names);
   EXPECT_EQ(clip.positions, plain.positions);
   EXPECT_EQ(clip.observed, plain.observed);
@@ -139,48 +131,48 @@ TEST(TrcReader, RepairsHaveNamesAndCounts) {
       {"later_start.trc", {}},
       {"quoted.trc", {}}};
   for (const auto& [name, counts] : expected) {
-    EXPECT_EQ(repairs_of(std::string("good/") + name), counts) << name;
+    EXPECT_EQ(trc_repairs_of(std::string("good/") + name), counts) << name;
   }
 }
 
 TEST(TrcReader, MissingSamplesAreMaskedWhicheverWayTheyAreWritten) {
-  EXPECT_EQ(observed_text(read_markers(trc_fixture("good/gaps.trc"))), "01 10 00");
-  EXPECT_EQ(observed_text(read_markers(trc_fixture("good/nan.trc"))), "11 00 11");
-  EXPECT_EQ(observed_text(read_markers(trc_fixture("good/zeros.trc"))), "11 01 11");
-  EXPECT_EQ(observed_text(read_markers(trc_fixture("good/short_rows.trc"))), "11 10 00");
-  EXPECT_EQ(observed_text(read_markers(trc_fixture("good/cut_row.trc"))), "11 11 00");
-  const MarkerClip clip = read_markers(trc_fixture("good/nan.trc"));
+  EXPECT_EQ(observed_text(read_trc(trc_fixture("good/gaps.trc"))), "01 10 00");
+  EXPECT_EQ(observed_text(read_trc(trc_fixture("good/nan.trc"))), "11 00 11");
+  EXPECT_EQ(observed_text(read_trc(trc_fixture("good/zeros.trc"))), "11 01 11");
+  EXPECT_EQ(observed_text(read_trc(trc_fixture("good/short_rows.trc"))), "11 10 00");
+  EXPECT_EQ(observed_text(read_trc(trc_fixture("good/cut_row.trc"))), "11 11 00");
+  const MarkerClip clip = read_trc(trc_fixture("good/nan.trc"));
   EXPECT_EQ(clip.position(1, 0), Vec3{});
   EXPECT_EQ(clip.position(1, 1), Vec3{});
 }
 
 TEST(TrcReader, AMarkerThatPassesTheOriginIsNotMissing) {
-  const MarkerClip clip = read_markers(trc_fixture("good/through_origin.trc"));
+  const MarkerClip clip = read_trc(trc_fixture("good/through_origin.trc"));
   EXPECT_EQ(observed_text(clip), "11 11 11");
   EXPECT_EQ(clip.position(1, 0), Vec3{});
 }
 
 TEST(TrcReader, MetresAreMetres) {
-  const MarkerClip clip = read_markers(trc_fixture("good/metres.trc"));
+  const MarkerClip clip = read_trc(trc_fixture("good/metres.trc"));
   EXPECT_EQ(clip.unit, "m");
   EXPECT_EQ(clip.position(2, 1), (Vec3{0.1295, -0.1880, 0.7244}));
 }
 
 TEST(TrcReader, MarkersWithoutNamesAreCountedByTheWidestRow) {
-  const MarkerClip clip = read_markers(trc_fixture("good/unnamed.trc"));
+  const MarkerClip clip = read_trc(trc_fixture("good/unnamed.trc"));
   EXPECT_THAT(clip.names, ElementsAre("*1", "*2"));
   EXPECT_EQ(observed_text(clip), "00 10 11");
   EXPECT_EQ(clip.position(2, 1), (Vec3{129.51600, -187.97800, 724.38200}));
 }
 
 TEST(TrcReader, FramesMayStartLater) {
-  const MarkerClip clip = read_markers(trc_fixture("good/later_start.trc"));
+  const MarkerClip clip = read_trc(trc_fixture("good/later_start.trc"));
   EXPECT_EQ(clip.first_frame, 103);
   EXPECT_EQ(clip.frame_rate_hz, 100);
 }
 
 TEST(TrcReader, QuotesAreNoPartOfNamesAndNumbers) {
-  const MarkerClip clip = read_markers(trc_fixture("good/quoted.trc"));
+  const MarkerClip clip = read_trc(trc_fixture("good/quoted.trc"));
   EXPECT_THAT(clip.names, ElementsAre("L ASI", "R ASI"));
   EXPECT_EQ(clip.position(0, 0).x, -201.20056);
 }
@@ -192,7 +184,7 @@ TEST(TrcReader, TimesGiveTheRateWhereTheHeaderHasNone) {
     std::string text = head;
     for (int f = 0; f < frames; ++f)
       text += fmt::format("{}\t{:.{}f}\t1\t2\t3\n", f + 1, f * step_s, decimals);
-    return read_markers(text).frame_rate_hz;
+    return read_trc(text).frame_rate_hz;
   };
   EXPECT_EQ(rate_of_rows(1 / 120.0, 3, 2), 120);
   EXPECT_EQ(rate_of_rows(1 / 120.0, 3, 50), 120);

@@ -7,7 +7,7 @@ using namespace test;
 
 const std::filesystem::path folder = std::filesystem::path(KINEMEND_DATA_FOLDER) / "trc";
 
-std::vector<std::filesystem::path> real_files() {
+std::vector<std::filesystem::path> real_trc_files() {
   std::vector<std::filesystem::path> paths;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (entry.path().extension() == ".trc") paths.push_back(entry.path());
@@ -39,7 +39,7 @@ std::size_t full_triples(const std::string& text) {
 
 TEST(RealTrc, EveryFileIsReadToTheLastSampleAndComesBackToTheByte) {
   std::size_t read = 0;
-  for (const auto& path : real_files()) {
+  for (const auto& path : real_trc_files()) {
     if (path.stem() == "Empty" || path.stem() == "Truncated") continue;
     SCOPED_TRACE(path.filename());
     const std::string bytes = read_file(path);

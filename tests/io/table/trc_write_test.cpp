@@ -1,31 +1,13 @@
 #include <fmt/format.h>
 
 #include "io/hostile.hpp"
-#include "io/support.hpp"
+#include "io/table/support.hpp"
 #include "kinemend/experimental/random.hpp"
 
 namespace kinemend {
 namespace {
 
 using namespace test;
-
-std::string trc_fixture(const std::string& name) {
-  return read_file(std::filesystem::path(KINEMEND_TEST_FIXTURES) / "trc" / name);
-}
-
-MarkerClip read_markers(const std::string& bytes) {
-  ReadOptions options;
-  options.format = "trc";
-  return std::get<MarkerClip>(read_take(bytes, "take.trc", options).take);
-}
-
-// The text with `from` (which it holds once) replaced.
-std::string with(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, text.npos) << from;
-  EXPECT_EQ(text.find(from, at + 1), text.npos) << from;
-  return text.replace(at, from.size(), to);
-}
 
 void set(MarkerClip& clip, std::size_t frame, std::size_t marker, Vec3 position) {
   clip.position(frame, marker) = position;
@@ -41,13 +23,13 @@ TEST(TrcWriter, EveryFixtureComesBackToTheByte) {
   for (const auto& path : fixture_paths("trc")) {
     if (path.parent_path().filename() != "good") continue;
     const std::string bytes = read_file(path);
-    EXPECT_EQ(write_markers(read_markers(bytes), "trc"), bytes) << path;
+    EXPECT_EQ(write_markers(read_trc(bytes), "trc"), bytes) << path;
   }
 }
 
 TEST(TrcWriter, OnlyChangedSamplesGetNewDigits) {
   const std::string bytes = trc_fixture("good/crlf.trc");
-  MarkerClip clip = read_markers(bytes);
+  MarkerClip clip = read_trc(bytes);
   clip.position(1, 0).y = -116.6370149;
   EXPECT_EQ(write_markers(clip, "trc"), bytes) << "five decimals say the same";
   clip.position(1, 0).y = -110.5;
@@ -56,7 +38,7 @@ TEST(TrcWriter, OnlyChangedSamplesGetNewDigits) {
 
 TEST(TrcWriter, FilledSamplesGetTheDecimalsOfTheFile) {
   const std::string bytes = trc_fixture("good/gaps.trc");
-  MarkerClip clip = read_markers(bytes);
+  MarkerClip clip = read_trc(bytes);
   set(clip, 0, 0, {1, 2.123456, -3});
   std::string expected = with(bytes, "1\t0.000\t\t\t\t", "1\t0.000\t1.00000\t2.12346\t-3.00000\t");
   EXPECT_EQ(write_markers(clip, "trc"), expected);
@@ -67,7 +49,7 @@ TEST(TrcWriter, FilledSamplesGetTheDecimalsOfTheFile) {
 
 TEST(TrcWriter, MissingSamplesBecomeEmptyCells) {
   const std::string bytes = trc_fixture("good/plain.trc");
-  MarkerClip clip = read_markers(bytes);
+  MarkerClip clip = read_trc(bytes);
   unset(clip, 0, 0);
   unset(clip, 2, 1);
   EXPECT_EQ(write_markers(clip, "trc"),
@@ -77,7 +59,7 @@ TEST(TrcWriter, MissingSamplesBecomeEmptyCells) {
 
 TEST(TrcWriter, ZerosThatMeanMissingStayUntilTheyAreFilled) {
   const std::string bytes = trc_fixture("good/zeros.trc");
-  MarkerClip clip = read_markers(bytes);
+  MarkerClip clip = read_trc(bytes);
   set(clip, 1, 0, {-200.7, -116.6, 721.5});
   EXPECT_EQ(write_markers(clip, "trc"),
             with(bytes, "0.00000\t0.00000\t0.00000", "-200.70000\t-116.60000\t721.50000"));
@@ -85,7 +67,7 @@ TEST(TrcWriter, ZerosThatMeanMissingStayUntilTheyAreFilled) {
 
 TEST(TrcWriter, RowsThatEndEarlyGrow) {
   const std::string bytes = trc_fixture("good/short_rows.trc");
-  MarkerClip clip = read_markers(bytes);
+  MarkerClip clip = read_trc(bytes);
   set(clip, 1, 1, {1, 2, 3});
   set(clip, 2, 1, {4, 5, 6});
   EXPECT_EQ(write_markers(clip, "trc"),
@@ -95,14 +77,14 @@ TEST(TrcWriter, RowsThatEndEarlyGrow) {
 
 TEST(TrcWriter, SpacesAndCommasStay) {
   const std::string spaces = trc_fixture("good/spaces.trc");
-  MarkerClip clip = read_markers(spaces);
+  MarkerClip clip = read_trc(spaces);
   unset(clip, 1, 1);
   clip.position(0, 0).x = 7;
   EXPECT_EQ(write_markers(clip, "trc"),
             with(with(spaces, "129.47598  -188.07799  724.33362", "NaN  NaN  NaN"), "-201.20056",
                  "7.00000"));
   const std::string commas = trc_fixture("good/decimal_comma.trc");
-  clip = read_markers(commas);
+  clip = read_trc(commas);
   clip.position(0, 0).x = 7.5;
   EXPECT_EQ(write_markers(clip, "trc"), with(commas, "-201,20056", "7,50000"));
 }
@@ -113,7 +95,7 @@ TEST(TrcWriter, RandomChangesReadBackAndLeaveTheRestAlone) {
     // Markers without a name are as many as the widest row has, which may change.
     if (path.parent_path().filename() != "good" || path.stem() == "unnamed") continue;
     SCOPED_TRACE(path.filename());
-    const MarkerClip source = read_markers(read_file(path));
+    const MarkerClip source = read_trc(read_file(path));
     for (int round = 0; round < 40; ++round) {
       MarkerClip clip = source;
       for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -122,7 +104,7 @@ TEST(TrcWriter, RandomChangesReadBackAndLeaveTheRestAlone) {
           if (random.chance(0.3)) set(clip, f, m, {random.normal() + 900, random.normal(), 1});
         }
       }
-      const MarkerClip again = read_markers(write_markers(clip, "trc"));
+      const MarkerClip again = read_trc(write_markers(clip, "trc"));
       ASSERT_EQ(again.observed.size(), clip.observed.size());
       for (std::size_t i = 0; i < clip.positions.size(); ++i) {
         // What was beside it told whether the origin is a place or means missing.
@@ -140,7 +122,7 @@ TEST(TrcWriter, RandomChangesReadBackAndLeaveTheRestAlone) {
 
 TEST(TrcWriter, AClipWithOtherFramesKeepsFirstLineLineEndsAndDecimals) {
   const std::string bytes = trc_fixture("good/crlf.trc");
-  MarkerClip clip = read_markers(bytes);
+  MarkerClip clip = read_trc(bytes);
   MarkerClip part = slice(clip, 1, 3);
   part.source.document = clip.source.document;
   EXPECT_EQ(write_markers(part, "trc"),

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "io/support.hpp"
+
+// What the tests of TRC and CSV files share.
+namespace kinemend::test {
+
+inline std::string trc_fixture(const std::string& name) {
+  return read_file(std::filesystem::path(KINEMEND_TEST_FIXTURES) / "trc" / name);
+}
+
+inline MarkerClip read_trc(std::string bytes) {
+  ReadOptions options;
+  options.format = "trc";
+  return std::get<MarkerClip>(read_take(std::move(bytes), "take.trc", options).take);
+}
+
+/// The text with `from` (which it holds once) replaced.
+inline std::string with(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, text.npos) << from;
+  EXPECT_EQ(text.find(from, at + 1), text.npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+}  // namespace kinemend::test

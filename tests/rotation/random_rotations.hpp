@@ -1,0 +1,21 @@
+#pragma once
+
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/rotation.hpp"
+
+// Random vectors and rotations.
+namespace kinemend::test {
+
+/// Each coordinate normal, of that deviation.
+inline Vec3 random_vector(Random& random, double deviation = 1) {
+  const double x = random.normal(), y = random.normal(), z = random.normal();
+  return {deviation * x, deviation * y, deviation * z};
+}
+
+/// Uniform over the rotations.
+inline Quat random_rotation(Random& random) {
+  const double w = random.normal(), x = random.normal(), y = random.normal(), z = random.normal();
+  return normalized({w, x, y, z});
+}
+
+}  // namespace kinemend::test
