@@ -76,7 +76,7 @@ void promises(const Arguments& arguments) {
 
 // Three gaps in each of five joints that move, at places drawn by the seed.
 Clip with_gaps(const Clip& truth, std::size_t length, std::uint64_t seed) {
-  constexpr std::size_t apart = 10;
+  constexpr std::size_t apart = 3;
   Random random(seed);
   Clip clip = truth;
   std::vector<std::size_t> joints = moving_joints(truth);
@@ -123,7 +123,7 @@ void joints_by_length(const Arguments& arguments) {
       double mean = 0, count = 0;
       for (const Clip& truth : truths) {
         const auto length = static_cast<std::size_t>(length_s * truth.frame_rate_hz);
-        if (truth.frame_count() < 4 * length) continue;  // a run, for gaps of a second
+        if (truth.frame_count() < 3 * length + 30) continue;  // a run, for gaps of a second
         for (std::uint64_t seed = 1; seed <= (arguments.quick ? 1 : 4); ++seed) {
           const Clip damaged = with_gaps(truth, length, seed);
           Clip filled = fill::spoilt(damaged);
