@@ -124,7 +124,7 @@ void joints_by_length(const Arguments& arguments) {
       for (const Clip& truth : truths) {
         const auto length = static_cast<std::size_t>(length_s * truth.frame_rate_hz);
         if (truth.frame_count() < 3 * length + 30) continue;  // a run, for gaps of a second
-        for (std::uint64_t seed = 1; seed <= (arguments.quick ? 1 : 4); ++seed) {
+        for (std::uint64_t seed = 1; seed <= (arguments.quick ? 1 : 10); ++seed) {
           const Clip damaged = with_gaps(truth, length, seed);
           Clip filled = fill::spoilt(damaged);
           fill::fill_with(filled, method, true);
