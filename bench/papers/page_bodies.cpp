@@ -122,8 +122,8 @@ void makers(const Arguments& arguments) {
     const BodyChannels channels = channels_of(layout, motion_of(arguments.data / path));
     double most = 0;
     std::size_t channel = 0;
-    for (const char* joint : {"Hips", "LeftUpLeg", "LeftLeg", "RightUpLeg", "RightLeg",
-                              "LowerBack", "Spine1", "LeftArm", "RightArm"}) {
+    for (const char* joint : {"Hips", "LeftUpLeg", "LeftLeg", "RightUpLeg", "RightLeg", "LowerBack",
+                              "Spine1", "LeftArm", "RightArm"}) {
       const std::size_t track = track_named(layout, joint);
       for (std::size_t c = 3 * track; c < 3 * track + 3; ++c) {
         double sum = 0;

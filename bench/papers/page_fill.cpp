@@ -118,8 +118,8 @@ void joints_by_length(const Arguments& arguments) {
        {std::pair{"35_01", "walk"}, {"02_05", "punch"}, {"09_03", "run"}})
     truths.push_back(load_take(arguments, std::string(name) + ".bvh", {.motion = motion}).clip);
   for (const double length_s : {0.1, 0.25, 1.0}) {
-    for (const char* method : {"auto", "slerp", "squad", "spline", "quintic", "pchip", "hermite",
-                               "cyclic", "pca"}) {
+    for (const char* method :
+         {"auto", "slerp", "squad", "spline", "quintic", "pchip", "hermite", "cyclic", "pca"}) {
       double mean = 0, count = 0;
       for (const Clip& truth : truths) {
         const auto length = static_cast<std::size_t>(length_s * truth.frame_rate_hz);
