@@ -60,8 +60,9 @@ lint: setup ## formatting, static analysis and the direction of includes (tools/
 format: ## rewrite every source file in the project's format
 	git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
 
-bench: setup $(BUILD)/$(TESTS)/.built ## the speed tables, beside SciPy's figures of the same run
+bench: setup $(BUILD)/$(TESTS)/.built ## the speed tables, beside SciPy's figures of the same run (CHECK=1: compared with the stored ones)
 	tools/run_benchmarks $(BUILD)/$(TESTS)
+	$(if $(CHECK),tools/check_figures build/bench --speeds)
 
 bench-quick: setup $(BUILD)/$(TESTS)/.built
 	tools/run_benchmarks $(BUILD)/$(TESTS) --quick

@@ -1,8 +1,10 @@
 """The jobs of signal_bench.cpp as SciPy and NumPy do them, one thread: 96 channels, 10,000 frames at 120 Hz.
 
-Run with Debian's interpreter: /usr/bin/python3 bench/scipy_signal.py [--quick]
+Run with Debian's interpreter: /usr/bin/python3 bench/scipy_signal.py [--quick] [--out FILE]
+FILE gets the same as JSON, in the form of Google Benchmark.
 """
 
+import json
 import sys
 import time
 
@@ -66,6 +68,7 @@ JOBS = [
     ("fill_cubic_5_percent", fill_cubic),
 ]
 
+measured = []
 print(f"{'Job':<34}{'CPU':>12}{'frames/s':>14}")
 for name, job in JOBS:
     best = np.inf
@@ -74,3 +77,7 @@ for name, job in JOBS:
         job(take)
         best = min(best, time.process_time() - start)
     print(f"{name:<34}{1e3 * best:>9.3g} ms{FRAMES / best / 1e6:>12.4g}M/s")
+    measured.append({"name": name, "cpu_time": 1e3 * best, "time_unit": "ms", "frames/s": FRAMES / best})
+if "--out" in sys.argv:
+    with open(sys.argv[sys.argv.index("--out") + 1], "w") as file:
+        json.dump({"benchmarks": measured}, file)

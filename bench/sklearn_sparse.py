@@ -1,8 +1,10 @@
 """The jobs of sparse_bench.cpp as scikit-learn does them: 800 atoms, windows of 360 values.
 
-Run with Debian's interpreter: /usr/bin/python3 bench/sklearn_sparse.py [--quick]
+Run with Debian's interpreter: /usr/bin/python3 bench/sklearn_sparse.py [--quick] [--out FILE]
+FILE gets the same as JSON, in the form of Google Benchmark.
 """
 
+import json
 import sys
 import time
 
@@ -21,10 +23,14 @@ def windows(count, noise):
     return weights @ basis + noise * random.standard_normal((count, ROWS))
 
 
+measured = []
+
+
 def timed(name, job):
-    start = time.perf_counter()
+    start, cpu_start = time.perf_counter(), time.process_time()
     result = job()
     print(f"{name:<44}{1e3 * (time.perf_counter() - start):12.1f} ms", flush=True)
+    measured.append({"name": name, "cpu_time": 1e3 * (time.process_time() - cpu_start), "time_unit": "ms"})
     return result
 
 
@@ -44,3 +50,6 @@ penalty = 0.25 * NOISE * np.sqrt(2 * np.log(ATOMS))
 for algorithm in ("lasso_cd", "lasso_lars"):
     timed(f"sparse_encode {algorithm}, 256 windows",
           lambda algorithm=algorithm: sparse_encode(noisy[:256], atoms, algorithm=algorithm, alpha=penalty, n_jobs=2))
+if "--out" in sys.argv:
+    with open(sys.argv[sys.argv.index("--out") + 1], "w") as file:
+        json.dump({"benchmarks": measured}, file)

@@ -61,6 +61,7 @@ std::vector<Constant> constants() {
   all.add("noise.chance_log_ratio", noise, &NoiseTuning::chance_log_ratio);
   all.add("noise.largest_ratio", noise, &NoiseTuning::largest_ratio);
   all.add("noise.fewest_differences", noise, &NoiseTuning::fewest_differences);
+  all.add("noise.most_differences", noise, &NoiseTuning::most_differences);
   all.add("noise.rounds", noise, &NoiseTuning::rounds);
   const auto spikes = +[](Tuning& t) -> SpikeTuning& { return t.tracks.spikes; };
   all.add("spikes.candidate_ratio", spikes, &SpikeTuning::candidate_ratio);
@@ -75,6 +76,7 @@ std::vector<Constant> constants() {
   all.add("spikes.nearby_ratio", spikes, &SpikeTuning::nearby_ratio);
   all.add("spikes.side_error_share", spikes, &SpikeTuning::side_error_share);
   all.add("spikes.fastest_deg_s", spikes, &SpikeTuning::fastest_deg_s);
+  all.add("spikes.return_share", spikes, &SpikeTuning::return_share);
   all.add("spikes.longest_run", spikes, &SpikeTuning::longest_run);
   all.add("spikes.cluster_gap", spikes, &SpikeTuning::cluster_gap);
   all.add("spikes.usual_cluster", spikes, &SpikeTuning::usual_cluster);
@@ -98,6 +100,7 @@ std::vector<Constant> constants() {
   all.add("dead_zone.rate_exponent", zone, &DeadZoneTuning::rate_exponent);
   const auto smoothing = +[](Tuning& t) -> SmoothingTuning& { return t.tracks.smoothing; };
   all.add("smoothing.axes_window_s", smoothing, &SmoothingTuning::axes_window_s);
+  all.add("smoothing.noise_floor", smoothing, &SmoothingTuning::noise_floor);
   const auto models = +[](Tuning& t) -> signal::CutoffGrid& { return t.tracks.smoothing.models; };
   all.add("smoothing.models.lowest_hz", models, &signal::CutoffGrid::lowest_hz);
   all.add("smoothing.models.highest_hz", models, &signal::CutoffGrid::highest_hz);

@@ -3,6 +3,7 @@
 // else cleaned.
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "experiment.hpp"
 #include "kinemend/clean.hpp"
@@ -201,6 +202,30 @@ void as_recorded(const Arguments& arguments, std::vector<NamedPops>& all_pops) {
   table.close();
 }
 
+// Every take of the folder cmu/bvh, by `auto` and by `force`.
+void survey(const Arguments& arguments, std::vector<NamedPops>& all_pops) {
+  const std::filesystem::path folder = arguments.data / "cmu" / "bvh";
+  if (arguments.quick || !std::filesystem::is_directory(folder)) return;
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.insert(entry.path().stem().string());
+  Pops pops, forced;
+  for (const std::string& name : names) {
+    const Clip clip = load_take(arguments, name + ".bvh", {}).clip;
+    for (const FeetMode mode : {FeetMode::automatic, FeetMode::force}) {
+      Clip copy = clip;
+      FeetSettings settings;
+      settings.mode = mode;
+      const FeetReport report = clean_feet(copy, settings);
+      (mode == FeetMode::force ? forced : pops)
+          .add(name, report.before.knee_pop_deg, report.before.knee_pop_deg,
+               report.after.knee_pop_deg);
+    }
+  }
+  all_pops.push_back({"all takes, auto", pops});
+  all_pops.push_back({"all takes, force", forced});
+}
+
 void pairs(const Arguments& arguments, std::vector<NamedPops>& all_pops) {
   const std::string stem = "style_transfer_demo_results_";
   if (!find_take(arguments.data, stem + "comp_3d_1_raw.bvh")) return;
@@ -253,6 +278,7 @@ void experiment(const Arguments& arguments) {
   after_cleaning(arguments, "dances", dances(), table, pops);
   table.close();
   as_recorded(arguments, pops);
+  survey(arguments, pops);
   pairs(arguments, pops);
   fmt::print(
       "\nKnee pop, degrees: takes that rise by more than a tenth and half a degree above what was\n"

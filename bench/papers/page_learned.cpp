@@ -1,8 +1,12 @@
 // Figures of README.md and docs that take minutes: how many clean takes come back bit for bit, and
 // learned methods on hold-outs.
 #include <algorithm>
+#include <memory>
 #include <set>
+#include <variant>
 
+#include "kinemend/experimental/model.hpp"
+#include "kinemend/experimental/train.hpp"
 #include "kinemend/methods.hpp"
 #include "page.hpp"
 
@@ -60,10 +64,14 @@ double best_gaussian(const Clip& truth, const Clip& clip) {
   return best;
 }
 
-void learned_methods(const Arguments& arguments) {
-  Table table(arguments, "page_learned.csv", "noise,method,takes,mean,worst");
-  std::vector<std::string> names = hold_outs(arguments);
-  if (names.empty()) names = {"walk", "run"};
+// Error as a share of that of the best Gaussian; of `wiener` with a model of one's own, or with
+// that which ships.
+void shares_of_gaussian(const Arguments& arguments, const std::string& file,
+                        const std::vector<std::string>& names,
+                        const std::shared_ptr<const Model>& model) {
+  Table table(arguments, file, "noise,method,takes,mean,worst");
+  const auto wiener = make_wiener({}, model);
+  const auto automatic = make_cleaner("auto");
   const std::vector<std::string> noises{"1 degree", "4 degrees and spikes", "half"};
   for (std::size_t n = 0; n < noises.size(); ++n) {
     double mean[2] = {}, worst[2] = {};
@@ -73,7 +81,8 @@ void learned_methods(const Arguments& arguments) {
                                : noisy(truth, n == 0 ? 1 : 4, n == 0 ? 0 : 0.004, 3);
       const double gaussian = best_gaussian(truth, clip);
       for (std::size_t m = 0; m < 2; ++m) {
-        const double share = rms_deg(truth, cleaned(clip, m == 0 ? "auto" : "wiener")) / gaussian;
+        const double share =
+            rms_deg(truth, clean_clip(clip, m == 0 ? *automatic : *wiener).clip) / gaussian;
         mean[m] += share / static_cast<double>(names.size());
         worst[m] = std::max(worst[m], share);
       }
@@ -86,9 +95,45 @@ void learned_methods(const Arguments& arguments) {
   table.close();
 }
 
+void learned_methods(const Arguments& arguments) {
+  std::vector<std::string> names = hold_outs(arguments);
+  if (names.empty()) names = {"walk", "run"};
+  shares_of_gaussian(arguments, "page_learned.csv", names, nullptr);
+}
+
+bool is_dance(const std::string& name) {
+  return name.starts_with("05_") || name.starts_with("49_");
+}
+
+// Dances, cartwheels and balances of subjects 05 and 49, by a model that has seen neither these
+// subjects nor the hold-outs, nor takes with known defects.
+void dances(const Arguments& arguments) {
+  std::vector<std::string> names, training;
+  const std::vector<std::string> held_out = hold_outs(arguments);
+  const std::set<std::string> left_out{"07_12", "09_10", "06_02", "01_07",
+                                       "03_02", "35_22", "05_16"};
+  for (const std::string& file : names_below(arguments.data)) {
+    const std::string name = std::filesystem::path(file).stem().string();
+    if (std::find(held_out.begin(), held_out.end(), name) != held_out.end()) continue;
+    if (is_dance(name))
+      names.push_back(name);
+    else if (!left_out.contains(name))
+      training.push_back(name);
+  }
+  if (names.empty()) return;
+  TrainingTakes takes;
+  takes.count = training.size();
+  takes.take = [&](std::size_t i) {
+    return std::variant<Clip, MarkerClip>(load_take(arguments, training[i] + ".bvh", {}).clip);
+  };
+  const auto model = std::make_shared<const Model>(train_model("wiener", takes));
+  shares_of_gaussian(arguments, "page_dances.csv", names, model);
+}
+
 void experiment(const Arguments& arguments) {
   clean_takes(arguments);
   learned_methods(arguments);
+  if (!arguments.quick) dances(arguments);
 }
 
 }  // namespace

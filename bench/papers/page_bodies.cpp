@@ -1,0 +1,180 @@
+// Figures of docs/bodies.md: how little noise moves the frame of a body, and how much alike the
+// channels of one motion are in two formats, and of walks by other makers.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <variant>
+
+#include "kinemend/experimental/convert.hpp"
+#include "page.hpp"
+#include "representation/body_takes.hpp"
+#include "representation/body_trend.hpp"
+
+namespace kinemend::papers {
+namespace {
+
+using body_test::channels_of, body_test::layout_of, body_test::rms_difference,
+    body_test::track_named;
+
+Clip motion_of(const std::filesystem::path& path) {
+  const Clip clip = read_clip(path).clip;
+  return slice(clip, leading_calibration_frames(clip), clip.frame_count());
+}
+
+struct FrameError {
+  double heading_deg = 0, place_mm = 0, floor_mm = 0;
+};
+
+// Root mean square over the frames, of the floor the difference.
+FrameError frame_error(const BodyChannels& truth, const BodyChannels& found, double metres) {
+  FrameError error;
+  for (std::size_t f = 0; f < truth.headings.size(); ++f) {
+    const double turn = std::remainder(found.headings[f] - truth.headings[f], 2 * std::numbers::pi);
+    const Vec3 way = found.places[f] - truth.places[f];
+    error.heading_deg += turn * turn;
+    error.place_mm += way.x * way.x + way.z * way.z;
+  }
+  const auto frames = static_cast<double>(truth.headings.size());
+  error.heading_deg = degrees_per_radian * std::sqrt(error.heading_deg / frames);
+  error.place_mm = 1000 * metres * std::sqrt(error.place_mm / frames);
+  error.floor_mm = 1000 * metres * std::fabs(found.places[0].y - truth.places[0].y);
+  return error;
+}
+
+// Two degrees in every joint, and a centimetre in the place: ten draws.
+void noise(const Arguments& arguments) {
+  Table table(arguments, "page_body_noise.csv", "take,rate_hz,heading_deg,place_mm,floor_mm");
+  for (const auto& [name, motion] :
+       {std::pair{"35_01", "walk"}, {"02_05", "punch"}, {"09_03", "run"}, {"05_02", "wave"}}) {
+    const Clip all = load_take(arguments, std::string(name) + ".bvh", {.motion = motion}).clip;
+    const BodyLayout layout = layout_of(all);
+    const double metres = guess_length_unit(all.skeleton)->metres;
+    for (const double rate_hz : {120.0, 30.0}) {
+      const Clip truth = rate_hz == all.frame_rate_hz ? all : resample(all, rate_hz);
+      const BodyChannels expected = channels_of(layout, truth);
+      FrameError mean;
+      constexpr std::uint64_t seeds = 10;
+      for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+        Clip clip = noisy(truth, 2, 0, seed);
+        Random random(100 + seed);
+        for (Vec3& place : clip.root_positions)
+          place += body_test::normal_vector(random, 0.01 / metres);
+        const FrameError error = frame_error(expected, channels_of(layout, clip), metres);
+        mean.heading_deg += error.heading_deg / seeds;
+        mean.place_mm += error.place_mm / seeds;
+        mean.floor_mm += error.floor_mm / seeds;
+      }
+      table.add({name, fmt::format("{:g}", rate_hz), figure(mean.heading_deg),
+                 figure(mean.place_mm), figure(mean.floor_mm)});
+    }
+  }
+  table.close();
+}
+
+// How far a walk of 1.3 m/s on a circle of a metre comes inside of it, a second from the ends.
+double circle_cut_cm() {
+  std::vector<Vec3> path;
+  for (int f = 0; f < 600; ++f) path.push_back({std::cos(1.3 * f / 60), 0, std::sin(1.3 * f / 60)});
+  const auto trend =
+      representation::smooth_path(path, std::vector<double>(path.size(), 1), 60, 0.5);
+  double most = 0;
+  for (std::size_t f = 60; f < 540; ++f) most = std::max(most, 1 - norm(trend[f]));
+  return 100 * most;
+}
+
+// The takes there are as BVH and as AMC, two of each subject: the track whose channels differ most.
+void formats(const Arguments& arguments, Table& table) {
+  std::map<std::string, int> taken;
+  double worst = 0, takes = 0;
+  std::set<std::filesystem::path> paths;
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(arguments.data / "cmu" / "amc")) {
+    if (entry.path().extension() == ".amc") paths.insert(entry.path());
+  }
+  for (const std::filesystem::path& path : paths) {
+    const std::string name = path.stem().string();
+    const auto bvh = find_take(arguments.data / "cmu", name + ".bvh");
+    const auto skeleton = path.parent_path() / (name.substr(0, 2) + ".asf");
+    if (!bvh || !std::filesystem::exists(skeleton) || taken[name.substr(0, 2)] == 2) continue;
+    const Clip a = motion_of(*bvh), b = motion_of(path);
+    if (a.frame_count() != b.frame_count()) continue;
+    ++taken[name.substr(0, 2)], ++takes;
+    const BodyLayout layout = layout_of(a);
+    const BodyChannels expected = channels_of(layout, a), found = channels_of(layout, b);
+    for (std::size_t i = 0; i <= layout.track_count(); ++i)
+      worst = std::max(worst, rms_difference(expected.poses, found.poses, i));
+  }
+  table.add({"two formats", fmt::format("{}", takes), figure(worst)});
+}
+
+// The largest mean of a channel of trunk, legs and upper arms, in the channels of a CMU walk.
+void makers(const Arguments& arguments) {
+  Table table(arguments, "page_body_makers.csv", "take,channel,mean_deg");
+  const BodyLayout layout = layout_of(motion_of(arguments.data / "cmu/bvh/35_01.bvh"));
+  for (const auto& [name, path] :
+       {std::pair{"test_freebvh", "bvh-other/bvh-python/test_freebvh.bvh"},
+        {"Male1_B3_Walk", "bvh-other/Mocap-Data-Utilities/Male1_B3_Walk.bvh"},
+        {"dataset-1_walk_normal_001", "bvh-other/bandai-namco/dataset-1_walk_normal_001.bvh"},
+        {"bvh_data_bvh_example", "bvh-other/pybvh/bvh_data_bvh_example.bvh"},
+        {"S02-Trial-Walk-1-xsens", "paired/S02-Trial-Walk-1-xsens.bvh"}}) {
+    const BodyChannels channels = channels_of(layout, motion_of(arguments.data / path));
+    double most = 0;
+    std::size_t channel = 0;
+    for (const char* joint : {"Hips", "LeftUpLeg", "LeftLeg", "RightUpLeg", "RightLeg", "LowerBack",
+                              "Spine1", "LeftArm", "RightArm"}) {
+      const std::size_t track = track_named(layout, joint);
+      for (std::size_t c = 3 * track; c < 3 * track + 3; ++c) {
+        double sum = 0;
+        for (std::size_t f = 0; f < channels.poses.frames; ++f) sum += channels.poses(f, c);
+        const double mean = std::fabs(sum / static_cast<double>(channels.poses.frames));
+        if (mean > most) most = mean, channel = c;
+      }
+    }
+    table.add({name, layout.channel_name(channel), figure(most)});
+  }
+  table.close();
+}
+
+// How much the other channels of a take of markers change without both arms.
+double armless_deg(const Arguments& arguments) {
+  const MarkerClip clip =
+      std::get<MarkerClip>(read_take(*find_take(arguments.data, "85_12.c3d")).take);
+  const BodyLayout layout = layout_of(clip);
+  const auto is_of_an_arm = [](std::string_view name) {
+    const auto words = {"UPA", "ELB", "FRM", "WRA", "WRB", "FIN"};
+    return std::any_of(words.begin(), words.end(),
+                       [&](const char* word) { return name.find(word) != name.npos; });
+  };
+  MarkerClip armless = clip;
+  for (std::size_t i = 0; i < armless.observed.size(); ++i) {
+    if (is_of_an_arm(clip.names[i % clip.marker_count()])) armless.observed[i] = 0;
+  }
+  const BodyChannels whole = channels_of(layout, clip), without = channels_of(layout, armless);
+  double worst = 0;
+  for (std::size_t i = 0; i < layout.track_count(); ++i) {
+    if (!is_of_an_arm(layout.names[i]))
+      worst = std::max(worst, rms_difference(whole.poses, without.poses, i));
+  }
+  return worst;
+}
+
+void experiment(const Arguments& arguments) {
+  noise(arguments);
+  Table table(arguments, "page_bodies.csv", "what,takes,value");
+  table.add({"circle", "1", figure(circle_cut_cm())});
+  if (find_take(arguments.data, "85_12.c3d")) {
+    formats(arguments, table);
+    table.add({"without arms", "1", figure(armless_deg(arguments))});
+    makers(arguments);
+  }
+  table.close();
+}
+
+}  // namespace
+}  // namespace kinemend::papers
+
+int main(int count, char** values) {
+  return kinemend::papers::run(count, values, kinemend::papers::experiment);
+}

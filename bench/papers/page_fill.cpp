@@ -1,0 +1,151 @@
+// Figures of docs/methods/fill.md and fill-joints.md: what is promised of filled gaps and what
+// becomes of it, and the methods for joints by the length of the gap.
+#include <algorithm>
+#include <variant>
+
+#include "fill/made_gaps.hpp"
+#include "page.hpp"
+#include "quality/gapped_markers.hpp"
+#include "quality/marker_quality.hpp"
+
+namespace kinemend::papers {
+namespace {
+
+std::vector<std::size_t> whole_markers(const MarkerClip& clip) {
+  std::vector<std::size_t> whole;
+  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+    bool seen = true;
+    for (std::size_t f = 0; seen && f < clip.frame_count(); ++f) seen = clip.is_observed(f, m);
+    if (seen) whole.push_back(m);
+  }
+  return whole;
+}
+
+std::vector<std::size_t> moving_joints(const Clip& clip) {
+  std::vector<std::size_t> moving;
+  for (std::size_t j = 0; j < clip.joint_count(); ++j) {
+    double farthest = 0;
+    for (std::size_t f = 0; f < clip.frame_count(); ++f)
+      farthest = std::max(farthest, angle_between(clip.rotation(0, j), clip.rotation(f, j)));
+    if (farthest > 0.02) moving.push_back(j);
+  }
+  return moving;
+}
+
+// `least`: the error of a short gap that counts, millimetres or degrees.
+void add_promises(Table& table, const std::string& takes, const std::vector<fill::Kept>& kept,
+                  double least) {
+  const fill::Figures f = fill::figures_of(kept, least);
+  table.add({takes, fmt::format("{}", f.gaps), figure(100 * f.share_within_twice()),
+             fmt::format("{}", f.above_ten), figure(f.worst),
+             fmt::format("{}", f.worse_than_spline), fmt::format("{}", f.short_gaps)});
+}
+
+void promises(const Arguments& arguments) {
+  Table table(arguments, "page_promises.csv",
+              "takes,gaps,within_twice_percent,above_ten,worst,worse_than_spline,short_gaps");
+  const std::uint64_t rounds = arguments.quick ? 2 : 8;
+  std::vector<fill::Kept> kept;
+  const auto keep = [&](const auto& truth, const std::vector<std::size_t>& tracks) {
+    for (std::uint64_t seed = 1; seed <= rounds; ++seed) {
+      const auto some = fill::make_and_fill(truth, tracks, 8, seed);
+      kept.insert(kept.end(), some.begin(), some.end());
+    }
+  };
+  for (const char* file : {"HDM_bd_05-01_01_120.c3d", "FunctionalLHip.c3d", "561xxa01_anonym.C3D",
+                           "sample21.c3d", "S02-Trial-Walk-1-vicon.c3d", "SprintMotion.trc",
+                           "ballet_reduced.trc", "depth-RTK.reference.trc"}) {
+    const auto path = find_take(arguments.data, file);
+    const bool is_hdm = std::string(file).starts_with("HDM");  // of which the first are no markers
+    const MarkerClip truth =
+        path ? quality::points_of(*path, is_hdm ? 3 : 0, 41) : test::marker_take("walk", 5);
+    keep(truth, whole_markers(truth));
+    if (arguments.quick) break;
+  }
+  add_promises(table, "markers", kept, 0.5);
+  kept.clear();
+  for (const char* name :
+       {"01_05", "03_03", "07_04", "09_05", "10_03", "11_01", "35_20", "131_05"}) {
+    const Clip truth = load_take(arguments, std::string(name) + ".bvh", {.motion = "walk"}).clip;
+    keep(truth, moving_joints(truth));
+    if (arguments.quick) break;
+  }
+  add_promises(table, "joints", kept, 0.1);
+  table.close();
+}
+
+// Three gaps in each of five joints that move, at places drawn by the seed.
+Clip with_gaps(const Clip& truth, std::size_t length, std::uint64_t seed) {
+  constexpr std::size_t apart = 3;
+  Random random(seed);
+  Clip clip = truth;
+  std::vector<std::size_t> joints = moving_joints(truth);
+  for (std::size_t i = 0; i < 5; ++i) {
+    std::swap(joints[i], joints[i + random.below(joints.size() - i)]);
+    std::vector<std::size_t> starts;
+    while (starts.size() < 3) {
+      const std::size_t start = apart + random.below(clip.frame_count() - length - 2 * apart);
+      const bool is_free = std::all_of(starts.begin(), starts.end(), [&](std::size_t other) {
+        return std::max(start, other) - std::min(start, other) > length + apart;
+      });
+      if (is_free) starts.push_back(start);
+      // Three gaps that leave no room for one another are drawn anew.
+      else if (random.chance(0.05))
+        starts.clear();
+    }
+    for (const std::size_t start : starts)
+      fill::hide(clip, truth.skeleton.names[joints[i]], start, start + length - 1);
+  }
+  return clip;
+}
+
+double mean_error_deg(const Clip& truth, const Clip& damaged, const Clip& filled) {
+  double sum = 0, count = 0;
+  for (std::size_t f = 0; f < truth.frame_count(); ++f) {
+    for (std::size_t j = 0; j < truth.joint_count(); ++j) {
+      if (damaged.is_observed(f, j)) continue;
+      sum += fill::distance(truth, filled, f, j);
+      count += 1;
+    }
+  }
+  return sum / count;
+}
+
+void joints_by_length(const Arguments& arguments) {
+  Table table(arguments, "page_joint_gaps.csv", "method,length_s,mean_deg");
+  std::vector<Clip> truths;
+  for (const auto& [name, motion] :
+       {std::pair{"35_01", "walk"}, {"02_05", "punch"}, {"09_03", "run"}})
+    truths.push_back(load_take(arguments, std::string(name) + ".bvh", {.motion = motion}).clip);
+  for (const double length_s : {0.1, 0.25, 1.0}) {
+    for (const char* method :
+         {"auto", "slerp", "squad", "spline", "quintic", "pchip", "hermite", "cyclic", "pca"}) {
+      double mean = 0, count = 0;
+      for (const Clip& truth : truths) {
+        const auto length = static_cast<std::size_t>(length_s * truth.frame_rate_hz);
+        if (truth.frame_count() < 3 * length + 30) continue;  // a run, for gaps of a second
+        for (std::uint64_t seed = 1; seed <= (arguments.quick ? 1 : 10); ++seed) {
+          const Clip damaged = with_gaps(truth, length, seed);
+          Clip filled = fill::spoilt(damaged);
+          fill::fill_with(filled, method, true);
+          mean += mean_error_deg(truth, damaged, filled);
+          count += 1;
+        }
+      }
+      table.add({method, fmt::format("{:g}", length_s), figure(mean / count)});
+    }
+  }
+  table.close();
+}
+
+void experiment(const Arguments& arguments) {
+  promises(arguments);
+  joints_by_length(arguments);
+}
+
+}  // namespace
+}  // namespace kinemend::papers
+
+int main(int count, char** values) {
+  return kinemend::papers::run(count, values, kinemend::papers::experiment);
+}
