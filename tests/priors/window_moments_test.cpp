@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kinemend/experimental/random.hpp"
+#include "priors/dynamics_support.hpp"
 #include "priors/training_sequences.hpp"
 
 namespace kinemend::test {
