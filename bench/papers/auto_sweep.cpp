@@ -1,12 +1,14 @@
 // What each constant of the method `auto` does: one at a time is made half, 0.8, 1.25 and 2 times
 // as large, and the change of the error measured on takes of subjects that no other table
 // of `auto` uses. tools/sweep runs it.
+#include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
+#include <limits>
 #include <utility>
 
 #include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 #include "page.hpp"
 #include "tracks/smooth_chart.hpp"
 #include "tracks/spikes.hpp"
@@ -30,12 +32,13 @@ struct Constant {
 class Constants {
  public:
   template <class Group, class Value>
-  void add(const std::string& name, Group& (*group)(Tuning&), Value Group::*member) {
+  void add(const std::string& name, Group& (*group)(Tuning&), Value Group::*member,
+           double largest = std::numeric_limits<double>::infinity()) {
     list.push_back({name,
                     [=](Tuning& tuning) { return static_cast<double>(group(tuning).*member); },
                     [=](Tuning& tuning, double value) {
                       if constexpr (std::is_floating_point_v<Value>)
-                        group(tuning).*member = value;
+                        group(tuning).*member = std::min(value, largest);
                       else
                         group(tuning).*member = static_cast<Value>(std::lround(value));
                     }});
@@ -112,6 +115,44 @@ std::vector<Constant> constants() {
   return all.list;
 }
 
+std::vector<Constant> constants_of_colour() {
+  Constants all;
+  const auto colour = +[](Tuning& t) -> ColourTuning& { return t.tracks.colour; };
+  all.add("colour.least_noise", colour, &ColourTuning::least_noise);
+  all.add("colour.few_windows", colour, &ColourTuning::few_windows);
+  all.add("colour.few_marked", colour, &ColourTuning::few_marked);
+  all.add("colour.fewest_samples", colour, &ColourTuning::fewest_samples);
+  all.add("colour.fewest_tracks", colour, &ColourTuning::fewest_tracks);
+  all.add("colour.fewest_seconds", colour, &ColourTuning::fewest_seconds);
+  all.add("colour.least_agreement", colour, &ColourTuning::least_agreement);
+  all.add("colour.least_rotation_deg", colour, &ColourTuning::least_rotation_deg);
+  all.add("colour.least_of_rotations", colour, &ColourTuning::least_of_rotations);
+  all.add("colour.least_deg", colour, &ColourTuning::least_deg);
+  all.add("colour.least_ms", colour, &ColourTuning::least_ms);
+  all.add("colour.least_product", colour, &ColourTuning::least_product);
+  all.add("colour.least_in_distances", colour, &ColourTuning::least_in_distances);
+  all.add("colour.start", colour, &ColourTuning::start);
+  all.add("colour.full", colour, &ColourTuning::full);
+  all.add("colour.slow_correlation", colour, &ColourTuning::slow_correlation);
+  all.add("colour.longest_s", colour, &ColourTuning::longest_s);
+  all.add("colour.most_of_quiet", colour, &ColourTuning::most_of_quiet);
+  all.add("colour.trembling_s", colour, &ColourTuning::trembling_s);
+  all.add("colour.share_of_constant", colour, &ColourTuning::share_of_constant);
+  return all.list;
+}
+
+std::vector<Constant> constants_of_held() {
+  Constants all;
+  const auto held = +[](Tuning& t) -> HeldTuning& { return t.tracks.held; };
+  all.add("held.fewest_samples", held, &HeldTuning::fewest_samples);
+  all.add("held.largest_ratio", held, &HeldTuning::largest_ratio);
+  all.add("held.least_difference", held, &HeldTuning::least_difference);
+  all.add("held.agreeing_tracks", held, &HeldTuning::agreeing_tracks);
+  all.add("held.large_quantile", held, &HeldTuning::large_quantile, 1);
+  all.add("held.least_clock_step", held, &HeldTuning::least_clock_step);
+  return all.list;
+}
+
 // The rotations as the method `auto` cleans them, with other constants.
 Clip cleaned_with(const Tuning& tuning, Clip clip) {
   const std::size_t frames = clip.frame_count();
@@ -151,11 +192,115 @@ Clip cleaned_with(const Tuning& tuning, Clip clip) {
   return clip;
 }
 
+// The positions of a clip's joints, as markers of the scale on which `auto` cleans these.
+VectorMotion markers_of(const Clip& clip) {
+  constexpr double degrees_per_height = 1150;
+  const double scale = degrees_per_height / body_height(clip.skeleton);
+  const std::vector<Vec3> positions = joint_positions(clip);
+  const std::size_t count = clip.joint_count();
+  VectorMotion motion;
+  motion.values = PoseMatrix(clip.frame_count(), 3 * count);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Vec3 p = scale * positions[i];
+    motion.values(i / count, 3 * (i % count)) = p.x;
+    motion.values(i / count, 3 * (i % count) + 1) = p.y;
+    motion.values(i / count, 3 * (i % count) + 2) = p.z;
+  }
+  motion.observed.assign(positions.size(), 1);
+  motion.frame_rate_hz = clip.frame_rate_hz;
+  motion.names = clip.skeleton.names;
+  motion.is_rotation.assign(count, 0);
+  motion.is_root.assign(count, 0);
+  motion.per_radian = degrees_per_height / 4;
+  motion.per_cm = degrees_per_height / 170;
+  return motion;
+}
+
+VectorMotion cleaned_with(const Tuning& tuning, VectorMotion motion) {
+  PoseMatrix& y = motion.values;
+  VectorTracks tracks(y.frames, y.channels / 3);
+  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
+    for (std::size_t t = 0; t < y.frames; ++t)
+      tracks.set(t, n, {y(t, 3 * n), y(t, 3 * n + 1), y(t, 3 * n + 2)});
+  }
+  const SampleMarks none(y.frames, tracks.tracks());
+  clean_tracks(tracks, none, none, std::vector<std::vector<std::size_t>>(tracks.tracks()),
+               motion.frame_rate_hz, {.kind = TrackKind::positions, .tuning = tuning.tracks});
+  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
+    for (std::size_t t = 0; t < y.frames; ++t) {
+      const Vec3 p = tracks.at(t, n);
+      y(t, 3 * n) = p.x;
+      y(t, 3 * n + 1) = p.y;
+      y(t, 3 * n + 2) = p.z;
+    }
+  }
+  return motion;
+}
+
+double rms(const VectorMotion& a, const VectorMotion& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.values.values.size(); ++i)
+    sum += std::pow(a.values.values[i] - b.values.values[i], 2);
+  return std::sqrt(3 * sum / static_cast<double>(a.values.values.size()));
+}
+
 struct Damage {
   std::string name;
   double rate_hz;
   std::function<Clip(const Clip&)> apply;
 };
+
+// Noise with a colour, and takes that are easily taken for such.
+std::vector<Damage> coloured_damages() {
+  const auto ar1 = [](double correlation) {
+    return [=](const Clip& c) {
+      return damaged(c, "ar1", {{"std_deg", 1.5}, {"correlation", correlation}}, 7);
+    };
+  };
+  return {{"ar1_0.5", 120, ar1(0.5)},
+          {"ar1_0.8", 120, ar1(0.8)},
+          {"ar1_0.95", 120, ar1(0.95)},
+          {"video", 60,
+           [](const Clip& c) {
+             return damaged(c, "system", {{"kind", std::string("video")}}, 7);
+           }},
+          {"half", 120,
+           [](const Clip& c) {
+             return damaged(c, "gaussian-channels", {{"k", 0.5}}, 7);
+           }},
+          {"clean", 120, [](const Clip& c) { return c; }},
+          {"clean_30_hz", 30, [](const Clip& c) { return c; }}};
+}
+
+// Samples of a lower rate with noise of 1 degree, held or joined by lines, and clean ones.
+std::vector<Damage> held_damages() {
+  const auto lower = [](double noise_deg, const char* join, double rate_hz) {
+    return [=](const Clip& c) {
+      return damaged(noisy(c, noise_deg, 0, 7), join, {{"rate_hz", rate_hz}}, 7);
+    };
+  };
+  return {{"held_60_hz", 120, lower(1, "held", 60)},
+          {"held_50_hz", 120, lower(1, "held", 50)},
+          {"upsampled_60_hz", 120, lower(1, "upsampled", 60)},
+          {"upsampled_30_hz", 120, lower(1, "upsampled", 30)},
+          {"clean_held_30_hz", 120, lower(0, "held", 30)},
+          {"1_deg", 120, [](const Clip& c) { return noisy(c, 1, 0, 7); }},
+          {"clean", 120, [](const Clip& c) { return c; }}};
+}
+
+// The same of markers.
+struct MarkerDamage {
+  std::string name;
+  double rate_hz;
+  std::string family;  // of systems; none: clean
+};
+
+std::vector<MarkerDamage> marker_damages() {
+  return {{"markers_video", 60, "video"},
+          {"markers_depth", 30, "depth"},
+          {"markers_clean_60_hz", 60, ""},
+          {"markers_clean_30_hz", 30, ""}};
+}
 
 std::vector<Damage> damages() {
   return {{"1_deg", 120, [](const Clip& c) { return noisy(c, 1, 0, 7); }},
@@ -177,63 +322,83 @@ std::vector<Damage> damages() {
           {"third_deg_few_spikes", 120, [](const Clip& c) { return noisy(c, 0.3, 0.001, 7); }}};
 }
 
-struct Sample {
-  Clip truth, damaged;
-};
-
-// 5 s of each take under each damage.
-std::vector<std::vector<Sample>> samples(const Arguments& arguments) {
-  std::vector<std::vector<Sample>> result;
-  std::map<std::string, Clip> takes;
-  for (const char* name : {"13_12", "13_29", "39_05", "82_02", "83_47", "111_24", "118_13"}) {
+// 5 s of each take.
+std::vector<Clip> takes_of(const Arguments& arguments) {
+  std::vector<Clip> takes;
+  for (const char* name : {"111_24", "118_13", "13_12", "13_29", "39_05", "82_02", "83_47"}) {
     const Clip clip = load_take(arguments, std::string(name) + ".bvh", {.motion = "walk"}).clip;
-    takes[name] = slice(clip, 0, std::min<std::size_t>(clip.frame_count(), 600));
+    takes.push_back(slice(clip, 0, std::min<std::size_t>(clip.frame_count(), 600)));
     if (arguments.quick) break;
   }
-  for (const Damage& damage : damages()) {
-    result.emplace_back();
-    for (const auto& [name, clip] : takes) {
-      const Clip truth =
-          damage.rate_hz == clip.frame_rate_hz ? clip : resample(clip, damage.rate_hz);
-      result.back().push_back({truth, damage.apply(truth)});
-    }
-  }
-  return result;
+  return takes;
 }
 
-// Of each damage the mean over the takes of the logarithm of the error in degrees, to which a
+Clip at_rate(const Clip& clip, double rate_hz) {
+  return rate_hz == clip.frame_rate_hz ? clip : resample(clip, rate_hz);
+}
+
+// A kind of damage on all takes: the error that cleaning leaves on each.
+struct Kind {
+  std::string name;
+  std::vector<std::function<double(const Tuning&)>> errors;
+};
+
+std::vector<Kind> kinds_of(const std::vector<Clip>& takes, const std::vector<Damage>& damages) {
+  std::vector<Kind> kinds;
+  for (const Damage& damage : damages) {
+    kinds.push_back({damage.name, {}});
+    for (const Clip& clip : takes) {
+      const Clip truth = at_rate(clip, damage.rate_hz);
+      kinds.back().errors.push_back([truth, bad = damage.apply(truth)](const Tuning& tuning) {
+        return geodesic_rms_deg(truth, cleaned_with(tuning, bad));
+      });
+    }
+  }
+  return kinds;
+}
+
+void add_markers(const std::vector<Clip>& takes, std::vector<Kind>& kinds) {
+  for (const MarkerDamage& damage : marker_damages()) {
+    kinds.push_back({damage.name, {}});
+    for (const Clip& clip : takes) {
+      const VectorMotion truth = markers_of(at_rate(clip, damage.rate_hz));
+      VectorMotion bad = truth;
+      Random random(7);
+      if (!damage.family.empty()) apply_damage(bad, "system", {{"kind", damage.family}}, random);
+      kinds.back().errors.push_back(
+          [truth, bad](const Tuning& tuning) { return rms(truth, cleaned_with(tuning, bad)); });
+    }
+  }
+}
+
+// Of each kind the mean over the takes of the logarithm of the error in degrees, to which a
 // hundredth is added: smaller errors do not differ for any use.
-std::vector<double> log_errors(const std::vector<std::vector<Sample>>& all, const Tuning& tuning) {
+std::vector<double> log_errors(const std::vector<Kind>& kinds, const Tuning& tuning) {
   std::vector<double> result;
-  for (const auto& of_damage : all) {
+  for (const Kind& kind : kinds) {
     double sum = 0;
-    for (const Sample& sample : of_damage) {
-      const Clip result_clip = cleaned_with(tuning, sample.damaged);
-      sum += std::log(geodesic_rms_deg(sample.truth, result_clip) + 0.01);
-    }
-    result.push_back(sum / static_cast<double>(of_damage.size()));
+    for (const auto& error : kind.errors) sum += std::log(error(tuning) + 0.01);
+    result.push_back(sum / static_cast<double>(kind.errors.size()));
   }
   return result;
 }
 
-void sweep(const Arguments& arguments) {
-  const auto all = samples(arguments);
-  Table table(arguments, "auto_sweep.csv", "constant,value,factor,mean,largest");
-  const std::vector<double> usual = log_errors(all, {});
-  const std::vector<Damage> kinds = damages();
+// Each constant times each factor, on these kinds of damage.
+void vary(const Arguments& arguments, const std::vector<Constant>& list,
+          const std::vector<Kind>& kinds, const std::vector<double>& factors, Table& table) {
+  const std::vector<double> usual = log_errors(kinds, {});
   fmt::print("Error, degrees:");
   for (std::size_t d = 0; d < kinds.size(); ++d)
     fmt::print(" {} {:.4f}", kinds[d].name, std::exp(usual[d]) - 0.01);
   fmt::print(
       "\nChange of the error in percent: mean over the kinds of damage, and the kind that changes "
       "most.\n");
-  const std::vector<Constant> list = constants();
   for (std::size_t i = 0; i < list.size(); i += arguments.quick ? 12 : 1) {
     const Constant& constant = list[i];
     Tuning as_is;
     const double value = constant.value(as_is);
     std::string line = fmt::format("{:40} {:8.4g}", constant.name, value);
-    for (const double factor : {0.5, 0.8, 1.25, 2.0}) {
+    for (const double factor : factors) {
       Tuning tuning;
       constant.set(tuning, factor * value);
       const double set = constant.value(tuning);
@@ -241,7 +406,7 @@ void sweep(const Arguments& arguments) {
         line += fmt::format(" {:>17}", "");
         continue;
       }
-      const std::vector<double> errors = log_errors(all, tuning);
+      const std::vector<double> errors = log_errors(kinds, tuning);
       double mean = 0, most = 0;
       for (std::size_t d = 0; d < errors.size(); ++d) {
         const double change = errors[d] - usual[d];
@@ -256,6 +421,21 @@ void sweep(const Arguments& arguments) {
     fmt::print("{}\n", line);
     std::fflush(stdout);
   }
+  fmt::print("\n");
+}
+
+void sweep(const Arguments& arguments) {
+  const std::vector<Clip> takes = takes_of(arguments);
+  const std::string columns = "constant,value,factor,mean,largest";
+  // What estimates the colour is slow: fewer values.
+  Table special(arguments, "auto_sweep_colour.csv", columns);
+  vary(arguments, constants_of_held(), kinds_of(takes, held_damages()), {0.5, 2}, special);
+  std::vector<Kind> coloured = kinds_of(takes, coloured_damages());
+  add_markers(takes, coloured);
+  vary(arguments, constants_of_colour(), coloured, {0.5, 2}, special);
+  special.close();
+  Table table(arguments, "auto_sweep.csv", columns);
+  vary(arguments, constants(), kinds_of(takes, damages()), {0.5, 0.8, 1.25, 2}, table);
   table.close();
 }
 

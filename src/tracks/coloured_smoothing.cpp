@@ -14,18 +14,21 @@ namespace kinemend {
 
 namespace {
 
+// Candidates.
 constexpr signal::CutoffGrid smoothing_cutoffs{0.003, 50, 24};
 
 class ColouredSmoothing {
  public:
   ColouredSmoothing(VectorTracks& tracks, const SampleMarks& missing, const NoiseSpectrum& spectrum,
-                    double scale, std::span<const double> shares, double frame_rate_hz)
+                    double scale, std::span<const double> shares, double frame_rate_hz,
+                    const ColourTuning& tuning)
       : tracks_(tracks),
         missing_(missing),
         correlation_(spectrum.correlation),
         shares_(shares),
         frame_rate_hz_(frame_rate_hz),
-        is_slow_(spectrum.is_slow) {
+        is_slow_(spectrum.is_slow),
+        tuning_(tuning) {
     for (std::size_t n = 0; n < tracks.tracks(); ++n) {
       Vec3 deviations = scale * spectrum.deviations[n];
       for (std::size_t axis = 0; axis < 3 && shares[n] > 0; ++axis) {
@@ -59,7 +62,7 @@ class ColouredSmoothing {
   }
 
  private:
-  static constexpr double least_noise = 1e-4;  // degrees
+  static constexpr double least_noise = 1e-4;  // degrees, against division by zero
 
   std::span<Vec3> track(std::size_t i) { return tracks_.track(channels_[i] / 3); }
 
@@ -112,8 +115,7 @@ class ColouredSmoothing {
       }
     }
     signal::AdaptiveSettings settings;
-    // Quiet spans of slow noise tell little of their motion.
-    settings.share_of_constant = 0.2;
+    settings.share_of_constant = tuning_.share_of_constant;
     if (is_slow_) settings.iterations = 0;
     signal::ChannelBlock x = signal::smooth_adaptively(
         y, precision.weight, variance, models, frame_rate_hz_, settings, &precision.coupling);
@@ -130,10 +132,9 @@ class ColouredSmoothing {
   // The floor of fast noise that slow noise stands on is not in its model: the rest of it goes with
   // what the model leaves above some 5 Hz.
   void remove_trembling(signal::ChannelBlock& x) const {
-    constexpr double width_s = 0.04;
     PoseMatrix rows(x.frames, signal::block_channels);
     rows.values.swap(x.values);
-    gaussian_filter(rows, width_s * window_rate_hz(frame_rate_hz_));
+    gaussian_filter(rows, tuning_.trembling_s * window_rate_hz(frame_rate_hz_));
     rows.values.swap(x.values);
   }
 
@@ -143,6 +144,7 @@ class ColouredSmoothing {
   std::span<const double> shares_;
   double frame_rate_hz_;
   bool is_slow_;
+  const ColourTuning& tuning_;
   std::vector<std::size_t> channels_;  // track * 3 + axis, of those that are smoothed
   std::vector<double> variance_;       // of the noise on each of them
   std::vector<signal::SmoothingModel> candidates_, models_;
@@ -152,9 +154,9 @@ class ColouredSmoothing {
 
 void smooth_coloured(VectorTracks& tracks, const SampleMarks& missing,
                      const NoiseSpectrum& spectrum, double scale, std::span<const double> shares,
-                     double frame_rate_hz, ShareProgress* progress) {
+                     double frame_rate_hz, ShareProgress* progress, const ColourTuning& tuning) {
   if (tracks.frames() < 4) return;
-  ColouredSmoothing(tracks, missing, spectrum, scale, shares, frame_rate_hz).run(progress);
+  ColouredSmoothing(tracks, missing, spectrum, scale, shares, frame_rate_hz, tuning).run(progress);
 }
 
 }  // namespace kinemend

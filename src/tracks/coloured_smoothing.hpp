@@ -16,6 +16,7 @@ namespace kinemend {
 /// The result is blended in by `shares`. `missing` samples have no weight.
 void smooth_coloured(VectorTracks& tracks, const SampleMarks& missing,
                      const NoiseSpectrum& spectrum, double scale, std::span<const double> shares,
-                     double frame_rate_hz, ShareProgress* progress = nullptr);
+                     double frame_rate_hz, ShareProgress* progress = nullptr,
+                     const ColourTuning& tuning = {});
 
 }  // namespace kinemend

@@ -13,13 +13,7 @@ namespace kinemend {
 
 namespace {
 
-constexpr std::size_t longest_step = 8, fewest_samples = 8;
-// Differences between measurements over those at them. A chart bends what is held or straight by up
-// to some percent, Euler angles that are interpolated by more.
-constexpr double largest_ratio = 0.2;
-constexpr double least_difference = 1e-5;  // degrees: a track that does not move shows no pattern
-constexpr double agreeing_tracks = 0.9;
-constexpr double least_clock_step = 1.1;  // frames
+constexpr std::size_t longest_step = 8;  // limits time and room
 
 // Sizes of the differences of order 1 or 2 by the frame at which they show a new measurement.
 std::vector<std::optional<double>> difference_sizes(std::span<const Vec3> track,
@@ -40,8 +34,7 @@ std::vector<std::optional<double>> difference_sizes(std::span<const Vec3> track,
 // The phase at which alone the differences are of size, if there is one: half of them are, there,
 // and hardly any of another phase, but where spikes are.
 std::optional<std::size_t> lone_phase(const std::vector<std::optional<double>>& sizes,
-                                      std::size_t step) {
-  constexpr double nearly_all = 0.9;
+                                      std::size_t step, const HeldTuning& tuning) {
   std::array<double, longest_step> usual{}, large{};
   std::vector<double> of_phase;
   for (std::size_t phase = 0; phase < step; ++phase) {
@@ -49,38 +42,39 @@ std::optional<std::size_t> lone_phase(const std::vector<std::optional<double>>& 
     for (std::size_t t = phase; t < sizes.size(); t += step) {
       if (sizes[t]) of_phase.push_back(*sizes[t]);
     }
-    if (of_phase.size() < fewest_samples) return std::nullopt;
+    if (of_phase.size() < tuning.fewest_samples) return std::nullopt;
     usual[phase] = quantile_of(of_phase, 0.5);
-    large[phase] = quantile_of(of_phase, nearly_all);
+    large[phase] = quantile_of(of_phase, tuning.large_quantile);
   }
   const auto lone =
       static_cast<std::size_t>(std::max_element(usual.begin(), usual.end()) - usual.begin());
   for (std::size_t phase = 0; phase < step; ++phase) {
-    if (phase != lone && large[phase] > largest_ratio * usual[lone]) return std::nullopt;
+    if (phase != lone && large[phase] > tuning.largest_ratio * usual[lone]) return std::nullopt;
   }
-  return usual[lone] > least_difference ? std::optional(lone) : std::nullopt;
+  return usual[lone] > tuning.least_difference ? std::optional(lone) : std::nullopt;
 }
 
-bool moves(const std::vector<std::optional<double>>& sizes) {
+bool moves(const std::vector<std::optional<double>>& sizes, const HeldTuning& tuning) {
   std::size_t moving = 0;
-  for (const auto& size : sizes) moving += size && *size > least_difference;
+  for (const auto& size : sizes) moving += size && *size > tuning.least_difference;
   return moving * 2 * longest_step > sizes.size();
 }
 
-bool agree(std::size_t votes, std::size_t all) {
-  return static_cast<double>(votes) >= agreeing_tracks * static_cast<double>(all);
+bool agree(std::size_t votes, std::size_t all, const HeldTuning& tuning) {
+  return static_cast<double>(votes) >= tuning.agreeing_tracks * static_cast<double>(all);
 }
 
 // How many tracks see each pattern of one join, step by step and phase by phase, and how many see
 // none of a step.
 struct Votes {
+  const HeldTuning& tuning;
   std::size_t moving = 0;
   std::array<std::array<std::size_t, longest_step>, longest_step + 1> votes{};
   std::array<std::size_t, longest_step + 1> against{};
 
   // Whether the other ones of so many tracks may still agree on a step.
   bool is_open(std::size_t step, std::size_t tracks) const {
-    return agree(tracks - against[step], tracks);
+    return agree(tracks - against[step], tracks, tuning);
   }
   bool any_is_open(std::size_t tracks) const {
     for (std::size_t step = 2; step <= longest_step; ++step) {
@@ -90,16 +84,17 @@ struct Votes {
   }
 };
 
-SamplePattern elected(const VectorTracks& tracks, const SampleMarks& missing, SampleJoin join) {
-  Votes count;
+SamplePattern elected(const VectorTracks& tracks, const SampleMarks& missing, SampleJoin join,
+                      const HeldTuning& tuning) {
+  Votes count{tuning};
   for (std::size_t n = 0; n < tracks.tracks(); ++n) {
     if (!count.any_is_open(tracks.tracks())) return {};
     const auto sizes = difference_sizes(tracks.track(n), missing.track(n), join);
-    if (!moves(sizes)) continue;
+    if (!moves(sizes, tuning)) continue;
     ++count.moving;
     for (std::size_t step = 2; step <= longest_step; ++step) {
       if (!count.is_open(step, tracks.tracks())) continue;
-      if (const auto phase = lone_phase(sizes, step)) {
+      if (const auto phase = lone_phase(sizes, step, tuning)) {
         ++count.votes[step][*phase];
       } else {
         ++count.against[step];
@@ -110,7 +105,7 @@ SamplePattern elected(const VectorTracks& tracks, const SampleMarks& missing, Sa
   // right one.
   for (std::size_t step = longest_step; step >= 2; --step) {
     for (std::size_t phase = 0; phase < step; ++phase) {
-      if (count.moving > 0 && agree(count.votes[step][phase], count.moving))
+      if (count.moving > 0 && agree(count.votes[step][phase], count.moving, tuning))
         return {join, static_cast<double>(step), static_cast<double>(phase)};
     }
   }
@@ -119,35 +114,36 @@ SamplePattern elected(const VectorTracks& tracks, const SampleMarks& missing, Sa
 
 // Frames, from the second on, that show something new on more than a tenth of the tracks that move;
 // nothing where no such track was seen in some frame, or none moves.
-std::vector<std::size_t> new_frames(const VectorTracks& tracks, const SampleMarks& missing) {
-  constexpr double nearly_all = 0.9, least_repeats = 0.5 * (1 - 1 / least_clock_step);
+std::vector<std::size_t> new_frames(const VectorTracks& tracks, const SampleMarks& missing,
+                                    const HeldTuning& tuning) {
+  const double least_repeats = 0.5 * (1 - 1 / tuning.least_clock_step);
   std::size_t against = 0;
   std::vector<std::size_t> seen(tracks.frames()), repeats(tracks.frames());
   std::vector<double> values;
   for (std::size_t n = 0; n < tracks.tracks(); ++n) {
     const auto sizes = difference_sizes(tracks.track(n), missing.track(n), SampleJoin::held);
-    if (!moves(sizes)) continue;
+    if (!moves(sizes, tuning)) continue;
     values.clear();
     for (const auto& size : sizes) {
       if (size) values.push_back(*size);
     }
-    const double large = quantile_of(values, nearly_all);
+    const double large = quantile_of(values, tuning.large_quantile);
     std::size_t repeated = 0;
     for (std::size_t t = 1; t < sizes.size(); ++t) {
       if (!sizes[t]) continue;
       ++seen[t];
-      if (*sizes[t] > largest_ratio * large) continue;
+      if (*sizes[t] > tuning.largest_ratio * large) continue;
       ++repeats[t];
       ++repeated;
     }
     if (static_cast<double>(repeated) < least_repeats * static_cast<double>(tracks.frames()))
       ++against;
-    if (!agree(tracks.tracks() - against, tracks.tracks())) return {};
+    if (!agree(tracks.tracks() - against, tracks.tracks(), tuning)) return {};
   }
   std::vector<std::size_t> frames;
   for (std::size_t t = 1; t < tracks.frames(); ++t) {
     if (seen[t] == 0) return {};
-    if (!agree(repeats[t], seen[t])) frames.push_back(t);
+    if (!agree(repeats[t], seen[t], tuning)) frames.push_back(t);
   }
   return frames;
 }
@@ -172,12 +168,15 @@ ClockStart start_of_clock(std::span<const std::size_t> frames, double step) {
 
 // Samples that are held for a number of frames that is no whole one: all new frames are those of
 // one clock.
-SamplePattern uneven_hold(const VectorTracks& tracks, const SampleMarks& missing) {
-  const std::vector<std::size_t> frames = new_frames(tracks, missing);
-  if (frames.size() < fewest_samples || tracks.frames() < frames.size() + fewest_samples) return {};
+SamplePattern uneven_hold(const VectorTracks& tracks, const SampleMarks& missing,
+                          const HeldTuning& tuning) {
+  const std::vector<std::size_t> frames = new_frames(tracks, missing, tuning);
+  if (frames.size() < tuning.fewest_samples ||
+      tracks.frames() < frames.size() + tuning.fewest_samples)
+    return {};
   const auto count = static_cast<double>(frames.size() - 1);
   const double mean = static_cast<double>(frames.back() - frames.front()) / count;
-  if (mean < least_clock_step || mean > static_cast<double>(longest_step)) return {};
+  if (mean < tuning.least_clock_step || mean > static_cast<double>(longest_step)) return {};
   // The room is concave in the step.
   double low = mean - 1 / count, high = mean + 1 / count;
   for (int round = 0; round < 60; ++round) {
@@ -251,10 +250,12 @@ bool follows_from_marked(std::span<const std::uint8_t> marked, SampleJoin join, 
 
 }  // namespace
 
-SamplePattern find_sample_pattern(const VectorTracks& tracks, const SampleMarks& missing) {
-  SamplePattern pattern = elected(tracks, missing, SampleJoin::held);
-  if (pattern.join == SampleJoin::none) pattern = elected(tracks, missing, SampleJoin::linear);
-  if (pattern.join == SampleJoin::none) pattern = uneven_hold(tracks, missing);
+SamplePattern find_sample_pattern(const VectorTracks& tracks, const SampleMarks& missing,
+                                  const HeldTuning& tuning) {
+  SamplePattern pattern = elected(tracks, missing, SampleJoin::held, tuning);
+  if (pattern.join == SampleJoin::none)
+    pattern = elected(tracks, missing, SampleJoin::linear, tuning);
+  if (pattern.join == SampleJoin::none) pattern = uneven_hold(tracks, missing, tuning);
   return pattern;
 }
 

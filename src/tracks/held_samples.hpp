@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "tracks/tuning.hpp"
 #include "tracks/vector_tracks.hpp"
 
 /// Takes whose frames are fewer measurements than they seem: samples of a lower rate, each held for
@@ -39,7 +40,8 @@ struct SamplePattern {
 /// 8 but one, an interpolated one those of order 2. Else frames that repeat the one before on nine
 /// tenths of these tracks show a pattern if they are those of a clock of 1.1 to 8 frames, all of
 /// them. `missing` samples do not count.
-SamplePattern find_sample_pattern(const VectorTracks& tracks, const SampleMarks& missing);
+SamplePattern find_sample_pattern(const VectorTracks& tracks, const SampleMarks& missing,
+                                  const HeldTuning& tuning = {});
 
 /// The measurements alone.
 VectorTracks measured_samples(const VectorTracks& tracks, const SamplePattern& pattern);

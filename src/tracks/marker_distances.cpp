@@ -12,7 +12,8 @@ namespace kinemend {
 
 namespace {
 
-constexpr std::size_t most_frames = 240, fewest_frames = 12;
+constexpr std::size_t most_frames = 240;   // limits the time
+constexpr std::size_t fewest_frames = 12;  // of a median
 
 // Frames with one before them, evenly over the take.
 std::vector<std::size_t> sampled_frames(std::size_t frames) {

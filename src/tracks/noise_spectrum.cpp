@@ -18,20 +18,15 @@ namespace kinemend {
 
 namespace {
 
+// Candidates and what keeps from a division by zero.
 constexpr std::array correlations{0.0, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.98};
 constexpr std::size_t strengths = 80;
 constexpr double least_deviation = 0.02, largest_deviation = 60;  // degrees
 constexpr signal::CutoffGrid model_cutoffs{0.003, 50, 16};
 constexpr double least_motion = 1e-3;  // degrees
-// Noise is of the system and of one colour for all tracks: where it is in proportion to the motion
-// and white, quiet tracks ask for a colour and the others do not (0.48 of them at most; 0.95 at
-// least of coloured noise, made and real).
-constexpr double least_agreement = 0.75;
-constexpr std::size_t few_windows = 4,
-                      most_lanes = 2400;  // windows of single channels whose evidence is summed
-// Of positions under slow noise: the take is looked at in two parts of that length, and noise is
-// not taken for more than so many times what the windows show.
-constexpr double slow_correlation = 0.8, longest_s = 30, most_of_quiet = 4;
+// Windows of single channels whose evidence is summed: limits the time.
+constexpr std::size_t most_lanes = 2400;
+constexpr std::size_t fewest_frames = 24;  // of a window
 
 double deviation_of(std::size_t strength) {
   return least_deviation *
@@ -99,8 +94,8 @@ class MovingTracks {
 
 // Of a few marked samples the line between their neighbours tells as much, and the noise's thread
 // is not broken.
-void mark_long_runs(std::span<const std::uint8_t> marked, std::span<std::uint8_t> result) {
-  constexpr std::size_t few = 3;
+void mark_long_runs(std::span<const std::uint8_t> marked, std::size_t few,
+                    std::span<std::uint8_t> result) {
   for (std::size_t t = 0; t < marked.size();) {
     std::size_t end = t;
     while (end < marked.size() && marked[end] != 0) ++end;
@@ -125,14 +120,15 @@ struct SeenWindows {
   }
 };
 
-SeenWindows look_at(const MovingTracks& tracks, const Windows& windows) {
+SeenWindows look_at(const MovingTracks& tracks, const Windows& windows,
+                    const ColourTuning& tuning) {
   const std::size_t count = windows.starts.size(), size = tracks.count() * count * windows.frames;
   SeenWindows seen{tracks.count(), windows.frames, count, std::vector<Vec3>(size),
                    std::vector<std::uint8_t>(size)};
   for_each_parallel(tracks.count(), tracks.count() * tracks.frames(), [&](std::size_t i) {
     const std::vector<Vec3> values = tracks.filled(i);
     std::vector<std::uint8_t> missing(values.size());
-    mark_long_runs(tracks.marked(i), missing);
+    mark_long_runs(tracks.marked(i), tuning.few_marked, missing);
     for (std::size_t w = 0; w < count; ++w) {
       const auto from = static_cast<std::ptrdiff_t>(windows.starts[w]);
       const auto to = static_cast<std::ptrdiff_t>((i * count + w) * windows.frames);
@@ -146,9 +142,9 @@ SeenWindows look_at(const MovingTracks& tracks, const Windows& windows) {
 // That of every track and axis under noise of one colour: each window has its likeliest motion. Of
 // windows with hardly a sample nothing is known.
 std::vector<Curve> misfit_curves(const SeenWindows& seen,
-                                 std::span<const signal::SmoothingModel> models,
-                                 double correlation) {
-  constexpr double fewest_samples = 12;
+                                 std::span<const signal::SmoothingModel> models, double correlation,
+                                 const ColourTuning& tuning) {
+  const auto fewest_samples = static_cast<double>(tuning.fewest_samples);
   const std::size_t channels = 3 * seen.tracks, count = seen.count;
   std::vector<Curve> of_lanes(channels * count);
   Curve inverse, logarithm;
@@ -203,11 +199,11 @@ struct Estimate {
 };
 
 Estimate estimate_of_colour(const SeenWindows& seen, std::span<const signal::SmoothingModel> models,
-                            double correlation) {
+                            double correlation, const ColourTuning& tuning) {
   Estimate found;
   found.correlation = correlation;
   found.misfits.assign(seen.tracks, 0);
-  for (const Curve& curve : misfit_curves(seen, models, correlation)) {
+  for (const Curve& curve : misfit_curves(seen, models, correlation, tuning)) {
     const auto least = std::min_element(curve.begin(), curve.end());
     found.misfits[found.deviations.size() / 3] += *least;
     found.deviations.push_back(deviation_of(static_cast<std::size_t>(least - curve.begin())));
@@ -218,11 +214,12 @@ Estimate estimate_of_colour(const SeenWindows& seen, std::span<const signal::Smo
 
 // Of the colour among these that is likeliest.
 Estimate estimate(const SeenWindows& seen, std::span<const std::size_t> orders,
-                  std::span<const double> colours, double frame_rate_hz) {
+                  std::span<const double> colours, double frame_rate_hz,
+                  const ColourTuning& tuning) {
   const auto models = signal::models_of_orders(orders, model_cutoffs, seen.frames, frame_rate_hz);
   Estimate best, white;
   for (const double correlation : colours) {
-    Estimate found = estimate_of_colour(seen, models, correlation);
+    Estimate found = estimate_of_colour(seen, models, correlation, tuning);
     if (correlation == 0) white = found;
     if (found.misfit < best.misfit) best = std::move(found);
   }
@@ -234,10 +231,11 @@ Estimate estimate(const SeenWindows& seen, std::span<const std::size_t> orders,
   return best;
 }
 
-bool is_white(const SeenWindows& seen, std::span<const std::size_t> orders, double frame_rate_hz) {
+bool is_white(const SeenWindows& seen, std::span<const std::size_t> orders, double frame_rate_hz,
+              const ColourTuning& tuning) {
   // What is correlated by more is likelier with a little than with none, too.
   const auto colours = std::span(correlations).first(2);
-  return estimate(seen, orders, colours, frame_rate_hz).correlation == 0;
+  return estimate(seen, orders, colours, frame_rate_hz, tuning).correlation == 0;
 }
 
 // Of a track: the root mean square along each axis of the velocity of means over 0.25 s.
@@ -266,20 +264,16 @@ Vec3 slow_speeds(std::span<const Vec3> track, double frame_rate_hz) {
   return {std::sqrt(share * squares.x), std::sqrt(share * squares.y), std::sqrt(share * squares.z)};
 }
 
-// Noise of 1.5 degrees with a correlation of 0.95 has 0.22 degrees and a product of 0.59 at least,
-// clean clips 0.14 degrees at most. Clean markers that hardly move show noise over speed, too:
-// slow dances at 30 and 60 Hz reach what video and depth cameras have; distances tell them apart.
-bool is_clear(const NoiseSpectrum& spectrum, double frame_rate_hz, TrackKind kind) {
-  constexpr double least_rotation_deg = 0.18, least_of_rotations = 0.43;
-  constexpr double least_deg = 0.05, least_ms = 1.8, least_product = 1;
+bool is_clear(const NoiseSpectrum& spectrum, double frame_rate_hz, TrackKind kind,
+              const ColourTuning& tuning) {
   const double folding = rate_factor_of(frame_rate_hz);
   const double at_120_hz = spectrum.fast_noise / folding,
                at_120_hz_ms = spectrum.fast_noise_ms / folding;
   if (kind == TrackKind::rotations)
-    return at_120_hz > least_rotation_deg &&
-           at_120_hz * at_120_hz * at_120_hz_ms > least_of_rotations;
-  return at_120_hz > least_deg && at_120_hz_ms > least_ms &&
-         spectrum.fast_noise * spectrum.fast_noise_ms > least_product;
+    return at_120_hz > tuning.least_rotation_deg &&
+           at_120_hz * at_120_hz * at_120_hz_ms > tuning.least_of_rotations;
+  return at_120_hz > tuning.least_deg && at_120_hz_ms > tuning.least_ms &&
+         spectrum.fast_noise * spectrum.fast_noise_ms > tuning.least_product;
 }
 
 }  // namespace
@@ -298,13 +292,12 @@ std::vector<double> NoiseSpectrum::strengths() const {
 }
 
 std::vector<double> coloured_shares(const NoiseSpectrum& spectrum, double scale,
-                                    double frame_rate_hz) {
-  constexpr double start = 0.02, whole = 0.05;  // degrees at 120 Hz
+                                    double frame_rate_hz, const ColourTuning& tuning) {
   std::vector<double> shares;
   for (const Vec3 d : spectrum.deviations) {
     const double level =
         scale * std::max({d.x, d.y, d.z}) * spectrum.fast_share() / rate_factor_of(frame_rate_hz);
-    const double r = std::clamp((level - start) / (whole - start), 0.0, 1.0);
+    const double r = std::clamp((level - tuning.start) / (tuning.full - tuning.start), 0.0, 1.0);
     shares.push_back(r * r * (3 - 2 * r));
   }
   return shares;
@@ -313,15 +306,15 @@ std::vector<double> coloured_shares(const NoiseSpectrum& spectrum, double scale,
 NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& marked,
                                 double frame_rate_hz, TrackKind kind,
                                 std::optional<double> correlation,
-                                const std::vector<Whitening>* whitenings) {
-  constexpr std::size_t fewest_frames = 24, fewest_tracks = 4, fewest_seconds = 4;
+                                const std::vector<Whitening>* whitenings,
+                                const ColourTuning& tuning) {
   NoiseSpectrum spectrum;
   const auto second = static_cast<std::size_t>(std::lround(window_rate_hz(frame_rate_hz)));
   // Markers may stand still, or go on alike, for a second or two.
-  const std::size_t fewest = kind == TrackKind::positions ? fewest_seconds * second : 0;
+  const std::size_t fewest = kind == TrackKind::positions ? tuning.fewest_seconds * second : 0;
   if (tracks.frames() < std::max(fewest_frames, fewest)) return spectrum;
   const MovingTracks moving(tracks, marked, whitenings);
-  if (moving.count() < fewest_tracks) return spectrum;
+  if (moving.count() < tuning.fewest_tracks) return spectrum;
   constexpr std::size_t all_orders[] = {1, 2, 3}, smooth_order[] = {3};
   const std::size_t most_windows =
       std::clamp<std::size_t>(most_lanes / (3 * moving.count()), 4, 24);
@@ -330,12 +323,12 @@ NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& m
   const std::span<const double> colours =
       correlation ? std::span<const double>(&*correlation, 1) : std::span(correlations);
   const auto seen = [&](std::size_t length, std::size_t most) {
-    return look_at(moving, windows_of(tracks.frames(), length, most));
+    return look_at(moving, windows_of(tracks.frames(), length, most), tuning);
   };
-  if (!correlation && is_white(seen(window, few_windows), all_orders, frame_rate_hz))
+  if (!correlation && is_white(seen(window, tuning.few_windows), all_orders, frame_rate_hz, tuning))
     return spectrum;
-  Estimate found = estimate(seen(window, most_windows), all_orders, colours, frame_rate_hz);
-  if (found.correlation == 0 || found.agreement < least_agreement) return spectrum;
+  Estimate found = estimate(seen(window, most_windows), all_orders, colours, frame_rate_hz, tuning);
+  if (found.correlation == 0 || found.agreement < tuning.least_agreement) return spectrum;
 
   const double share = fast_share_of(found.correlation);
   std::vector<double> levels, times;
@@ -349,14 +342,14 @@ NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& m
   }
   spectrum.fast_noise = median_of(levels);
   spectrum.fast_noise_ms = median_of(times);
-  spectrum.is_clear = correlation || is_clear(spectrum, frame_rate_hz, kind);
+  spectrum.is_clear = correlation || is_clear(spectrum, frame_rate_hz, kind, tuning);
   if (!spectrum.is_clear) return spectrum;
-  spectrum.is_slow = kind == TrackKind::positions && found.correlation >= slow_correlation;
+  spectrum.is_slow = kind == TrackKind::positions && found.correlation >= tuning.slow_correlation;
   if (spectrum.is_slow) {
-    const auto longest = static_cast<std::size_t>(longest_s * window_rate_hz(frame_rate_hz));
-    Estimate whole = estimate(seen(longest, 2), smooth_order, colours, frame_rate_hz);
+    const auto longest = static_cast<std::size_t>(tuning.longest_s * window_rate_hz(frame_rate_hz));
+    Estimate whole = estimate(seen(longest, 2), smooth_order, colours, frame_rate_hz, tuning);
     const double most =
-        most_of_quiet * fast_share_of(found.correlation) / fast_share_of(whole.correlation);
+        tuning.most_of_quiet * fast_share_of(found.correlation) / fast_share_of(whole.correlation);
     for (std::size_t c = 0; c < whole.deviations.size(); ++c)
       whole.deviations[c] = std::min(whole.deviations[c], most * found.deviations[c]);
     // At very low rates there is no model of a smooth motion.

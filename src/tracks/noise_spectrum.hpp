@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "tracks/tuning.hpp"
 #include "tracks/vector_tracks.hpp"
 
 namespace kinemend {
@@ -36,7 +37,7 @@ struct NoiseSpectrum {
 /// How far each track is to be smoothed under such noise times `scale`, 0 to 1: a track on which
 /// there is next to none, at the highest frequencies, is left alone.
 std::vector<double> coloured_shares(const NoiseSpectrum& spectrum, double scale,
-                                    double frame_rate_hz);
+                                    double frame_rate_hz, const ColourTuning& tuning = {});
 
 /// Estimates the noise of a take whose marked samples are gone. The evidence of windows (1 s, at
 /// most 24, evenly over the take) is summed over those of one track and axis for each strength of
@@ -51,6 +52,7 @@ std::vector<double> coloured_shares(const NoiseSpectrum& spectrum, double scale,
 NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& marked,
                                 double frame_rate_hz, TrackKind kind,
                                 std::optional<double> correlation = std::nullopt,
-                                const std::vector<Whitening>* whitenings = nullptr);
+                                const std::vector<Whitening>* whitenings = nullptr,
+                                const ColourTuning& tuning = {});
 
 }  // namespace kinemend

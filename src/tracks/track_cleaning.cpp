@@ -17,18 +17,16 @@ namespace kinemend {
 namespace {
 
 // Whether a take has enough noise, as white noise, to estimate its colour.
-bool may_be_coloured(std::vector<double> levels, double frame_rate_hz) {
-  constexpr double least = 0.05;  // degrees at 120 Hz
-  return !levels.empty() && median_of(levels) > least * rate_factor_of(frame_rate_hz);
+bool may_be_coloured(std::vector<double> levels, double frame_rate_hz, const ColourTuning& tuning) {
+  return !levels.empty() && median_of(levels) > tuning.least_noise * rate_factor_of(frame_rate_hz);
 }
 
-// Real noise of video and depth cameras has a tenth and more, also where a solver keeps bones
-// nearly at their lengths; clean markers that were taken for noisy have a hundredth at most.
 bool shows_in_distances(VectorTracks tracks, const std::vector<Whitening>& whitenings,
-                        const SampleMarks& missing, const NoiseSpectrum& spectrum) {
-  constexpr double least = 0.03;
+                        const SampleMarks& missing, const NoiseSpectrum& spectrum,
+                        const ColourTuning& tuning) {
   undo_whitening(tracks, whitenings);
-  return noise_in_distances(tracks, missing, spectrum.deviations, spectrum.correlation) > least;
+  return noise_in_distances(tracks, missing, spectrum.deviations, spectrum.correlation) >
+         tuning.least_in_distances;
 }
 
 // A track with few observed samples keeps its bridges unsmoothed.
@@ -44,11 +42,13 @@ void leave_hardly_observed(const SampleMarks& missing, std::vector<double>& shar
 NoiseSpectrum spectrum_of(const VectorTracks& tracks, const SampleMarks& missing,
                           const std::vector<Whitening>& whitenings, double frame_rate_hz,
                           const TrackCleaningSettings& settings) {
-  NoiseSpectrum spectrum = noise_spectrum_of(tracks, missing, frame_rate_hz, settings.kind,
-                                             settings.correlation, &whitenings);
+  NoiseSpectrum spectrum =
+      noise_spectrum_of(tracks, missing, frame_rate_hz, settings.kind, settings.correlation,
+                        &whitenings, settings.tuning.colour);
   if (settings.correlation || !spectrum.is_clear || settings.kind == TrackKind::rotations)
     return spectrum;
-  spectrum.is_clear = shows_in_distances(tracks, whitenings, missing, spectrum);
+  spectrum.is_clear =
+      shows_in_distances(tracks, whitenings, missing, spectrum, settings.tuning.colour);
   return spectrum;
 }
 
@@ -83,7 +83,7 @@ CleanedTracks clean_measurements(VectorTracks& tracks, const SampleMarks& spike_
   const SampleMarks missing = either(cleaned.marked, always_missing);
   const bool looks_for_colour = settings.correlation
                                     ? *settings.correlation > 0
-                                    : may_be_coloured(cleaned.noise, frame_rate_hz);
+                                    : may_be_coloured(cleaned.noise, frame_rate_hz, tuning.colour);
   if (looks_for_colour) {
     cleaned.spectrum = spectrum_of(tracks, missing, whitenings, frame_rate_hz, settings);
     if (cleaned.spectrum.is_clear) undo_whitening(tracks, whitenings);
@@ -91,10 +91,11 @@ CleanedTracks clean_measurements(VectorTracks& tracks, const SampleMarks& spike_
   if (cleaned.spectrum.is_clear) cleaned.noise = cleaned.spectrum.strengths();
   take_known(settings.noise, cleaned);
   if (cleaned.spectrum.is_clear) {
-    cleaned.shares = coloured_shares(cleaned.spectrum, settings.sensitivity, frame_rate_hz);
+    cleaned.shares =
+        coloured_shares(cleaned.spectrum, settings.sensitivity, frame_rate_hz, tuning.colour);
     leave_hardly_observed(missing, cleaned.shares);
     smooth_coloured(tracks, missing, cleaned.spectrum, settings.sensitivity, cleaned.shares,
-                    frame_rate_hz, progress);
+                    frame_rate_hz, progress, tuning.colour);
   } else {
     std::vector<double> assumed = cleaned.noise;
     for (double& level : assumed) level *= settings.sensitivity;
@@ -114,7 +115,7 @@ CleanedTracks clean_tracks(VectorTracks& tracks, const SampleMarks& spike_candid
                            const std::vector<std::vector<std::size_t>>& nearby,
                            double frame_rate_hz, const TrackCleaningSettings& settings,
                            ShareProgress* progress) {
-  const SamplePattern pattern = find_sample_pattern(tracks, always_missing);
+  const SamplePattern pattern = find_sample_pattern(tracks, always_missing, settings.tuning.held);
   if (pattern.join == SampleJoin::none) {
     return clean_measurements(tracks, spike_candidates, always_missing, nearby, frame_rate_hz,
                               settings, progress);

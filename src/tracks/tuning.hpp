@@ -7,7 +7,8 @@
 
 // The constants of the method `auto`, by step. They were chosen by hand; no sweep of that time is
 // kept. bench/papers/figures/auto_sweep.csv (tools/sweep) states what half, 0.8, 1.25 and 2 times
-// each of them does to the error on seven takes that no other table of `auto` uses;
+// each of them does to the error on seven takes that no other table of `auto` uses,
+// auto_sweep_colour.csv states what half and double of those of `ColourTuning` and `HeldTuning` do.
 // docs/methods/auto-details.md sums it up.
 namespace kinemend {
 
@@ -88,11 +89,65 @@ struct SmoothingTuning {
   signal::AdaptiveSettings adaptive;
 };
 
+/// Of `noise_spectrum_of`, `coloured_shares` and `smooth_coloured`. Candidates (correlations,
+/// strengths, cutoffs) and limits of time and room stand where they are used.
+struct ColourTuning {
+  double least_noise =
+      0.05;  ///< degrees at 120 Hz, median as white noise, of takes to be looked at
+  // Evidence.
+  std::size_t few_windows = 4;      ///< in which white noise shows
+  std::size_t few_marked = 3;       ///< marked samples in a run that a line tells as much of
+  std::size_t fewest_samples = 12;  ///< observed, of a window
+  std::size_t fewest_tracks = 4;    ///< that move
+  std::size_t fewest_seconds = 4;   ///< of positions: markers stand still for a second or two
+  /// Share of the tracks. Noise is of the system and of one colour for all tracks: where it is in
+  /// proportion to the motion and white, quiet tracks ask for a colour and the others do not (0.48
+  /// of them at most; 0.95 at least of coloured noise, made and real).
+  double least_agreement = 0.75;
+  // Clear noise, by what is left at the highest frequencies, at 120 Hz. Noise of 1.5 degrees with a
+  // correlation of 0.95 has 0.22 degrees and a product of 0.59 at least, clean clips 0.14 degrees
+  // at most. Clean markers that hardly move show noise over speed, too: slow dances at 30 and 60 Hz
+  // reach what video and depth cameras have; distances tell them apart.
+  double least_rotation_deg = 0.18;
+  double least_of_rotations = 0.43;  ///< square of degrees, times milliseconds
+  double least_deg = 0.05;           ///< of positions
+  double least_ms = 1.8;             ///< of positions
+  double least_product = 1;          ///< of both, at the rate of the take
+  /// Of the noise in the distances of positions. Real noise of video and depth cameras has a tenth
+  /// and more, also where a solver keeps bones nearly at their lengths; clean markers that were
+  /// taken for noisy have a hundredth at most.
+  double least_in_distances = 0.03;
+  // Dead zone: degrees at 120 Hz, at the highest frequencies.
+  double start = 0.02;  ///< from which tracks are smoothed
+  double full = 0.05;   ///< from which they are smoothed fully
+  // Slow noise of positions.
+  double slow_correlation = 0.8;  ///< from which noise is slow
+  double longest_s = 30;          ///< of each of the two parts that are looked at
+  double most_of_quiet = 4;       ///< times what the windows show, at most
+  double trembling_s = 0.04;      ///< deviation of the Gaussian that takes what is left above 5 Hz
+  // Quiet spans of slow noise tell little of their motion.
+  double share_of_constant = 0.2;  ///< `signal::AdaptiveSettings`
+};
+
+/// Of `find_sample_pattern`. The longest step, 8 frames, limits time and room.
+struct HeldTuning {
+  std::size_t fewest_samples = 8;
+  /// Differences between measurements over those at them. A chart bends what is held or straight by
+  /// up to some percent, Euler angles that are interpolated by more.
+  double largest_ratio = 0.2;
+  double least_difference = 1e-5;  ///< degrees: a track that does not move shows no pattern
+  double agreeing_tracks = 0.9;    ///< share of those that move
+  double large_quantile = 0.9;     ///< of differences: spikes are among the rest
+  double least_clock_step = 1.1;   ///< frames
+};
+
 struct TrackTuning {
   NoiseTuning noise;
   SpikeTuning spikes;
   DeadZoneTuning dead_zone;
   SmoothingTuning smoothing;
+  ColourTuning colour;
+  HeldTuning held;
 };
 
 }  // namespace kinemend
