@@ -26,7 +26,7 @@ constexpr signal::CutoffGrid model_cutoffs{0.003, 50, 16};
 constexpr double least_motion = 1e-3;  // degrees
 // Windows of single channels whose evidence is summed: limits the time.
 constexpr std::size_t most_lanes = 2400;
-constexpr std::size_t fewest_frames = 24;  // of a window
+constexpr std::size_t fewest_noisy_frames = 24;  // of a window
 
 double deviation_of(std::size_t strength) {
   return least_deviation *
@@ -312,13 +312,13 @@ NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& m
   const auto second = static_cast<std::size_t>(std::lround(window_rate_hz(frame_rate_hz)));
   // Markers may stand still, or go on alike, for a second or two.
   const std::size_t fewest = kind == TrackKind::positions ? tuning.fewest_seconds * second : 0;
-  if (tracks.frames() < std::max(fewest_frames, fewest)) return spectrum;
+  if (tracks.frames() < std::max(fewest_noisy_frames, fewest)) return spectrum;
   const MovingTracks moving(tracks, marked, whitenings);
   if (moving.count() < tuning.fewest_tracks) return spectrum;
   constexpr std::size_t all_orders[] = {1, 2, 3}, smooth_order[] = {3};
   const std::size_t most_windows =
       std::clamp<std::size_t>(most_lanes / (3 * moving.count()), 4, 24);
-  const std::size_t window = std::max(fewest_frames, second);
+  const std::size_t window = std::max(fewest_noisy_frames, second);
   // White noise shows in a few windows already.
   const std::span<const double> colours =
       correlation ? std::span<const double>(&*correlation, 1) : std::span(correlations);

@@ -7,8 +7,8 @@
 
 #include "dense_algebra.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/random.hpp"
 #include "kinemend/experimental/signal.hpp"
+#include "priors/dynamics_support.hpp"
 #include "priors/mixture_fit.hpp"
 #include "priors/wiener_filter.hpp"
 #include "priors/wiener_fit.hpp"
@@ -27,11 +27,7 @@ using Eigen::VectorXd;
 
 constexpr Index channels = 3, coefficients = 4, rank = 3, window = 8;
 
-MatrixXd random_matrix(Random& random, Index rows, Index columns) {
-  return MatrixXd::NullaryExpr(rows, columns, [&] { return random.normal(); });
-}
-
-MatrixXd random_covariance(Random& random, Index size) {
+MatrixXd wide_covariance(Random& random, Index size) {
   const MatrixXd root = random_matrix(random, size, size);
   return root * root.transpose() + 0.3 * MatrixXd::Identity(size, size);
 }
@@ -44,7 +40,7 @@ WienerPrior random_prior(Random& random, std::size_t components) {
   prior.rest = random_matrix(random, channels, window).cwiseAbs2().array() + 0.1;
   for (std::size_t c = 0; c < components; ++c) {
     prior.components.push_back({1 / static_cast<double>(components), random_matrix(random, rank, 1),
-                                random_covariance(random, rank)});
+                                wide_covariance(random, rank)});
   }
   return prior;
 }
