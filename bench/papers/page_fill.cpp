@@ -11,27 +11,6 @@
 namespace kinemend::papers {
 namespace {
 
-std::vector<std::size_t> whole_markers(const MarkerClip& clip) {
-  std::vector<std::size_t> whole;
-  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
-    bool seen = true;
-    for (std::size_t f = 0; seen && f < clip.frame_count(); ++f) seen = clip.is_observed(f, m);
-    if (seen) whole.push_back(m);
-  }
-  return whole;
-}
-
-std::vector<std::size_t> moving_joints(const Clip& clip) {
-  std::vector<std::size_t> moving;
-  for (std::size_t j = 0; j < clip.joint_count(); ++j) {
-    double farthest = 0;
-    for (std::size_t f = 0; f < clip.frame_count(); ++f)
-      farthest = std::max(farthest, angle_between(clip.rotation(0, j), clip.rotation(f, j)));
-    if (farthest > 0.02) moving.push_back(j);
-  }
-  return moving;
-}
-
 // `least`: the error of a short gap that counts, millimetres or degrees.
 void add_promises(Table& table, const std::string& takes, const std::vector<fill::Kept>& kept,
                   double least) {
@@ -59,7 +38,7 @@ void promises(const Arguments& arguments) {
     const bool is_hdm = std::string(file).starts_with("HDM");  // of which the first are no markers
     const MarkerClip truth =
         path ? quality::points_of(*path, is_hdm ? 3 : 0, 41) : test::marker_take("walk", 5);
-    keep(truth, whole_markers(truth));
+    keep(truth, fill::whole_markers(truth));
     if (arguments.quick) break;
   }
   add_promises(table, "markers", kept, 0.5);
@@ -67,7 +46,7 @@ void promises(const Arguments& arguments) {
   for (const char* name :
        {"01_05", "03_03", "07_04", "09_05", "10_03", "11_01", "35_20", "131_05"}) {
     const Clip truth = load_take(arguments, std::string(name) + ".bvh", {.motion = "walk"}).clip;
-    keep(truth, moving_joints(truth));
+    keep(truth, fill::moving_joints(truth));
     if (arguments.quick) break;
   }
   add_promises(table, "joints", kept, 0.1);
@@ -79,21 +58,10 @@ Clip with_gaps(const Clip& truth, std::size_t length, std::uint64_t seed) {
   constexpr std::size_t apart = 3;
   Random random(seed);
   Clip clip = truth;
-  std::vector<std::size_t> joints = moving_joints(truth);
+  std::vector<std::size_t> joints = fill::moving_joints(truth);
   for (std::size_t i = 0; i < 5; ++i) {
     std::swap(joints[i], joints[i + random.below(joints.size() - i)]);
-    std::vector<std::size_t> starts;
-    while (starts.size() < 3) {
-      const std::size_t start = apart + random.below(clip.frame_count() - length - 2 * apart);
-      const bool is_free = std::all_of(starts.begin(), starts.end(), [&](std::size_t other) {
-        return std::max(start, other) - std::min(start, other) > length + apart;
-      });
-      if (is_free) starts.push_back(start);
-      // Three gaps that leave no room for one another are drawn anew.
-      else if (random.chance(0.05))
-        starts.clear();
-    }
-    for (const std::size_t start : starts)
+    for (const std::size_t start : fill::three_starts(random, clip.frame_count(), length, apart))
       fill::hide(clip, truth.skeleton.names[joints[i]], start, start + length - 1);
   }
   return clip;

@@ -163,4 +163,44 @@ std::vector<Kept> make_and_fill(const AnyClip& truth, std::vector<std::size_t> t
   return all;
 }
 
+/// First frames of three gaps of that length, so many frames from each other and from the ends.
+inline std::vector<std::size_t> three_starts(Random& random, std::size_t frames, std::size_t length,
+                                             std::size_t apart) {
+  std::vector<std::size_t> starts;
+  while (starts.size() < 3) {
+    const std::size_t start = apart + random.below(frames - length - 2 * apart);
+    const bool is_free = std::all_of(starts.begin(), starts.end(), [&](std::size_t other) {
+      return std::max(start, other) - std::min(start, other) > length + apart;
+    });
+    if (is_free) starts.push_back(start);
+    // Three gaps that leave no room for one another are drawn anew.
+    else if (random.chance(0.05))
+      starts.clear();
+  }
+  return starts;
+}
+
+/// Markers that are seen in every frame.
+inline std::vector<std::size_t> whole_markers(const MarkerClip& clip) {
+  std::vector<std::size_t> whole;
+  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+    bool seen = true;
+    for (std::size_t f = 0; seen && f < clip.frame_count(); ++f) seen = clip.is_observed(f, m);
+    if (seen) whole.push_back(m);
+  }
+  return whole;
+}
+
+/// Joints that turn by more than 0.02 radians.
+inline std::vector<std::size_t> moving_joints(const Clip& clip) {
+  std::vector<std::size_t> moving;
+  for (std::size_t j = 0; j < clip.joint_count(); ++j) {
+    double farthest = 0;
+    for (std::size_t f = 0; f < clip.frame_count(); ++f)
+      farthest = std::max(farthest, angle_between(clip.rotation(0, j), clip.rotation(f, j)));
+    if (farthest > 0.02) moving.push_back(j);
+  }
+  return moving;
+}
+
 }  // namespace kinemend::fill

@@ -120,17 +120,6 @@ struct Promises {
   }
 };
 
-// Markers that are seen in every frame.
-std::vector<std::size_t> whole_markers(const MarkerClip& clip) {
-  std::vector<std::size_t> whole;
-  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
-    bool seen = true;
-    for (std::size_t f = 0; seen && f < clip.frame_count(); ++f) seen = clip.is_observed(f, m);
-    if (seen) whole.push_back(m);
-  }
-  return whole;
-}
-
 TEST(FillRealTakes, PromisesOfMarkersHoldOnTakesOfOthers) {
   Promises promises;
   for (const char* path :
@@ -140,7 +129,7 @@ TEST(FillRealTakes, PromisesOfMarkersHoldOnTakesOfOthers) {
         "real/depth-RTK.reference.trc"}) {
     const std::size_t skip = std::string(path).find("HDM") == std::string::npos ? 0 : 3;
     const MarkerClip truth = take_points(path, skip, body_markers);
-    promises.add(truth, whole_markers(truth), 8);
+    promises.add(truth, fill::whole_markers(truth), 8);
   }
   const fill::Figures f = promises.figures("markers", 0.5);
   EXPECT_GT(f.gaps, 300U);
@@ -156,14 +145,7 @@ TEST(FillRealTakes, PromisesOfJointsHoldOnTakesOfOthers) {
     const std::string path = std::string(KINEMEND_DATA_FOLDER "/cmu/bvh/") + name + ".bvh";
     const Clip all = read_clip(std::filesystem::path(path)).clip;
     const Clip truth = slice(all, leading_calibration_frames(all), all.frame_count());
-    std::vector<std::size_t> moving;
-    for (std::size_t j = 0; j < truth.joint_count(); ++j) {
-      double farthest = 0;
-      for (std::size_t f = 0; f < truth.frame_count(); ++f)
-        farthest = std::max(farthest, angle_between(truth.rotation(0, j), truth.rotation(f, j)));
-      if (farthest > 0.02) moving.push_back(j);
-    }
-    promises.add(truth, moving, 8);
+    promises.add(truth, fill::moving_joints(truth), 8);
   }
   const fill::Figures f = promises.figures("joints", 0.1);
   EXPECT_GT(f.gaps, 300U);

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "fill/made_gaps.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
@@ -35,25 +36,14 @@ inline MarkerClip points_of(const std::filesystem::path& path, std::size_t skip,
 
 /// Three gaps in each of five markers, at places drawn by the seed.
 inline MarkerClip with_gaps(const MarkerClip& truth, std::size_t length, std::uint64_t seed) {
-  constexpr std::size_t damaged_markers = 5, gaps_each = 3, apart = 10;
+  constexpr std::size_t damaged_markers = 5, apart = 10;
   MarkerClip clip = truth;
   Random random(seed);
   std::vector<std::size_t> order(clip.marker_count());
   for (std::size_t m = 0; m < order.size(); ++m) order[m] = m;
   for (std::size_t i = 0; i < damaged_markers; ++i) {
     std::swap(order[i], order[i + random.below(order.size() - i)]);
-    std::vector<std::size_t> starts;
-    while (starts.size() < gaps_each) {
-      const std::size_t start = apart + random.below(clip.frame_count() - length - 2 * apart);
-      const bool free = std::all_of(starts.begin(), starts.end(), [&](std::size_t other) {
-        return std::max(start, other) - std::min(start, other) > length + apart;
-      });
-      if (free) starts.push_back(start);
-      // Three gaps that leave no room for one another are drawn anew.
-      else if (random.chance(0.05))
-        starts.clear();
-    }
-    for (const std::size_t start : starts) {
+    for (const std::size_t start : fill::three_starts(random, clip.frame_count(), length, apart)) {
       const NamedGap gap{clip.names[order[i]], start, start + length - 1};
       mark_gaps(clip, {&gap, 1});
     }
