@@ -3,30 +3,32 @@ SHELL := /bin/bash
 JOBS ?= $(shell nproc)
 PYTHON ?= /usr/bin/python3
 BUILD := build
-# What `build` and `install-test` use: `dev` has the same code in it, with tests and benchmarks beside it.
+# What `build`, `deb` and `install-test` use.
 PRESET ?= release
 # What tests, benchmarks and papers use: `dev`, or `ci`, which is quicker as a whole and slower after an edit.
 TESTS ?= dev
 # What `demo` uses, which compiles in two thirds of the time; continuous integration has a program already.
 FIRST ?= demo
+# The sanitised build: `asan`, or `asan-all`, which has every room.
+ASAN ?= asan
 KINEMEND := $(BUILD)/$(FIRST)/cli/kinemend
 DEMO := build/demo_takes
+# Each target installs the sections of packages.txt that it needs.
+need = @tools/install_packages packages.txt
 
-.PHONY: help setup build demo test asan lint format bench bench-quick papers papers-quick pictures fuzz install-test clean
+.PHONY: help setup build demo deb deb-test install-test test test-all asan asan-build asan-test lint format page bench bench-quick \
+  papers papers-quick pictures fuzz soak nightly clean FORCE
 
 help: ## this list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## (.*)/  make \1\t\2/' | expand -t 22
 
-setup: ## install the Debian packages of packages.txt that are missing
-	@tools/install_packages packages.txt
+setup: ## install every package of packages.txt (other targets install what they need)
+	$(need)
 
-build: setup ## the command line and the library, as they ship
-	cmake --preset $(PRESET) >/dev/null
-	cmake --build --preset $(PRESET) -j $(JOBS)
-
-demo: setup ## clean the noisy take that ships with the project
-	cmake --preset $(FIRST) >/dev/null
-	cmake --build --preset $(FIRST) -j $(JOBS) --target kinemend_cli
+demo: ## clean the noisy take that ships with the project
+	$(need) core
+	@cmake --preset $(FIRST) >/dev/null
+	@cmake --build --preset $(FIRST) -j $(JOBS) --target kinemend_cli
 	@mkdir -p $(DEMO)
 	@echo
 	@echo "A noisy walk, examples/takes/noisy_walk.bvh, cleaned by: kinemend clean noisy_walk.bvh"
@@ -41,49 +43,96 @@ demo: setup ## clean the noisy take that ships with the project
 	@echo
 	@echo "The clean take is $(DEMO)/noisy_walk.clean.bvh"
 
+build: ## the command line and the library, as they ship: build/release/cli/kinemend
+	$(need) core
+	@cmake --preset $(PRESET) >/dev/null
+	cmake --build --preset $(PRESET) -j $(JOBS)
+
+$(BUILD)/$(PRESET)/.packaged: FORCE
+	$(need) core package
+	@cmake --preset $(PRESET) >/dev/null
+	cmake --build --preset $(PRESET) -j $(JOBS) --target kinemend_cli kinemend_cli_texts kinemend_shared
+
+deb: $(BUILD)/$(PRESET)/.packaged ## the Debian packages kinemend and libkinemend-dev, in build/deb
+	tools/make_deb $(BUILD)/$(PRESET)
+
+deb-test: deb ## install the packages into a fresh Debian, clean a take and build the README's snippet there (needs root)
+	tools/deb_test build/deb
+
+install-test: $(BUILD)/$(PRESET)/.packaged ## install into a folder and build the README's snippet against it
+	tools/install_test $(BUILD)/$(PRESET)
+
 $(BUILD)/$(TESTS)/.built: FORCE
-	cmake --preset $(TESTS)
+	$(need) core test
+	@cmake --preset $(TESTS)
 	cmake --build --preset $(TESTS) -j $(JOBS)
+$(BUILD)/$(TESTS)/.benches: FORCE
+	$(need) core test bench
+	@cmake --preset $(TESTS) -DKINEMEND_BENCH=ON >/dev/null
+	cmake --build --preset $(TESTS) -j $(JOBS) --target kinemend_bench kinemend_papers kinemend_cli
 FORCE:
 
-test: setup $(BUILD)/$(TESTS)/.built ## build and run every test (real takes too where KINEMEND_DATA names a folder)
-	ctest --preset $(TESTS) -j $(JOBS)
+test: $(BUILD)/$(TESTS)/.built ## build and run the tests (real takes too where KINEMEND_DATA names a folder); says what it leaves out
+	@cat $(BUILD)/$(TESTS)/left_out.txt
+	ctest --preset $(TESTS) -j $(JOBS) $(CTEST_ARGUMENTS)
 
-asan: setup ## the tests under AddressSanitizer and UndefinedBehaviorSanitizer
-	cmake --preset asan
-	cmake --build --preset asan -j $(JOBS)
-	ctest --preset asan -j $(JOBS)
+test-all: ## the same, with training, pages and browser installed, so that nothing is left out
+	$(need) core test page browser train
+	$(MAKE) test
 
-lint: setup ## formatting, static analysis and the direction of includes (tools/lint --deep looks deeper)
+asan-build:
+	$(need) core test sanitize
+	@cmake --preset $(ASAN) >/dev/null
+	cmake --build --preset $(ASAN) -j $(JOBS)
+asan-test:
+	ctest --preset $(ASAN) -j $(JOBS)
+asan: asan-build asan-test ## tests under AddressSanitizer and UndefinedBehaviorSanitizer (ASAN=asan-all: of every room)
+
+lint: ## formatting, direction of includes, and static analysis of what changed (tools/lint --help)
+	$(need) core test lint bench
 	tools/lint
 
 format: ## rewrite every source file in the project's format
+	$(need) lint
 	git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
 
-bench: setup $(BUILD)/$(TESTS)/.built ## the speed tables, beside SciPy's figures of the same run (CHECK=1: compared with the stored ones)
+page: ## bundle the report page anew from web/src, into web/dist
+	$(need) core page
+	@cmake --preset release -DKINEMEND_WEB=ON >/dev/null
+	cmake --build --preset release --target $(CURDIR)/build/release/web/page.js
+	cp build/release/web/page.js build/release/web/page.css web/dist/
+
+bench: $(BUILD)/$(TESTS)/.benches ## the speed tables, beside SciPy's figures of the same run (CHECK=1: compared with the stored ones)
 	tools/run_benchmarks $(BUILD)/$(TESTS)
 	$(if $(CHECK),tools/check_figures build/bench --speeds)
 
-bench-quick: setup $(BUILD)/$(TESTS)/.built
+bench-quick: $(BUILD)/$(TESTS)/.benches
 	tools/run_benchmarks $(BUILD)/$(TESTS) --quick
 
-papers: setup $(BUILD)/$(TESTS)/.built ## the papers' own experiments, and the figures of pages, under build/papers (CHECK=1: compared with the stored ones)
+papers: $(BUILD)/$(TESTS)/.benches ## the papers' own experiments, and the figures of pages, under build/papers (CHECK=1: compared with the stored ones)
 	tools/run_papers $(BUILD)/$(TESTS)
 	$(if $(CHECK),tools/check_figures build/papers)
 
 # On takes that the project makes itself, so that the figures are the same everywhere.
-papers-quick: setup $(BUILD)/$(TESTS)/.built
+papers-quick: $(BUILD)/$(TESTS)/.benches
 	KINEMEND_DATA= tools/run_papers $(BUILD)/$(TESTS) --quick
 	tools/check_figures build/papers --quick
 
-pictures: setup $(BUILD)/$(TESTS)/.built ## every picture of README.md and docs again, by the program from takes that ship
+pictures: $(BUILD)/$(TESTS)/.built ## every picture of README.md and docs again, by the program from takes that ship
 	tools/make_pictures $(BUILD)/$(TESTS)
 
-fuzz: setup ## fuzz each reader for a minute (FUZZ_SECONDS=60)
+fuzz: ## fuzz each target for a minute (FUZZ_SECONDS=60)
+	$(need) core test sanitize
 	tools/run_fuzzers $${FUZZ_SECONDS:-60}
 
-install-test: build ## install into a folder and build the README's snippet against it
-	tools/install_test $(BUILD)/$(PRESET)
+soak: $(BUILD)/$(TESTS)/.built ## mutated input, kills, threads and lossy streams for five minutes (SOAK_SECONDS=300)
+	tools/soak $(BUILD)/$(TESTS) $${SOAK_SECONDS:-300}
+
+nightly: ## what continuous integration leaves out: sanitisers on every room, static analysis of all that changed files reach, soak
+	$(need)
+	tools/lint --includers
+	$(MAKE) asan ASAN=asan-all
+	$(MAKE) fuzz soak test-all
 
 clean: ## remove everything that was built
 	rm -rf $(BUILD)

@@ -86,14 +86,14 @@ void read_amc_take(benchmark::State& state) {
   }
   count_bytes(state);
 }
-BENCHMARK(read_amc_take)->Unit(benchmark::kMillisecond);
+BENCHMARK(read_amc_take)->Name("amc/read_amc_take")->Unit(benchmark::kMillisecond);
 
 void write_amc_unchanged(benchmark::State& state) {
   const Clip clip = read_take();
   for (auto _ : state) benchmark::DoNotOptimize(write_amc(clip).data());
   count_bytes(state);
 }
-BENCHMARK(write_amc_unchanged)->Unit(benchmark::kMillisecond);
+BENCHMARK(write_amc_unchanged)->Name("amc/write_amc_unchanged")->Unit(benchmark::kMillisecond);
 
 void write_amc_all_changed(benchmark::State& state) {
   Clip clip = read_take();
@@ -102,6 +102,6 @@ void write_amc_all_changed(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(write_amc(clip).data());
   count_bytes(state);
 }
-BENCHMARK(write_amc_all_changed)->Unit(benchmark::kMillisecond);
+BENCHMARK(write_amc_all_changed)->Name("amc/write_amc_all_changed")->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -58,11 +58,11 @@ void decode_markers(benchmark::State& state) {
 void sizes(benchmark::internal::Benchmark* bench) {
   bench->Args({30, 10})->Args({120, 10})->Args({120, 100})->Unit(benchmark::kMillisecond);
 }
-BENCHMARK(match_joints)->Apply(sizes);
-BENCHMARK(encode_joints)->Apply(sizes);
-BENCHMARK(decode_joints)->Apply(sizes);
-BENCHMARK(match_markers)->Apply(sizes);
-BENCHMARK(encode_markers)->Apply(sizes);
-BENCHMARK(decode_markers)->Apply(sizes);
+BENCHMARK(match_joints)->Name("body/match_joints")->Apply(sizes);
+BENCHMARK(encode_joints)->Name("body/encode_joints")->Apply(sizes);
+BENCHMARK(decode_joints)->Name("body/decode_joints")->Apply(sizes);
+BENCHMARK(match_markers)->Name("body/match_markers")->Apply(sizes);
+BENCHMARK(encode_markers)->Name("body/encode_markers")->Apply(sizes);
+BENCHMARK(decode_markers)->Name("body/decode_markers")->Apply(sizes);
 
 }  // namespace

@@ -102,7 +102,10 @@ void read_c3d_file(benchmark::State& state) {
   std::filesystem::remove(path);
   report(state, bytes.size());
 }
-BENCHMARK(read_c3d_file)->DenseRange(intel_real, dec_integer)->Unit(benchmark::kMillisecond);
+BENCHMARK(read_c3d_file)
+    ->Name("c3d/read_c3d_file")
+    ->DenseRange(intel_real, dec_integer)
+    ->Unit(benchmark::kMillisecond);
 
 void read_c3d_bytes(benchmark::State& state) {
   const std::string bytes = make_take(state.range(0));
@@ -117,7 +120,10 @@ void read_c3d_bytes(benchmark::State& state) {
   }
   report(state, bytes.size());
 }
-BENCHMARK(read_c3d_bytes)->DenseRange(intel_real, dec_integer)->Unit(benchmark::kMillisecond);
+BENCHMARK(read_c3d_bytes)
+    ->Name("c3d/read_c3d_bytes")
+    ->DenseRange(intel_real, dec_integer)
+    ->Unit(benchmark::kMillisecond);
 
 void write_c3d(benchmark::State& state, double change) {
   const std::string bytes = make_take(state.range(0));
@@ -127,9 +133,11 @@ void write_c3d(benchmark::State& state, double change) {
   report(state, bytes.size());
 }
 BENCHMARK_CAPTURE(write_c3d, unchanged, 0.0)
+    ->Name("c3d/write_c3d/unchanged")
     ->DenseRange(intel_real, dec_integer)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(write_c3d, changed, 0.5)
+    ->Name("c3d/write_c3d/changed")
     ->DenseRange(intel_real, dec_integer)
     ->Unit(benchmark::kMillisecond);
 
@@ -140,6 +148,6 @@ void write_new_c3d(benchmark::State& state) {
   for (auto _ : state) bytes = write_markers(clip, "c3d").size();
   report(state, bytes);
 }
-BENCHMARK(write_new_c3d)->Arg(intel_real)->Unit(benchmark::kMillisecond);
+BENCHMARK(write_new_c3d)->Name("c3d/write_new_c3d")->Arg(intel_real)->Unit(benchmark::kMillisecond);
 
 }  // namespace

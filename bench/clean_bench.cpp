@@ -56,24 +56,28 @@ void bilateral_75_joints_150_frames_5_passes(benchmark::State& state) {
   options.sigma_g_deg = 11.5;
   run(state, *make_bilateral(options), noisy_clip(75, 150, 120));
 }
-BENCHMARK(bilateral_75_joints_150_frames_5_passes)->Unit(benchmark::kMillisecond);
+BENCHMARK(bilateral_75_joints_150_frames_5_passes)
+    ->Name("clean/bilateral_75_joints_150_frames_5_passes")
+    ->Unit(benchmark::kMillisecond);
 
 void bilateral_wide_75_joints_150_frames_5_passes(benchmark::State& state) {
   BilateralOptions options;
   options.sigma_t_s = 0.03;
   run(state, *make_bilateral(options), noisy_clip(75, 150, 120));
 }
-BENCHMARK(bilateral_wide_75_joints_150_frames_5_passes)->Unit(benchmark::kMillisecond);
+BENCHMARK(bilateral_wide_75_joints_150_frames_5_passes)
+    ->Name("clean/bilateral_wide_75_joints_150_frames_5_passes")
+    ->Unit(benchmark::kMillisecond);
 
 void bilateral_31_joints(benchmark::State& state) {
   run(state, *make_bilateral(), noisy_clip(31, 10000, 120));
 }
-BENCHMARK(bilateral_31_joints)->Unit(benchmark::kMillisecond);
+BENCHMARK(bilateral_31_joints)->Name("clean/bilateral_31_joints")->Unit(benchmark::kMillisecond);
 
 void gaussian_31_joints(benchmark::State& state) {
   run(state, *make_gaussian(), noisy_clip(31, 10000, 120));
 }
-BENCHMARK(gaussian_31_joints)->Unit(benchmark::kMillisecond);
+BENCHMARK(gaussian_31_joints)->Name("clean/gaussian_31_joints")->Unit(benchmark::kMillisecond);
 
 // Window of 21 poses, patch of 11, 93 rotation channels.
 void nonlocal_31_joints_window_21_patch_11(benchmark::State& state) {
@@ -81,20 +85,26 @@ void nonlocal_31_joints_window_21_patch_11(benchmark::State& state) {
   options.bandwidth_deg = 1.5;
   run(state, *make_nonlocal(options), noisy_clip(31, 10000, 120));
 }
-BENCHMARK(nonlocal_31_joints_window_21_patch_11)->Unit(benchmark::kMillisecond);
+BENCHMARK(nonlocal_31_joints_window_21_patch_11)
+    ->Name("clean/nonlocal_31_joints_window_21_patch_11")
+    ->Unit(benchmark::kMillisecond);
 
 // The same with the bandwidth chosen by the take's noise.
 void nonlocal_31_joints_automatic(benchmark::State& state) {
   run(state, *make_nonlocal(), noisy_clip(31, 10000, 120));
 }
-BENCHMARK(nonlocal_31_joints_automatic)->Unit(benchmark::kMillisecond);
+BENCHMARK(nonlocal_31_joints_automatic)
+    ->Name("clean/nonlocal_31_joints_automatic")
+    ->Unit(benchmark::kMillisecond);
 
 void nonlocal_31_joints_causal(benchmark::State& state) {
   NonlocalOptions options;
   options.causal = true;
   run(state, *make_nonlocal(options), noisy_clip(31, 1000, 120));
 }
-BENCHMARK(nonlocal_31_joints_causal)->Unit(benchmark::kMillisecond);
+BENCHMARK(nonlocal_31_joints_causal)
+    ->Name("clean/nonlocal_31_joints_causal")
+    ->Unit(benchmark::kMillisecond);
 
 // Every pose with every other.
 void nonlocal_31_joints_whole_take_of_1000(benchmark::State& state) {
@@ -103,6 +113,8 @@ void nonlocal_31_joints_whole_take_of_1000(benchmark::State& state) {
   options.bandwidth_deg = 0.5;
   run(state, *make_nonlocal(options), noisy_clip(31, 1000, 120));
 }
-BENCHMARK(nonlocal_31_joints_whole_take_of_1000)->Unit(benchmark::kMillisecond);
+BENCHMARK(nonlocal_31_joints_whole_take_of_1000)
+    ->Name("clean/nonlocal_31_joints_whole_take_of_1000")
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace

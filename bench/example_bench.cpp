@@ -72,7 +72,12 @@ void product_of_square_matrices(benchmark::State& state) {
   state.counters["flop/s"] = benchmark::Counter(2.0 * static_cast<double>(n * n * n),
                                                 benchmark::Counter::kIsIterationInvariantRate);
 }
-BENCHMARK(product_of_square_matrices)->Arg(64)->Arg(256)->Arg(1024)->Unit(benchmark::kMillisecond);
+BENCHMARK(product_of_square_matrices)
+    ->Name("example/product_of_square_matrices")
+    ->Arg(64)
+    ->Arg(256)
+    ->Arg(1024)
+    ->Unit(benchmark::kMillisecond);
 
 // E^T z for all windows of 10 s.
 void product_of_trajectories(benchmark::State& state) {
@@ -90,7 +95,9 @@ void product_of_trajectories(benchmark::State& state) {
   state.counters["flop/s"] = benchmark::Counter(2.0 * static_cast<double>(windows * side * count),
                                                 benchmark::Counter::kIsIterationInvariantRate);
 }
-BENCHMARK(product_of_trajectories)->Unit(benchmark::kMillisecond);
+BENCHMARK(product_of_trajectories)
+    ->Name("example/product_of_trajectories")
+    ->Unit(benchmark::kMillisecond);
 
 void covariance(benchmark::State& state) {
   const PoseMatrix take = gait(2000, 1);
@@ -100,7 +107,7 @@ void covariance(benchmark::State& state) {
     benchmark::DoNotOptimize(sums.covariance().data());
   }
 }
-BENCHMARK(covariance)->Unit(benchmark::kMillisecond);
+BENCHMARK(covariance)->Name("example/covariance")->Unit(benchmark::kMillisecond);
 
 void bases(benchmark::State& state) {
   const PoseMatrix take = gait(2000, 1);
@@ -112,7 +119,7 @@ void bases(benchmark::State& state) {
   }
   state.counters["bases"] = static_cast<double>(count);
 }
-BENCHMARK(bases)->Unit(benchmark::kMillisecond);
+BENCHMARK(bases)->Name("example/bases")->Unit(benchmark::kMillisecond);
 
 std::vector<double> gait_covariance() {
   kinemend::LagCovariance sums(window_frames, channel_count);
@@ -131,7 +138,12 @@ void eigenvectors_by_energy(benchmark::State& state) {
   }
   state.counters["bases"] = static_cast<double>(count);
 }
-BENCHMARK(eigenvectors_by_energy)->Arg(2)->Arg(3)->Arg(4)->Unit(benchmark::kMillisecond);
+BENCHMARK(eigenvectors_by_energy)
+    ->Name("example/eigenvectors_by_energy")
+    ->Arg(2)
+    ->Arg(3)
+    ->Arg(4)
+    ->Unit(benchmark::kMillisecond);
 
 void eigenvectors_of_eigen(benchmark::State& state) {
   const std::vector<double> matrix = gait_covariance();
@@ -141,7 +153,10 @@ void eigenvectors_of_eigen(benchmark::State& state) {
     benchmark::DoNotOptimize(solver.eigenvalues().data());
   }
 }
-BENCHMARK(eigenvectors_of_eigen)->Unit(benchmark::kMillisecond)->Iterations(2);
+BENCHMARK(eigenvectors_of_eigen)
+    ->Name("example/eigenvectors_of_eigen")
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(2);
 
 // Noise of 3 degrees and 5 % outliers, to convergence from the measured motion; with the bases that
 // hold 99 % of the energy, or as many as five real walks need.
@@ -177,6 +192,7 @@ void clean_take(benchmark::State& state) {
       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(clean_take)
+    ->Name("example/clean_take")
     ->ArgNames({"Hz", "s", "bases"})
     ->Args({30, 10, 0})
     ->Args({30, 40, 0})
@@ -206,6 +222,7 @@ void patterns_product(benchmark::State& state) {
   }
 }
 BENCHMARK(patterns_product)
+    ->Name("example/patterns_product")
     ->ArgName("by frequencies")
     ->Arg(0)
     ->Arg(1)
@@ -220,6 +237,6 @@ void method(benchmark::State& state) {
     benchmark::DoNotOptimize(kinemend::clean_clip(take, *cleaner));
   }
 }
-BENCHMARK(method)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(method)->Name("example/method")->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace

@@ -30,12 +30,17 @@ void clean_feet(benchmark::State& state) {
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(frames));
 }
-BENCHMARK(clean_feet)->Arg(500)->Arg(5000)->Arg(50000)->Unit(benchmark::kMillisecond);
+BENCHMARK(clean_feet)
+    ->Name("feet/clean_feet")
+    ->Arg(500)
+    ->Arg(5000)
+    ->Arg(50000)
+    ->Unit(benchmark::kMillisecond);
 
 void find_contacts(benchmark::State& state) {
   const kinemend::Clip clip = sliding_walk(5000);
   for (auto _ : state) benchmark::DoNotOptimize(kinemend::find_contacts(clip));
 }
-BENCHMARK(find_contacts)->Unit(benchmark::kMillisecond);
+BENCHMARK(find_contacts)->Name("feet/find_contacts")->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -81,13 +81,20 @@ void settle(benchmark::internal::Benchmark* bench) {
   bench->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 }
 
-BENCHMARK_CAPTURE(fill, auto, "auto") -> Arg(4500) -> Arg(18000) -> Arg(71900) -> Apply(settle);
-BENCHMARK_CAPTURE(fill, spline, "spline")->Arg(4500)->Apply(settle);
-BENCHMARK_CAPTURE(fill, quintic, "quintic")->Arg(4500)->Apply(settle);
-BENCHMARK_CAPTURE(fill, pattern, "pattern")->Arg(4500)->Apply(settle);
-BENCHMARK_CAPTURE(fill, rigid_body, "rigid-body")->Arg(4500)->Apply(settle);
-BENCHMARK_CAPTURE(fill, pca, "pca")->Arg(4500)->Apply(settle);
-BENCHMARK_CAPTURE(fill, local_regression, "local-regression")->Arg(4500)->Apply(settle);
-BENCHMARK_CAPTURE(fill, cyclic, "cyclic")->Arg(4500)->Apply(settle);
+BENCHMARK_CAPTURE(fill, auto, "auto") -> Name("fill/fill/auto") -> Arg(4500) -> Arg(18000)
+    -> Arg(71900) -> Apply(settle);
+BENCHMARK_CAPTURE(fill, spline, "spline")->Name("fill/fill/spline")->Arg(4500)->Apply(settle);
+BENCHMARK_CAPTURE(fill, quintic, "quintic")->Name("fill/fill/quintic")->Arg(4500)->Apply(settle);
+BENCHMARK_CAPTURE(fill, pattern, "pattern")->Name("fill/fill/pattern")->Arg(4500)->Apply(settle);
+BENCHMARK_CAPTURE(fill, rigid_body, "rigid-body")
+    ->Name("fill/fill/rigid_body")
+    ->Arg(4500)
+    ->Apply(settle);
+BENCHMARK_CAPTURE(fill, pca, "pca")->Name("fill/fill/pca")->Arg(4500)->Apply(settle);
+BENCHMARK_CAPTURE(fill, local_regression, "local-regression")
+    ->Name("fill/fill/local_regression")
+    ->Arg(4500)
+    ->Apply(settle);
+BENCHMARK_CAPTURE(fill, cyclic, "cyclic")->Name("fill/fill/cyclic")->Arg(4500)->Apply(settle);
 
 }  // namespace

@@ -82,7 +82,7 @@ void read_bvh_take(benchmark::State& state) {
   }
   count_bytes(state, text.size());
 }
-BENCHMARK(read_bvh_take)->Unit(benchmark::kMillisecond);
+BENCHMARK(read_bvh_take)->Name("io/read_bvh_take")->Unit(benchmark::kMillisecond);
 
 void parse_numbers_only(benchmark::State& state) {
   const std::string& text = take_text();
@@ -94,7 +94,7 @@ void parse_numbers_only(benchmark::State& state) {
   }
   count_bytes(state, text.size());
 }
-BENCHMARK(parse_numbers_only)->Unit(benchmark::kMillisecond);
+BENCHMARK(parse_numbers_only)->Name("io/parse_numbers_only")->Unit(benchmark::kMillisecond);
 
 void angles_to_quaternions_only(benchmark::State& state) {
   const Clip clip = make_take();
@@ -110,14 +110,14 @@ void angles_to_quaternions_only(benchmark::State& state) {
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()) *
                           static_cast<std::int64_t>(rotations.size()));
 }
-BENCHMARK(angles_to_quaternions_only);
+BENCHMARK(angles_to_quaternions_only)->Name("io/angles_to_quaternions_only");
 
 void write_unchanged(benchmark::State& state) {
   const Clip clip = read_clip(take_text(), "take.bvh").clip;
   for (auto _ : state) benchmark::DoNotOptimize(write_clip(clip).data());
   count_bytes(state, take_text().size());
 }
-BENCHMARK(write_unchanged)->Unit(benchmark::kMillisecond);
+BENCHMARK(write_unchanged)->Name("io/write_unchanged")->Unit(benchmark::kMillisecond);
 
 void write_one_joint_changed(benchmark::State& state) {
   Clip clip = read_clip(take_text(), "take.bvh").clip;
@@ -126,7 +126,9 @@ void write_one_joint_changed(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(write_clip(clip).data());
   count_bytes(state, take_text().size());
 }
-BENCHMARK(write_one_joint_changed)->Unit(benchmark::kMillisecond);
+BENCHMARK(write_one_joint_changed)
+    ->Name("io/write_one_joint_changed")
+    ->Unit(benchmark::kMillisecond);
 
 void write_all_changed(benchmark::State& state) {
   Clip clip = read_clip(take_text(), "take.bvh").clip;
@@ -135,7 +137,7 @@ void write_all_changed(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(write_clip(clip).data());
   count_bytes(state, take_text().size());
 }
-BENCHMARK(write_all_changed)->Unit(benchmark::kMillisecond);
+BENCHMARK(write_all_changed)->Name("io/write_all_changed")->Unit(benchmark::kMillisecond);
 
 void write_plain_layout(benchmark::State& state) {
   const Clip clip = make_take();
@@ -143,6 +145,6 @@ void write_plain_layout(benchmark::State& state) {
   for (auto _ : state) bytes = write_clip(clip).size();
   count_bytes(state, bytes);
 }
-BENCHMARK(write_plain_layout)->Unit(benchmark::kMillisecond);
+BENCHMARK(write_plain_layout)->Name("io/write_plain_layout")->Unit(benchmark::kMillisecond);
 
 }  // namespace

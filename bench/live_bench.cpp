@@ -57,9 +57,9 @@ void feed_line(benchmark::State& state, const LiveMethod& method) {
 
 [[maybe_unused]] const int registered = [] {
   for (const LiveMethod& method : live_methods()) {
-    benchmark::RegisterBenchmark(("push/" + method.name).c_str(), push_frame, method)
+    benchmark::RegisterBenchmark(("live/push/" + method.name).c_str(), push_frame, method)
         ->Unit(benchmark::kMicrosecond);
-    benchmark::RegisterBenchmark(("feed/" + method.name).c_str(), feed_line, method)
+    benchmark::RegisterBenchmark(("live/feed/" + method.name).c_str(), feed_line, method)
         ->Unit(benchmark::kMicrosecond);
   }
   return 0;

@@ -60,10 +60,10 @@ const bool registered = [] {
   for (const Method& method : methods()) {
     if (method.learned) continue;
     const std::string name = method.name;
-    benchmark::RegisterBenchmark(("joints/" + name).c_str(), clean_joints_by, name)
+    benchmark::RegisterBenchmark(("markers/joints/" + name).c_str(), clean_joints_by, name)
         ->MeasureProcessCPUTime()
         ->Unit(benchmark::kMillisecond);
-    benchmark::RegisterBenchmark(("markers/" + name).c_str(), clean_markers_by, name)
+    benchmark::RegisterBenchmark(("markers/markers/" + name).c_str(), clean_markers_by, name)
         ->MeasureProcessCPUTime()
         ->Unit(benchmark::kMillisecond);
   }

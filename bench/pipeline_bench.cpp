@@ -107,23 +107,27 @@ void live_frame(benchmark::State& state, const std::string& method) {
   for (const Method& method : methods()) {
     if (method.learned) continue;  // they clean bodies; example_bench and wiener_bench time them
     const std::string& name = method.name;
-    benchmark::RegisterBenchmark(("clean/" + name).c_str(), clean_take, name)
+    benchmark::RegisterBenchmark(("pipeline/clean/" + name).c_str(), clean_take, name)
         ->Arg(1)
         ->Arg(2)
         ->Unit(benchmark::kMillisecond)
         ->UseRealTime();
-    benchmark::RegisterBenchmark(("cleaner_alone/" + name).c_str(), cleaner_alone, name)
+    benchmark::RegisterBenchmark(("pipeline/cleaner_alone/" + name).c_str(), cleaner_alone, name)
         ->Arg(1)
         ->Unit(benchmark::kMillisecond)
         ->UseRealTime();
     if (make_cleaner(name)->live_support(120).kind != LiveSupport::Kind::none) {
-      benchmark::RegisterBenchmark(("live/" + name).c_str(), live_frame, name)
+      benchmark::RegisterBenchmark(("pipeline/live/" + name).c_str(), live_frame, name)
           ->Unit(benchmark::kMicrosecond);
     }
   }
   return 0;
 }();
 
-BENCHMARK(encode_and_decode)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(encode_and_decode)
+    ->Name("pipeline/encode_and_decode")
+    ->Arg(0)
+    ->Arg(1)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -35,7 +35,12 @@ void clean_take(benchmark::State& state) {
       1e-3 * static_cast<double>(take.frame_count()),
       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
-BENCHMARK(clean_take)->ArgName("Hz")->Arg(30)->Arg(120)->Unit(benchmark::kMillisecond);
+BENCHMARK(clean_take)
+    ->Name("recurrent/clean_take")
+    ->ArgName("Hz")
+    ->Arg(30)
+    ->Arg(120)
+    ->Unit(benchmark::kMillisecond);
 
 // 1,200 frames at the model's rate.
 void network_alone(benchmark::State& state) {
@@ -48,7 +53,7 @@ void network_alone(benchmark::State& state) {
   state.counters["ms per frame"] = benchmark::Counter(
       1e-3 * frames, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
-BENCHMARK(network_alone)->Unit(benchmark::kMillisecond);
+BENCHMARK(network_alone)->Name("recurrent/network_alone")->Unit(benchmark::kMillisecond);
 
 void load_model(benchmark::State& state) {
   std::string bytes;
@@ -60,7 +65,7 @@ void load_model(benchmark::State& state) {
     benchmark::DoNotOptimize(kinemend::recurrent_network_of(model).blocks.size());
   }
 }
-BENCHMARK(load_model)->Unit(benchmark::kMillisecond);
+BENCHMARK(load_model)->Name("recurrent/load_model")->Unit(benchmark::kMillisecond);
 
 // 10 s of the paper's 126 channels.
 constexpr std::size_t ebf_frames = 1200, ebf_channels = 126;
@@ -142,7 +147,7 @@ void ebf_whole_clip(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(filtered(network, take).data());
   count_frames(state);
 }
-BENCHMARK(ebf_whole_clip)->Unit(benchmark::kMillisecond);
+BENCHMARK(ebf_whole_clip)->Name("recurrent/ebf_whole_clip")->Unit(benchmark::kMillisecond);
 
 void ebf_network_alone(benchmark::State& state) {
   const kinemend::FilterNetwork network = ebf();
@@ -151,7 +156,7 @@ void ebf_network_alone(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(run(network, features).data());
   count_frames(state);
 }
-BENCHMARK(ebf_network_alone)->Unit(benchmark::kMillisecond);
+BENCHMARK(ebf_network_alone)->Name("recurrent/ebf_network_alone")->Unit(benchmark::kMillisecond);
 
 // A frame at a time, with 15 frames of delay; with 1, the network also sees how rough channels are.
 void ebf_live(benchmark::State& state) {
@@ -173,7 +178,12 @@ void ebf_live(benchmark::State& state) {
   times.tell(state);
   state.counters["products_per_frame"] = live.products_per_frame();
 }
-BENCHMARK(ebf_live)->ArgName("roughness")->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
+BENCHMARK(ebf_live)
+    ->Name("recurrent/ebf_live")
+    ->ArgName("roughness")
+    ->Arg(0)
+    ->Arg(1)
+    ->Unit(benchmark::kMicrosecond);
 
 #ifdef KINEMEND_HAS_TRAINING
 void ebf_network_alone_by_libtorch(benchmark::State& state) {
@@ -190,7 +200,9 @@ void ebf_network_alone_by_libtorch(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(torch.run(features).data());
   count_frames(state);
 }
-BENCHMARK(ebf_network_alone_by_libtorch)->Unit(benchmark::kMillisecond);
+BENCHMARK(ebf_network_alone_by_libtorch)
+    ->Name("recurrent/ebf_network_alone_by_libtorch")
+    ->Unit(benchmark::kMillisecond);
 #endif
 
 }  // namespace

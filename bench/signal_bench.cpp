@@ -48,13 +48,15 @@ void copy_alone(benchmark::State& state) {
   PoseMatrix other = noisy_take();
   run(state, [&](PoseMatrix& m) { other.values = m.values; });
 }
-BENCHMARK(copy_alone)->Unit(benchmark::kMillisecond);
+BENCHMARK(copy_alone)->Name("signal/copy_alone")->Unit(benchmark::kMillisecond);
 
 void butterworth_zero_phase_order_4(benchmark::State& state) {
   const auto sections = kinemend::butterworth_lowpass(4, 6, 120);
   run(state, [&](PoseMatrix& m) { kinemend::filter_zero_phase(m, sections); });
 }
-BENCHMARK(butterworth_zero_phase_order_4)->Unit(benchmark::kMillisecond);
+BENCHMARK(butterworth_zero_phase_order_4)
+    ->Name("signal/butterworth_zero_phase_order_4")
+    ->Unit(benchmark::kMillisecond);
 
 void butterworth_causal_order_4(benchmark::State& state) {
   const auto sections = kinemend::butterworth_lowpass(4, 6, 120);
@@ -63,23 +65,29 @@ void butterworth_causal_order_4(benchmark::State& state) {
     for (std::size_t t = 0; t < m.frames; ++t) filter.step(m.row(t));
   });
 }
-BENCHMARK(butterworth_causal_order_4)->Unit(benchmark::kMillisecond);
+BENCHMARK(butterworth_causal_order_4)
+    ->Name("signal/butterworth_causal_order_4")
+    ->Unit(benchmark::kMillisecond);
 
 void gaussian_sigma_3(benchmark::State& state) {
   run(state, [](PoseMatrix& m) { kinemend::gaussian_filter(m, 3); });
 }
-BENCHMARK(gaussian_sigma_3)->Unit(benchmark::kMillisecond);
+BENCHMARK(gaussian_sigma_3)->Name("signal/gaussian_sigma_3")->Unit(benchmark::kMillisecond);
 
 void weighted_mean_passes(benchmark::State& state) {
   const int passes = static_cast<int>(state.range(0));
   run(state, [&](PoseMatrix& m) { kinemend::weighted_mean_filter(m, passes); });
 }
-BENCHMARK(weighted_mean_passes)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
+BENCHMARK(weighted_mean_passes)
+    ->Name("signal/weighted_mean_passes")
+    ->Arg(1)
+    ->Arg(4)
+    ->Unit(benchmark::kMillisecond);
 
 void median_half_window_5(benchmark::State& state) {
   run(state, [](PoseMatrix& m) { kinemend::median_filter(m, 5); });
 }
-BENCHMARK(median_half_window_5)->Unit(benchmark::kMillisecond);
+BENCHMARK(median_half_window_5)->Name("signal/median_half_window_5")->Unit(benchmark::kMillisecond);
 
 void wavelet_symlet_4(benchmark::State& state) {
   kinemend::WaveletOptions options;
@@ -87,7 +95,12 @@ void wavelet_symlet_4(benchmark::State& state) {
                                           : kinemend::WaveletThreshold::sure;
   run(state, [&](PoseMatrix& m) { kinemend::wavelet_denoise(m, options); });
 }
-BENCHMARK(wavelet_symlet_4)->ArgName("sure")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(wavelet_symlet_4)
+    ->Name("signal/wavelet_symlet_4")
+    ->ArgName("sure")
+    ->Arg(0)
+    ->Arg(1)
+    ->Unit(benchmark::kMillisecond);
 
 void fill_cubic_5_percent(benchmark::State& state) {
   std::vector<std::uint8_t> missing(frame_count * channel_count, 0);
@@ -95,6 +108,6 @@ void fill_cubic_5_percent(benchmark::State& state) {
   for (auto& mark : missing) mark = random.chance(0.05);
   run(state, [&](PoseMatrix& m) { kinemend::fill_cubic(m, missing); });
 }
-BENCHMARK(fill_cubic_5_percent)->Unit(benchmark::kMillisecond);
+BENCHMARK(fill_cubic_5_percent)->Name("signal/fill_cubic_5_percent")->Unit(benchmark::kMillisecond);
 
 }  // namespace

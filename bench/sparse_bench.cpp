@@ -62,6 +62,7 @@ void learn_dictionary(benchmark::State& state) {
         sparse::ksvd(signals, rows, {.atoms = 800, .sparsity = 10, .iterations = 10}).objective);
 }
 BENCHMARK(learn_dictionary)
+    ->Name("sparse/learn_dictionary")
     ->ArgName("windows")
     ->Arg(20'000)
     ->Unit(benchmark::kSecond)
@@ -74,7 +75,7 @@ void batch_omp(benchmark::State& state) {
   for (auto _ : state)
     benchmark::DoNotOptimize(omp.code(signals, {.most_atoms = 10}).values.data());
 }
-BENCHMARK(batch_omp)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(batch_omp)->Name("sparse/batch_omp")->Unit(benchmark::kMillisecond)->UseRealTime();
 
 template <class Solve>
 void solve(benchmark::State& state, sparse::Loss loss, const Solve& solution) {
@@ -91,13 +92,25 @@ void descend(benchmark::State& state) {
   solve(state, state.range(0) == 2 ? sparse::Loss::squares : sparse::Loss::absolute,
         [](const auto& atoms, const auto& problem) { return descend_sparse(atoms, problem); });
 }
-BENCHMARK(descend)->ArgName("p")->Arg(2)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(descend)
+    ->Name("sparse/descend")
+    ->ArgName("p")
+    ->Arg(2)
+    ->Arg(1)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 
 void dual(benchmark::State& state) {
   solve(state, state.range(0) == 2 ? sparse::Loss::squares : sparse::Loss::absolute,
         [](const auto& atoms, const auto& problem) { return solve_sparse(atoms, problem); });
 }
-BENCHMARK(dual)->ArgName("p")->Arg(2)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(dual)
+    ->Name("sparse/dual")
+    ->ArgName("p")
+    ->Arg(2)
+    ->Arg(1)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 
 // Windows of an arm in a noisy walk, a quarter of a window apart, as the method has them, on the
 // model that ships: what warm starts and working sets bring.
@@ -173,6 +186,7 @@ void descend_overlapping(benchmark::State& state) {
   state.counters["objective"] = objective;
 }
 BENCHMARK(descend_overlapping)
+    ->Name("sparse/descend_overlapping")
     ->ArgNames({"p", "warm"})
     ->ArgsProduct({{2, 1}, {0, 1}})
     ->Unit(benchmark::kMillisecond)
@@ -191,6 +205,7 @@ void dual_overlapping(benchmark::State& state) {
   state.counters["objective"] = objective;
 }
 BENCHMARK(dual_overlapping)
+    ->Name("sparse/dual_overlapping")
     ->ArgNames({"p", "batch", "atoms"})
     ->ArgsProduct({{2, 1}, {1, 4, 16}, {8}})
     ->Args({2, 4, 1000})
@@ -211,6 +226,7 @@ void clean_take(benchmark::State& state) {
       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(clean_take)
+    ->Name("sparse/clean_take")
     ->ArgName("Hz")
     ->Arg(30)
     ->Arg(120)

@@ -62,7 +62,7 @@ void read_trc_take(benchmark::State& state) {
   }
   count_bytes(state);
 }
-BENCHMARK(read_trc_take)->Unit(benchmark::kMillisecond);
+BENCHMARK(read_trc_take)->Name("trc/read_trc_take")->Unit(benchmark::kMillisecond);
 
 void parse_cells_only(benchmark::State& state) {
   const std::string& text = take_text();
@@ -74,14 +74,14 @@ void parse_cells_only(benchmark::State& state) {
   }
   count_bytes(state);
 }
-BENCHMARK(parse_cells_only)->Unit(benchmark::kMillisecond);
+BENCHMARK(parse_cells_only)->Name("trc/parse_cells_only")->Unit(benchmark::kMillisecond);
 
 void write_unchanged(benchmark::State& state) {
   const MarkerClip clip = read_markers(take_text());
   for (auto _ : state) benchmark::DoNotOptimize(write_markers(clip, "trc").data());
   count_bytes(state);
 }
-BENCHMARK(write_unchanged)->Unit(benchmark::kMillisecond);
+BENCHMARK(write_unchanged)->Name("trc/write_unchanged")->Unit(benchmark::kMillisecond);
 
 void write_all_changed(benchmark::State& state) {
   MarkerClip clip = read_markers(take_text());
@@ -89,13 +89,13 @@ void write_all_changed(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(write_markers(clip, "trc").data());
   count_bytes(state);
 }
-BENCHMARK(write_all_changed)->Unit(benchmark::kMillisecond);
+BENCHMARK(write_all_changed)->Name("trc/write_all_changed")->Unit(benchmark::kMillisecond);
 
 void write_plain_layout(benchmark::State& state) {
   const MarkerClip clip = make_take();
   for (auto _ : state) benchmark::DoNotOptimize(write_markers(clip, "trc").data());
   count_bytes(state);
 }
-BENCHMARK(write_plain_layout)->Unit(benchmark::kMillisecond);
+BENCHMARK(write_plain_layout)->Name("trc/write_plain_layout")->Unit(benchmark::kMillisecond);
 
 }  // namespace

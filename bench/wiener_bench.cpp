@@ -36,6 +36,7 @@ void clean_take(benchmark::State& state) {
   clean(state, *kinemend::make_wiener(), take);
 }
 BENCHMARK(clean_take)
+    ->Name("wiener/clean_take")
     ->ArgNames({"Hz", "s"})
     ->Args({30, 10})
     ->Args({30, 40})
@@ -47,14 +48,24 @@ void clean_dense_outliers(benchmark::State& state) {
   const auto take = noisy_walk(static_cast<double>(state.range(0)), 10, 0.1);
   clean(state, *kinemend::make_wiener(), take);
 }
-BENCHMARK(clean_dense_outliers)->ArgName("Hz")->Arg(30)->Arg(120)->Unit(benchmark::kMillisecond);
+BENCHMARK(clean_dense_outliers)
+    ->Name("wiener/clean_dense_outliers")
+    ->ArgName("Hz")
+    ->Arg(30)
+    ->Arg(120)
+    ->Unit(benchmark::kMillisecond);
 
 // What of that is `auto`.
 void clean_by_auto(benchmark::State& state) {
   const auto take = noisy_walk(static_cast<double>(state.range(0)), 10, 0);
   clean(state, *kinemend::make_auto(), take);
 }
-BENCHMARK(clean_by_auto)->ArgName("Hz")->Arg(30)->Arg(120)->Unit(benchmark::kMillisecond);
+BENCHMARK(clean_by_auto)
+    ->Name("wiener/clean_by_auto")
+    ->ArgName("Hz")
+    ->Arg(30)
+    ->Arg(120)
+    ->Unit(benchmark::kMillisecond);
 
 // Ten walks of 10 s.
 void training(benchmark::State& state) {
@@ -66,6 +77,6 @@ void training(benchmark::State& state) {
   for (auto _ : state)
     benchmark::DoNotOptimize(kinemend::train_model("wiener", takes).tensors.size());
 }
-BENCHMARK(training)->Unit(benchmark::kMillisecond);
+BENCHMARK(training)->Name("wiener/training")->Unit(benchmark::kMillisecond);
 
 }  // namespace

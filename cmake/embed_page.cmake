@@ -1,20 +1,7 @@
 # Writes OUTPUT, a C++ source that holds the bundle of web/ as bytes; an empty one where SCRIPT names no file.
-#   cmake -DSCRIPT=page.js -DSTYLE=page.css -DPACKAGES=node_modules -DOUTPUT=embedded_page.cpp -P embed_page.cmake
+#   cmake -DSCRIPT=page.js -DSTYLE=page.css -DOUTPUT=embedded_page.cpp -P embed_page.cmake
 include(${CMAKE_CURRENT_LIST_DIR}/bytes_literal.cmake)
 set(text "// Made from web/ by cmake/embed_page.cmake.\n#include \"page/parts.hpp\"\n\nnamespace kinemend::page {\n\n#pragma GCC diagnostic ignored \"-Woverlength-strings\"\n\n")
-# The packages' licences ask to be told wherever their code goes.
-if(SCRIPT)
-  set(licensed "")
-  foreach(package three uplot)
-    file(READ ${PACKAGES}/${package}/LICENSE licence)
-    string(REPLACE "*/" "* /" licence "${licence}")
-    string(APPEND licensed "/* ${package}:\n${licence}*/\n")
-  endforeach()
-  file(READ ${SCRIPT} code)
-  string(APPEND licensed "${code}")
-  set(SCRIPT ${SCRIPT}.licensed)
-  file(WRITE ${SCRIPT} "${licensed}")
-endif()
 foreach(part script style)
   string(TOUPPER ${part} file)
   if(${file})

@@ -16,12 +16,29 @@ if(KINEMEND_DEVELOPER)
   # GCC 12 raises a false alarm about "text" + std::string (its bug 105651).
   target_compile_options(kinemend_settings INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 endif()
+add_library(kinemend_sanitizer INTERFACE)
 if(KINEMEND_SANITIZE)
-  # What is left out costs a fifth of the time; AddressSanitizer finds what these would.
-  target_compile_options(kinemend_settings INTERFACE -fsanitize=${KINEMEND_SANITIZE} -fno-omit-frame-pointer
+  # The checks switched off cost a fifth of the time; AddressSanitizer finds what these would.
+  target_compile_options(kinemend_sanitizer INTERFACE -fsanitize=${KINEMEND_SANITIZE} -fno-omit-frame-pointer
     -fno-sanitize=null,object-size,vptr -fno-sanitize-recover=all)
   target_link_options(kinemend_settings INTERFACE -fsanitize=${KINEMEND_SANITIZE})
 endif()
+
+# Whether a room is sanitised and tested in this build; in others every room is tested.
+function(kinemend_is_examined name result)
+  set(${result} OFF PARENT_SCOPE)
+  if(NOT KINEMEND_SANITIZED_ROOMS OR "${name}" IN_LIST KINEMEND_SANITIZED_ROOMS)
+    set(${result} ON PARENT_SCOPE)
+  endif()
+endfunction()
+
+# Notes what this build cannot have and why; `make test` prints the notes.
+set(left_out_file ${PROJECT_BINARY_DIR}/left_out.txt)
+file(WRITE ${left_out_file} "")
+function(kinemend_left_out what)
+  message(STATUS "Left out: ${what}")
+  file(APPEND ${PROJECT_BINARY_DIR}/left_out.txt "Left out: ${what}\n")
+endfunction()
 
 # Where several files are compiled as one (CMAKE_UNITY_BUILD), names of unnamed namespaces must not meet in a room. Left out are files
 # that Highway includes again for each instruction set, and those that take long enough to be worth a core of their own.
@@ -42,18 +59,20 @@ function(kinemend_room name)
   add_library(kinemend_${name} STATIC ${sources})
   kinemend_compile_alone(${sources})
   add_library(kinemend::${name} ALIAS kinemend_${name})
-  target_include_directories(kinemend_${name} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_include_directories(kinemend_${name} PUBLIC ${PROJECT_SOURCE_DIR}/include)
   target_include_directories(kinemend_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_compile_features(kinemend_${name} PUBLIC cxx_std_20)
   if(KINEMEND_LIGHT_LEVEL AND name MATCHES "^(live|page|report)$")
     target_compile_options(kinemend_${name} PRIVATE ${KINEMEND_LIGHT_LEVEL})
   endif()
-  target_link_libraries(kinemend_${name} PRIVATE $<BUILD_INTERFACE:kinemend_settings> ${ROOM_LINK})
+  target_link_libraries(kinemend_${name} PRIVATE kinemend_settings ${ROOM_LINK})
+  kinemend_is_examined(${name} examined)
+  if(examined)
+    target_link_libraries(kinemend_${name} PRIVATE kinemend_sanitizer)
+  endif()
   foreach(used ${ROOM_USES})
     target_link_libraries(kinemend_${name} PUBLIC kinemend_${used})
   endforeach()
-  set_target_properties(kinemend_${name} PROPERTIES EXPORT_NAME ${name})
   set(KINEMEND_ROOMS ${KINEMEND_ROOMS} kinemend_${name} CACHE INTERNAL "")
 endfunction()
 
@@ -69,20 +88,30 @@ function(kinemend_embed_models room)
   set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# kinemend::kinemend is all rooms together, installed with a package file.
+# kinemend::kinemend is all rooms together. What is installed is one shared library: the libraries that the rooms use stay inside,
+# so that a project that links it has to find none of them.
 function(kinemend_library)
   add_library(kinemend INTERFACE)
   add_library(kinemend::kinemend ALIAS kinemend)
   target_link_libraries(kinemend INTERFACE ${KINEMEND_ROOMS})
-  install(TARGETS kinemend ${KINEMEND_ROOMS} EXPORT kinemend ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/kinemend DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-  install(EXPORT kinemend NAMESPACE kinemend:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/kinemend
-    FILE kinemend-targets.cmake)
+
+  file(WRITE ${PROJECT_BINARY_DIR}/shared_library.cpp "// The rooms are all there is in the shared library.\n")
+  add_library(kinemend_shared SHARED ${PROJECT_BINARY_DIR}/shared_library.cpp)
+  target_link_libraries(kinemend_shared PRIVATE ${KINEMEND_ROOMS})
+  list(JOIN KINEMEND_ROOMS "," rooms)
+  set_target_properties(kinemend_shared PROPERTIES LINK_LIBRARY_OVERRIDE "WHOLE_ARCHIVE,${rooms}")
+  target_include_directories(kinemend_shared INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(kinemend_shared INTERFACE cxx_std_20)
+  target_link_options(kinemend_shared PRIVATE -Wl,--as-needed)
+  set_target_properties(kinemend_shared PROPERTIES OUTPUT_NAME kinemend EXPORT_NAME kinemend VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} EXCLUDE_FROM_ALL ${KINEMEND_DEVELOPER})
+
+  set(folder ${CMAKE_INSTALL_LIBDIR}/cmake/kinemend)
   include(CMakePackageConfigHelpers)
-  configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/kinemend-config.cmake.in
-    ${PROJECT_BINARY_DIR}/kinemend-config.cmake INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/kinemend)
-  write_basic_package_version_file(${PROJECT_BINARY_DIR}/kinemend-config-version.cmake
-    COMPATIBILITY SameMinorVersion)
-  install(FILES ${PROJECT_BINARY_DIR}/kinemend-config.cmake ${PROJECT_BINARY_DIR}/kinemend-config-version.cmake
-    DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/kinemend)
+  write_basic_package_version_file(${PROJECT_BINARY_DIR}/kinemend-config-version.cmake COMPATIBILITY SameMinorVersion)
+  install(TARGETS kinemend_shared EXPORT kinemend LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+    NAMELINK_COMPONENT development)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/kinemend DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+  install(EXPORT kinemend NAMESPACE kinemend:: DESTINATION ${folder} FILE kinemend-config.cmake COMPONENT development)
+  install(FILES ${PROJECT_BINARY_DIR}/kinemend-config-version.cmake DESTINATION ${folder} COMPONENT development)
 endfunction()

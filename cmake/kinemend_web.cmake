@@ -1,4 +1,5 @@
-# The report page: web/ bundled by esbuild, from npm packages that its lock file names.
+# The report page: web/ bundled by esbuild, from npm packages that its lock file names. The bundle is kept in web/dist, so that a build
+# needs neither; with KINEMEND_WEB=ON it is made anew (`make page` copies it to web/dist).
 
 # Installs the packages into the build folder, once for each state of the lock file, and sets ${problem} where that is not possible.
 function(kinemend_web_packages folder problem)
@@ -32,13 +33,13 @@ function(kinemend_web_packages folder problem)
   endif()
 endfunction()
 
-# The bundle becomes part of a room; of a build without it an empty one does, and the program says so when a page is asked for.
+# The bundle becomes part of a room; where there is none, the program says so when a page is asked for.
 function(kinemend_embed_page room)
-  set(folder ${PROJECT_BINARY_DIR}/web)
+  set(web ${PROJECT_SOURCE_DIR}/web)
+  set(folder ${web}/dist)
   set(problem "")
-  if(NOT KINEMEND_WEB)
-    set(problem "KINEMEND_WEB is OFF")
-  else()
+  set(made OFF)
+  if(KINEMEND_WEB)
     find_program(KINEMEND_ESBUILD esbuild)
     find_program(KINEMEND_NPM npm)
     if(NOT KINEMEND_ESBUILD)
@@ -46,30 +47,29 @@ function(kinemend_embed_page room)
     elseif(NOT KINEMEND_NPM)
       set(problem "there is no npm")
     else()
-      kinemend_web_packages(${folder} problem)
+      kinemend_web_packages(${PROJECT_BINARY_DIR}/web problem)
+    endif()
+    if(problem)
+      kinemend_left_out("bundling of the report page, the one in web/dist is used: ${problem}")
+    else()
+      set(folder ${PROJECT_BINARY_DIR}/web)
+      set(made ON)
     endif()
   endif()
 
+  if(made)
+    file(GLOB sources CONFIGURE_DEPENDS ${web}/src/*.ts ${web}/src/*.css)
+    set(bundle ${PROJECT_SOURCE_DIR}/cmake/bundle_page.cmake)
+    add_custom_command(OUTPUT ${folder}/page.js ${folder}/page.css
+      COMMAND ${CMAKE_COMMAND} -DESBUILD=${KINEMEND_ESBUILD} -DSOURCE=${web} -DPACKAGES=${folder}/node_modules -DFOLDER=${folder} -P ${bundle}
+      DEPENDS ${bundle} ${sources} ${folder}/installed.txt COMMENT "Report page" VERBATIM)
+  endif()
   set(output ${PROJECT_BINARY_DIR}/embedded_page.cpp)
   set(script ${PROJECT_SOURCE_DIR}/cmake/embed_page.cmake)
-  set(embed ${CMAKE_COMMAND} -DOUTPUT=${output})
-  set(needed ${script} ${PROJECT_SOURCE_DIR}/cmake/bytes_literal.cmake)
-  if(problem)
-    message(STATUS "Report page: left out, as ${problem}")
-    add_custom_command(OUTPUT ${output} COMMAND ${embed} -P ${script} DEPENDS ${needed} VERBATIM)
-  else()
-    message(STATUS "Report page: built")
-    file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/src/*.ts ${PROJECT_SOURCE_DIR}/web/src/*.css)
-    add_custom_command(OUTPUT ${folder}/page.js ${folder}/page.css
-      COMMAND ${CMAKE_COMMAND} -E env NODE_PATH=${folder}/node_modules
-        ${KINEMEND_ESBUILD} ${PROJECT_SOURCE_DIR}/web/src/page.ts --bundle --minify --format=iife --target=es2021
-        --charset=ascii --legal-comments=inline --log-level=warning --outfile=${folder}/page.js
-      DEPENDS ${sources} ${folder}/installed.txt COMMENT "Report page" VERBATIM)
-    add_custom_command(OUTPUT ${output}
-      COMMAND ${embed} -DSCRIPT=${folder}/page.js -DSTYLE=${folder}/page.css -DPACKAGES=${folder}/node_modules -P ${script}
-      DEPENDS ${needed} ${folder}/page.js ${folder}/page.css VERBATIM)
-  endif()
+  add_custom_command(OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} -DSCRIPT=${folder}/page.js -DSTYLE=${folder}/page.css -DOUTPUT=${output} -P ${script}
+    DEPENDS ${script} ${PROJECT_SOURCE_DIR}/cmake/bytes_literal.cmake ${folder}/page.js ${folder}/page.css VERBATIM)
   target_sources(kinemend_${room} PRIVATE ${output})
   set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  set(KINEMEND_WEB_PROBLEM "${problem}" CACHE INTERNAL "Why there is no report page; empty where there is one")
+  set(KINEMEND_WEB_MADE "${made}" CACHE INTERNAL "Whether the page is bundled here, and its packages are installed")
 endfunction()

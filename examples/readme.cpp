@@ -2,17 +2,22 @@
 #include <cstdio>
 
 #include "kinemend/clean.hpp"
+#include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
 
-int main() {
+// clean_take TAKE.bvh CLEAN.bvh
+int main(int argc, char** argv) try {
   using namespace kinemend;
+  if (argc != 3) return 2;
 
-  const Clip noisy = read_clip("takes/noisy_walk.bvh").clip;
-  const CleanResult result = clean_clip(noisy, *make_cleaner("auto"));
+  const Clip noisy = read_clip(std::filesystem::path(argv[1])).clip;
+  const CleanResult result = clean_clip(noisy, *make_cleaner("auto"), {}, "auto");
   for (const TrackSummary& joint : result.report.tracks) {
     std::printf("%-16s noise %.2f degrees, %zu frames repaired\n", joint.name.c_str(), joint.noise,
                 joint.frames_repaired);
   }
-  const std::string bytes = write_clip(result.clip);  // in the layout of noisy_walk.bvh
-  std::printf("%zu bytes\n", bytes.size());
+  write_file(argv[2], write_clip(result.clip), /*overwrite=*/true);  // in the layout of TAKE.bvh
+} catch (const kinemend::Error& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return static_cast<int>(error.kind());
 }

@@ -439,9 +439,7 @@ void sweep(const Arguments& arguments) {
   table.close();
 }
 
+const Registration registration("auto_sweep", sweep);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::sweep);
-}

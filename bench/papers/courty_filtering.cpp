@@ -232,9 +232,7 @@ void experiment(const Arguments& arguments) {
   summary(arguments, versions);
 }
 
+const Registration registration("courty_filtering", experiment);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::experiment);
-}

@@ -202,9 +202,7 @@ void experiment(const Arguments& arguments) {
   curves(arguments, shown);
 }
 
+const Registration registration("dean_psnr", experiment);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::experiment);
-}

@@ -209,9 +209,7 @@ void ablation(const Arguments& arguments) {
   table.close();
 }
 
+const Registration registration("example_ablation", ablation);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::ablation);
-}

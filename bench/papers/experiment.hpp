@@ -27,19 +27,19 @@ struct Arguments {
 
 /// --data FOLDER (default: the environment variable KINEMEND_DATA), --output FOLDER,
 /// --models FOLDER (default: that of the source tree, from its root), --quick.
-inline Arguments parse_arguments(int count, char** values) {
+inline Arguments parse_arguments(const std::vector<std::string>& words) {
   Arguments arguments;
   if (const char* data = std::getenv("KINEMEND_DATA")) arguments.data = data;
-  for (int i = 1; i < count; ++i) {
-    const std::string name = values[i];
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& name = words[i];
     if (name == "--quick") {
       arguments.quick = true;
-    } else if (name == "--data" && i + 1 < count) {
-      arguments.data = values[++i];
-    } else if (name == "--output" && i + 1 < count) {
-      arguments.output = values[++i];
-    } else if (name == "--models" && i + 1 < count) {
-      arguments.models = values[++i];
+    } else if (name == "--data" && i + 1 < words.size()) {
+      arguments.data = words[++i];
+    } else if (name == "--output" && i + 1 < words.size()) {
+      arguments.output = words[++i];
+    } else if (name == "--models" && i + 1 < words.size()) {
+      arguments.models = words[++i];
     } else {
       throw Error(ErrorKind::usage,
                   "unknown argument " + name +
@@ -114,16 +114,23 @@ class Table {
   std::ofstream file_;
 };
 
-/// Runs the experiment; errors go to standard error, with their exit code.
-template <class Experiment>
-int run(int count, char** values, const Experiment& experiment) {
-  try {
-    experiment(parse_arguments(count, values));
-    return 0;
-  } catch (const Error& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return static_cast<int>(error.kind());
-  }
+/// An experiment of the program `kinemend_papers`, under the name by which it is called.
+struct Experiment {
+  std::string name;
+  void (*run)(const Arguments&);
+};
+
+/// All experiments that the program holds, in no particular order.
+inline std::vector<Experiment>& experiments() {
+  static std::vector<Experiment> all;
+  return all;
 }
+
+/// Enters an experiment; one constant of this type stands at the end of each file.
+struct Registration {
+  Registration(const char* name, void (*run)(const Arguments&)) {
+    experiments().push_back({name, run});
+  }
+};
 
 }  // namespace kinemend::papers

@@ -290,9 +290,7 @@ void experiment(const Arguments& arguments) {
   pop_table.close();
 }
 
+const Registration registration("kovar_feet", experiment);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::experiment);
-}

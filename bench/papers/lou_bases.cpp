@@ -119,9 +119,7 @@ void figure_3(const Arguments& arguments) {
   table.close();
 }
 
+const Registration registration("lou_bases", figure_3);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::figure_3);
-}

@@ -84,9 +84,7 @@ void comparisons(const Arguments& arguments) {
            "the joints' samples.");
 }
 
+const Registration registration("lou_comparison", comparisons);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::comparisons);
-}

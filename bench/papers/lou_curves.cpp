@@ -68,9 +68,7 @@ void curves(const Arguments& arguments) {
   table.close();
 }
 
+const Registration registration("lou_curves", curves);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::curves);
-}

@@ -150,9 +150,7 @@ void figure_6(const Arguments& arguments) {
   table.close();
 }
 
+const Registration registration("lou_missing", figure_6);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::figure_6);
-}

@@ -117,9 +117,7 @@ void priors(const Arguments& arguments) {
   table.close();
 }
 
+const Registration registration("lou_priors", priors);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::priors);
-}

@@ -75,9 +75,7 @@ void figure_9(const Arguments& arguments) {
   table.close();
 }
 
+const Registration registration("lou_windows", figure_9);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::figure_9);
-}

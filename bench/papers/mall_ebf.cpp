@@ -164,9 +164,7 @@ void experiment(const Arguments& arguments) {
   table.close();
 }
 
+const Registration registration("mall_ebf", experiment);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::experiment);
-}

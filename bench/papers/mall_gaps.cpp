@@ -153,9 +153,7 @@ void experiment(const Arguments& arguments) {
   long_gaps(arguments, takes, *ebd);
 }
 
+const Registration registration("mall_gaps", experiment);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::experiment);
-}

@@ -170,9 +170,7 @@ void experiment(const Arguments& arguments) {
   other_noise(arguments);
 }
 
+const Registration registration("mall_recurrent", experiment);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::experiment);
-}

@@ -111,9 +111,7 @@ void experiment(const Arguments& arguments) {
   joints_by_length(arguments);
 }
 
+const Registration registration("page_fill", experiment);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::experiment);
-}

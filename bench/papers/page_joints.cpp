@@ -153,9 +153,7 @@ void experiment(const Arguments& arguments) {
   damaged_takes(arguments);
 }
 
+const Registration registration("page_joints", experiment);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::experiment);
-}

@@ -136,9 +136,7 @@ void experiment(const Arguments& arguments) {
   if (!arguments.quick) dances(arguments);
 }
 
+const Registration registration("page_learned", experiment);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::experiment);
-}

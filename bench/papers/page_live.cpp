@@ -62,9 +62,7 @@ void methods_that_run_live(const Arguments& arguments) {
   table.close();
 }
 
+const Registration registration("page_live", methods_that_run_live);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::methods_that_run_live);
-}

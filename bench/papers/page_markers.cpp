@@ -101,9 +101,7 @@ void experiment(const Arguments& arguments) {
   gaps(arguments);
 }
 
+const Registration registration("page_markers", experiment);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::experiment);
-}

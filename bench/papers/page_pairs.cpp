@@ -66,9 +66,7 @@ void experiment(const Arguments& arguments) {
   table.close();
 }
 
+const Registration registration("page_pairs", experiment);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::experiment);
-}

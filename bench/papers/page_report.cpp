@@ -33,6 +33,7 @@ double megabytes(const Report& report, const Clip& before, const Clip* after) {
 
 // Jitter of 1.5 degrees and spikes, cleaned by `auto`.
 void sizes_of_pages(const Arguments& arguments) {
+  if (!has_report_page()) return;
   struct Length {
     const char* name;
     double synth_s;
@@ -57,10 +58,7 @@ void sizes_of_pages(const Arguments& arguments) {
   table.close();
 }
 
+const Registration registration("page_report", sizes_of_pages);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  if (!kinemend::has_report_page()) return 0;
-  return kinemend::papers::run(count, values, kinemend::papers::sizes_of_pages);
-}

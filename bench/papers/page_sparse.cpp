@@ -162,9 +162,7 @@ void experiment(const Arguments& arguments) {
   clean_takes(arguments);
 }
 
+const Registration registration("page_sparse", experiment);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::experiment);
-}

@@ -323,9 +323,7 @@ void experiment(const Arguments& arguments) {
   spectra.close();
 }
 
+const Registration registration("system_noise", experiment);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::experiment);
-}

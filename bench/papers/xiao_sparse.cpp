@@ -214,9 +214,7 @@ void experiment(const Arguments& arguments) {
   }
 }
 
+const Registration registration("xiao_sparse", experiment);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::experiment);
-}

@@ -108,9 +108,7 @@ void experiment(const Arguments& arguments) {
   learned_from.close();
 }
 
+const Registration registration("xiao_variants", experiment);
+
 }  // namespace
 }  // namespace kinemend::papers
-
-int main(int count, char** values) {
-  return kinemend::papers::run(count, values, kinemend::papers::experiment);
-}

@@ -1,0 +1,31 @@
+# Debian packages, by `make deb`: kinemend (the program) and libkinemend-dev (library, headers, CMake package).
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/kinemend RENAME copyright COMPONENT program)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/presets DESTINATION ${CMAKE_INSTALL_DATADIR}/kinemend COMPONENT program
+  FILES_MATCHING PATTERN "*.toml")
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libkinemend-dev RENAME copyright
+  COMPONENT development)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_DIRECTORY ${PROJECT_SOURCE_DIR}/build/deb)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_MAINTAINER "The Kinemend authors <maintainers@kinemend.invalid>")
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+# What the binaries link is found by dpkg-shlibdeps.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME kinemend)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Cleans human motion capture
+ Removes jitter and spikes, fills gaps and holds sliding feet in takes of joints
+ (BVH, AMC) and markers (C3D, TRC, TSV, CSV), and leaves the rest of each file
+ unchanged. Manual page, shell completions and presets are included.")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libkinemend-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Library that cleans human motion capture
+ The shared library of Kinemend with its C++20 headers and its CMake package:
+ find_package(kinemend) and kinemend::kinemend.")
+include(CPack)
