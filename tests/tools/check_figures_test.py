@@ -26,6 +26,18 @@ class CheckFigures(FiguresTree):
         self.replace(self.page, "| `kalman-learned` | **0.19** |", "| `kalman-learned` | 0.19 |")
         self.assert_fails("docs/wiener.md:10: table 'outliers'")
 
+    def test_a_row_may_have_a_format_of_its_own(self):
+        self.replace(self.spec, "{title = \"`wiener`\", ", "{title = \"`wiener`\", format = \"+.1f\", ")
+        self.assert_passes("--write")
+        self.assertIn("| `wiener` | +0.2 | **+1.1** |", self.page.read_text())
+
+    def test_a_row_without_filter_is_the_line_that_its_title_names(self):
+        self.spec.write_text(SPEC.replace("row_title = \"method\"", "row_title = \"method\"\nkey = \"method\"")
+                              .replace("{title = \"`wiener`\", where = {method = \"wiener\"}}",
+                                       "\"wiener\", {title = \"example\", format = \".0f\"}"))
+        self.assert_passes("--write")
+        self.assertIn("| wiener | **0.19** | **1.08** |\n| example | 0 | 2 |\n", self.page.read_text())
+
     def test_zero_has_no_minus(self):
         self.replace(self.figures / "gaps.csv", "22.96", "-0.2")
         self.assert_passes("--write")
@@ -211,6 +223,14 @@ higher = {higher}
         self.assert_fails("several lines have method = wiener")
 
     # Prose.
+
+    def test_prose_that_repeats_a_figure_of_a_table_is_an_error(self):
+        self.replace(self.page, "Gaps:", "Gaps, with 2.32, a window of 0.20 s and `2.32`:")
+        self.assert_fails("docs/wiener.md:14: the prose repeats 2.32 of a table")
+        self.spec.write_text(SPEC + "\n[prose]\nmay_repeat = [\"2.32\"]\n")
+        self.assert_passes()
+        self.page.write_text(PAGE)
+        self.assert_fails("docs/wiener.figures.toml: may_repeat has '2.32', but the prose does not repeat it")
 
     def test_numbers_of_prose_that_look_measured_are_listed(self):
         self.replace(self.page, "Gaps:", "Gaps of 2.5 mm, by `--window 2.6`:")

@@ -4,8 +4,8 @@ from pathlib import Path
 
 from figures import counts, results
 from figures.pages import Page, find_pages, find_specs_without_page
+from figures.prose import unpinned
 from figures.stored import FigureError, Store
-from figures.unpinned import unpinned
 
 HELP = """\
 Compares the figures of pages with the stored ones, and what programs measured with what is stored.
@@ -56,7 +56,8 @@ A cell prints the line on which the filters of table, row, column and cell (`whe
 {column:.2f} with two digits, {column:,.0f} with commas, {column:+.1f} with a sign, {column*1000:.0f} times 1000. `cells` has
 what differs in a row, by the column's title (or `id`, where two titles are alike): a text, a table of TOML with `print`, `where` or
 `file`, or a list of both, which are joined: [{print = "{ms:.0f} / ", where = {case = "1"}}, {print = "{ms:.0f} ms", where = {case = "2"}}].
-With key = "take" a row may be a mere text, "35_01", which is its title and what the column `take` holds.
+A row's format, as format = ".3f", prints its numbers in another way than the columns say. With key = "take" a row without `where` is the
+line on which the column `take` holds the row's title; a row that needs no more than its title may be a mere text, "35_01".
 
 An ordering that the prose states:
 
@@ -69,6 +70,12 @@ An ordering that the prose states:
   for_each = ["noise"]             # optional: the columns that pair the two sides
   where = {noise = ["1 degree", "half"]}     # optional: only these lines
   ties = true                      # optional: the two may be equal
+
+Prose does not repeat a figure of a table of its page: a number of three significant digits with a decimal point that both have is an
+error. Where the number is another one, a setting or a paper's:
+
+  [prose]
+  may_repeat = ["1.25"]
 """
 
 
@@ -130,8 +137,8 @@ def run(arguments: argparse.Namespace) -> int:
     store = Store(root)
     if arguments.unpinned:
         for path in [path.resolve() for path in arguments.paths] or find_pages(root):
-            for line in unpinned(root, path):
-                print(line)
+            for line in unpinned(path.read_text().split("\n")):
+                print(f"{path.relative_to(root)}:{line}")
         return 0
     if arguments.store:
         names = [str(path) for path in arguments.paths[1:]]

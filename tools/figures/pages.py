@@ -1,18 +1,13 @@
 """Compares the pages with the stored figures: their tables between markers, and the orderings that their prose states."""
 import os
-import re
 from pathlib import Path
 
 from figures import orderings, tables
+from figures.markers import CODE_SPAN, COMMENT, END, LIKE_A_MARKER, START, fold, is_fence
+from figures.prose import DECIMAL, repeated
 from figures.spec import Spec, read_spec, spec_path
 from figures.stored import FigureError, Store
 
-START = re.compile(r"<!-- table: (\S|\S.*\S) -->")
-END = "<!-- end of table -->"
-COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
-CODE_SPAN = re.compile(r"(`+).*?\1")
-# What starts or ends a comment, or was meant to.
-LIKE_A_MARKER = re.compile(r"<\s*!|-->|<-+\s*(?:table|end of table)\b|^\s*(?:table|end of table)\s*:?.*--\s*>")
 NOT_SEARCHED = {"build", "data", "node_modules"}
 
 
@@ -30,10 +25,6 @@ def find_specs_without_page(root: Path) -> list[str]:
     folders = {root, *(path.parent for path in specs)}
     stray = sorted({path for folder in folders for path in folder.glob("*.figures.toml")} - specs)
     return [f"{path.relative_to(root)}: there is no page of that name beside it" for path in stray]
-
-
-def is_fence(line: str) -> bool:
-    return line.lstrip().startswith(("```", "~~~"))
 
 
 class Page:
@@ -59,6 +50,7 @@ class Page:
             return
         found = self.find_tables()
         self.check_orderings(store, spec)
+        printed: set[str] = set()
         for name in (table.name for table in spec.tables if table.name not in found):
             self.complaints.append(f"{self.spec_name}: the page has no table {name!r}")
         by_name = {table.name: table for table in spec.tables}
@@ -73,8 +65,10 @@ class Page:
                 self.complaints.append(f"{self.name}:{first + 1}: table {name!r}: {error}")
                 continue
             self.figures += figures
+            printed |= {text for line in generated[2:] for text in DECIMAL.findall(line.split("|", 2)[2])}
             self.compare_lines(name, first + 1, self.lines[first + 1:last], generated)
             self.lines[first + 1:last] = generated
+        self.check_repeats(printed, spec.may_repeat)
 
     def compare_lines(self, name: str, first: int, printed: list[str], generated: list[str]) -> None:
         if printed == generated:
@@ -132,6 +126,16 @@ class Page:
             self.comparisons += count
             self.complaints += [f"{self.name}: {ordering.says!r} does not hold: {text}" for text in wrong]
 
+    def check_repeats(self, printed: set[str], allowed: list[str]) -> None:
+        found = repeated(self.text.split("\n"), printed)
+        for number, text in found:
+            if text not in allowed:
+                self.complaints.append(f"{self.name}:{number}: the prose repeats {text} of a table; say which row or column it means. "
+                                       f"If it is another number: may_repeat = [\"{text}\"] under [prose] in {self.spec_name}")
+        for text in allowed:
+            if text not in (repeat for _, repeat in found):
+                self.complaints.append(f"{self.spec_name}: may_repeat has {text!r}, but the prose does not repeat it from a table")
+
     def prose(self) -> str:
         """The page without tables and comments, and with single blanks."""
         return fold(COMMENT.sub("", "\n".join(line for line in self.text.split("\n") if not line.startswith("|"))))
@@ -142,7 +146,3 @@ class Page:
         if text != self.text:
             self.path.write_text(text)
         return text != self.text
-
-
-def fold(text: str) -> str:
-    return " ".join(text.split())

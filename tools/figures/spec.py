@@ -1,10 +1,12 @@
 """Reads the file beside a page, PAGE.figures.toml: which tables the page prints, and which orderings its prose states."""
+import re
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from figures.stored import FigureError
 
+FORMAT = re.compile(r"(\+?)(,?)\.(\d+)f")
 BOLD = ("lowest in row", "highest in row", "lowest in column", "highest in column")
 
 
@@ -30,6 +32,7 @@ class Row:
     part: Part
     cells: dict[str, list[Part | str]]
     bold: bool = True
+    format: str | None = None
 
 
 @dataclass
@@ -60,6 +63,7 @@ class Ordering:
 class Spec:
     tables: list[Table]
     orderings: list[Ordering]
+    may_repeat: list[str]  # numbers of the prose that are not those of a table, although they look the same
 
 
 def spec_path(page: Path) -> Path:
@@ -70,18 +74,20 @@ def read_spec(page: Path) -> Spec:
     """The specification of a page; an empty one where there is no file beside it."""
     path = spec_path(page)
     if not path.is_file():
-        return Spec([], [])
+        return Spec([], [], [])
     try:
         content = tomllib.loads(path.read_text())
     except tomllib.TOMLDecodeError as error:
         raise FigureError(f"{path.name}: {error}") from None
-    take(content, "the file", {"table": list, "ordering": list})
+    take(content, "the file", {"table": list, "ordering": list, "prose": dict})
+    prose = content.get("prose", {})
+    take(prose, "[prose]", {"may_repeat": list})
     tables = [read_table(entry) for entry in content.get("table", [])]
     names = [table.name for table in tables]
     for name in names:
         if names.count(name) > 1:
             raise FigureError(f"{path.name}: two tables are named {name!r}")
-    return Spec(tables, [read_ordering(entry) for entry in content.get("ordering", [])])
+    return Spec(tables, [read_ordering(entry) for entry in content.get("ordering", [])], prose.get("may_repeat", []))
 
 
 def take(entry: dict, place: str, types: dict, required: tuple[str, ...] = ()) -> None:
@@ -120,19 +126,24 @@ def read_column(entry: dict, place: str) -> Column:
 
 
 def read_row(entry, key: str | None, ids: list[str], place: str) -> Row:
-    """A row is a table of TOML, or a text that is both its title and what the table's `key` column holds."""
+    """A row is a table of TOML, or a text, which is its title. Without a filter it is the line whose `key` column holds its title."""
     if isinstance(entry, str):
         if key is None:
             raise FigureError(f"{place}: row {entry!r} is a text, so the table needs a `key`")
-        return Row(entry, Part("", {key: entry}), {})
-    take(entry, f"{place}, a row", {"title": str, "where": dict, "file": str, "cells": dict, "bold": bool}, ("title",))
+        entry = {"title": entry}
+    take(entry, f"{place}, a row", {"title": str, "where": dict, "file": str, "cells": dict, "bold": bool,
+                                  "format": str}, ("title",))
+    if not FORMAT.fullmatch(entry.get("format", ".0f")):
+        raise FigureError(f"{place}, row {entry['title']!r}: format is .2f, +.1f, ,.0f or the like")
     cells = {}
     for column, cell in entry.get("cells", {}).items():
         if ids.count(column) != 1:
             raise FigureError(f"{place}: row {entry['title']!r} has a cell for {column!r}, "
                               f"which is the title or id of {ids.count(column)} columns")
         cells[column] = [read_part(one, f"{place}, row {entry['title']!r}") for one in (cell if isinstance(cell, list) else [cell])]
-    return Row(entry["title"], Part("", entry.get("where", {}), entry.get("file")), cells, entry.get("bold", True))
+    where = entry.get("where", {key: entry["title"]} if key else {})
+    return Row(entry["title"], Part("", where, entry.get("file")), cells, entry.get("bold", True),
+               entry.get("format"))
 
 
 def read_part(entry, place: str) -> Part | str:

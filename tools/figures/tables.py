@@ -3,19 +3,20 @@ import re
 from dataclasses import dataclass
 from decimal import Decimal
 
-from figures.spec import Column, Part, Row, Table
+from figures.spec import FORMAT, Column, Part, Row, Table
 from figures.stored import FigureError, Store, as_number
 
 # {column}, {column:.2f}, {column:,.0f}, {column:+.1f}, {column*1000:.0f}
-FIELD = re.compile(r"\{([^{}:*]+)(?:\*([\d.eE+-]+))?(?::(\+?)(,?)\.(\d+)f)?\}")
+FIELD = re.compile(r"\{([^{}:*]+)(?:\*([\d.eE+-]+))?(?::" + FORMAT.pattern + r")?\}")
 
 
 @dataclass
 class Cell:
-    """What a cell prints, how many figures are in it, and the first of them as printed."""
+    """What a cell prints, how many figures are in it, and the first of them, exact and as printed."""
     text: str
     figures: int = 0
     value: Decimal | None = None
+    printed: Decimal | None = None
 
 
 def print_number(stored: str, scale: str | None, sign: str, comma: str, digits: str) -> str:
@@ -27,8 +28,8 @@ def print_number(stored: str, scale: str | None, sign: str, comma: str, digits: 
     return format(rounded or 0.0, f"{sign}{comma}.{digits}f")
 
 
-def fill_template(template: str, line: dict[str, str], name: str) -> Cell:
-    """The template with the figures of a line. Throws where a figure is missing."""
+def fill_template(template: str, line: dict[str, str], name: str, row_format: str | None = None) -> Cell:
+    """The template with the figures of a line, printed in the format of the row where that has one. Throws where a figure is missing."""
     cell = Cell("")
 
     def fill(match: re.Match) -> str:
@@ -38,10 +39,12 @@ def fill_template(template: str, line: dict[str, str], name: str) -> Cell:
         stored = line[column].strip()
         if not stored:
             raise FigureError(f"{name}: {column} is empty in the line {', '.join(filter(None, line.values()))!r}")
+        if row_format and digits is not None:
+            sign, comma, digits = FORMAT.fullmatch(row_format).groups()
         text = stored if digits is None else print_number(stored, scale, sign, comma, digits)
         cell.figures += 1
-        if cell.value is None:
-            cell.value = as_number(text.lstrip("+"))
+        if cell.value is None and (exact := as_number(stored)) is not None:
+            cell.value, cell.printed = exact * Decimal(scale or 1), as_number(text.lstrip("+"))
         return text
     cell.text = FIELD.sub(fill, template)
     if "{" in FIELD.sub("", template) or "}" in FIELD.sub("", template):
@@ -59,7 +62,7 @@ def find_cell(store: Store, table: Table, row: Row, column: Column, part: Part) 
         raise FigureError(f"row {row.title!r}, column {column.title!r}: no file is named")
     where = table.where | row.part.where | column.part.where | part.where
     lines = store.file(name).select(where)
-    cells = [fill_template(template, line, name) for line in lines]
+    cells = [fill_template(template, line, name, None if part.template else row.format) for line in lines]
     if len({cell.text for cell in cells}) != 1:
         raise FigureError(f"row {row.title!r}, column {column.title!r}: {len(lines) or 'no'} lines of {name} have {say(where)}")
     return cells[0]
@@ -72,12 +75,12 @@ def say(where: dict) -> str:
 def whole_cell(store: Store, table: Table, row: Row, column: Column) -> Cell:
     parts = row.cells.get(column.id, [Part("")])
     cells = [Cell(part) if isinstance(part, str) else find_cell(store, table, row, column, part) for part in parts]
-    values = [cell.value for cell in cells if cell.value is not None]
-    return Cell("".join(cell.text for cell in cells), sum(cell.figures for cell in cells), values[0] if values else None)
+    first = next((cell for cell in cells if cell.value is not None), Cell(""))
+    return Cell("".join(cell.text for cell in cells), sum(cell.figures for cell in cells), first.value, first.printed)
 
 
 def make_bold(table: Table, cells: list[list[Cell]]) -> None:
-    """Sets the best figures in bold, by what is printed, so that figures that look the same are both bold."""
+    """Sets the best figures in bold, and those that look the same."""
     if table.bold is None:
         return
     best_of = min if table.bold.startswith("lowest") else max
@@ -85,9 +88,9 @@ def make_bold(table: Table, cells: list[list[Cell]]) -> None:
             for row_cells, row in zip(cells, table.rows)]
     for group in grid if table.bold.endswith("row") else zip(*grid):
         taking_part = [cell for cell in group if cell is not None]
-        best = best_of((cell.value for cell in taking_part), default=None)
+        best = best_of(taking_part, key=lambda cell: cell.value, default=None)
         for cell in taking_part:
-            if cell.value == best:
+            if cell.printed == best.printed:
                 cell.text = f"**{cell.text}**"
 
 
