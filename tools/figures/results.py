@@ -105,7 +105,7 @@ def store_results(store: Store, folder: Path, quick: bool, names: list[str], rea
     for move in moves:
         print(f"{move.file}: {move.text}")
     if moves and not reason.strip():
-        print(f"{len(moves)} figures move by more than their noise, so nothing was stored. Find out why, then add: --reason \"...\"")
+        print(f"Figures that move by more than their noise: {len(moves)}. Nothing was stored; find out why, then add: --reason \"...\"")
         return 1
     for path in results:
         target.mkdir(exist_ok=True)
