@@ -3,7 +3,7 @@
 import subprocess
 import unittest
 
-from figures_tree import GAPS, PAGE, SPEC, TOOLS, FiguresTree
+from figures_tree import GAPS, OUTLIERS, PAGE, SPEC, TOOLS, FiguresTree
 
 
 class CheckFigures(FiguresTree):
@@ -125,10 +125,12 @@ class CheckFigures(FiguresTree):
                           "bench/papers/figures/gaps.csv: 0 figures, fewer than the 15")
 
     def test_a_deleted_row_is_an_error_that_writing_does_not_settle(self):
+        counts = (self.figures / "counts.csv").read_text()
         self.replace(self.figures / "gaps.csv", "85_02,4499,auto,5.8912,8.4\n", "")
         for arguments in ([], ["--write"]):
             self.assert_fails("no lines of gaps.csv have take = '85_02', frames = 4499, method = 'auto'",
                               "gaps.csv: 10 figures, fewer than the 15 of counts.csv", arguments=arguments)
+        self.assertEqual((self.figures / "counts.csv").read_text(), counts)
 
     def test_a_deleted_row_that_no_page_prints_is_an_error(self):
         (self.figures / "gaps.csv").write_text(GAPS + "85_12,120,auto,5.8,10.3\n")
@@ -215,8 +217,9 @@ higher = {higher}
         self.assert_fails("lou_outliers.csv: no line has method = best")
 
     def test_a_pair_without_its_other_side_is_an_error(self):
-        self.replace(self.figures / "lou_outliers.csv", "example,1 %,0.20\n", "")
-        self.assert_fails("lou_outliers.csv: method = example has no line, level = 1 %")
+        for line, side in (("example,1 %,0.20\n", "example"), ("wiener,1 %,0.19\n", "wiener")):
+            (self.figures / "lou_outliers.csv").write_text(OUTLIERS.replace(line, ""))
+            self.assert_fails(f"lou_outliers.csv: method = {side} has no line, level = 1 %")
 
     def test_a_side_of_several_lines_is_an_error(self):
         self.add_ordering("Without pairs.", "{method = \"wiener\"}", "{method = \"example\"}")

@@ -3,7 +3,7 @@
 import csv
 import unittest
 
-from figures_tree import FiguresTree
+from figures_tree import SPEEDS, FiguresTree
 
 
 class StoreFigures(FiguresTree):
@@ -40,6 +40,15 @@ class StoreFigures(FiguresTree):
                               arguments=[self.results, "--store", *reason])
         self.assertEqual((self.figures / "lou_outliers.csv").read_text(), before)
         self.assertFalse((self.figures / "reasons.csv").exists())
+
+    def test_a_stored_speed_moves_where_it_is_three_times_as_large_or_as_small(self):
+        for old, new, moves in (("12.34", "36", False), ("12.34", "38", True), ("2.5", "0.9", False), ("2.5", "0.8", True)):
+            with self.subTest(new):
+                self.results_with("2.32", "2.32")
+                self.replace(self.results / "speeds.csv", old, new)
+                status, output = self.run_tool(self.results, "--store")
+                self.assertEqual((status, f"{old} -> {new}" in output), (int(moves), moves), output)
+                (self.figures / "speeds.csv").write_text(SPEEDS)
 
     def test_storing_keeps_the_reason_and_the_largest_move(self):
         self.results_with("1.08", "2.45")
