@@ -24,10 +24,10 @@ DETAILS = """\
 Stored figures are the CSV files that the programs write: bench/papers/figures/*.csv of the whole experiments on real takes,
 bench/papers/figures/quick/*.csv of their quick forms on takes that the project makes itself. Beside them:
 
-  tolerances.csv   by how much a figure may differ: the larger of `absolute` and `relative` times the stored figure; the line
-                   `*` is for files without one. A speed may be `relative` times as large or as small.
+  tolerances.csv   the difference that is allowed: the larger of `absolute` and of `relative` times the stored figure. The line
+                   `*` is for files without a line. A speed may be `relative` times as large or as small.
   counts.csv       how many figures each page prints, how many pairs its orderings compare, and the filled cells of each
-                   stored file. Another number is an error; --write stores the new one and says so.
+                   stored file. A different number is an error; --write stores the new one and says so.
   reasons.csv      why figures moved by more than their tolerance; --store asks for it.
 
 A page has its tables between two lines:
@@ -52,12 +52,22 @@ The file beside it, PAGE.figures.toml, says what is in them:
     {title = "02_05 punch", where = {take = "02_05"}},
   ]
 
-A cell prints the line on which the filters of table, row, column and cell (`where`) agree. Fields: {column} as stored,
-{column:.2f} with two digits, {column:,.0f} with commas, {column:+.1f} with a sign, {column*1000:.0f} times 1000. `cells` has
-what differs in a row, by the column's title (or `id`, where two titles are alike): a text, a table of TOML with `print`, `where` or
-`file`, or a list of both, which are joined: [{print = "{ms:.0f} / ", where = {case = "1"}}, {print = "{ms:.0f} ms", where = {case = "2"}}].
-A row's format, as format = ".3f", prints its numbers in another way than the columns say. With key = "take" a row without `where` is the
-line on which the column `take` holds the row's title; a row that needs no more than its title may be a mere text, "35_01".
+A cell prints the one line of the file that all its filters select: `where` of the table, the row, the column and the cell.
+A filter has texts, numbers, or lists of them. `print` has fields:
+
+  {column}          as stored                {column:+.1f}        with a sign
+  {column:.2f}      with two digits          {column*1000:.0f}    times 1000
+  {column:,.0f}     with commas
+
+`cells` has the cells of a row that differ from their column, by the column's title, or by its `id` if two titles are equal:
+
+  cells = {remark = "slow", noisy = ""}                          texts
+  cells = {noisy = {print = "{rms_deg:.3f}"}}                    `print`, `where` or `file` of its own
+  cells = {time = [{print = "{ms:.0f} / ", where = {case = "1"}}, {print = "{ms:.0f} ms", where = {case = "2"}}]}    several, joined
+
+A row with format = ".3f" prints all its numbers with three digits. If the table has key = "take", a row without `where` is the
+line whose column `take` holds the row's title, and the title alone is a row: rows = ["35_01", "02_05"]. A column or a row with
+bold = false is left out when the best figures are chosen.
 
 An ordering that the prose states:
 
@@ -71,8 +81,8 @@ An ordering that the prose states:
   where = {noise = ["1 degree", "half"]}     # optional: only these lines
   ties = true                      # optional: the two may be equal
 
-Prose does not repeat a figure of a table of its page: a number of three significant digits with a decimal point that both have is an
-error. Where the number is another one, a setting or a paper's:
+Prose must not repeat a figure of a table on its page: a number with a decimal point and three significant digits that both have
+is an error. If the number is not that figure but a setting, or a paper's figure, allow it:
 
   [prose]
   may_repeat = ["1.25"]
@@ -80,7 +90,7 @@ error. Where the number is another one, a setting or a paper's:
 
 
 def check_pages(store: Store, write: bool) -> list[str]:
-    """What is wrong with the pages, after writing their tables and the counts where that is asked for."""
+    """Returns the complaints about all pages. Writes their tables and the counts first if `write` is set."""
     pages = [Page(store.root, path) for path in find_pages(store.root)]
     complaints = find_specs_without_page(store.root)
     for page in pages:
@@ -98,7 +108,7 @@ def check_pages(store: Store, write: bool) -> list[str]:
     found = counts.count(store, pages)
     stored = counts.read_counts(store)
     changes = counts.differences(stored, found)
-    # With other complaints figures are missing that should not be: their number is no new count.
+    # Other complaints may be about missing figures, which must not become the new count.
     if write and changes and not complaints:
         counts.write_counts(store, found)
         print("\n".join(["wrote counts.csv:", *changes]) if stored else "wrote counts.csv, which was not there")

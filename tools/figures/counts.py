@@ -1,6 +1,6 @@
-"""Keeps how many figures there are: those that each page prints, and the filled cells of each stored file.
+"""Keeps the number of figures that each page prints and of filled cells in each stored file.
 
-A figure that is deleted would otherwise go unnoticed, together with the check that it was part of.
+Otherwise a deleted figure would go unnoticed, as the check of it is deleted too.
 """
 import csv
 from pathlib import Path

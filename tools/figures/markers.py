@@ -5,7 +5,7 @@ START = re.compile(r"<!-- table: (\S|\S.*\S) -->")
 END = "<!-- end of table -->"
 COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 CODE_SPAN = re.compile(r"(`+).*?\1")
-# What starts or ends a comment, or was meant to.
+# Text that starts or ends a comment, or was meant to.
 LIKE_A_MARKER = re.compile(r"<\s*!|-->|<-+\s*(?:table|end of table)\b|^\s*(?:table|end of table)\s*:?.*--\s*>")
 
 

@@ -6,7 +6,7 @@ from figures.stored import FigureError, Store, StoredFile, as_number
 
 
 def find_side(file: StoredFile, ordering: Ordering, side: dict) -> dict[tuple, Decimal]:
-    """The figures of one side, by the columns that pair the sides. Throws where there are none, or two for the same pair."""
+    """The figures of one side, by the columns that pair the sides. Throws if there are none, or two for the same pair."""
     column = side.get("column", ordering.value)
     where = ordering.where | {key: wanted for key, wanted in side.items() if key != "column"}
     for name in (column, *ordering.for_each):
@@ -35,13 +35,13 @@ def describe_pair(ordering: Ordering, pair: tuple) -> str:
 
 
 def describe_side(ordering: Ordering, side: dict) -> str:
-    """A side as a person would name it: its filter, or its column where it has no filter."""
+    """The name of a side in messages: its filter, or its column if it has no filter."""
     filters = {key: wanted for key, wanted in side.items() if key != "column"}
     return ", ".join(filter(None, [describe(filters) if filters else "", side.get("column", "" if filters else ordering.value)]))
 
 
 def compare(store: Store, ordering: Ordering) -> tuple[list[str], int]:
-    """What does not hold, and how many pairs were compared. Throws where a side or a pair is missing."""
+    """Complaints about pairs that are not in the stated order, and the number of pairs. Throws if a side or a pair is missing."""
     file = store.file(ordering.file)
     complaints, count = [], 0
     for lower in ordering.lower:

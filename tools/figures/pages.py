@@ -28,7 +28,7 @@ def find_specs_without_page(root: Path) -> list[str]:
 
 
 class Page:
-    """A page with its specification. `lines` holds the page with generated tables after `check`."""
+    """A page with its specification. After `check`, `lines` holds the page with generated tables."""
 
     def __init__(self, root: Path, path: Path):
         self.path = path
@@ -42,7 +42,7 @@ class Page:
         self.comparisons = 0
 
     def check(self, store: Store) -> None:
-        """Collects complaints, and `stale` for tables that differ from what their specification gives."""
+        """Collects complaints; tables that differ from the stored figures go to `stale`."""
         try:
             spec = read_spec(self.path)
         except FigureError as error:
@@ -81,7 +81,7 @@ class Page:
         self.stale.append(f"{self.name}:{first}: table {name!r} has {len(printed)} lines, the stored figures give {len(generated)}")
 
     def find_tables(self) -> dict[str, tuple[int, int]]:
-        """The marked tables with the lines of their two markers. Complains of markers without partner and of all other comments."""
+        """The marked tables, with the lines of their two markers. Complains of markers without a partner and of all other comments."""
         found: dict[str, tuple[int, int]] = {}
         started: tuple[str, int] | None = None
         code = False
@@ -141,7 +141,7 @@ class Page:
         return fold(COMMENT.sub("", "\n".join(line for line in self.text.split("\n") if not line.startswith("|"))))
 
     def write(self) -> bool:
-        """Writes the generated tables; says whether the page has changed."""
+        """Writes the generated tables. Returns whether the page has changed."""
         text = "\n".join(self.lines)
         if text != self.text:
             self.path.write_text(text)

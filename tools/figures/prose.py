@@ -12,7 +12,7 @@ DECIMAL = re.compile(r"(?<![\w.,/])\d+(?:,\d{3})*\.\d+(?!\w|\.\d)")
 
 
 def numbered_prose(lines: list[str]) -> Iterator[tuple[int, str]]:
-    """The lines of a page with their numbers, without code, links and generated tables."""
+    """The lines of a page outside of code and generated tables, with their line numbers and without links."""
     code = marked = False
     for number, line in enumerate(lines, 1):
         if is_fence(line):
@@ -25,7 +25,7 @@ def numbered_prose(lines: list[str]) -> Iterator[tuple[int, str]]:
 def repeated(lines: list[str], printed: set[str]) -> list[tuple[int, str]]:
     """The numbers of the prose that are figures of a table too, with their lines.
 
-    Two of three significant digits with a decimal point are hardly the same by chance; shorter ones are, such as settings.
+    Two numbers with a decimal point and three significant digits are hardly equal by chance. Shorter ones often are, such as settings.
     """
     return [(number, text) for number, line in numbered_prose(lines) if not line.startswith("|") for text in DECIMAL.findall(line)
             if text in printed and len(re.sub(r"\D", "", text).lstrip("0")) >= 3]

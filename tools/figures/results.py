@@ -14,14 +14,14 @@ REASONS = ["date", "commit", "file", "moved", "largest", "reason"]
 
 @dataclass
 class Move:
-    """A figure that differs from the stored one by more than its noise; `size` is the difference as a multiple of the noise."""
+    """A figure that differs from the stored one by more than its noise. `size` is the difference as a multiple of the noise."""
     file: str
     text: str
     size: Decimal
 
 
 def key_length(*files: StoredFile) -> int:
-    """How many of the first columns name a line: the fewest by which all lines of each file differ."""
+    """The number of leading columns that name a line: the fewest by which all lines of each file differ."""
     for length in range(1, len(files[0].header)):
         if all(len({key_of(line, length) for line in file.lines}) == len(file.lines) for file in files):
             return length
@@ -33,7 +33,7 @@ def key_of(line: dict[str, str], length: int) -> tuple:
 
 
 def compare_file(stored: StoredFile, measured: StoredFile, name: str, tolerances: Tolerances) -> tuple[list[Move], int]:
-    """The figures that moved, lines that are gone or new among them, and how many numbers were compared."""
+    """The figures that moved, with lines that are gone or new, and the number of figures compared."""
     endless = Decimal("Infinity")
     if stored.header != measured.header:
         return [Move(name, f"the columns are {', '.join(measured.header)}, stored {', '.join(stored.header)}", endless)], 0
@@ -59,7 +59,7 @@ def compare_file(stored: StoredFile, measured: StoredFile, name: str, tolerances
 
 
 def compare_results(store: Store, folder: Path, quick: bool) -> tuple[list[str], int]:
-    """Lines about what the programs measured otherwise than what is stored, and how many numbers were compared."""
+    """Complaints about figures that moved, and the number of figures compared."""
     complaints, count = [], 0
     for path in store.paths(quick):
         # tools/ablation takes an hour and is run by hand; tools/run_benchmarks makes the speeds.
@@ -75,7 +75,7 @@ def compare_results(store: Store, folder: Path, quick: bool) -> tuple[list[str],
 
 
 def compare_speeds(store: Store, folder: Path) -> tuple[list[str], int]:
-    """Lines about passes that take much longer than stored, and about benchmarks that are gone; how many were compared."""
+    """Complaints about passes that take much longer than stored and benchmarks that are gone, and the number of passes."""
     stored, measured = store.file("speeds.csv"), StoredFile(folder / "speeds.csv")
     factor, complaints = Tolerances(store).of["speeds.csv"][1], []
     times = {key_of(line, 3): line["ms"] for line in measured.lines}
@@ -89,8 +89,10 @@ def compare_speeds(store: Store, folder: Path) -> tuple[list[str], int]:
 
 
 def store_results(store: Store, folder: Path, quick: bool, names: list[str], reason: str) -> int:
-    """Stores the files of a folder: those that are stored already, and those named. Returns the exit status: 1, and nothing is
-    stored, where a figure moves by more than its noise and no reason is given."""
+    """Stores the files of a folder that are stored already, and those named. Returns the exit status.
+
+    Stores nothing and returns 1 if a figure moves by more than its noise and no reason is given.
+    """
     target = store.folder / "quick" if quick else store.folder
     for name in names:
         if not (folder / name).is_file():

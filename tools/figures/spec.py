@@ -1,4 +1,4 @@
-"""Reads the file beside a page, PAGE.figures.toml: which tables the page prints, and which orderings its prose states."""
+"""Reads the file beside a page, PAGE.figures.toml: the tables that the page prints and the orderings that its prose states."""
 import re
 import tomllib
 from dataclasses import dataclass, field
@@ -12,7 +12,7 @@ BOLD = ("lowest in row", "highest in row", "lowest in column", "highest in colum
 
 @dataclass
 class Part:
-    """A template that is filled from one line of a stored file; `where` and `file` add to those of row, column and table."""
+    """A template that is filled from one line of a stored file; `where` and `file` add to those of table, row and column."""
     template: str
     where: dict = field(default_factory=dict)
     file: str | None = None
@@ -48,7 +48,7 @@ class Table:
 
 @dataclass
 class Ordering:
-    """A sentence of the page, and what it says of two columns or sets of lines of a stored file."""
+    """A sentence of the page, and the lines of a stored file whose order it states."""
     says: str
     file: str
     value: str
@@ -71,7 +71,7 @@ def spec_path(page: Path) -> Path:
 
 
 def read_spec(page: Path) -> Spec:
-    """The specification of a page; an empty one where there is no file beside it."""
+    """The specification of a page; an empty one if there is no file beside it."""
     path = spec_path(page)
     if not path.is_file():
         return Spec([], [], [])
@@ -91,7 +91,7 @@ def read_spec(page: Path) -> Spec:
 
 
 def take(entry: dict, place: str, types: dict, required: tuple[str, ...] = ()) -> None:
-    """Throws where an entry has a key that is not known, lacks one, or has a value of another type."""
+    """Throws if an entry has an unknown key, lacks a required one, or has a value of a wrong type."""
     if not isinstance(entry, dict):
         raise FigureError(f"{place}: expected a table of TOML, found {entry!r}")
     for key, value in entry.items():
@@ -126,7 +126,7 @@ def read_column(entry: dict, place: str) -> Column:
 
 
 def read_row(entry, key: str | None, ids: list[str], place: str) -> Row:
-    """A row is a table of TOML, or a text, which is its title. Without a filter it is the line whose `key` column holds its title."""
+    """Reads a row: a table of TOML, or only its title. Without a filter it is the line whose `key` column holds the title."""
     if isinstance(entry, str):
         if key is None:
             raise FigureError(f"{place}: row {entry!r} is a text, so the table needs a `key`")
@@ -147,7 +147,7 @@ def read_row(entry, key: str | None, ids: list[str], place: str) -> Row:
 
 
 def read_part(entry, place: str) -> Part | str:
-    """A text stands for itself; a table of TOML prints figures. Without `print` it has the column's template."""
+    """Reads a part of a cell: a text, or a table of TOML that prints figures, with the column's template if it has no `print`."""
     if isinstance(entry, str):
         return entry
     take(entry, place, {"print": str, "where": dict, "file": str})

@@ -14,13 +14,13 @@ class FigureError(Exception):
 
 
 def as_number(text: str) -> Decimal | None:
-    """The number that the whole text is, or None."""
+    """The number, or None if the text is anything else."""
     text = text.strip()
     return Decimal(text.replace(",", "")) if NUMBER.fullmatch(text) else None
 
 
 def read_csv(path: Path) -> tuple[list[str], list[list[str]]]:
-    """Header and lines of a CSV file. Throws where a line has another number of cells than the header."""
+    """Header and lines of a CSV file. Throws if a line and the header differ in their number of cells."""
     with open(path, newline="") as file:
         header, *rows = [*csv.reader(file)] or [[]]
     for number, row in enumerate(rows, 2):
@@ -47,7 +47,7 @@ class StoredFile:
         self.lines = [dict(zip(self.header, row)) for row in rows]
 
     def select(self, where: dict) -> list[dict[str, str]]:
-        """The lines in which each named column has the wanted text. Throws where a column is missing."""
+        """The lines in which each named column has the wanted text. Throws if a column is missing."""
         for column in where:
             self.require(column)
         return [line for line in self.lines if all(fits(line[column], wanted) for column, wanted in where.items())]
@@ -78,12 +78,12 @@ class Store:
         return [path for path in sorted(folder.glob("*.csv")) if path.name not in NO_FIGURES]
 
     def unused(self) -> list[str]:
-        """The files that were not asked for; those of quick forms are for comparing results only."""
+        """The files that nobody asked for. Those of quick forms serve only to compare results."""
         return [path.name for path in self.paths(quick=False) if path.name not in self.files]
 
 
 class Tolerances:
-    """By how much a figure may differ from the stored one."""
+    """The difference that is allowed between a figure and the stored one."""
 
     def __init__(self, store: Store):
         _, rows = read_csv(store.folder / "tolerances.csv")

@@ -12,7 +12,7 @@ FIELD = re.compile(r"\{([^{}:*]+)(?:\*([\d.eE+-]+))?(?::" + FORMAT.pattern + r")
 
 @dataclass
 class Cell:
-    """What a cell prints, how many figures are in it, and the first of them, exact and as printed."""
+    """The text of a cell, the number of figures in it, and the first of them, exact and as printed."""
     text: str
     figures: int = 0
     value: Decimal | None = None
@@ -29,7 +29,7 @@ def print_number(stored: str, scale: str | None, sign: str, comma: str, digits: 
 
 
 def fill_template(template: str, line: dict[str, str], name: str, row_format: str | None = None) -> Cell:
-    """The template with the figures of a line, printed in the format of the row where that has one. Throws where a figure is missing."""
+    """The template with the figures of a line, in the format of the row if it has one. Throws if a figure is missing."""
     cell = Cell("")
 
     def fill(match: re.Match) -> str:
@@ -53,7 +53,7 @@ def fill_template(template: str, line: dict[str, str], name: str, row_format: st
 
 
 def find_cell(store: Store, table: Table, row: Row, column: Column, part: Part) -> Cell:
-    """A part of a cell. Each level may narrow the filter and name another file: table, row, column, part."""
+    """One part of a cell. Table, row, column and part may each narrow the filter, and each may name another file."""
     template = part.template or column.part.template
     if "{" not in template:
         return Cell(template)
@@ -80,7 +80,7 @@ def whole_cell(store: Store, table: Table, row: Row, column: Column) -> Cell:
 
 
 def make_bold(table: Table, cells: list[list[Cell]]) -> None:
-    """Sets the best figures in bold, and those that look the same."""
+    """Prints the best figures in bold, with those that look the same."""
     if table.bold is None:
         return
     best_of = min if table.bold.startswith("lowest") else max
@@ -95,7 +95,7 @@ def make_bold(table: Table, cells: list[list[Cell]]) -> None:
 
 
 def generate(store: Store, table: Table) -> tuple[list[str], int]:
-    """The lines of a table in Markdown, and how many figures are in it. Throws where a figure is not found."""
+    """The lines of a table in Markdown, and the number of figures in it. Throws if a figure is not found."""
     cells = [[whole_cell(store, table, row, column) for column in table.columns] for row in table.rows]
     figures = sum(cell.figures for row_cells in cells for cell in row_cells)
     make_bold(table, cells)
