@@ -130,6 +130,7 @@ class CheckFigures(FiguresTree):
         for arguments in ([], ["--write"]):
             self.assert_fails("no lines of gaps.csv have take = '85_02', frames = 4499, method = 'auto'",
                               "gaps.csv: 10 figures, fewer than the 15 of counts.csv", arguments=arguments)
+        self.assertIn("counts.csv was not written", self.run_tool("--write")[1])
         self.assertEqual((self.figures / "counts.csv").read_text(), counts)
 
     def test_a_deleted_row_that_no_page_prints_is_an_error(self):

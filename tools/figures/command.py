@@ -155,8 +155,9 @@ def run(arguments: argparse.Namespace) -> int:
         return results.store_results(store, arguments.paths[0], arguments.quick, names, arguments.reason)
     complaints = check_pages(store, arguments.write)
     print("\n".join(complaints), end="\n" if complaints else "")
-    if complaints and not arguments.write:
-        print("Where the stored figures are right, write tables and counts: tools/check_figures --write")
+    if complaints:
+        print("counts.csv was not written; repair these first" if arguments.write else
+              "Where the stored figures are right, write tables and counts: tools/check_figures --write")
     for folder in arguments.paths:
         moved, count = (results.compare_speeds(store, folder) if arguments.speeds
                         else results.compare_results(store, folder, arguments.quick))
