@@ -1,0 +1,1 @@
+"""Checks that pages print the stored figures and state orderings that hold; tools/check_figures is its command."""
