@@ -7,6 +7,7 @@
 #include <map>
 
 #include "kinemend/experimental/frame_numbers.hpp"
+#include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
 #include "known_noise.hpp"
 #include "method_options.hpp"

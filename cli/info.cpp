@@ -154,8 +154,7 @@ Missing missing_of(const Clip& clip) {
 
 Missing missing_of(const MarkerClip& clip) {
   Missing missing = missing_in(find_gaps(clip), clip.marker_count());
-  for (std::size_t m = 0; m < clip.marker_count(); ++m)
-    missing.possible += clip.holds_positions(m) ? clip.frame_count() : 0;
+  missing.possible = clip.frame_count() * clip.position_count();
   return missing;
 }
 
@@ -196,15 +195,9 @@ std::string clip_text(const Looked& subject, const Clip& clip, bool with_tree) {
   return text;
 }
 
-std::size_t position_count(const MarkerClip& clip) {
-  std::size_t count = 0;
-  for (std::size_t m = 0; m < clip.marker_count(); ++m) count += clip.holds_positions(m) ? 1 : 0;
-  return count;
-}
-
 std::string markers_text(const Looked& subject, const MarkerClip& clip, bool with_tree) {
   const Missing missing = missing_of(clip);
-  const std::size_t positions = position_count(clip);
+  const std::size_t positions = clip.position_count();
   Table table({Align::left, Align::left});
   table.add({"format", format_text(clip.source)});
   std::string markers = grouped(positions);

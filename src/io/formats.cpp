@@ -58,11 +58,6 @@ const Format& format_of(std::string_view bytes, std::string_view name) {
       name, 1, fmt::format("not a motion file of a known format ({})", known_formats(true)));
 }
 
-bool all_positions(const MarkerClip& clip) {
-  const auto& marks = clip.is_position;
-  return std::find(marks.begin(), marks.end(), 0) == marks.end();
-}
-
 // Of what a C3D file can hold, in a format that has a place for points only.
 Diagnostics lost_beside_points(const MarkerClip& clip, std::string_view format) {
   std::vector<std::string> parts = c3d_beside_points(clip.source);
@@ -70,9 +65,7 @@ Diagnostics lost_beside_points(const MarkerClip& clip, std::string_view format) 
     parts.push_back(
         fmt::format("{} event{}", clip.events.size(), clip.events.size() == 1 ? "" : "s"));
   }
-  std::size_t others = 0;
-  for (std::size_t m = 0; m < clip.marker_count(); ++m) others += clip.holds_positions(m) ? 0 : 1;
-  if (others > 0) {
+  if (const std::size_t others = clip.marker_count() - clip.position_count(); others > 0) {
     parts.push_back(others == 1 ? "a point that is no position"
                                 : fmt::format("{} points that are no positions", others));
   }
@@ -86,6 +79,13 @@ Diagnostics lost_beside_points(const MarkerClip& clip, std::string_view format) 
     losses.add("not_kept", fmt::format("{} files cannot hold {}", format, fmt::join(parts, "; ")));
   }
   return losses;
+}
+
+// The format that is asked for, else that of the source, else `usual`.
+const Format& format_to_write(const SourceInfo& source, std::string_view asked,
+                              std::string_view usual) {
+  if (!asked.empty()) return format_called(asked);
+  return format_called(source.format.empty() ? usual : source.format);
 }
 
 ReadResult clip_of(TakeResult result) {
@@ -179,16 +179,17 @@ ReadResult read_clip(std::string bytes, std::string_view name, const ReadOptions
 }
 
 std::string write_clip(const Clip& clip, std::string_view format) {
-  const Format& found = format_called(format);
+  const Format& found = format_to_write(clip.source, format, "bvh");
   if (found.write != nullptr) return found.write(clip);
   throw Error(ErrorKind::usage, fmt::format("{} files hold markers, not joints", found.name));
 }
 
 std::string write_markers(const MarkerClip& clip, std::string_view format) {
-  const Format& found = format_called(format);
+  const Format& found = format_to_write(clip.source, format, "c3d");
   if (found.write_markers == nullptr)
     throw Error(ErrorKind::usage, fmt::format("{} files hold joints, not markers", found.name));
-  if (found.name == "c3d" || all_positions(clip)) return found.write_markers(clip);
+  if (found.name == "c3d" || clip.position_count() == clip.marker_count())
+    return found.write_markers(clip);
   const MarkerClip markers = positions_only(clip);
   if (markers.marker_count() == 0) {
     throw Error(ErrorKind::usage,

@@ -57,6 +57,15 @@ TEST(AmcWriter, AnUnchangedTakeComesBackToTheByte) {
   }
 }
 
+TEST(AmcWriter, IsTheDefaultForATakeThatWasReadFromAmc) {
+  const Clip clip = read_figure();
+  EXPECT_EQ(write_clip(clip), figure_amc());
+  EXPECT_EQ(write_take(clip), figure_amc());
+  Clip made = clip;
+  made.source = {};
+  EXPECT_EQ(write_clip(made).substr(0, 9), "HIERARCHY");
+}
+
 TEST(AmcWriter, WhatIsNoNumberIsWrittenAsItIsHeld) {
   const std::string text = read_file(acclaim_fixture("amc/good/gaps.amc"));
   const Clip clip = read_pair(text, figure_asf()).clip;
