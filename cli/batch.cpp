@@ -167,7 +167,8 @@ void check_is_ours(const BatchItem& item, const std::string& output, const Batch
 }
 
 Done do_item(const BatchItem& item, const Batch& batch) {
-  const std::string output = (fs::path(batch.folder) / item.name).string();
+  const std::string output = with_right_ending((fs::path(batch.folder) / item.name).string(),
+                                               item.input, batch.plan.reading.format);
   make_folder(fs::path(output).parent_path());
   if (item.is_copied) {
     const TakeLock lock(batch.folder, item.name);

@@ -11,6 +11,7 @@
 
 #include "commands.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
+#include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"
 #include "page_report.hpp"

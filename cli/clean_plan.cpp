@@ -7,6 +7,7 @@
 #include <map>
 
 #include "kinemend/experimental/frame_numbers.hpp"
+#include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
 #include "known_noise.hpp"
 #include "method_options.hpp"
@@ -19,10 +20,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Beside the input, or in another folder under its own name.
-std::string output_of(const std::string& input, const std::string& folder) {
-  if (!folder.empty()) return (fs::path(folder) / fs::path(input).filename()).string();
-  return output_beside(input, "clean");
+/// Beside the input, or in another folder under the input's name.
+std::string output_of(const std::string& input, const std::string& folder,
+                      const std::string& from) {
+  if (folder.empty()) return output_beside(input, "clean", from);
+  return with_right_ending((fs::path(folder) / fs::path(input).filename()).string(), input, from);
 }
 
 /// Whose form is right; whether the frames are those of a take turns out there.
@@ -62,13 +64,14 @@ std::vector<CleanJob> make_jobs(const Arguments& arguments) {
     throw Error(ErrorKind::usage, "clean: --output and --output-dir exclude each other");
   if (!output.empty() && inputs.size() > 1)
     throw Error(ErrorKind::usage, "clean: --output takes one input; for several, --output-dir");
+  check_take_ending(output);
   std::vector<CleanJob> jobs;
   std::map<std::string, std::string> taken;
   for (const std::string& input : inputs) {
     if (is_stream(input) && !folder.empty())
       throw Error(ErrorKind::usage, "clean: standard input has no name for --output-dir");
     std::string target = output;
-    if (target.empty()) target = output_of(input, folder);
+    if (target.empty()) target = output_of(input, folder, arguments.text("from"));
     const auto [known, is_new] = taken.emplace(target, input);
     if (!is_new) {
       throw Error(ErrorKind::usage, fmt::format("clean: {} and {} would both be written to {}",

@@ -25,13 +25,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void write_result(const CleanJob& job, const Take& take, const CleanPlan& plan) {
+void write_result(const CleanJob& job, const Take& take, const std::string& format,
+                  const CleanPlan& plan) {
   std::error_code error;
   if (!plan.folder.empty()) fs::create_directories(plan.folder, error);
   if (error)
     throw Error(ErrorKind::cannot_write, fmt::format("{}: {}", plan.folder, error.message()));
-  write_take_output(job.output, take, format_for(job.output, source_of(take)),
-                    plan.force || job.may_replace);
+  write_take_output(job.output, take, format, plan.force || job.may_replace);
 }
 
 void refuse_warnings(const std::string& name, const std::vector<std::string>& warnings) {
@@ -149,6 +149,8 @@ void clean_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& 
   });
   for (const Diagnostic& entry : read.diagnostics.entries())
     outcome.warnings.push_back(diagnostic_line(source_of(read.take), entry));
+  const std::string format = format_for(job.output, source_of(read.take));
+  check_can_hold(name, read.take, format);
   // Cleaning takes the take apart.
   std::optional<Take> before;
   if (plan.page) before = read.take;
@@ -157,11 +159,10 @@ void clean_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& 
   if (plan.strict) refuse_warnings(name, warnings);
   for (const std::string& warning : warnings)
     outcome.warnings.push_back(fmt::format("{}: {}", name, warning));
-  const std::string format = format_for(job.output, source_of(read.take));
   for (std::string& line : loss_lines(name, read.take, format, plan.strict))
     outcome.warnings.push_back(std::move(line));
   if (!plan.dry_run)
-    as_stage(progress, "writing", [&](const auto&) { write_result(job, read.take, plan); });
+    as_stage(progress, "writing", [&](const auto&) { write_result(job, read.take, format, plan); });
   Report report{facts_of(read.take, job.input, std::move(read.diagnostics)), std::move(cleaned)};
   if (!plan.dry_run) report.take.output = job.output;
   tell(report, job, plan, outcome);

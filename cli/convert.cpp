@@ -39,15 +39,11 @@ std::string converted_output_of(const Arguments& arguments) {
                                             arguments.positionals[1], named));
 }
 
-/// --to, else by the output's extension, else the input's own.
+/// --to, else by the ending of the output, else the format of the input.
 const Format& output_format(const Arguments& arguments, const std::string& output,
                             const Take& take) {
   if (const std::string format = arguments.text("to"); !format.empty()) return format_named(format);
-  if (output == "-") return format_named(source_of(take).format);
-  if (const Format* format = format_of_path(output)) return *format;
-  throw Error(
-      ErrorKind::usage,
-      fmt::format("convert: {} has the extension of no format; name one with --to", output));
+  return format_named(format_for(output, source_of(take)));
 }
 
 Axis axis_named(const std::string& name) {
@@ -60,11 +56,11 @@ std::string_view axis_name(Axis axis) {
 
 Take resampled(const Take& take, double frame_rate_hz) {
   if (const std::string contents = pointless_text(take); !contents.empty())
-    say(fmt::format("{}: {}: --fps changes nothing", source_of(take).name, contents));
+    say(fmt::format("{}: {}: --fps has no effect", source_of(take).name, contents));
   return std::visit([&](const auto& clip) { return Take(resample(clip, frame_rate_hz)); }, take);
 }
 
-/// What was up is taken from --from-up, else from the motion, and said.
+/// The old vertical axis is that of --from-up, else it is found from the motion and said.
 Take turned(const Take& take, const Arguments& arguments) {
   const Axis to = axis_named(arguments.text("up"));
   const std::string stated = arguments.text("from_up");
@@ -72,30 +68,30 @@ Take turned(const Take& take, const Arguments& arguments) {
                         ? std::visit([](const auto& clip) { return guess_up_axis(clip); }, take)
                         : axis_named(stated);
   if (stated.empty()) {
-    say(fmt::format("{}: {} is taken for the vertical axis (--from-up says otherwise)",
+    say(fmt::format("{}: {} is taken to be the vertical axis (set it with --from-up)",
                     source_of(take).name, axis_name(from)));
   }
   return std::visit([&](const auto& clip) { return Take(turn_axes(clip, from, to)); }, take);
 }
 
+/// 0 where nothing tells. A guess is said, so ask once a take.
 double metres_per_unit_of(const Take& take) {
   if (const auto* markers = std::get_if<MarkerClip>(&take)) return metres_per_unit(markers->unit);
   const Clip& clip = std::get<Clip>(take);
   if (clip.metres_per_unit > 0) return clip.metres_per_unit;
   const auto guess = guess_length_unit(clip.skeleton);
   if (!guess) return 0;
-  say(fmt::format("{}: lengths are taken for {}, since the skeleton then is a person",
+  say(fmt::format("{}: the unit is taken to be {}: the skeleton then has the size of a person",
                   source_of(take).name, guess->name));
   return guess->metres;
 }
 
-Take in_unit(const Take& take, const std::string& unit) {
-  const double metres = metres_per_unit_of(take);
+/// `metres`: in the unit of the take; 0 where it is unknown.
+Take in_unit(const Take& take, const std::string& unit, double metres) {
   if (metres == 0) {
-    throw Error(
-        ErrorKind::usage,
-        fmt::format("{}: the unit of its lengths is not known, so that there is no way to {}",
-                    source_of(take).name, unit));
+    throw Error(ErrorKind::usage, fmt::format("{}: the unit of its lengths is unknown, so they "
+                                              "cannot be converted to {}",
+                                              source_of(take).name, unit));
   }
   const double factor = metres / metres_per_unit(unit);
   if (const auto* markers = std::get_if<MarkerClip>(&take)) {
@@ -106,15 +102,15 @@ Take in_unit(const Take& take, const std::string& unit) {
   return scaled;
 }
 
-/// Joints become the markers that a format of markers can hold, in millimetres where the size of
-/// the unit is known.
+/// The joint positions as markers, in millimetres where the unit is known.
 Take as_markers(const Take& take, const Arguments& arguments) {
-  Take scaled = take;
-  if (!arguments.given("unit") && metres_per_unit_of(take) > 0) scaled = in_unit(take, "mm");
-  return joint_markers(std::get<Clip>(scaled), arguments.flag("end_sites"));
+  const bool with_end_sites = arguments.flag("end_sites");
+  const double metres = arguments.given("unit") ? 0 : metres_per_unit_of(take);
+  if (metres == 0) return joint_markers(std::get<Clip>(take), with_end_sites);
+  return joint_markers(std::get<Clip>(in_unit(take, "mm", metres)), with_end_sites);
 }
 
-/// The take as the format can hold it.
+/// The take in the form that the format can hold.
 Take fitted(Take take, const Format& format, const Arguments& arguments) {
   const bool joints = std::holds_alternative<Clip>(take);
   if (joints && (format.write == nullptr || arguments.flag("positions"))) {
@@ -122,16 +118,11 @@ Take fitted(Take take, const Format& format, const Arguments& arguments) {
   }
   if (const std::string contents = pointless_text(take);
       !contents.empty() && format.name != source_of(take).format) {
-    throw Error(ErrorKind::usage, fmt::format("{}: {}; {} files hold nothing else",
+    throw Error(ErrorKind::usage, fmt::format("{}: {}; {} files hold markers only",
                                               source_of(take).name, contents, format.name));
   }
-  if (!joints && format.write_markers == nullptr) {
-    throw Error(
-        ErrorKind::usage,
-        fmt::format("{}: holds markers; {} files hold joints, which markers alone do not give",
-                    source_of(take).name, format.name));
-  }
-  // BVH and glTF have no frames of rest of their own.
+  check_can_hold(source_of(take).name, take, format.name);
+  // BVH has no rest rotations.
   if (joints && format.name == "bvh") {
     const Clip& clip = std::get<Clip>(take);
     for (const Quat rest : clip.skeleton.rest_rotations) {
@@ -141,12 +132,12 @@ Take fitted(Take take, const Format& format, const Arguments& arguments) {
   return take;
 }
 
-/// Angles, forces, moments and powers go along as if they were markers.
+/// Treats angles, forces, moments and powers as markers.
 void take_all_points(Take& take) {
   if (auto* markers = std::get_if<MarkerClip>(&take)) markers->is_position.clear();
 }
 
-/// AMC holds angles only; the skeleton goes to an ASF file beside it.
+/// AMC holds angles only; the skeleton is written to an ASF file beside it.
 void check_has_place(const Take& take, const Format& format, const std::string& output) {
   if (format.name != "amc" || source_of(take).format == "amc" || output != "-") return;
   throw Error(ErrorKind::usage,
@@ -157,6 +148,7 @@ int run_convert(const Arguments& arguments) {
   const std::string input = arguments.positionals[0];
   const std::string output = converted_output_of(arguments);
   const bool force = arguments.flag("force");
+  if (!arguments.given("to")) check_take_ending(output);
   check_free(output, force);
   TakeResult read = read_take(fs::path(input), read_options(arguments));
   warn_of_repairs(source_of(read.take), read.diagnostics);
@@ -166,7 +158,10 @@ int run_convert(const Arguments& arguments) {
   if (arguments.flag("all_points")) take_all_points(take);
   if (arguments.given("fps")) take = resampled(take, arguments.number("fps"));
   if (arguments.given("up")) take = turned(take, arguments);
-  if (arguments.given("unit")) take = in_unit(take, arguments.text("unit"));
+  if (arguments.given("unit")) {
+    const double metres = metres_per_unit_of(take);
+    take = in_unit(take, arguments.text("unit"), metres);
+  }
   check_has_place(take, format, output);
   take = fitted(std::move(take), format, arguments);
   for (const std::string& line :
@@ -178,16 +173,16 @@ int run_convert(const Arguments& arguments) {
 
 std::vector<Flag> change_flags() {
   Flag fps = number_flag("fps", "Hz", 0, least_frame_rate_hz, most_frame_rate_hz, "Change",
-                         "bring the motion to this rate",
-                         "Samples are interpolated, not averaged; clean a noisy take first.");
+                         "resample the motion to this rate",
+                         "Samples are interpolated, not averaged: clean a noisy take first.");
   fps.has_default = false;
-  Flag up = text_flag("up", "", "Change", "turn the axes so that this one points up");
+  Flag up = text_flag("up", "", "Change", "turn the axes so that this axis points up");
   up.spec.choices = {"x", "y", "z"};
-  Flag from_up = text_flag("from_up", "", "Change", "what points up in the input",
-                           "Found from the motion where it is not given.");
+  Flag from_up = text_flag("from_up", "", "Change", "the axis that points up in the input",
+                           "Found from the motion if not given.");
   from_up.spec.choices = {"x", "y", "z"};
-  Flag unit = text_flag("unit", "", "Change", "bring lengths to this unit",
-                        "Joint positions that become markers are in millimetres without it.");
+  Flag unit = text_flag("unit", "", "Change", "convert lengths to this unit",
+                        "Without it, joint positions that become markers are in millimetres.");
   unit.spec.choices = {"mm", "cm", "m"};
   return {std::move(fps), std::move(up), std::move(from_up), std::move(unit)};
 }
@@ -195,50 +190,49 @@ std::vector<Flag> change_flags() {
 }  // namespace
 
 Command convert_command() {
-  Flag to =
-      text_flag("to", "", "Output", "format to write, where the output's extension does not tell");
+  Flag to = text_flag("to", "", "Output", "format to write, whatever the ending of the output");
   for (const Format& format : formats()) {
     if (format.write != nullptr || format.write_markers != nullptr)
       to.spec.choices.emplace_back(format.name);
   }
   Command command;
   command.name = "convert";
-  command.summary = "write a take in another format, or anew in its own";
-  command.description = "Formats there are: ";
+  command.summary = "write a take in another format, or rewrite it in its own";
+  command.description = "Formats: ";
   for (const Format& format : formats()) {
     if (command.description.back() != ' ') command.description += ", ";
     command.description += fmt::format("{} ({})", format.name, format.description);
   }
   command.description +=
-      ". Within one format the source's layout and digits stay, unless --plain asks for the "
-      "program's own. Rate, axes and units stay unless they are asked for. What a file holds "
-      "beside "
-      "its motion (analog channels, force plates, events) goes along where the format has a place "
-      "for it; what stays behind is said, and an error under --strict.\n\n"
-      "Joints that go to a format of markers (c3d, trc) become the joints' positions. An AMC file "
-      "gets its skeleton beside it, as an ASF file of the same name.";
+      ". The ending of OUT names the format; without an ending the format of the input is kept. "
+      "Within one format, layout and digits of the source are kept, unless --plain is given. Rate, "
+      "axes and units change only on request. Analog channels, force plates and events are kept "
+      "where the format can hold them; a warning names each that is lost, which --strict makes an "
+      "error.\n\n"
+      "In a format of markers (c3d, trc, tsv), joints become markers at their positions. The "
+      "skeleton of an AMC file is written beside it, as an ASF file of the same name.";
   command.positionals = {{"IN", "take to read; - is standard input", 1, 1, {}},
-                         {"OUT", "where to write; - is standard output", 0, 1, {}}};
+                         {"OUT", "file to write; - is standard output", 0, 1, {}}};
   command.flags = {output_flag("the same as OUT"), to};
   append(command.flags, change_flags());
   command.flags.push_back(switch_flag("positions", "Change",
                                       "write the positions of joints as markers",
-                                      "For formats that could hold the joints themselves (csv)."));
-  command.flags.push_back(
-      switch_flag("end_sites", "Change", "with the positions of joints, those of end sites too"));
+                                      "For a format that can also hold the joints (csv)."));
+  command.flags.push_back(switch_flag(
+      "end_sites", "Change", "with the positions of joints, write those of end sites too"));
   command.flags.push_back(
       switch_flag("all_points", "Change",
-                  "write a C3D file's angles, forces, moments and powers as markers, too",
-                  "Without it they stay out of TRC, TSV and CSV, and are named."));
+                  "write the angles, forces, moments and powers of a C3D file as markers too",
+                  "Without it they are left out of TRC, TSV and CSV, with a warning."));
   command.flags.push_back(
-      switch_flag("plain", "Output", "drop the source's layout and write anew",
-                  "What the file holds stays: a C3D file keeps analog channels and parameters."));
+      switch_flag("plain", "Output", "write in the program's own layout, not that of the source",
+                  "The content is kept: a C3D file keeps analog channels and parameters."));
   command.flags.push_back(force_flag());
-  append(command.flags, reading_flags("what needs a repair, or would be lost, becomes an error"));
+  append(command.flags, reading_flags("make every repair, and everything that is lost, an error"));
   command.examples = {
       {"kinemend convert odd.bvh plain.bvh --plain",
-       "a file that other programs cannot read, in its plainest form"},
-      {"kinemend convert 35_01.amc 35_01.bvh", "with the skeleton of 35.asf beside it"},
+       "a file that other programs cannot read, in the plainest form"},
+      {"kinemend convert 35_01.amc 35_01.bvh", "the skeleton is 35.asf in the same folder"},
       {"kinemend convert walk.c3d walk.trc --up y --unit m", "for OpenSim"},
       {"kinemend convert walk.bvh walk.glb", "for viewers and game engines"}};
   command.run = run_convert;

@@ -113,15 +113,6 @@ std::string text_of_damages(const std::vector<DamageReport>& reports) {
   return table.text() + notes;
 }
 
-void check_holds_joints(const std::string& name, const std::string& format) {
-  for (const Format& known : formats()) {
-    if (known.name != format || known.write != nullptr) continue;
-    throw Error(ErrorKind::usage,
-                fmt::format("{}: holds joints; {} files hold markers (kinemend convert makes them)",
-                            name, format));
-  }
-}
-
 int run_corrupt(const Arguments& arguments) {
   const std::string input = arguments.positionals[0];
   const std::string output = arguments.text("output");
@@ -134,9 +125,12 @@ int run_corrupt(const Arguments& arguments) {
   if (requests.empty())
     throw Error(ErrorKind::usage, "corrupt: --damage is missing (see kinemend corrupt -h)");
   check_single_use({input}, {output}, json);
+  check_take_ending(output);
   check_free(output, force);
   TakeResult read = read_take(std::filesystem::path(input), read_options(arguments));
   warn_of_repairs(source_of(read.take), read.diagnostics);
+  const std::string format = format_for(output, source_of(read.take));
+  check_can_hold(input_name(input), read.take, format);
   Random random(static_cast<std::uint64_t>(arguments.whole("seed")));
   std::vector<DamageReport> reports;
   reports.reserve(requests.size());
@@ -145,8 +139,6 @@ int run_corrupt(const Arguments& arguments) {
         [&](auto& clip) { return apply_damage(clip, request.name, request.values, random); },
         read.take));
   }
-  const std::string format = format_for(output, source_of(read.take));
-  if (std::holds_alternative<Clip>(read.take)) check_holds_joints(input_name(input), format);
   for (const std::string& line :
        loss_lines(input_name(input), read.take, format, arguments.flag("strict")))
     say_warning(line);

@@ -135,7 +135,8 @@ FillRun fill_run_of(const Arguments& arguments) {
   FillRun run;
   run.input = arguments.positionals[0];
   run.output = arguments.text("output");
-  if (run.output.empty()) run.output = output_beside(run.input, "filled");
+  check_take_ending(run.output);
+  if (run.output.empty()) run.output = output_beside(run.input, "filled", arguments.text("from"));
   const std::string gap_file = arguments.text("gaps"), plan_file = arguments.text("plan");
   run.report_path = arguments.text("report");
   check_plan_alone(arguments);
@@ -177,6 +178,7 @@ FilledTake fill_take(const FillRun& run, bool with_before, const FillCheck& chec
   FilledTake filled;
   for (const Diagnostic& entry : read.diagnostics.entries())
     filled.warnings.push_back(diagnostic_line(source_of(read.take), entry));
+  check_can_hold(input_name(run.input), read.take, format_for(run.output, source_of(read.take)));
   mark_given_gaps(read.take, run);
   if (with_before) filled.before = read.take;
   FillOutcome outcome = fill_in_place(read.take, run, check, filled.plan_text);

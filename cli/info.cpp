@@ -1,4 +1,4 @@
-// kinemend info: what is in a take.
+// kinemend info: shows the content of takes and models.
 
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ namespace {
 struct Looked {
   std::string name;
   TakeResult read;
-  /// With --noise: what the method auto finds of each joint or marker.
+  /// With --noise: the estimate of the method auto for each joint or marker.
   struct Noise {
     std::string name;
     double level = 0;  ///< degrees, or file units
@@ -70,7 +70,7 @@ std::string tree_text(const Skeleton& skeleton) {
   std::string text = "\n";
   Table table({Align::left, Align::left}, 4);
   for (std::size_t j = 0; j < skeleton.joint_count(); ++j) {
-    // Deep chains are shown, not drawn out to any width.
+    // The indent of deep chains is limited.
     const std::string indent(2 * std::min<std::size_t>(depth[j], 40), ' ');
     table.add({indent + printable(skeleton.names[j]), channel_names(skeleton.channels[j])});
   }
@@ -97,7 +97,7 @@ std::string unit_text(const Clip& clip) {
                      figure(height * unit->metres));
 }
 
-/// `has_subjects`: they stand in the table already.
+/// `has_subjects`: the table already has a row of them.
 void add_facts(const Looked& subject, const SourceInfo& source, bool has_subjects, Table& table) {
   for (const SourceFact& fact : source.facts) {
     const bool is_said = fact.name == "analog frames" || fact.name == "first frame" ||
@@ -115,7 +115,7 @@ std::string numbered_length(const AnyClip& clip) {
   return first == 1 ? length : fmt::format("{}, from frame {}", length, first);
 }
 
-/// "Ann (41 markers), Bob (39 markers)" of a take of several people.
+/// "Ann (41 markers), Bob (39 markers)" for a take of several people, else empty.
 std::string people_text(const MarkerClip& clip) {
   const std::vector<Subject> people = subjects_of(clip);
   if (people.size() < 2) return "";
@@ -123,13 +123,13 @@ std::string people_text(const MarkerClip& clip) {
   parts.reserve(people.size());
   for (const Subject& person : people) {
     parts.push_back(fmt::format("{} ({})",
-                                person.name.empty() ? "nobody's" : printable(person.name),
+                                person.name.empty() ? "no subject" : printable(person.name),
                                 counted(person.markers.size(), "marker")));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// What is missing of the joints or markers.
+/// The missing samples of joints or markers.
 struct Missing {
   std::vector<std::size_t> samples;  // of each
   std::size_t gaps = 0, longest = 0, all = 0, possible = 0;
@@ -154,8 +154,7 @@ Missing missing_of(const Clip& clip) {
 
 Missing missing_of(const MarkerClip& clip) {
   Missing missing = missing_in(find_gaps(clip), clip.marker_count());
-  for (std::size_t m = 0; m < clip.marker_count(); ++m)
-    missing.possible += clip.holds_positions(m) ? clip.frame_count() : 0;
+  missing.possible = clip.frame_count() * clip.position_count();
   return missing;
 }
 
@@ -182,7 +181,7 @@ std::string clip_text(const Looked& subject, const Clip& clip, bool with_tree) {
   table.add({"unit", unit_text(clip)});
   if (clip.frame_count() > 0) {
     table.add({"calibration", leading_calibration_frames(clip) > 0
-                                  ? fmt::format("frame {} is a calibration pose and no part of "
+                                  ? fmt::format("frame {} is a calibration pose, not part of "
                                                 "the motion",
                                                 first)
                                   : "none"});
@@ -196,20 +195,14 @@ std::string clip_text(const Looked& subject, const Clip& clip, bool with_tree) {
   return text;
 }
 
-std::size_t position_count(const MarkerClip& clip) {
-  std::size_t count = 0;
-  for (std::size_t m = 0; m < clip.marker_count(); ++m) count += clip.holds_positions(m) ? 1 : 0;
-  return count;
-}
-
 std::string markers_text(const Looked& subject, const MarkerClip& clip, bool with_tree) {
   const Missing missing = missing_of(clip);
-  const std::size_t positions = position_count(clip);
+  const std::size_t positions = clip.position_count();
   Table table({Align::left, Align::left});
   table.add({"format", format_text(clip.source)});
   std::string markers = grouped(positions);
   if (positions < clip.marker_count()) {
-    markers += fmt::format(" (and {} of angles, forces and the like)",
+    markers += fmt::format(" (and {} that hold angles, forces and the like)",
                            counted(clip.marker_count() - positions, "point"));
   }
   table.add({"markers", markers});
@@ -228,7 +221,7 @@ std::string markers_text(const Looked& subject, const MarkerClip& clip, bool wit
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
     const double share = percent(missing.samples[m], clip.frame_count());
     list.add({printable(clip.names[m]),
-              clip.holds_positions(m) ? fmt::format("{:.2f}", share) : "no position"});
+              clip.holds_positions(m) ? fmt::format("{:.2f}", share) : "not a position"});
   }
   return text + "\n" + list.text();
 }
@@ -382,24 +375,23 @@ int run_info(const Arguments& arguments) {
 Command info_command() {
   Command command;
   command.name = "info";
-  command.summary = "say what is in a take or a model";
+  command.summary = "show the content of a take or a model";
   command.description =
-      "Joints or markers, frames, rate, duration, unit of length, what is missing, what else the "
-      "file holds, and what the reader had to repair. Where the file states no unit it is that in "
-      "which the skeleton is a person of 1.2 to 2.5 m.\n\nOf a learned model (*.kmodel): its card, "
-      "and "
-      "with --tree the body that it knows and its numbers.";
-  command.positionals = {{"FILE", "take or model to look at; - is standard input", 1, 1000000, {}}};
+      "Shows joints or markers, frames, rate, duration, the unit of length, missing samples, the "
+      "other contents of the file, and the repairs that reading needed. Where the file states no "
+      "unit, it is the unit in which the skeleton is a person of 1.2 to 2.5 m.\n\nFor a learned "
+      "model (*.kmodel) it shows the card, and with --tree the body that the model knows.";
+  command.positionals = {{"FILE", "take or model to show; - is standard input", 1, 1000000, {}}};
   command.flags = {
       json_flag("print JSON instead of text"),
       switch_flag("tree", "Output", "also show the skeleton with its channels, or the markers"),
-      switch_flag(
-          "noise", "Output", "also estimate the noise of each joint or marker",
-          "By a dry run of the method auto: jitter per axis, and samples it would repair.")};
-  append(command.flags, reading_flags("what needs a repair becomes an error"));
-  command.examples = {{"kinemend info walk.bvh --tree", "the skeleton too"},
+      switch_flag("noise", "Output", "also estimate the noise of each joint or marker",
+                  "A dry run of the method auto gives the jitter per axis and the samples that it "
+                  "would repair.")};
+  append(command.flags, reading_flags("make every repair an error"));
+  command.examples = {{"kinemend info walk.bvh --tree", "with the skeleton"},
                       {"kinemend info trial.c3d", "markers, gaps, analog channels, events"},
-                      {"kinemend info *.bvh --json", "for programs"}};
+                      {"kinemend info *.bvh --json", "as JSON, for programs"}};
   command.run = run_info;
   return command;
 }

@@ -137,6 +137,7 @@ int run_plot(const Arguments& arguments) {
   const bool force = arguments.flag("force");
   check_single_use(inputs, {output}, false);
   check_is_no_input("--output", output, inputs);
+  check_only_ending(output, ".svg");
   check_free(output, force);
   const Drawing drawing = drawing_of(arguments);
   const Take before = read_and_warn(inputs[0], arguments);

@@ -17,6 +17,7 @@ int run_synth(const Arguments& arguments) {
   const std::string output = arguments.text("output");
   if (output.empty())
     throw Error(ErrorKind::usage, "synth: --output is missing (see kinemend synth -h)");
+  check_take_ending(output);
   check_free(output, arguments.flag("force"));
   SynthOptions options;
   options.motion = arguments.positionals[0];
@@ -24,9 +25,10 @@ int run_synth(const Arguments& arguments) {
   options.frame_rate_hz = arguments.number("frame_rate_hz");
   options.seed = static_cast<std::uint64_t>(arguments.whole("seed"));
   options.t_pose_first = arguments.flag("t_pose_first");
-  const Clip clip = synthesize(options);
-  const Format* format = format_of_path(output);
-  write_output(output, write_clip(clip, format ? format->name : "bvh"), arguments.flag("force"));
+  const Take take = synthesize(options);
+  const std::string format = format_for(output, {"", "bvh", nullptr});
+  check_can_hold("synth", take, format);
+  write_take_output(output, take, format, arguments.flag("force"));
   return 0;
 }
 

@@ -1,9 +1,12 @@
 #include "takes.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <limits>
 
@@ -24,12 +27,102 @@ bool is_stream(const std::string& input) {
   return name.starts_with("/dev/") || name.starts_with("/proc/");
 }
 
-std::string output_beside(const std::string& input, std::string_view word) {
+namespace {
+
+namespace fs = std::filesystem;
+
+const Format* format_named(std::string_view name) {
+  for (const Format& format : formats()) {
+    if (format.name == name) return &format;
+  }
+  return nullptr;
+}
+
+// The format of what a file holds; nullptr where nothing tells.
+const Format* format_of_file(const std::string& path, std::string_view from) {
+  if (!from.empty()) return format_named(from);
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) return nullptr;
+  constexpr std::size_t most = 4096;
+  std::string head(most, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  return format_of_content(head);
+}
+
+bool is_written(const Format& format) {
+  return format.write != nullptr || format.write_markers != nullptr;
+}
+
+// With its dot; empty for a name without an ending, also where the name ends in a dot.
+std::string ending_of(const std::string& output) {
+  if (is_stream(output)) return "";
+  const std::string ending = fs::path(output).extension().string();
+  return ending == "." ? "" : ending;
+}
+
+// The ending for a result of `input` that would be called `name`.
+std::string right_ending(const std::string& name, const std::string& input, std::string_view from) {
+  const Format* const held = format_of_file(input, from);
+  if (held == nullptr || !is_written(*held) || held == format_of_path(name)) return ending_of(name);
+  return std::string(held->extensions.front());
+}
+
+}  // namespace
+
+std::string output_beside(const std::string& input, std::string_view word, std::string_view from) {
   if (is_stream(input)) return "-";
-  std::filesystem::path output(input);
+  fs::path output(input);
   output.replace_filename(
-      fmt::format("{}.{}{}", output.stem().string(), word, output.extension().string()));
+      fmt::format("{}.{}{}", output.stem().string(), word, right_ending(input, input, from)));
   return output.string();
+}
+
+std::string with_right_ending(const std::string& name, const std::string& input,
+                              std::string_view from) {
+  if (ending_of(name).empty()) return name;
+  return fs::path(name).replace_extension(right_ending(name, input, from)).string();
+}
+
+void check_take_ending(const std::string& output) {
+  const std::string ending = ending_of(output);
+  if (ending.empty()) return;
+  const Format* const format = format_of_path(output);
+  if (format != nullptr && is_written(*format)) return;
+  std::vector<std::string_view> written;
+  for (const Format& known : formats()) {
+    if (is_written(known))
+      written.insert(written.end(), known.extensions.begin(), known.extensions.end());
+  }
+  throw Error(ErrorKind::usage,
+              fmt::format("{}: {} files are not written; the endings that are written: {}. A name "
+                          "without an ending keeps the format of the input",
+                          printable(output), printable(ending), fmt::join(written, ", ")));
+}
+
+void check_only_ending(const std::string& output, std::string_view ending) {
+  const std::string found = ending_of(output);
+  const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
+  if (found.empty() || std::equal(found.begin(), found.end(), ending.begin(), ending.end(), same))
+    return;
+  throw Error(ErrorKind::usage, fmt::format("{}: {} files are not written here; only {} is",
+                                            printable(output), printable(found), ending));
+}
+
+void check_can_hold(const std::string& name, const Take& take, std::string_view format) {
+  const Format* const known = format_named(format);
+  const bool joints = std::holds_alternative<Clip>(take);
+  if (known == nullptr || (joints ? known->write != nullptr : known->write_markers != nullptr))
+    return;
+  throw Error(ErrorKind::usage,
+              joints
+                  ? fmt::format("{}: holds joints; {} files hold markers (kinemend convert makes "
+                                "them)",
+                                name, format)
+                  : fmt::format("{}: holds markers; {} files hold joints, which markers alone "
+                                "do not give",
+                                name, format));
 }
 
 void check_free(const std::string& output, bool force) {
@@ -37,7 +130,7 @@ void check_free(const std::string& output, bool force) {
   std::error_code ignored;
   if (output == "-" || force || !std::filesystem::is_regular_file(output, ignored)) return;
   throw Error(ErrorKind::cannot_write,
-              fmt::format("{}: exists already (--force replaces it)", output));
+              fmt::format("{}: exists already (--force overwrites it)", output));
 }
 
 void write_output(const std::string& output, std::string_view bytes, bool force) {
@@ -53,7 +146,7 @@ bool holds(const std::filesystem::path& path, std::string_view bytes) {
   return std::filesystem::is_regular_file(path, ignored) && read_file(path) == bytes;
 }
 
-// Takes that are written at once may share a skeleton: whoever comes second finds it there.
+// Takes that are written at the same time may share a skeleton, which the second one finds there.
 void write_side_file(const SideFile& file, bool force) {
   try {
     write_output(file.path.string(), file.bytes, force);
@@ -76,7 +169,7 @@ void write_take_output(const std::string& output, const Take& take, const std::s
 
 namespace {
 
-/// The one path of a file, whether it exists yet or not.
+/// The absolute path of a file, whether or not it exists.
 std::filesystem::path whole_path(const std::string& path) {
   std::error_code error;
   const std::filesystem::path canonical =
@@ -98,8 +191,8 @@ void check_is_no_input(std::string_view option, const std::string& output,
   const auto found = std::find_if(inputs.begin(), inputs.end(), is_same);
   if (found == inputs.end()) return;
   throw Error(ErrorKind::usage,
-              fmt::format("{}: {} is read or written by this run already, and would be lost",
-                          option, output));
+              fmt::format("{}: {} is already read or written by this run and would be lost", option,
+                          output));
 }
 
 void check_single_use(const std::vector<std::string>& inputs,
@@ -107,8 +200,7 @@ void check_single_use(const std::vector<std::string>& inputs,
   if (std::count(inputs.begin(), inputs.end(), "-") > 1)
     throw Error(ErrorKind::usage, "standard input can be read only once");
   if (std::count(outputs.begin(), outputs.end(), "-") + (json ? 1 : 0) > 1) {
-    throw Error(ErrorKind::usage,
-                "standard output holds one thing: a take, a report or --json, not several");
+    throw Error(ErrorKind::usage, "standard output can hold one of a take, a report and --json");
   }
 }
 
@@ -162,7 +254,7 @@ std::vector<std::string> loss_lines(const std::string& name, const Take& take,
   const Diagnostics losses = lost_in_writing(take, format);
   for (const Diagnostic& loss : losses.entries()) {
     lines.push_back(name + ": " + diagnostic_text(format, loss));
-    // Numbers in another encoding are no loss.
+    // Another encoding of the numbers is not a loss.
     if (strict && loss.name != "encoding_changed")
       throw Error(ErrorKind::quality_limit, lines.back() + " (an error under --strict)");
   }
@@ -182,13 +274,13 @@ int say_passed_limits(const Report& report, std::span<const FigureRule> figures,
 }
 
 Flag force_flag() {
-  return switch_flag("force", "Output", "replace outputs that exist",
-                     "Without it an output that exists is left alone, with exit code 4.");
+  return switch_flag("force", "Output", "overwrite outputs that exist",
+                     "Without it, an existing output is kept and the exit code is 4.");
 }
 
 Flag json_flag(std::string help) {
   return switch_flag("json", "Output", std::move(help),
-                     "Frames count from 1 there too; a figure that is not finite is null.");
+                     "Frames have the numbers of their file; a value that is not finite is null.");
 }
 
 Flag output_flag(std::string help) {
@@ -204,7 +296,7 @@ Flag seed_flag(std::string help) {
 
 Flag from_flag() {
   Flag flag =
-      text_flag("from", "", "Input", "format of the input, where its content does not tell");
+      text_flag("from", "", "Input", "format of the input, if its content does not show it");
   for (const Format& format : formats()) {
     if (format.read != nullptr) flag.spec.choices.emplace_back(format.name);
   }
@@ -213,7 +305,7 @@ Flag from_flag() {
 
 Flag strict_flag(std::string help) {
   return switch_flag("strict", "Input", std::move(help),
-                     "A file that is odd but usable is read with a warning otherwise.");
+                     "Without it, a damaged but usable file is read with a warning.");
 }
 
 void append(std::vector<Flag>& list, std::vector<Flag> more) {
@@ -223,10 +315,10 @@ void append(std::vector<Flag>& list, std::vector<Flag> more) {
 
 Flag map_flag() {
   Flag flag = text_flag("map", "FILE", "Input",
-                        "what feet are called in the take: lines known name,name in the take",
-                        "For takes whose names mean nothing to the program: LeftFoot,bone_17 or "
-                        "LTOE,M3. Lines about other parts do no harm, so that the file of a "
-                        "learned model serves too.");
+                        "names of feet in the take: lines known name,name in the take",
+                        "For takes with names that the program does not know: LeftFoot,bone_17 or "
+                        "LTOE,M3. Lines about other parts are ignored, so the file of a learned "
+                        "model can be used.");
   flag.completion = Completion::file;
   return flag;
 }
@@ -237,11 +329,11 @@ KnownNames names_of_map(const std::string& path) {
 
 std::vector<Flag> reading_flags(std::string strict_help) {
   Flag asf = text_flag("asf", "FILE", "Input", "skeleton of an AMC file",
-                       "Without it: the ASF file that the AMC file names, or one beside it.");
+                       "Without it, the ASF file that the AMC file names, or one in its folder.");
   asf.completion = Completion::file;
   Flag fps = number_flag("from_fps", "Hz", 120, least_frame_rate_hz, most_frame_rate_hz, "Input",
                          "frame rate of a file that does not state it",
-                         "Formats that state one ignore it.");
+                         "Ignored for files that state their rate.");
   fps.has_default = false;
   return {from_flag(), asf, fps, strict_flag(std::move(strict_help))};
 }
@@ -256,8 +348,9 @@ ReadOptions read_options(const Arguments& arguments) {
 }
 
 std::string format_for(const std::string& output, const SourceInfo& source) {
-  const Format* format = output == "-" ? nullptr : format_of_path(output);
-  return format ? std::string(format->name) : source.format;
+  check_take_ending(output);
+  const Format* const format = ending_of(output).empty() ? nullptr : format_of_path(output);
+  return format != nullptr ? std::string(format->name) : source.format;
 }
 
 }  // namespace kinemend::cli

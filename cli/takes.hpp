@@ -13,51 +13,65 @@
 #include "kinemend/known_names.hpp"
 #include "kinemend/report.hpp"
 
-// What the commands that read and write takes have in common.
+// What the commands that read and write takes share.
 namespace kinemend::cli {
 
 /// "standard input" for "-".
 std::string input_name(const std::string& input);
-/// Standard input by any name: `-`, /dev/stdin, and what a shell passes as /dev/fd/63.
+/// Whether the input is a stream: `-`, /dev/stdin, or a pipe that a shell passes as /dev/fd/63.
 bool is_stream(const std::string& input);
-/// `walk.bvh` to `walk.clean.bvh` for the word "clean"; standard input to standard output.
-std::string output_beside(const std::string& input, std::string_view word);
+/// `walk.clean.bvh` for `walk.bvh` and the word "clean"; standard output for standard input. Where
+/// the ending of the input is not one of the format that it holds, the result gets the right one.
+/// `from`: the format that --from names, or empty.
+std::string output_beside(const std::string& input, std::string_view word, std::string_view from);
+/// `name` for a result of `input`, with the right ending in the same way; a name without an ending
+/// stays as it is.
+std::string with_right_ending(const std::string& name, const std::string& input,
+                              std::string_view from);
+/// Refuses an output whose ending belongs to no format that is written, such as .fbx; a name
+/// without an ending is allowed. Errors: `ErrorKind::usage` with the endings that are written.
+void check_take_ending(const std::string& output);
+/// Refuses any ending but this one (with its dot) and none. Errors: `ErrorKind::usage`.
+void check_only_ending(const std::string& output, std::string_view ending);
+/// Refuses a format that cannot hold the take, as a format of markers cannot hold joints. Errors:
+/// `ErrorKind::usage`.
+void check_can_hold(const std::string& name, const Take& take, std::string_view format);
 /// Refuses an output that exists, before work is spent on it. Errors: `ErrorKind::cannot_write`.
 void check_free(const std::string& output, bool force);
 /// To a file, or to standard output for "-".
 void write_output(const std::string& output, std::string_view bytes, bool force);
-/// The take in `format`, with what must stand beside it (the skeleton of an AMC file).
+/// Writes the take in `format`, and the file that it needs beside it (the skeleton of an AMC file).
 void write_take_output(const std::string& output, const Take& take, const std::string& format,
                        bool force);
-/// Refuses an output that is one of the inputs, or another output, under any name; `--force` does
-/// not help. For reports and the like: what is meant to replace its input is not given here.
+/// Refuses an output that is one of the inputs, or another output, under any name, even with
+/// `--force`. For reports and the like; an output that may replace its input is not checked here.
 /// Errors: `ErrorKind::usage`.
 void check_is_no_input(std::string_view option, const std::string& output,
                        const std::vector<std::string>& inputs);
 /// Refuses a second use of standard input or standard output. Errors: `ErrorKind::usage`.
 void check_single_use(const std::vector<std::string>& inputs,
                       const std::vector<std::string>& outputs, bool json);
-/// Calls `visit` with each input and returns the highest exit code. An input that cannot be read is
-/// said, its entry in JSON goes to `add_failure`, and it stops none of the others; an output that
-/// cannot be written stops all.
+/// Calls `visit` with each input and returns the highest exit code. An unreadable input gets an
+/// error line, its JSON entry goes to `add_failure`, and the next input follows; an output that
+/// cannot be written ends the run.
 int for_each_input(const std::vector<std::string>& inputs,
                    const std::function<int(const std::string&)>& visit,
                    const std::function<void(std::string entry)>& add_failure);
-/// A line a kind of repair, as a warning.
+/// Prints a warning for each kind of repair.
 void warn_of_repairs(const SourceInfo& source, const Diagnostics& diagnostics);
-/// What a file of this format will not hold of the take, a line each. Errors: `quality_limit` with
-/// the first of them when `strict`.
+/// A line for each part of the take that a file of this format cannot hold. Errors: `quality_limit`
+/// with the first line when `strict`.
 std::vector<std::string> loss_lines(const std::string& name, const Take& take,
                                     std::string_view format, bool strict);
 
-/// What a marker file without markers holds; empty for any other take.
+/// The content of a marker file without markers, in words; empty for any other take.
 std::string pointless_text(const Take& take);
-/// What a report says of a take that was read.
+/// What a report says about a take that was read.
 TakeFacts facts_of(const Take& take, std::string input, Diagnostics diagnostics);
-/// The number of the first frame, as the file counts.
+/// The number that the file gives its first frame.
 std::int64_t first_frame_of(const Take& take);
 
-/// A line for each limit that is given and passed: exit code 1, else 0.
+/// Prints a line for each limit that is given and exceeded. Returns 1 if there is one, else 0.
 int say_passed_limits(const Report& report, std::span<const FigureRule> figures,
                       const Arguments& arguments);
 
@@ -68,17 +82,18 @@ Flag output_flag(std::string help);
 Flag seed_flag(std::string help);
 Flag from_flag();
 Flag strict_flag(std::string help);
-/// --map, for feet whose names are not known.
+/// --map, for takes whose feet have unknown names.
 Flag map_flag();
-/// What --map names; nothing where it is not given.
+/// The names that the file of --map gives; empty where `path` is.
 KnownNames names_of_map(const std::string& path);
 /// All flags that `read_options` understands: --from, --asf, --from-fps, --strict.
 std::vector<Flag> reading_flags(std::string strict_help);
-/// Puts `more` behind `list`.
+/// Appends `more` to `list`.
 void append(std::vector<Flag>& list, std::vector<Flag> more);
-/// Of the flags that the command has.
+/// The reading options that the flags of the command set.
 ReadOptions read_options(const Arguments& arguments);
-/// The format to write: that of the output's extension, else the input's own.
+/// The format to write: that of the output's ending; that of the source for standard output and for
+/// a name without an ending. Errors: as `check_take_ending`.
 std::string format_for(const std::string& output, const SourceInfo& source);
 
 }  // namespace kinemend::cli

@@ -39,12 +39,13 @@ ViewFiles files_of(const Arguments& arguments) {
     if (is_stream(input))
       throw Error(ErrorKind::usage, "view: a take is read several times, and must be a file");
   }
+  check_take_ending(arguments.text("output"));
   const auto given = [&](const char* flag, const std::string& otherwise) {
     const std::string text = arguments.text(flag);
     return text.empty() ? otherwise : text;
   };
-  files.cleaned = given("output", output_beside(files.input, "clean"));
-  files.filled = given("output", output_beside(files.input, "filled"));
+  files.cleaned = given("output", output_beside(files.input, "clean", arguments.text("from")));
+  files.filled = given("output", output_beside(files.input, "filled", arguments.text("from")));
   files.contacts = given("contacts", beside(files.input, "contacts"));
   files.gaps = given("gaps", beside(files.input, "gaps.csv"));
   files.with_gaps = arguments.given("gaps");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,10 +13,10 @@
 // Spans of missing samples.
 namespace kinemend {
 
-/// Missing samples of one joint or marker, none observed between.
+/// A run of consecutive missing samples of one joint or marker.
 struct Gap {
-  std::size_t track = 0;  ///< joint or marker; of positions 0 for joint 0, k + 1 for translated
-                          ///< joint k
+  std::size_t track = 0;  ///< joint or marker; for positions of joints 0 is joint 0 and k + 1 is
+                          ///< translated joint k
   std::size_t first_frame = 0;
   std::size_t last_frame = 0;  ///< inclusive
 
@@ -23,29 +24,34 @@ struct Gap {
   friend bool operator==(const Gap&, const Gap&) = default;
 };
 
-/// The spans that are not observed, by track, then frame. Of markers only those that are positions.
+/// The runs of samples that are not observed, by track, then frame. Points of a marker clip that
+/// are not positions have no gaps.
 std::vector<Gap> find_gaps(const Clip& clip);
 std::vector<Gap> find_gaps(const MarkerClip& clip);
-/// The same of `Clip::observed_positions`.
+/// The same for `Clip::observed_positions`.
 std::vector<Gap> find_position_gaps(const Clip& clip);
 
-/// A gap as a side file states it, for formats that cannot hold one.
+/// A gap as a side file states it, for formats that cannot store gaps.
 struct NamedGap {
-  std::string name;  ///< of a joint or marker, or a shell pattern; `*` for all
+  std::string name;  ///< of a joint or marker, or a shell pattern (`*` matches all)
   std::size_t first_frame = 0;
   std::size_t last_frame = 0;  ///< inclusive, counted from 0
 };
 
-/// Marks the samples as not observed; what stands there is no longer used by anything. A joint's
-/// gap is one of its rotation and, where it has position channels, of its position too. Errors:
+/// Marks the samples as not observed, so that nothing uses their values. A gap of a joint is a gap
+/// of its rotation and, where it has position channels, of its position too. Errors:
 /// `ErrorKind::usage` for a name or a frame that the take does not have.
 void mark_gaps(Clip& clip, std::span<const NamedGap> gaps);
 void mark_gaps(MarkerClip& clip, std::span<const NamedGap> gaps);
 
-/// The side file: lines `name,first,last` with frames counted from 1, inclusive; an optional
-/// heading line, `#` comments, blank lines and quoted names are understood. `name` stands in
-/// messages. Errors: `unreadable_input` with the line.
-std::vector<NamedGap> parse_gaps(std::string_view text, std::string_view name);
-std::string gaps_text(std::span<const NamedGap> gaps);
+/// Reads a side file: lines `name,first,last`, where a frame has the number that its take gives it
+/// and the last frame is inclusive. `first_frame` is the number of the take's first frame
+/// (`first_frame_number(clip)`). A heading line, `#` comments, blank lines and quoted names are
+/// allowed. `name` appears in messages. Errors: `unreadable_input` with the line, also for a number
+/// below `first_frame`.
+std::vector<NamedGap> parse_gaps(std::string_view text, std::string_view name,
+                                 std::int64_t first_frame);
+/// The text of such a side file.
+std::string gaps_text(std::span<const NamedGap> gaps, std::int64_t first_frame);
 
 }  // namespace kinemend

@@ -16,24 +16,25 @@
 
 namespace kinemend {
 
-/// What a file holds: the motion of a skeleton, or of markers.
+/// The content of a file: the motion of a skeleton, or of markers.
 using Take = std::variant<Clip, MarkerClip>;
 
 const SourceInfo& source_of(const Take& take);
 SourceInfo& source_of(Take& take);
 
 struct ReadOptions {
-  std::string format;           ///< "bvh"; empty: found by content, then by extension
-  bool strict = false;          ///< a repair becomes an error of kind `quality_limit`
-  std::size_t max_depth = 512;  ///< joints nested deeper are an error
-  /// The ASF file of an AMC file. Empty: the ASF named inside the AMC, else one of the same stem
+  std::string format;           ///< "bvh"; empty: detected by content, then by extension
+  bool strict = false;          ///< every repair is an error of kind `quality_limit`
+  std::size_t max_depth = 512;  ///< deeper nesting of joints is an error
+  /// The ASF file of an AMC file. Empty: the ASF that the AMC file names, else one of the same stem
   /// beside it, else that of the subject (`35.asf` for `35_01.amc`), else the only one there.
   std::filesystem::path skeleton;
-  /// Rate of a file that has none (AMC, CSV without times) or none that a take may have, hertz, 0.1
-  /// to 100,000; 0: the format's custom (120 for AMC), with a diagnostic `frame_rate_assumed`. A
-  /// file that states a usable rate keeps it.
+  /// Frame rate in hertz, 0.1 to 100,000, for a file that states none (AMC, CSV without times) or
+  /// an unusable one; 0: the usual rate of the format (120 for AMC), with a diagnostic
+  /// `frame_rate_assumed`. A file that states a usable rate keeps it.
   double frame_rate_hz = 0;
-  /// Told how far reading is (0..1); formats whose files are never large tell nothing on the way.
+  /// Called with the share of the file that is read (0 to 1). Readers of small formats never call
+  /// it.
   std::function<void(double done)> progress;
 };
 
@@ -47,57 +48,60 @@ struct TakeResult {
   Diagnostics diagnostics;
 };
 
-/// Reads a take of any format. A value that is no finite number (nan, inf) is held from the frame
-/// before, or from the next where there is none before; a rotation it belongs to is not `observed`.
-/// Each format's page in docs/formats lists its repairs, which are diagnostics by name. Errors:
-/// `ErrorKind::unreadable_input` with the file's name and line or byte, also for a file that would
-/// need far more memory than it has bytes; `usage` for an unknown format; `quality_limit` for a
-/// repair when `strict`.
+/// Reads a take of any format. The content decides the format; a file whose extension belongs to
+/// another format gets the diagnostic `extension_mismatch`. A value that is not finite (nan, inf)
+/// is missing: a marker has no position there; a joint holds the value of the frame before, else of
+/// the next, and is not `observed`. A text file that ends in the middle of a line is read up to
+/// there
+/// (`file_cut`). The page of each format in docs/formats lists its repairs, each a named
+/// diagnostic. Errors: `ErrorKind::unreadable_input` with the name of the file and the line or
+/// byte, also for a file that would need far more memory than it has bytes; `usage` for an unknown
+/// format; `quality_limit` for a repair when `strict`.
 TakeResult read_take(const std::filesystem::path& path, const ReadOptions& options = {});
-/// The same from memory; `name` stands in messages and helps to find the format and the files
-/// beside it. The bytes are kept (moved, not copied) in the take's source document.
+/// The same from memory. `name` appears in messages and helps to find the format and the files
+/// beside it. The source document of the take keeps the bytes (moved, not copied).
 TakeResult read_take(std::string bytes, std::string_view name, const ReadOptions& options = {});
-/// `read_take` where joints are wanted. Errors: also `usage` for a file that holds markers.
+/// `read_take` for joints only. Errors: also `usage` for a file of markers.
 ReadResult read_clip(const std::filesystem::path& path, const ReadOptions& options = {});
 ReadResult read_clip(std::string bytes, std::string_view name, const ReadOptions& options = {});
 
-/// The bytes of a file. A clip that was read in the same format is written in its source's own
-/// layout, and every sample that still has the value it was read with keeps its digits: an
-/// unchanged clip comes back to the byte, but for values of joints that were no finite numbers:
-/// what they are held by is written, and never a number that is not finite. A changed rotation is
-/// written in the joint's own order, continuing the frame before, and of it a joint's channels hold
-/// what they can (the nearest rotation; nothing where it has none). A clip with other frames than
-/// its source keeps the text of the hierarchy; one with another skeleton, or made in memory, gets a
-/// plain layout. Errors: `usage` when the format cannot hold the clip.
-std::string write_clip(const Clip& clip, std::string_view format = "bvh");
-/// The same for markers. A missing sample is written the way the format has for it. Points that are
-/// no positions are written to C3D only.
-std::string write_markers(const MarkerClip& clip, std::string_view format);
-std::string write_take(const Take& take, std::string_view format);
-/// What a file that `write_take` makes of the take will not hold of what its source holds: analog
-/// samples, force plates, events, subjects, parameters, rotations; nothing where all comes through.
-/// Names are stable (`analog_lost`). Errors: `usage` for an unknown format.
+/// The bytes of a file in `format`; empty: the format that the clip was read from, else BVH. In the
+/// clip's own format the layout of the source is kept, and every unchanged sample keeps its digits:
+/// an unchanged clip is written byte for byte. The exception is a value that was not finite: the
+/// value that replaced it is written, because no output holds a number that is not finite. A
+/// changed rotation is written in the rotation order of its joint and continues the angles of the
+/// frame before. A joint with fewer than three channels gets the nearest rotation that they can
+/// express. A clip with other frames than its source keeps the text of the hierarchy. A clip with
+/// another skeleton, or made in memory, gets a plain layout. Errors: `usage` when the format cannot
+/// hold the clip.
+std::string write_clip(const Clip& clip, std::string_view format = {});
+/// The same for markers; the default without a source is C3D. A missing sample is written in the
+/// way of the format. Points that are not positions are written to C3D only.
+std::string write_markers(const MarkerClip& clip, std::string_view format = {});
+std::string write_take(const Take& take, std::string_view format = {});
+/// What is lost when `write_take` writes the take in `format`: analog samples, force plates,
+/// events, subjects, parameters, rotations. Empty where nothing is lost. Names are stable
+/// (`not_kept`). Errors: `usage` for an unknown format.
 Diagnostics lost_in_writing(const Take& take, std::string_view format);
 
-/// A file that another one needs beside it.
+/// A file that another file needs in the same folder.
 struct SideFile {
   std::filesystem::path path;
   std::string bytes;
 };
-/// What else must stand in the folder of `output` so that `bytes`, the take as written in `format`,
-/// can be read from there: the skeleton of an AMC file, under the name of the source's skeleton
-/// where a reader would look for that, else under the take's own. Nothing where a reader would find
-/// the same skeleton already, and for other formats.
+/// The file that `bytes`, the take as written in `format`, needs in the folder of `output` to be
+/// read again: the skeleton of an AMC file. It has the name of the source's skeleton where a reader
+/// would look for that name, else the name of the take. Empty for other formats, and where a reader
+/// already finds the same skeleton.
 std::optional<SideFile> side_file(const Take& take, std::string_view bytes, std::string_view format,
                                   const std::filesystem::path& output);
 
-/// Writes `bytes` to a temporary file beside `path`, flushes it to the disk and renames it: `path`
-/// holds its old content or all of the new one, never half. A file that is replaced keeps its
-/// permissions, a symbolic link stays one and what it names is written, a device or a pipe is
-/// written to, and "-" is standard output. Errors: `cannot_write`, also when the file exists and
-/// `overwrite` is false.
+/// Writes `bytes` to a temporary file beside `path`, flushes it to the disk and renames it, so that
+/// `path` always holds either its old content or all of the new. A replaced file keeps its
+/// permissions. Symlinks are followed, not replaced. Devices and pipes are written directly; "-" is
+/// standard output. Errors: `cannot_write`, also when the file exists and `overwrite` is false.
 void write_file(const std::filesystem::path& path, std::string_view bytes, bool overwrite);
-/// All of a file, or of standard input for "-". Errors: `unreadable_input`.
+/// The bytes of a file, or of standard input for "-". Errors: `unreadable_input`.
 std::string read_file(const std::filesystem::path& path);
 
 /// One file format, for help texts and detection.
@@ -105,16 +109,18 @@ struct Format {
   std::string_view name;                     ///< "bvh"
   std::string_view description;              ///< "Biovision hierarchy"
   std::vector<std::string_view> extensions;  ///< with the dot, lower case
-  /// 0 to 100: how surely `head` (the first bytes of a file, 4096 at most) is of this format.
+  /// 0 to 100: how likely `head` (the first bytes of a file, at most 4096) is of this format.
   int (*sniff)(std::string_view head);
-  /// nullptr where the format is only written.
+  /// nullptr for a format that is only written.
   TakeResult (*read)(std::string bytes, std::string_view name, const ReadOptions& options);
-  std::string (*write)(const Clip& clip);  ///< nullptr where the format holds no joints
-  std::string (*write_markers)(const MarkerClip& clip);  ///< nullptr where it holds no markers
+  std::string (*write)(const Clip& clip);                ///< nullptr for a format without joints
+  std::string (*write_markers)(const MarkerClip& clip);  ///< nullptr for one without markers
 };
 
 std::span<const Format> formats();
-/// The format of a file by its name alone; nullptr when the extension is not known.
+/// The format of a file by its extension alone; nullptr for an unknown extension.
 const Format* format_of_path(const std::filesystem::path& path);
+/// The format of a file by its first bytes (`head`, at most 4096); nullptr when no format claims it.
+const Format* format_of_content(std::string_view head);
 
 }  // namespace kinemend

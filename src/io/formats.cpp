@@ -37,20 +37,12 @@ const Format& format_called(std::string_view name) {
   for (const Format& format : formats()) {
     if (format.name == name) return format;
   }
-  throw Error(ErrorKind::usage,
-              fmt::format("unknown format {}; there is: {}", quote(name), known_formats(false)));
+  throw Error(ErrorKind::usage, fmt::format("unknown format {}; the formats are: {}", quote(name),
+                                            known_formats(false)));
 }
 
 const Format& format_of(std::string_view bytes, std::string_view name) {
-  const Format* best = nullptr;
-  int best_score = 0;
-  for (const Format& format : formats()) {
-    const int score = format.sniff(bytes.substr(0, sniffed_bytes));
-    if (score > best_score) {
-      best = &format;
-      best_score = score;
-    }
-  }
+  const Format* best = format_of_content(bytes.substr(0, sniffed_bytes));
   if (best == nullptr) best = format_of_path(std::filesystem::path(name));
   if (best != nullptr) return *best;
   if (bytes.empty()) throw Error::at_line(name, 1, "the file is empty");
@@ -58,9 +50,22 @@ const Format& format_of(std::string_view bytes, std::string_view name) {
       name, 1, fmt::format("not a motion file of a known format ({})", known_formats(true)));
 }
 
-bool all_positions(const MarkerClip& clip) {
-  const auto& marks = clip.is_position;
-  return std::find(marks.begin(), marks.end(), 0) == marks.end();
+// A table with tabs may be called .tsv whichever program wrote it.
+bool may_be_called(const Format& format, const Format& by_name) {
+  return &format == &by_name || (format.name == "csv" && by_name.name == "tsv");
+}
+
+// Says that the name promises another format than the content is.
+void note_extension(const Format& format, std::string_view name, bool strict,
+                    Diagnostics& diagnostics) {
+  const std::filesystem::path path(name);
+  const Format* const by_name = format_of_path(path);
+  if (by_name == nullptr || may_be_called(format, *by_name)) return;
+  const std::string message =
+      fmt::format("the name ends in {}, but the content is {} ({}): read as {}",
+                  path.extension().string(), format.name, format.description, format.name);
+  if (strict) throw Error(ErrorKind::quality_limit, fmt::format("{}: {}", name, message));
+  diagnostics.add("extension_mismatch", message);
 }
 
 // Of what a C3D file can hold, in a format that has a place for points only.
@@ -70,17 +75,16 @@ Diagnostics lost_beside_points(const MarkerClip& clip, std::string_view format) 
     parts.push_back(
         fmt::format("{} event{}", clip.events.size(), clip.events.size() == 1 ? "" : "s"));
   }
-  std::size_t others = 0;
-  for (std::size_t m = 0; m < clip.marker_count(); ++m) others += clip.holds_positions(m) ? 0 : 1;
-  if (others > 0) {
-    parts.push_back(others == 1 ? "a point that is no position"
-                                : fmt::format("{} points that are no positions", others));
+  if (const std::size_t others = clip.marker_count() - clip.position_count(); others > 0) {
+    parts.push_back(others == 1 ? "a point that is not a position"
+                                : fmt::format("{} points that are not positions", others));
   }
   const bool has_gaps =
       std::find(clip.observed.begin(), clip.observed.end(), 0) != clip.observed.end();
   const auto zeros = std::count(clip.positions.begin(), clip.positions.end(), Vec3{});
   if (format == "tsv" && clip.source.format != "tsv" && !has_gaps && zeros > 0)
-    parts.push_back(fmt::format("that samples at 0 0 0 were measured ({})", zeros));
+    parts.push_back(
+        fmt::format("measured samples at 0 0 0 ({}), which it uses for missing markers", zeros));
   Diagnostics losses;
   if (!parts.empty()) {
     losses.add("not_kept", fmt::format("{} files cannot hold {}", format, fmt::join(parts, "; ")));
@@ -88,11 +92,18 @@ Diagnostics lost_beside_points(const MarkerClip& clip, std::string_view format) 
   return losses;
 }
 
+// The format that is asked for, else that of the source, else `usual`.
+const Format& format_to_write(const SourceInfo& source, std::string_view asked,
+                              std::string_view usual) {
+  if (!asked.empty()) return format_called(asked);
+  return format_called(source.format.empty() ? usual : source.format);
+}
+
 ReadResult clip_of(TakeResult result) {
   if (Clip* clip = std::get_if<Clip>(&result.take)) {
     return {std::move(*clip), std::move(result.diagnostics)};
   }
-  throw Error(ErrorKind::usage, fmt::format("{}: holds markers; joints are wanted here",
+  throw Error(ErrorKind::usage, fmt::format("{}: holds markers; a take of joints is needed here",
                                             source_of(result.take).name));
 }
 
@@ -147,6 +158,19 @@ const Format* format_of_path(const std::filesystem::path& path) {
   return nullptr;
 }
 
+const Format* format_of_content(std::string_view head) {
+  const Format* best = nullptr;
+  int best_score = 0;
+  for (const Format& format : formats()) {
+    const int score = format.sniff(head);
+    if (score > best_score) {
+      best = &format;
+      best_score = score;
+    }
+  }
+  return best;
+}
+
 const SourceInfo& source_of(const Take& take) {
   return std::visit([](const auto& clip) -> const SourceInfo& { return clip.source; }, take);
 }
@@ -167,7 +191,12 @@ TakeResult read_take(std::string bytes, std::string_view name, const ReadOptions
     throw Error(ErrorKind::usage,
                 fmt::format("{}: {} files are written, not read", name, format.name));
   }
-  return format.read(std::move(bytes), name, options);
+  Diagnostics about_name;
+  if (options.format.empty()) note_extension(format, name, options.strict, about_name);
+  TakeResult result = format.read(std::move(bytes), name, options);
+  for (const Diagnostic& entry : about_name.entries())
+    result.diagnostics.add(entry.name, entry.message);
+  return result;
 }
 
 ReadResult read_clip(const std::filesystem::path& path, const ReadOptions& options) {
@@ -179,21 +208,23 @@ ReadResult read_clip(std::string bytes, std::string_view name, const ReadOptions
 }
 
 std::string write_clip(const Clip& clip, std::string_view format) {
-  const Format& found = format_called(format);
+  const Format& found = format_to_write(clip.source, format, "bvh");
   if (found.write != nullptr) return found.write(clip);
   throw Error(ErrorKind::usage, fmt::format("{} files hold markers, not joints", found.name));
 }
 
 std::string write_markers(const MarkerClip& clip, std::string_view format) {
-  const Format& found = format_called(format);
+  const Format& found = format_to_write(clip.source, format, "c3d");
   if (found.write_markers == nullptr)
     throw Error(ErrorKind::usage, fmt::format("{} files hold joints, not markers", found.name));
-  if (found.name == "c3d" || all_positions(clip)) return found.write_markers(clip);
+  if (found.name == "c3d" || clip.position_count() == clip.marker_count())
+    return found.write_markers(clip);
   const MarkerClip markers = positions_only(clip);
   if (markers.marker_count() == 0) {
-    throw Error(ErrorKind::usage,
-                fmt::format("none of the points is a position, and {} files hold nothing else",
-                            found.name));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("none of the points is a position of a marker; {} files hold nothing else",
+                    found.name));
   }
   return found.write_markers(markers);
 }

@@ -4,8 +4,8 @@
 
 namespace kinemend {
 
-/// A take needs no more memory than this; what claims to is a hostile file, such as one channel and
-/// 10,000 fixed joints, or a hundred markers of which all but a few rows hold nothing.
+/// The most memory that a take may need. A file that needs more is hostile, such as one channel and
+/// 10,000 fixed joints, or a hundred markers in rows that are almost empty.
 inline std::size_t memory_limit(std::size_t file_bytes) {
   return (std::size_t{16} << 20) + 24 * file_bytes;
 }

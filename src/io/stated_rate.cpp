@@ -16,7 +16,7 @@ double usable_rate(const SourceText& text, Diagnostics& diagnostics, double stat
 }
 
 std::string unusable_rate_text(double stated_hz) {
-  return fmt::format("a rate of {:.6g} Hz is outside {} to {} Hz: taken for unknown", stated_hz,
+  return fmt::format("a rate of {:.6g} Hz is outside {} to {} Hz: taken as unknown", stated_hz,
                      least_frame_rate_hz, most_frame_rate_hz);
 }
 

@@ -6,8 +6,8 @@
 
 namespace kinemend {
 
-/// The rate that a file states, where a take may have it (`frame_rate.hpp`); else 0, which is
-/// unknown. One that is out of range, and not just missing, is the repair `frame_rate_unusable`.
+/// The rate that a file states, if a take can have it (`frame_rate.hpp`), else 0 for unknown. A
+/// rate out of range is the repair `frame_rate_unusable`; a missing one is not.
 double usable_rate(const SourceText& text, Diagnostics& diagnostics, double stated_hz,
                    std::size_t place);
 

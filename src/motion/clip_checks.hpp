@@ -8,7 +8,7 @@
 #include "kinemend/error.hpp"
 #include "kinemend/rotation.hpp"
 
-// What `validate` of skeletons and of both kinds of clips ask.
+// Checks that `validate` of skeletons and of both kinds of clips share.
 namespace kinemend {
 
 inline bool is_finite(Vec3 v) {

@@ -1,4 +1,4 @@
-// The side file of gaps.
+// Reads and writes the side file of gaps.
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 
 #include "base/cells.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/gaps.hpp"
 
 namespace kinemend {
@@ -40,10 +39,6 @@ NamedGap gap_of(const std::vector<std::string>& cells, std::string_view name, st
 
 }  // namespace
 
-std::vector<NamedGap> parse_gaps(std::string_view text, std::string_view name) {
-  return parse_gaps(text, name, 1);
-}
-
 std::vector<NamedGap> parse_gaps(std::string_view text, std::string_view name,
                                  std::int64_t first_frame) {
   std::vector<NamedGap> gaps;
@@ -61,8 +56,6 @@ std::vector<NamedGap> parse_gaps(std::string_view text, std::string_view name,
   }
   return gaps;
 }
-
-std::string gaps_text(std::span<const NamedGap> gaps) { return gaps_text(gaps, 1); }
 
 std::string gaps_text(std::span<const NamedGap> gaps, std::int64_t first_frame) {
   std::string text = fmt::format("{}\n", heading);

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
 #include "motion/name_pattern.hpp"
 
 namespace kinemend {

@@ -42,6 +42,12 @@ std::int32_t MarkerClip::find(std::string_view name) const noexcept {
   return index_of([&](const std::string& known) { return without_subject(known) == name; });
 }
 
+std::size_t MarkerClip::position_count() const noexcept {
+  std::size_t count = 0;
+  for (std::size_t m = 0; m < marker_count(); ++m) count += holds_positions(m) ? 1 : 0;
+  return count;
+}
+
 void MarkerClip::validate() const {
   check_frame_rate(frame_rate_hz);
   const std::size_t samples = frame_count() * marker_count();

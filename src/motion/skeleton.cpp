@@ -97,7 +97,7 @@ void Skeleton::validate() const {
     if (site.parent < 0 || site.parent >= static_cast<std::int32_t>(count) ||
         !is_finite(site.offset)) {
       throw Error(ErrorKind::usage,
-                  "an end site hangs on no joint or has an offset that is not finite");
+                  "an end site has no parent joint or an offset that is not finite");
     }
   }
 }

@@ -43,7 +43,7 @@ TEST(CheckMarkers, TellsFrozenAndBridgedSpansInTheSideFile) {
     EXPECT_TRUE(is(gap, "LeftHand", 101, 130) || is(gap, "RightLeg", 301, 339))
         << gap.name << " " << gap.first_frame << " " << gap.last_frame;
   }
-  const std::vector<NamedGap> read = parse_gaps(gaps_text(report.stale), "side file");
+  const std::vector<NamedGap> read = parse_gaps(gaps_text(report.stale, 1), "side file", 1);
   ASSERT_EQ(read.size(), 2u);
   EXPECT_EQ(read[1].name, report.stale[1].name);
   EXPECT_EQ(read[1].first_frame, report.stale[1].first_frame);

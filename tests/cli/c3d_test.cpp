@@ -83,7 +83,7 @@ TEST_F(C3dFiles, WithoutPointsAreToldAsSuch) {
 // Places in a C3D file are bytes, and there are no lines; lines of text stay lines.
 TEST_F(C3dFiles, NameTheByteOfWhatWasRepaired) {
   const std::string take = c3d_fixture("header_scale");
-  const std::string place = "header_scale.c3d: byte 12: the header's scale is 0.5";
+  const std::string place = "header_scale.c3d: byte 12: the scale of the header is 0.5";
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"clean", take, "-o", "a.c3d"},
         {"fill", take, "-o", "b.c3d"},

@@ -116,7 +116,7 @@ TEST_F(Convert, JointsBecomeMarkersInMillimetres) {
   synth("walk.bvh");
   const Ran ran = run({"convert", "walk.bvh", "-o", "walk.c3d"});
   ASSERT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.err, HasSubstr("lengths are taken for"));
+  EXPECT_THAT(ran.err, HasSubstr("the unit is taken to be"));
   const Json take = Json::parse(run({"info", "walk.c3d", "--json"}).out).at("takes").at(0);
   EXPECT_EQ(take.at("unit"), "mm");
   EXPECT_EQ(take.at("kind"), "markers");
@@ -144,7 +144,7 @@ TEST_F(Convert, SaysWhichAxisItTookForUp) {
   synth("walk.bvh", "walk", "2");
   const Ran ran = run({"convert", "walk.bvh", "--up", "z", "-o", "up.bvh"});
   ASSERT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.err, HasSubstr("y is taken for the vertical axis"));
+  EXPECT_THAT(ran.err, HasSubstr("y is taken to be the vertical axis"));
 }
 
 TEST_F(Convert, RefusesMarkersWhereJointsAreNeeded) {

@@ -151,7 +151,7 @@ TEST_F(ReportWords, PointsThatAreNoPositionsBecomeMarkersOnlyWhereAskedFor) {
   const std::string take = c3d_fixture("laboratory");
   const Ran ran = run({"convert", take, "-o", "markers.trc"});
   ASSERT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.err, HasSubstr("a point that is no position"));
+  EXPECT_THAT(ran.err, HasSubstr("a point that is not a position"));
   const Ran all = run({"convert", take, "-o", "all.trc", "--all-points"});
   ASSERT_EQ(all.code, 0) << all.err;
   EXPECT_THAT(all.err, Not(HasSubstr("no position")));
@@ -166,7 +166,7 @@ TEST_F(ReportWords, NumbersInAnotherEncodingAreNamedAndNoLoss) {
   const std::string take = c3d_fixture("laboratory_integer");
   const Ran ran = run({"convert", take, "-o", "new.c3d", "--plain", "--strict"});
   EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.err, HasSubstr("become Intel reals"));
+  EXPECT_THAT(ran.err, HasSubstr("are saved as Intel floats"));
   EXPECT_EQ(run({"convert", take, "-o", "same.c3d"}).err, "");
 }
 

@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{{"clean", "-", "--output-dir", "d"},
              "clean: standard input has no name for --output-dir"},
         Case{{"clean", "-", "--json"},
-             "standard output holds one thing: a take, a report or --json, not several"},
+             "standard output can hold one of a take, a report and --json"},
         Case{{"clean", "a.bvh", "--config", "bad.toml"},
              "bad.toml:1: strength: 2 is outside 0 to 1"},
         Case{{"compare", "a.bvh"}, "compare: OTHER is missing (see kinemend compare -h)"},
@@ -100,7 +100,9 @@ INSTANTIATE_TEST_SUITE_P(
         Case{{"corrupt", "a.bvh", "-o", "c.bvh", "--damage", "held:rate_hz=0"},
              "--damage held: rate_hz: 0 is outside 0.1 to 100000 Hz"},
         Case{{"convert", "a.bvh", "-o", "c.xyz"},
-             "convert: c.xyz has the extension of no format; name one with --to"},
+             "c.xyz: .xyz files are not written; the endings that are written: .bvh, .amc, .asf, "
+             ".c3d, "
+             ".trc, .tsv, .csv, .glb. A name without an ending keeps the format of the input"},
         Case{{"synth", "walk", "-o", "c.bvh", "--duration-s", "0"},
              "--duration-s: 0 is outside 0.1 to 600 s"},
         Case{{"completion", "tcsh"}, "unknown shell tcsh; there are bash, zsh, fish"}));

@@ -146,9 +146,9 @@ TEST(Formats, AreFoundByContentThenByName) {
   ReadOptions options;
   options.format = "fbx";
   EXPECT_EQ(read_error(text, options, ErrorKind::usage),
-            "unknown format \"fbx\"; there is: " + format_names());
+            "unknown format \"fbx\"; the formats are: " + format_names());
   EXPECT_EQ(message_of([] { write_clip(Clip{}, "fbx"); }, ErrorKind::usage),
-            "unknown format \"fbx\"; there is: " + format_names());
+            "unknown format \"fbx\"; the formats are: " + format_names());
   ASSERT_NE(format_of_path("a/b.Bvh"), nullptr);
   EXPECT_EQ(format_of_path("a/b.Bvh")->name, "bvh");
   EXPECT_EQ(format_of_path("bvh"), nullptr);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "counted_memory.hpp"
+#include "io/mended.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/io.hpp"
@@ -38,16 +39,12 @@ inline std::vector<std::string> fixture_bytes(const std::string& format) {
   return all;
 }
 
-/// A take comes back to the byte; joints of which some value was no number come back with numbers
-/// only, which then come back to the byte.
+/// A take comes back to the byte. One that was mended comes back whole and with finite numbers
+/// only, and then to the byte.
 inline void expect_written_back(const TakeResult& result, const std::string& bytes,
                                 const std::string& format, const ReadOptions& options) {
   const std::string written = write_take(result.take, format);
-  const bool was_mended = std::holds_alternative<Clip>(result.take) &&
-                          result.diagnostics.count("value_not_finite") +
-                                  result.diagnostics.count("frame_time_unusable") >
-                              0;
-  if (!was_mended || written == bytes) {
+  if (!was_mended(result.diagnostics) || written == bytes) {
     ASSERT_EQ(written, bytes);
   } else {
     ASSERT_EQ(write_take(read_take(written, "take." + format, options).take, format), written);

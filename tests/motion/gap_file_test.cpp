@@ -22,7 +22,7 @@ using testing::IsEmpty;
 
 std::string complaint(const std::string& text) {
   try {
-    parse_gaps(text, "gaps.csv");
+    parse_gaps(text, "gaps.csv", 1);
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::unreadable_input);
     return error.what();
@@ -30,33 +30,43 @@ std::string complaint(const std::string& text) {
   return "no complaint";
 }
 
-TEST(GapFile, CountsFramesFromOneAndInclusively) {
-  EXPECT_THAT(parse_gaps("LeftArm,1,1\nHead,10,24\n", ""),
+TEST(GapFile, GivesAFrameTheNumberThatItsTakeGivesIt) {
+  EXPECT_THAT(parse_gaps("LeftArm,1,1\nHead,10,24\n", "", 1),
               ElementsAre(NamedGap{"LeftArm", 0, 0}, NamedGap{"Head", 9, 23}));
+  MarkerClip clip = make_marker_clip({"LASI", "RASI"}, 10, 100);
+  clip.observed.assign(20, 1);
+  clip.first_frame = 300;
+  const std::vector<NamedGap> gaps =
+      parse_gaps("RASI,302,304\n", "gaps.csv", first_frame_number(clip));
+  EXPECT_THAT(gaps, ElementsAre(NamedGap{"RASI", 2, 4}));
+  mark_gaps(clip, gaps);
+  EXPECT_THAT(find_gaps(clip), ElementsAre(Gap{1, 2, 4}));
+  EXPECT_EQ(gaps_text(gaps, first_frame_number(clip)),
+            "name,first_frame,last_frame\nRASI,302,304\n");
 }
 
 TEST(GapFile, UnderstandsHeadingsCommentsBlankLinesAndEveryLineEnd) {
   for (const std::string end : {"\n", "\r\n", "\r"}) {
     const std::string text = "# found by eye" + end + end + "joint,first,last" + end +
                              "  LeftArm , 3 ,\t9  " + end + "# more" + end + "*,12,15";
-    EXPECT_THAT(parse_gaps(text, ""),
+    EXPECT_THAT(parse_gaps(text, "", 1),
                 ElementsAre(NamedGap{"LeftArm", 2, 8}, NamedGap{"*", 11, 14}));
   }
-  EXPECT_THAT(parse_gaps("\xEF\xBB\xBFname,first_frame,last_frame\nHead,2,3", ""),
+  EXPECT_THAT(parse_gaps("\xEF\xBB\xBFname,first_frame,last_frame\nHead,2,3", "", 1),
               ElementsAre(NamedGap{"Head", 1, 2}));
 }
 
 TEST(GapFile, ReadsQuotedNames) {
   EXPECT_THAT(
-      parse_gaps("\"Arm, left\",1,2\n\"the \"\"big\"\" toe\",3,4\n\"#1\",5,6\n\"\",7,8\n", ""),
+      parse_gaps("\"Arm, left\",1,2\n\"the \"\"big\"\" toe\",3,4\n\"#1\",5,6\n\"\",7,8\n", "", 1),
       ElementsAre(NamedGap{"Arm, left", 0, 1}, NamedGap{"the \"big\" toe", 2, 3},
                   NamedGap{"#1", 4, 5}, NamedGap{"", 6, 7}));
 }
 
 TEST(GapFile, HoldsNothingWhereThereIsNothing) {
-  EXPECT_THAT(parse_gaps("", ""), IsEmpty());
-  EXPECT_THAT(parse_gaps("name,first,last\n", ""), IsEmpty());
-  EXPECT_THAT(parse_gaps("# nothing", ""), IsEmpty());
+  EXPECT_THAT(parse_gaps("", "", 1), IsEmpty());
+  EXPECT_THAT(parse_gaps("name,first,last\n", "", 1), IsEmpty());
+  EXPECT_THAT(parse_gaps("# nothing", "", 1), IsEmpty());
 }
 
 TEST(GapFile, SaysWhichLineIsWrong) {
@@ -85,8 +95,8 @@ TEST(GapFile, IsReadBackAsItIsWritten) {
   const std::vector<NamedGap> gaps = {
       {"Head", 0, 0},  {"Arm, left", 3, 7}, {"\"", 1, 2}, {" leading blank", 4, 4},
       {"#hash", 5, 6}, {"", 8, 9},          {"*", 10, 12}};
-  EXPECT_EQ(parse_gaps(gaps_text(gaps), ""), gaps);
-  EXPECT_EQ(gaps_text(std::vector<NamedGap>{{"Head", 0, 4}}),
+  EXPECT_EQ(parse_gaps(gaps_text(gaps, 1), "", 1), gaps);
+  EXPECT_EQ(gaps_text(std::vector<NamedGap>{{"Head", 0, 4}}, 1),
             "name,first_frame,last_frame\nHead,1,5\n");
 }
 

@@ -6,6 +6,7 @@
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/subjects.hpp"
+#include "kinemend/gaps.hpp"
 #include "motion/name_pattern.hpp"
 
 namespace kinemend {

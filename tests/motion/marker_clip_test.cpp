@@ -18,6 +18,16 @@ TEST(MarkerClip, FindsAMarkerWithAndWithoutItsSubject) {
   EXPECT_EQ(clip.find("SACR"), -1);
 }
 
+TEST(MarkerClip, CountsOnlyThePointsThatArePositions) {
+  MarkerClip clip = make_marker_clip({"LASI", "LKneeAngles", "RASI", "LHipMoment"}, 3, 100);
+  EXPECT_EQ(clip.position_count(), 4u);
+  clip.is_position = {1, 0, 1, 0};
+  EXPECT_EQ(clip.position_count(), 2u);
+  EXPECT_FALSE(clip.holds_positions(1));
+  clip.is_position.clear();
+  EXPECT_EQ(clip.position_count(), 4u);
+}
+
 TEST(MarkerClip, StartsWithEverySampleMissing) {
   const MarkerClip clip = make_marker_clip({"A", "B"}, 3, 100);
   EXPECT_EQ(clip.frame_count(), 3u);

@@ -82,7 +82,7 @@ TEST(SkeletonRules, NameTheFirstJointThatBreaksOne) {
                 s.channels[1] = {Channel::x_position, Channel::y_position, Channel::x_position};
               }),
               usage("joint 1 \"joint1\": a position channel occurs twice"));
-  const auto bad_end = usage("an end site hangs on no joint or has an offset that is not finite");
+  const auto bad_end = usage("an end site has no parent joint or an offset that is not finite");
   EXPECT_THAT(validating([](Skeleton& s) { s.end_sites[0].parent = 4; }), bad_end);
   EXPECT_THAT(validating([](Skeleton& s) { s.end_sites[0].parent = -1; }), bad_end);
   EXPECT_THAT(validating([&](Skeleton& s) { s.end_sites[0].offset.z = nan; }), bad_end);

@@ -7,7 +7,7 @@
 
 namespace kinemend {
 
-/// How surely the head of a file is AMC, 0 to 100.
+/// How likely the head of a file is AMC, 0 to 100.
 int sniff_amc(std::string_view head);
 /// Reads AMC with the ASF that `ReadOptions::skeleton` describes. Errors: `unreadable_input`,
 /// naming the line, or the skeletons that were looked for.

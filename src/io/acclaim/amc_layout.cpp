@@ -42,7 +42,8 @@ std::vector<BoneLine> first_frame(const SourceText& text, std::size_t begin) {
     }
     scanner.next();
     lines.push_back({name, 0});
-    while (!scanner.next_in_line().empty()) ++lines.back().values;
+    for (std::string_view word; !(word = scanner.next_in_line()).empty();)
+      lines.back().values += numbers_in_word(word);
   }
 }
 
@@ -228,7 +229,7 @@ AmcHeader read_amc_header(const SourceText& text, Diagnostics& diagnostics) {
     } else if (keyword.substr(0, 1) == ":") {
       if (!equal_ignoring_case(keyword, ":FULLY-SPECIFIED")) {
         note_repair(text, diagnostics, "unknown_keyword", position,
-                    fmt::format("{} is no keyword of the format", quote(keyword)));
+                    fmt::format("{} is not a keyword of the format", quote(keyword)));
       }
     } else if (!line.empty() && line[0] != '#') {
       header.data_begin = static_cast<std::size_t>(line.data() - bytes.data());

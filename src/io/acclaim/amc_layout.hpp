@@ -12,7 +12,7 @@
 
 namespace kinemend {
 
-/// What stands before the first frame.
+/// The part of a file before the first frame.
 struct AmcHeader {
   std::string_view skeleton_file;  ///< of a line `#!OML:ASF path`; empty where there is none
   std::optional<bool> radians;
@@ -33,7 +33,7 @@ struct AmcBone {
 /// The lines of every frame, in the order of the first one.
 using AmcLayout = std::vector<AmcBone>;
 
-/// Errors: `unreadable_input`, naming the line.
+/// Errors: `unreadable_input` with the line.
 AmcHeader read_amc_header(const SourceText& text, Diagnostics& diagnostics);
 /// Finds the bones of the first frame in the skeleton, whose degrees of freedom become three a bone
 /// where the take has that many. Errors: `unreadable_input`, naming the bone that does not fit.

@@ -11,6 +11,7 @@
 #include "io/acclaim/asf.hpp"
 #include "io/acclaim/asf_scanner.hpp"
 #include "io/motion/clip_rows.hpp"
+#include "io/motion/joined_numbers.hpp"
 #include "io/text/text.hpp"
 #include "kinemend/error.hpp"
 #include "motion/frame_numbers.hpp"
@@ -36,9 +37,23 @@ void note_repairs(const SourceText& text, Diagnostics& diagnostics, const AmcRow
                 message, count);
   };
   note(rows.first_gap(), rows.gaps(), "value_not_finite",
-       "a value is no finite number: held from a neighbouring frame");
+       "a value is not finite: held from a neighbouring frame");
+  note(rows.joins().empty() ? nullptr : rows.joins().front(), rows.joins().size(), "numbers_joined",
+       joined_numbers_text);
   note(rows.first_number_jump(), rows.number_jumps(), "frame_number_jump",
-       "the number of a frame is not one more than that before: frames are taken as they come");
+       "the number of a frame is not one more than the number before: frames are kept in the order "
+       "of the file");
+}
+
+// What is read and written from now on ends before the frame that was cut.
+void note_cut(const SourceText& text, Diagnostics& diagnostics, const AmcRows& rows,
+              std::size_t frames) {
+  if (rows.cut_frame() == nullptr) return;
+  if (frames == 0)
+    throw text.error_at(rows.cut_frame(), "the file ends in the middle of its first frame");
+  note_repair(text, diagnostics, "file_cut",
+              static_cast<std::size_t>(rows.cut_frame() - text.bytes.data()),
+              "the file ends in the middle of a frame: the frames before it are read");
 }
 
 void read_frames(const SourceText& text, Diagnostics& diagnostics, Clip& clip,
@@ -68,22 +83,26 @@ void read_frames(const SourceText& text, Diagnostics& diagnostics, Clip& clip,
     filled = 0;
   }
   if (rows.gaps() > 0 && rows.gaps() == clip.frame_count() * width) {
-    throw text.error_at(rows.first_gap(), "no value is a finite number");
+    throw text.error_at(rows.first_gap(), "every value is not finite");
   }
+  note_cut(text, diagnostics, rows, clip.frame_count());
   note_repairs(text, diagnostics, rows);
   clip_rows.finish(document, rows.gaps() > 0);
   note_first_frame(clip, rows.first_frame_number());
   document.data_end = rows.last_end();
   document.decimals = rows.most_decimals();
+  if (rows.cut_frame() != nullptr)
+    document.bytes.resize(static_cast<std::size_t>(rows.cut_frame() - text.bytes.data()));
+  separate_numbers(document, rows.joins());
 }
 
 void set_rate(Clip& clip, Diagnostics& diagnostics, const ReadOptions& options) {
   clip.frame_rate_hz = options.frame_rate_hz;
   if (options.frame_rate_hz != 0) return;
   clip.frame_rate_hz = custom_rate_hz;
-  // No repair: AMC never says, so that a strict reading has nothing to object to.
+  // Not a repair: no AMC file states a rate, so a strict reader accepts it.
   diagnostics.add("frame_rate_assumed",
-                  fmt::format("AMC holds no frame rate: {:.0f} Hz assumed", custom_rate_hz));
+                  fmt::format("AMC files hold no frame rate: {:.0f} Hz assumed", custom_rate_hz));
 }
 
 class AmcRowReader : public RowReader {

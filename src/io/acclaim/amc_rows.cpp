@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "io/text/cut_text.hpp"
 #include "io/text/number.hpp"
 
 namespace kinemend {
@@ -13,6 +14,9 @@ namespace {
 
 // Commas and parentheses count as white space.
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == ',' || c == '(' || c == ')'; }
+
+// Thrown within a frame that the end of the file cut off.
+struct CutFrame {};
 
 bool ends_word(char c) { return is_space(c) || is_blank(c) || c == '#'; }
 
@@ -28,7 +32,8 @@ AmcRows::AmcRows(const SourceText& text, std::size_t begin, const AmcLayout& lay
       last_end_(position_),
       layout_(layout),
       is_angle_(is_angle),
-      degrees_per_value_(degrees_per_value) {
+      degrees_per_value_(degrees_per_value),
+      data_begin_(position_) {
   for (std::size_t i = 0; i < layout.size(); ++i) index_of_.emplace(layout[i].name, i);
 }
 
@@ -58,9 +63,9 @@ bool AmcRows::read_frame_number() {
   const NumberToken token = read_number(p, p + word.size());
   if (token.kind != TokenKind::number || token.end != p + word.size()) {
     const bool again = index_of_.find(word) != index_of_.end();
-    throw text_.error_at(
-        p, again ? fmt::format("the bone {} occurs twice in a frame", quote(word))
-                 : fmt::format("expected the number of a frame, found {}", quote(word)));
+    fail(p, word, may_start_number(word),
+         again ? fmt::format("the bone {} occurs twice in a frame", quote(word))
+               : fmt::format("expected the number of a frame, found {}", quote(word)));
   }
   if (has_frame_number_ && token.value != frame_number_ + 1 && number_jumps_++ == 0) {
     first_number_jump_ = p;
@@ -84,6 +89,38 @@ bool AmcRows::starts_bone(const char* p, const std::string& name) const {
 }
 
 bool AmcRows::next(double* values, TokenSpan* tokens) {
+  const char* const last_end = last_end_;
+  const std::size_t gaps = gaps_, number_jumps = number_jumps_;
+  const std::size_t joins = joins_.size();
+  const char* const begin = skip_lines(position_);
+  try {
+    if (!read_frame(values, tokens)) return false;
+    if (last_end_ != end_ || !last_value_may_be_cut()) return true;
+  } catch (const CutFrame&) {
+  }
+  // Nothing of that frame counts.
+  cut_frame_ = begin;
+  position_ = end_;
+  last_end_ = last_end;
+  gaps_ = gaps;
+  number_jumps_ = number_jumps;
+  joins_.resize(joins);
+  return false;
+}
+
+bool AmcRows::last_value_may_be_cut() const {
+  return last_number_may_be_cut({data_begin_, static_cast<std::size_t>(end_ - data_begin_)},
+                                CommaStyle::none, ' ', LikeLines::same_first_word);
+}
+
+// An error at `word`, unless it may be what a cut has left of a longer word.
+void AmcRows::fail(const char* p, std::string_view word, bool may_be_cut,
+                   const std::string& message) const {
+  if (may_be_cut && p + word.size() == end_) throw CutFrame();
+  throw text_.error_at(p, message);
+}
+
+bool AmcRows::read_frame(double* values, TokenSpan* tokens) {
   if (!read_frame_number()) return false;
   std::size_t i = 0;
   for (; i < layout_.size(); ++i) {
@@ -118,7 +155,7 @@ std::size_t AmcRows::bone_at(const char* p, const std::vector<bool>& seen) const
     if (word.empty() || read_number(p, p + word.size()).kind == TokenKind::number) {
       fail_missing(seen, p);
     }
-    throw text_.error_at(p, fmt::format("the bone {} is not in the first frame", quote(word)));
+    fail(p, word, true, fmt::format("the bone {} is not in the first frame", quote(word)));
   }
   if (seen[found->second]) {
     throw text_.error_at(p, fmt::format("the bone {} occurs twice in a frame", quote(word)));
@@ -127,6 +164,8 @@ std::size_t AmcRows::bone_at(const char* p, const std::vector<bool>& seen) const
 }
 
 void AmcRows::fail_missing(const std::vector<bool>& seen, const char* p) const {
+  // Where the last line is whole, the frame is damaged, not cut.
+  if (p == end_ && !is_line_end(end_[-1])) throw CutFrame();
   const auto missing = std::find(seen.begin(), seen.end(), false) - seen.begin();
   throw text_.error_at(p, fmt::format("frame {:.0f} ends without the bone {}", frame_number_,
                                       quote(layout_[static_cast<std::size_t>(missing)].name)));
@@ -161,9 +200,10 @@ double AmcRows::read_value(const char*& p) {
   }
   const std::string_view word = word_at(p);
   const NumberToken token = word.empty() ? NumberToken{} : read_sample(p, p + word.size());
+  if (token.kind == TokenKind::text && numbers_in_word(word) > 1) return read_joined(p, word);
   const bool is_value = token.kind == TokenKind::number || token.kind == TokenKind::not_finite;
   if (!is_value || token.end != p + word.size()) {
-    throw text_.error_at(p, fmt::format("expected a number, found {}", quote(word)));
+    fail(p, word, may_start_number(word), fmt::format("expected a number, found {}", quote(word)));
   }
   if (token.kind == TokenKind::not_finite && gaps_++ == 0) first_gap_ = p;
   most_decimals_ = std::max(most_decimals_, token.decimals);
@@ -171,7 +211,18 @@ double AmcRows::read_value(const char*& p) {
   return token.kind == TokenKind::number ? token.value : std::numeric_limits<double>::quiet_NaN();
 }
 
+// The first number of several that are run together.
+double AmcRows::read_joined(const char*& p, std::string_view word) {
+  const char* const end = word.data() + word.size();
+  const char* const next = second_number(p, end);
+  const double value = read_sample(p, next).value;
+  p = next;
+  if (next != end) joins_.push_back(next);
+  return value;
+}
+
 void AmcRows::fail_value(const AmcBone& bone, const char* line, const char* p) const {
+  if (p == end_) throw CutFrame();
   std::size_t found = 0;
   for (p = line + bone.name.size(); (p = skip_blanks(p)) != end_;) {
     const std::string_view word = word_at(p);

@@ -20,9 +20,9 @@ class AmcRows {
   AmcRows(const SourceText& text, std::size_t begin, const AmcLayout& layout,
           const std::vector<std::uint8_t>& is_angle, double degrees_per_value);
 
-  /// Reads the next frame; a value that is not finite becomes NaN. False at the end of the text.
-  /// `tokens`, unless null, takes the place of each value. Errors: `unreadable_input`, naming the
-  /// line.
+  /// Reads the next frame; a value that is not finite becomes NaN. False at the end of the text,
+  /// and for a frame that the end of the file cut off. `tokens`, unless null, receives the place of
+  /// each value. Errors: `unreadable_input` with the line.
   bool next(double* values, TokenSpan* tokens = nullptr);
 
   std::size_t last_end() const { return static_cast<std::size_t>(last_end_ - text_.bytes.data()); }
@@ -34,8 +34,16 @@ class AmcRows {
   /// Frames whose number is not one more than that of the frame before.
   std::size_t number_jumps() const { return number_jumps_; }
   const char* first_number_jump() const { return first_number_jump_; }
+  /// Where numbers start that have no blank before them (`0.0-7.5`).
+  const std::vector<const char*>& joins() const { return joins_; }
+  /// Where a frame starts that the end of the file cut off; nullptr where there is none.
+  const char* cut_frame() const { return cut_frame_; }
 
  private:
+  bool read_frame(double* values, TokenSpan* tokens);
+  bool last_value_may_be_cut() const;
+  [[noreturn]] void fail(const char* p, std::string_view word, bool may_be_cut,
+                         const std::string& message) const;
   const char* skip_lines(const char* p) const;
   const char* skip_blanks(const char* p) const;
   std::string_view word_at(const char* p) const;
@@ -45,6 +53,7 @@ class AmcRows {
   void read_bones_in_any_order(std::size_t first, double* values, TokenSpan* tokens);
   std::size_t bone_at(const char* p, const std::vector<bool>& seen) const;
   double read_value(const char*& p);
+  double read_joined(const char*& p, std::string_view word);
   [[noreturn]] void fail_value(const AmcBone& bone, const char* line, const char* p) const;
   [[noreturn]] void fail_missing(const std::vector<bool>& seen, const char* p) const;
 
@@ -65,6 +74,9 @@ class AmcRows {
   const char* first_gap_ = nullptr;
   std::size_t number_jumps_ = 0;
   const char* first_number_jump_ = nullptr;
+  std::vector<const char*> joins_;
+  const char* data_begin_;
+  const char* cut_frame_ = nullptr;
 };
 
 }  // namespace kinemend

@@ -82,7 +82,7 @@ fs::path find_skeleton_file(std::string_view amc_name, std::string_view named_in
   throw Error(
       ErrorKind::unreadable_input,
       fmt::format(
-          "{}: an AMC file needs its skeleton: beside it is no {}, and {}; name one "
+          "{}: an AMC file needs its skeleton: its folder has no {}, and {}; name one "
           "with --asf",
           amc_name, fmt::join(names, ", "),
           files.empty() ? "no other ASF file" : fmt::format("{} other ASF files", files.size())));

@@ -30,12 +30,12 @@ std::vector<Channel> channels_of(const std::vector<AsfDof>& dofs);
 /// Which of `channels_of(dofs)` each degree of freedom is; none for `l`.
 std::vector<std::optional<std::size_t>> channel_slots(const std::vector<AsfDof>& dofs);
 
-/// Errors: `unreadable_input`, naming the line.
+/// Errors: `unreadable_input` with the line.
 AsfSkeleton parse_asf(const SourceText& text, Diagnostics& diagnostics, std::size_t max_depth);
 
-/// How surely the head of a file is ASF, 0 to 100.
+/// How likely the head of a file is ASF, 0 to 100.
 int sniff_asf(std::string_view head);
-/// A skeleton alone: a clip of zero frames. Errors: `unreadable_input`, naming the line.
+/// A skeleton alone: a clip of zero frames. Errors: `unreadable_input` with the line.
 TakeResult read_asf(std::string bytes, std::string_view name, const ReadOptions& options);
 /// The skeleton of a clip: the bytes it was read from where it still is that one, else a file that
 /// fits what `write_amc` writes. Errors: `usage` when the format cannot hold the skeleton.

@@ -99,7 +99,7 @@ class AsfParser {
     if (token.kind != TokenKind::number || token.end != word.data() + word.size()) fail("a number");
     // Beyond this, sums and products along a chain could leave the range of a double.
     constexpr double largest = 1e100;
-    if (std::fabs(token.value) > largest) fail("a number of a sensible size");
+    if (std::fabs(token.value) > largest) fail("a number of a plausible size");
     scanner_.next();
     return token.value;
   }
@@ -156,7 +156,7 @@ class AsfParser {
 
   void skip_unknown() {
     note_repair(text_, diagnostics_, "unknown_keyword", scanner_.position(),
-                fmt::format("{} is no keyword of the format", quote(scanner_.peek())));
+                fmt::format("{} is not a keyword of the format", quote(scanner_.peek())));
     scanner_.skip_line();
   }
 

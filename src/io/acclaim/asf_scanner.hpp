@@ -30,13 +30,13 @@ class AsfScanner {
     while (end < bytes_.size() && !is_blank(bytes_[end]) && bytes_[end] != '#') ++end;
     return bytes_.substr(position_, end - position_);
   }
-  /// The next word, and moves behind it.
+  /// The next word; moves past it.
   std::string_view next() {
     const std::string_view word = peek();
     position_ += word.size();
     return word;
   }
-  /// The next word of this line, empty where there is none; moves behind it.
+  /// The next word of this line, or empty; moves past it.
   std::string_view next_in_line() {
     while (position_ < bytes_.size() && is_blank(bytes_[position_]) &&
            !is_line_end(bytes_[position_])) {
@@ -50,7 +50,7 @@ class AsfScanner {
     while (position_ < bytes_.size() && !is_line_end(bytes_[position_])) ++position_;
   }
 
-  /// Of the next word, once it was peeked at.
+  /// The place of the next word, after a call of `peek`.
   std::size_t position() const { return position_; }
 
  private:

@@ -7,9 +7,9 @@
 
 namespace kinemend {
 
-/// How surely the head of a file is BVH, 0 to 100.
+/// How likely the head of a file is BVH, 0 to 100.
 int sniff_bvh(std::string_view head);
-/// Reads BVH in all its dialects. Errors: `unreadable_input`, naming the line.
+/// Reads BVH in all its dialects. Errors: `unreadable_input` with the line.
 TakeResult read_bvh(std::string bytes, std::string_view name, const ReadOptions& options);
 /// A clip read from BVH comes out in its source's layout, with the digits of every sample that has
 /// not changed; any other in a plain layout. Errors: `usage` when the format cannot hold the clip.

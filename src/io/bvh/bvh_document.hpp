@@ -10,8 +10,8 @@ namespace kinemend {
 /// A BVH file as it was read.
 struct BvhDocument : MotionDocument {
   std::size_t hierarchy_end = 0;    ///< after the last closing brace
-  ByteSpan frame_time;              ///< the number behind `Frame Time:`
-  bool frame_time_is_none = false;  ///< what stands there is no finite number
+  ByteSpan frame_time;              ///< the number after `Frame Time:`
+  bool frame_time_is_none = false;  ///< it is not a finite number
 
   std::unique_ptr<RowReader> rows() const override;
 };

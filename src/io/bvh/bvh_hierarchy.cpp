@@ -287,7 +287,7 @@ class MotionHeaderParser {
       header_.frames = static_cast<std::size_t>(std::min(number.value, most));
     } else {
       note_repair(text_, diagnostics_, "frame_count_missing", header_.frame_count.begin,
-                  "Frames: is no whole number: frames are counted");
+                  "Frames: is not a whole number: frames are counted");
     }
   }
 
@@ -300,7 +300,7 @@ class MotionHeaderParser {
       header_.frame_time_s = number.value;
     } else {
       note_repair(text_, diagnostics_, "frame_time_unusable", header_.frame_time.begin,
-                  fmt::format("Frame Time: is no time of {} to {} Hz: {} Hz assumed",
+                  fmt::format("Frame Time: is not the time of a rate of {} to {} Hz: {} Hz assumed",
                               least_frame_rate_hz, most_frame_rate_hz, unknown_rate_hz_));
     }
   }
@@ -353,7 +353,7 @@ BvhHeader read_bvh_header(const SourceText& text, Diagnostics& diagnostics, std:
   }
   if (scanner.comments() > 0) {
     note_repair(text, diagnostics, "comment_skipped", scanner.first_comment(),
-                "a comment, which the format does not have", scanner.comments());
+                "comments are not part of the format: skipped", scanner.comments());
   }
   return header;
 }

@@ -10,24 +10,24 @@
 
 namespace kinemend {
 
-/// What stands before the channel values.
+/// The part of a file before the channel values.
 struct BvhHeader {
   Skeleton skeleton;
   std::size_t hierarchy_end = 0;
   bool has_motion = false;
-  std::optional<std::size_t> frames;  ///< as declared; none when missing or no whole number
+  std::optional<std::size_t> frames;  ///< as declared; empty when missing or not a whole number
   ByteSpan frame_count;
   double frame_time_s = 0;  ///< 0 when missing or unusable
   ByteSpan frame_time;
-  bool frame_time_is_none = false;  ///< what stands there is no finite number
+  bool frame_time_is_none = false;  ///< it is not a finite number
   std::size_t data_begin = 0;
 };
 
-/// More joints or end sites than this are taken for garbage.
+/// A file with more joints or end sites than this is rejected.
 inline constexpr std::size_t most_joints = 16384;
 
-/// Parses up to the first channel value. `unknown_rate_hz`: what is taken where there is no usable
-/// frame time. Errors: `unreadable_input`, naming the line.
+/// Parses up to the first channel value. `unknown_rate_hz`: the rate where there is no usable
+/// frame time. Errors: `unreadable_input` with the line.
 BvhHeader read_bvh_header(const SourceText& text, Diagnostics& diagnostics, std::size_t max_depth,
                           double unknown_rate_hz);
 

@@ -15,9 +15,11 @@
 #include "io/bvh/bvh_document.hpp"
 #include "io/bvh/bvh_hierarchy.hpp"
 #include "io/motion/clip_rows.hpp"
+#include "io/motion/joined_numbers.hpp"
 #include "io/motion/motion_columns.hpp"
 #include "io/motion/motion_lines.hpp"
 #include "io/motion/motion_rows.hpp"
+#include "io/text/cut_text.hpp"
 #include "io/text/text.hpp"
 
 namespace kinemend {
@@ -54,15 +56,25 @@ class MotionReader {
     MotionRows rows(begin_, end_, document_.commas);
     clip_rows_.reserve(header_.frames.value_or(0), most_frames());
     const std::size_t rest = read_rows(rows);
-    check_end(rows, rest);
+    const bool is_cut = row_begin_ != nullptr && ends_in_row(rows, rest);
+    if (is_cut) {
+      note_cut();
+    } else {
+      check_end(rows, rest);
+    }
     note_repairs(rows);
     clip_rows_.finish(document_, rows.gaps() > 0);
-    document_.data_end = static_cast<std::size_t>(rows.last_end() - text_.bytes.data());
+    document_.data_end = place_of(is_cut ? row_begin_ : rows.last_end());
     document_.decimals = rows.most_decimals();
+    if (is_cut) leave_out_cut_row();
+    separate_numbers(document_, rows.joins());
   }
 
  private:
   std::size_t frames() const { return clip_rows_.frames(); }
+  std::size_t place_of(const char* p) const {
+    return static_cast<std::size_t>(p - text_.bytes.data());
+  }
   std::size_t most_frames() const {
     return static_cast<std::size_t>(end_ - begin_) / (2 * columns_.count()) + 1;
   }
@@ -94,7 +106,7 @@ class MotionReader {
     if (style == CommaStyle::none && line.find(',') != line.npos) {
       throw text_.error_at(
           scanner.position(),
-          fmt::format("expected {} channel values; commas may be decimal or stand between values",
+          fmt::format("expected {} channel values; commas may be decimal points or separate values",
                       columns_.count()));
     }
     return style;
@@ -140,8 +152,12 @@ class MotionReader {
     block.frames = 0;
     std::size_t count = width;
     while (block.frames < columns_.block_frames()) {
+      row_begin_ = rows.position();
       count = rows.next(block.values.data() + block.frames * width, width);
+      const bool is_last = count == width && rows.last_end() == end_;
+      if (is_last && rows_read_ > 0 && last_value_may_be_cut()) count = 0;
       if (count < width) break;
+      ++rows_read_;
       ++block.frames;
       uneven_lines_ = uneven_lines_ || !(rows.at_line_start() || rows.at_end());
     }
@@ -165,6 +181,46 @@ class MotionReader {
     }
     clip_rows_.append(block.values.data(), block.frames, block.with_gaps);
     progress_.reach(static_cast<double>(block.end - begin_) / static_cast<double>(end_ - begin_));
+  }
+
+  bool last_value_may_be_cut() {
+    value_is_cut_ =
+        last_number_may_be_cut({begin_, static_cast<std::size_t>(end_ - begin_)}, document_.commas);
+    return value_is_cut_;
+  }
+
+  // Whether the file was cut off in the last row, while all before it is whole.
+  bool ends_in_row(const MotionRows& rows, std::size_t rest) const {
+    if (frames() == 0) return false;
+    if (value_is_cut_) return true;
+    const bool in_word =
+        !rows.at_end() && std::none_of(rows.position(), end_, is_space) &&
+        may_start_number({rows.position(), static_cast<std::size_t>(end_ - rows.position())});
+    if (!in_word && (rest == 0 || !rows.at_end())) return false;
+    if (in_word && rest == 0 && frames() >= header_.frames.value_or(0)) return false;
+    // A line that is short although its end is there, or an earlier one, is another fault.
+    const bool ends_with_line = is_line_end(end_[-1]);
+    const char* const whole = ends_with_line ? rows.last_end() : row_begin_;
+    return !find_line_fault(begin_, whole, document_.commas, columns_.count(), std::nullopt);
+  }
+
+  void note_cut() {
+    note_repair(text_, diagnostics_, "file_cut", place_of(row_begin_),
+                fmt::format("the file ends in the middle of frame {}: the {} before it {} read",
+                            frames() + 1, frames() == 1 ? "frame" : "frames",
+                            frames() == 1 ? "is" : "are"));
+    if (header_.frames && *header_.frames < frames())
+      note_count(fmt::format("Frames: says {}, the file holds {}", *header_.frames, frames()));
+  }
+
+  // What is written from now on is whole: without the row, and with the number of frames that are
+  // there, in the room of the old one.
+  void leave_out_cut_row() {
+    document_.bytes.resize(place_of(row_begin_));
+    std::string count = std::to_string(frames());
+    if (!header_.frames || count.size() > header_.frame_count.size) return;
+    count.resize(header_.frame_count.size, ' ');
+    document_.bytes.replace(header_.frame_count.begin, header_.frame_count.size, count);
   }
 
   void check_end(const MotionRows& rows, std::size_t rest) {
@@ -206,16 +262,18 @@ class MotionReader {
                   message, count);
     };
     if (rows.gaps() > 0 && rows.gaps() == frames() * columns_.count()) {
-      throw text_.error_at(rows.first_gap(), "no channel value is a finite number");
+      throw text_.error_at(rows.first_gap(), "every channel value is not finite");
     }
     note(rows.first_gap(), rows.gaps(), "value_not_finite",
-         "a channel value is no finite number: held from a neighbouring frame");
+         "a channel value is not finite: held from a neighbouring frame");
+    note(rows.joins().empty() ? nullptr : rows.joins().front(), rows.joins().size(),
+         "numbers_joined", joined_numbers_text);
     note(rows.first_comment(), rows.comments(), "comment_skipped",
-         "a comment, which the format does not have");
+         "comments are not part of the format: skipped");
     if (document_.commas == CommaStyle::decimal)
       note(begin_, 1, "decimal_comma", "numbers have decimal commas");
     if (document_.commas == CommaStyle::separator)
-      note(begin_, 1, "comma_separator", "commas stand between values");
+      note(begin_, 1, "comma_separator", "commas separate the values");
   }
 
   const SourceText& text_;
@@ -228,7 +286,10 @@ class MotionReader {
   const MotionColumns& columns_;
   const char* begin_ = nullptr;
   const char* end_ = nullptr;
+  const char* row_begin_ = nullptr;  // of the row that was read last
+  std::size_t rows_read_ = 0;
   bool uneven_lines_ = false;
+  bool value_is_cut_ = false;  // the last value may have lost digits
 };
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 namespace kinemend {
 
-/// How surely the head of a file is C3D, 0 to 100.
+/// How likely the head of a file is C3D, 0 to 100.
 int sniff_c3d(std::string_view head);
 /// Reads C3D of every processor type and number format. Errors: `unreadable_input`, naming the
 /// byte.
@@ -19,9 +19,9 @@ TakeResult read_c3d(std::string bytes, std::string_view name, const ReadOptions&
 /// or with samples too large for the source's integers, as a new file of Intel floats that keeps
 /// the source's parameters. Errors: `usage` when the format cannot hold the clip.
 std::string write_c3d(const MarkerClip& clip);
-/// What `write_c3d` leaves out of the clip's source.
+/// The parts of the source that `write_c3d` leaves out.
 Diagnostics lost_in_c3d(const MarkerClip& clip);
-/// What of a C3D file has no place in another format, in words: "2 force plates".
+/// The parts of a C3D file that no other format can hold, in words: "2 force plates".
 std::vector<std::string> c3d_beside_points(const SourceInfo& source);
 
 }  // namespace kinemend

@@ -8,7 +8,7 @@
 
 namespace kinemend {
 
-/// What force plates, muscle sensors and the like measured beside the points.
+/// The analog samples of a file: force plates, muscle sensors and the like.
 struct C3dAnalog {
   std::vector<std::string> names;  ///< C channels
   std::vector<std::string> units;  ///< C
@@ -22,9 +22,9 @@ class C3dAnalogDecoder {
  public:
   explicit C3dAnalogDecoder(const C3dDocument& document);
 
-  /// Of one frame, as they are stored, all channels of its first instant first.
+  /// The stored values of one frame, instant by instant, all channels of each.
   void stored(std::size_t frame, std::vector<double>& values) const;
-  /// What a stored value of a channel means, in its unit.
+  /// The value of a stored number, in the unit of its channel.
   double value(double stored, std::size_t channel) const {
     return (stored - offsets_[channel]) * scales_[channel];
   }
@@ -36,7 +36,7 @@ class C3dAnalogDecoder {
   std::vector<double> scales_;
 };
 
-/// All analog samples of a file; no channels where it has none.
+/// All analog samples of a file; without channels where the file has none.
 C3dAnalog decode_c3d_analog(const C3dDocument& document);
 
 }  // namespace kinemend

@@ -61,10 +61,11 @@ void add_analog_losses(const MarkerClip& clip, const C3dOrigin& origin, Diagnost
   const C3dCarried carried = c3d_carried(clip, origin);
   if (carried.analog_count == 0) {
     losses.add("analog_lost",
-               !knows_channels(layout) ? "analog values that belong to no channel are left out"
+               !knows_channels(layout) ? "analog values without a channel are left out"
                : !carried.follows_frames
-                   ? fmt::format("{} are left out: the frames are others", analog_text(source))
-                   : fmt::format("{} are left out: their rate is no multiple of {:g} Hz",
+                   ? fmt::format("{} are left out: the frames are not those of the source",
+                                 analog_text(source))
+                   : fmt::format("{} are left out: their rate is not a multiple of {:g} Hz",
                                  analog_text(source), clip.frame_rate_hz));
     const std::size_t plates = source.parameters.count("FORCE_PLATFORM", "USED").value_or(0);
     if (plates > 0) {
@@ -81,7 +82,7 @@ void add_analog_losses(const MarkerClip& clip, const C3dOrigin& origin, Diagnost
                                           "last measured one, which is repeated",
                                           wanted - there));
   } else if (wanted < there) {
-    losses.add("analog_cut", fmt::format("{} analog samples of each channel behind the last frame "
+    losses.add("analog_cut", fmt::format("{} analog samples of each channel after the last frame "
                                          "are left out",
                                          there - wanted));
   }
@@ -143,15 +144,15 @@ Diagnostics c3d_losses(const MarkerClip& clip, const C3dOrigin& origin) {
   if (origin.document == nullptr || goes_in_place(clip, origin)) return losses;
   add_analog_losses(clip, origin, losses);
   if (const std::string encoding = c3d_encoding(*origin.document); encoding != "Intel reals")
-    losses.add("encoding_changed", encoding + " become Intel reals");
+    losses.add("encoding_changed", encoding + " are saved as Intel floats");
   const C3dParameters& parameters = origin.document->parameters;
   if (parameters.has_group("ROTATION")) {
     losses.add("rotations_lost", fmt::format("rotations of {} segments are left out",
                                              parameters.count("ROTATION", "USED").value_or(0)));
   } else if (parameters.has_group("DATA_BLOCKS")) {
-    losses.add("data_blocks_lost", "data that the group DATA_BLOCKS tells of are left out");
+    losses.add("data_blocks_lost", "the data of the group DATA_BLOCKS is left out");
   } else if (const std::size_t bytes = bytes_behind(*origin.document); bytes > 0) {
-    losses.add("bytes_lost", fmt::format("{} bytes behind the frames are left out", bytes));
+    losses.add("bytes_lost", fmt::format("{} bytes after the frames are left out", bytes));
   }
   return losses;
 }

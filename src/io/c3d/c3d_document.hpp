@@ -26,6 +26,9 @@ struct C3dDocument : FollowingDocument, std::enable_shared_from_this<C3dDocument
   std::string unit;
   double frame_rate_hz = 0;
   std::vector<MarkerEvent> events;
+  /// False where an event was left out because its time is not finite: the file is then written
+  /// anew.
+  bool event_times_finite = true;
 
   /// What belongs to the points follows them when a file is written.
   std::shared_ptr<const SourceDocument> after(const TakeChange& further) const override;

@@ -17,7 +17,7 @@ std::vector<MarkerEvent> group_events(const C3dSource& source, const C3dParamete
   const C3dParameter* const first = parameters.find(group, "TIMES");
   if (count > times.size() / 2) {
     source.note("event_count_mismatch", first == nullptr ? source.bytes.size() : first->data_begin,
-                "there are fewer event times than events");
+                "the file has fewer event times than events");
     count = times.size() / 2;
   }
   std::vector<MarkerEvent> events;
@@ -25,7 +25,7 @@ std::vector<MarkerEvent> group_events(const C3dSource& source, const C3dParamete
     const double time_s = 60 * times[2 * i] + times[2 * i + 1];
     if (!std::isfinite(time_s)) {
       source.note("event_time_not_finite", first->data_begin,
-                  "an event has no time; it is left out");
+                  "the time of an event is not finite: the event is left out");
       continue;
     }
     events.push_back({i < labels.size() ? as_utf8(labels[i]) : std::string(),
@@ -89,6 +89,21 @@ std::string as_utf8(const std::string& text) {
     }
   }
   return converted;
+}
+
+bool c3d_event_times_are_finite(const C3dSource& source, const C3dHeader& header,
+                                const C3dParameters& parameters) {
+  const auto finite = [](double time) { return std::isfinite(time); };
+  for (const std::string_view group : {"EVENT", "EVENTS"}) {
+    const std::vector<double> times = parameters.numbers(group, "TIMES");
+    if (!std::all_of(times.begin(), times.end(), finite)) return false;
+  }
+  const auto offset = [&](std::size_t word) { return header.begin + 2 * (word - 1); };
+  if (source.word(offset(c3d_event_key_word)) != c3d_event_key) return true;
+  for (std::size_t i = 0; i < c3d_most_header_events; ++i) {
+    if (!finite(source.real(offset(c3d_event_times_word) + 4 * i))) return false;
+  }
+  return true;
 }
 
 std::vector<MarkerEvent> read_c3d_events(const C3dSource& source, const C3dHeader& header,

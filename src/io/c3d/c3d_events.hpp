@@ -18,7 +18,11 @@ constexpr std::size_t c3d_event_key = 12345, c3d_most_header_events = 18;
 std::vector<MarkerEvent> read_c3d_events(const C3dSource& source, const C3dHeader& header,
                                          const C3dParameters& parameters);
 
-/// `text` if it is UTF-8, else as Latin 1.
+/// Whether every event time in the file, also of the header, is a finite number.
+bool c3d_event_times_are_finite(const C3dSource& source, const C3dHeader& header,
+                                const C3dParameters& parameters);
+
+/// `text` if it is UTF-8, else the UTF-8 of the text read as Latin 1.
 std::string as_utf8(const std::string& text);
 
 }  // namespace kinemend

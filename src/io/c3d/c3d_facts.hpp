@@ -12,7 +12,7 @@ namespace kinemend {
 /// "DEC integers in steps of 0.1", "Intel reals".
 std::string c3d_encoding(const C3dDocument& document);
 
-/// What a C3D file holds beside its points, in words.
+/// The content of a C3D file beside its points, in words.
 std::vector<SourceFact> c3d_facts(const C3dDocument& document, const C3dPointCounts& counts);
 
 }  // namespace kinemend

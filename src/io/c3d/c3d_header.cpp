@@ -33,7 +33,7 @@ std::size_t find_header(const C3dSource& source) {
     throw source.error_at(begin + 1, fmt::format("expected 80, the mark of a C3D file, found {}",
                                                  source.byte(begin + 1)));
   }
-  if (begin > 0) source.note("bytes_before_header", 0, "zero bytes stand before the header");
+  if (begin > 0) source.note("bytes_before_header", 0, "there are zero bytes before the header");
   return begin;
 }
 
@@ -50,7 +50,7 @@ std::size_t find_parameters(const C3dSource& source, std::size_t header_begin) {
   }
   if (block != 2 && is_parameter_section(source, block_begin(2))) {
     source.note("damaged_pointer", header_begin,
-                "the pointer to the parameters is wrong; they are in block 2");
+                "the pointer to the parameters is wrong: they are read from block 2");
     return block_begin(2);
   }
   throw source.error_at(header_begin, fmt::format("block {} does not hold parameters", block));
@@ -63,9 +63,8 @@ C3dProcessor find_processor(C3dSource& source, const C3dHeader& header) {
        {C3dProcessor::intel, C3dProcessor::dec, C3dProcessor::mips}) {
     source.processor = processor;
     if (!is_usable_frame_rate(source.real(word_offset(header, 11)))) continue;
-    source.note(
-        "unknown_processor", header.parameters_begin + 3,
-        fmt::format("processor type {} is unknown; the frame rate tells which it is", number));
+    source.note("unknown_processor", header.parameters_begin + 3,
+                fmt::format("processor type {} is unknown: it is found by the frame rate", number));
     return processor;
   }
   throw source.error_at(

@@ -83,13 +83,14 @@ class LayoutFinder {
     if (!usable(scale)) {
       scale = 1;
       if (header_.point_count > 0)
-        note("scale_assumed", 7, "the file has no scale; its integers are taken as they are");
+        note("scale_assumed", 7, "the file has no scale: a scale of 1 is assumed");
     } else if (parameter && usable(*parameter) && usable(in_header) &&
                std::fabs(std::fabs(*parameter) - std::fabs(in_header)) >
                    1e-4 * std::fabs(in_header)) {
       note("scale_mismatch", 7,
-           fmt::format("the header's scale is {:.6g}, POINT:SCALE is {:.6g}, which is taken",
-                       in_header, *parameter));
+           fmt::format(
+               "the scale of the header is {:.6g}, POINT:SCALE is {:.6g}: the latter is used",
+               in_header, *parameter));
     }
     layout_.scale = std::fabs(scale);
     floats_.push_back(scale < 0);
@@ -185,7 +186,7 @@ class LayoutFinder {
     sort_by_agreement(frames_);
     if (!frames_.empty()) return;
     note("frame_count_assumed", 5,
-         "the file does not say how many frames it has; all that follows is read");
+         "the file does not state its number of frames: it is read to the end");
     frames_.push_back({up_to_the_end, first});
   }
 
@@ -235,38 +236,40 @@ class LayoutFinder {
   void cut_to_file() {
     const std::size_t whole = whole_frames(layout_);
     note("frames_missing", 5,
-         fmt::format("the file says {} frames, but there is room for {} only", layout_.frame_count,
-                     whole));
+         fmt::format("the file states {} frames but holds {}", layout_.frame_count, whole));
     layout_.frame_count = whole;
   }
 
   void note_choices(const C3dLayout& first) const {
     if (layout_.data_begin != first.data_begin || begins_.size() > 1) {
-      note("data_start_mismatch", 9,
-           fmt::format(
-               "POINT:DATA_START is not the header's block {}; the data is taken from byte {}",
-               header_.data_block, layout_.data_begin));
+      note(
+          "data_start_mismatch", 9,
+          fmt::format(
+              "POINT:DATA_START differs from block {} of the header: the data is read from byte {}",
+              header_.data_block, layout_.data_begin));
     }
     if (points_.size() > 1) {
       note("point_count_mismatch", 2,
-           fmt::format("the header says {} points, POINT:USED {}; {} are read", header_.point_count,
-                       points_[0], layout_.point_count));
+           fmt::format("the header states {} points, POINT:USED {}: {} are read",
+                       header_.point_count, points_[0], layout_.point_count));
     }
     if (floats_.size() > 1) {
       note("number_format_mismatch", 7,
-           fmt::format("the signs of the header's scale and POINT:SCALE differ; the file's length "
-                       "is that of {}",
+           fmt::format("the signs of the scale in the header and of POINT:SCALE differ; the file "
+                       "has the length "
+                       "of {}",
                        layout_.is_float ? "reals" : "integers"));
     }
     if (layout_.analog_values != header_.analog_values) {
       note("analog_count_mismatch", 3,
-           fmt::format("the header says {} analog values a frame, where there are {}",
+           fmt::format("the header states {} analog values per frame, but there are {}",
                        header_.analog_values, layout_.analog_values));
     }
     if (layout_.frame_count != first.frame_count) {
       note("frame_count_mismatch", 5,
-           fmt::format("the file says {} frames in one place and others elsewhere; {} are read",
-                       first.frame_count, layout_.frame_count));
+           fmt::format(
+               "the file states {} frames in one place and other numbers elsewhere: {} are read",
+               first.frame_count, layout_.frame_count));
     }
   }
 

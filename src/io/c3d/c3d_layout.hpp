@@ -8,7 +8,7 @@
 
 namespace kinemend {
 
-/// Where things stand in a C3D file, and how its samples are to be read.
+/// Where the sections of a C3D file are, and how its samples are stored.
 struct C3dLayout {
   std::size_t header_begin = 0;  ///< some files start with zero bytes
   std::size_t parameters_begin = 0;
@@ -49,9 +49,9 @@ struct C3dHeader {
 };
 
 /// Finds header and parameter section, and sets the processor of `source`. Errors:
-/// `unreadable_input` for what is no C3D file.
+/// `unreadable_input` for a file that is not C3D.
 C3dHeader read_c3d_header(C3dSource& source);
-/// The parameters behind a header.
+/// The parameters that follow a header.
 C3dParameters read_c3d_parameters(const C3dSource& source, const C3dHeader& header);
 /// Header and parameters often say different things. Of all that they say, what makes the data end
 /// with the file is taken, else what fits into it, with a diagnostic; a parameter goes before the

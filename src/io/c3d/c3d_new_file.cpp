@@ -38,7 +38,7 @@ class NewFile {
         carried_(c3d_carried(clip, origin)) {
     if (clip.marker_count() > most_in_a_word) {
       throw Error(ErrorKind::usage,
-                  fmt::format("{} markers; C3D files have room for 65,535", clip.marker_count()));
+                  fmt::format("{} markers; C3D files can hold 65,535", clip.marker_count()));
     }
     file_.frame_count = c3d_frame_count(clip, origin);
     file_.scale = scale();

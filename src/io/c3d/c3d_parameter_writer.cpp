@@ -30,7 +30,7 @@ std::int32_t group_number(C3dParameters& parameters, std::string_view name) {
   };
   std::int32_t number = 1;
   while (is_used(number)) ++number;
-  if (number > 127) throw Error(ErrorKind::usage, "C3D files have room for 127 groups only");
+  if (number > 127) throw Error(ErrorKind::usage, "C3D files can hold 127 groups");
   parameters.groups.push_back({number, std::string(name), "", false});
   return number;
 }
@@ -149,7 +149,7 @@ std::vector<C3dParameter> c3d_texts(const std::string& name,
   for (const std::string& text : texts) length = std::max(length, text.size());
   if (length > most_in_a_byte) {
     throw Error(ErrorKind::usage,
-                fmt::format("a text of {} bytes; C3D files have room for 255", length));
+                fmt::format("a text of {} bytes; C3D files can hold 255", length));
   }
   const std::size_t rows = std::min(most_in_a_byte, most_entry_bytes / length);
   std::vector<C3dParameter> parts;

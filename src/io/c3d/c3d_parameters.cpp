@@ -134,7 +134,7 @@ class EntryReader {
       return true;
     }
     source_.note("damaged_parameter_pointer", entry_,
-                 "the pointer to the next parameter is wrong; it is taken to follow at once");
+                 "the pointer to the next parameter is wrong: it is read right after this one");
     position_ = std::min(std::max(position_, described_end_), end_);
     return true;
   }
@@ -142,7 +142,8 @@ class EntryReader {
   bool damaged(std::string_view what) {
     source_.note(
         "damaged_parameters", entry_,
-        fmt::format("a parameter is damaged in {}; this and those behind it are not read", what));
+        fmt::format("a parameter is damaged in {}: it and all parameters after it are ignored",
+                    what));
     return false;
   }
 

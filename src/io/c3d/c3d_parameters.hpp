@@ -20,7 +20,7 @@ struct C3dParameter {
   std::string description;
   bool locked = false;
   C3dType type = C3dType::integer;
-  std::vector<std::uint8_t> dimensions;  ///< first index fastest; none for a single value
+  std::vector<std::uint8_t> dimensions;  ///< first index fastest; empty for a single value
   std::string text;                      ///< of type `text`: all characters
   std::vector<double> numbers;           ///< of the other types; integers are signed
   std::size_t data_begin = 0;            ///< byte of the first value in the file
@@ -42,7 +42,7 @@ struct C3dParameters {
   /// The first parameter of that name; nullptr where there is none.
   const C3dParameter* find(std::string_view group, std::string_view name) const;
   bool has_group(std::string_view name) const;
-  /// The first value; nothing where there is none, or only text.
+  /// The first value; empty where there is none, or only text.
   std::optional<double> number(std::string_view group, std::string_view name) const;
   /// The first value as an unsigned 16-bit integer, which a file may also hold as a real.
   std::optional<std::size_t> count(std::string_view group, std::string_view name) const;

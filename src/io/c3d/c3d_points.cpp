@@ -9,6 +9,7 @@ namespace {
 
 struct Sample {
   float x, y, z;
+  float fourth;  // the fourth word as a real; 0 in files of integers
   std::int32_t word;
 };
 
@@ -19,7 +20,7 @@ struct RealSamples {
     const float word = Words::real(p + 12);
     // Beyond 16 bits it is no such word, and NaN compares false.
     const bool usable = word >= 0.0f && word < 32768.0f;
-    return {Words::real(p), Words::real(p + 4), Words::real(p + 8),
+    return {Words::real(p), Words::real(p + 4), Words::real(p + 8), word,
             usable ? static_cast<std::int32_t>(word) : missing_point_word};
   }
 };
@@ -31,18 +32,20 @@ struct IntegerSamples {
     const auto number = [&](std::size_t i) {
       return static_cast<float>(static_cast<std::int16_t>(Words::word(p + 2 * i)));
     };
-    return {number(0), number(1), number(2), static_cast<std::int16_t>(Words::word(p + 6))};
+    return {number(0), number(1), number(2), 0, static_cast<std::int16_t>(Words::word(p + 6))};
   }
 };
 
 // Finite numbers only: zero times infinity is NaN.
-bool is_finite(const Sample& s) { return (s.x * 0.0f + s.y * 0.0f + s.z * 0.0f) == 0.0f; }
+bool is_finite(const Sample& s) {
+  return (s.x * 0.0f + s.y * 0.0f + s.z * 0.0f + s.fourth * 0.0f) == 0.0f;
+}
 
 template <class Samples>
 void decode_frame(const char* p, std::size_t points, double scale, float residual_scale,
                   Vec3* positions, std::uint8_t* observed, float* residuals,
                   C3dPointCounts& counts) {
-  std::size_t not_finite = 0, zeros = 0;
+  std::size_t not_finite = 0, missing_not_finite = 0, zeros = 0;
   std::uint32_t cameras = 0;
   for (std::size_t i = 0; i < points; ++i, p += Samples::bytes) {
     const Sample s = Samples::load(p);
@@ -55,9 +58,11 @@ void decode_frame(const char* p, std::size_t points, double scale, float residua
     residuals[i] = here ? residual_scale * static_cast<float>(word & 255) : -1.0f;
     cameras |= word >> 8;
     not_finite += !marked && !finite ? 1 : 0;
+    missing_not_finite += marked && !finite ? 1 : 0;
     zeros += here && s.x == 0 && s.y == 0 && s.z == 0 ? 1 : 0;
   }
   counts.not_finite += not_finite;
+  counts.missing_not_finite += missing_not_finite;
   counts.zeros += zeros;
   counts.cameras |= cameras;
 }

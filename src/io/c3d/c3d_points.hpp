@@ -24,11 +24,12 @@ struct C3dPoints {
   void resize(std::size_t count);
 };
 
-/// What was met while points were decoded.
+/// Counts of what the decoder found.
 struct C3dPointCounts {
-  std::size_t not_finite = 0;  ///< samples that are no numbers although not marked as missing
-  std::size_t zeros = 0;       ///< samples at the origin that are not marked as missing
-  std::uint32_t cameras = 0;   ///< bits of all cameras that saw a point
+  std::size_t not_finite = 0;          ///< samples that are not finite and not marked as missing
+  std::size_t missing_not_finite = 0;  ///< the same that are marked as missing
+  std::size_t zeros = 0;               ///< samples at the origin that are not marked as missing
+  std::uint32_t cameras = 0;           ///< bits of all cameras that saw a point
 };
 
 /// Decodes the points of a file's data section; frames lie in it `layout.frame_bytes()` apart.

@@ -11,6 +11,7 @@
 #include "io/c3d/c3d_document.hpp"
 #include "io/c3d/c3d_events.hpp"
 #include "io/c3d/c3d_facts.hpp"
+#include "io/c3d/c3d_not_finite.hpp"
 #include "io/c3d/c3d_points.hpp"
 
 namespace kinemend {
@@ -25,9 +26,10 @@ class C3dReader {
       : source_(source), document_(document), clip_(clip) {}
 
   void read(const ReadOptions& options) {
-    const C3dHeader header = read_c3d_header(source_);
+    C3dHeader header = read_c3d_header(source_);
     document_.processor = source_.processor;
     document_.parameters = read_c3d_parameters(source_, header);
+    mend_header(header);
     document_.layout = find_c3d_layout(source_, header, document_.parameters);
     read_names();
     read_kinds();
@@ -35,11 +37,26 @@ class C3dReader {
     clip_.first_frame = layout().first_frame;
     read_rate(options);
     clip_.events = read_c3d_events(source_, header, parameters());
+    document_.event_times_finite = c3d_event_times_are_finite(source_, header, parameters());
+    if (!document_.event_times_finite && source_.diagnostics.count("event_time_not_finite") == 0) {
+      source_.note("event_time_not_finite", header.begin,
+                   "the time of an event is not finite: the event is left out");
+    }
     read_points();
     remember();
   }
 
  private:
+  // Scales and rates that are not finite would spread to every sample.
+  void mend_header(C3dHeader& header) {
+    std::size_t mended =
+        mend_c3d_parameters(document_.bytes, source_.processor, document_.parameters);
+    mended += mend_c3d_header(document_.bytes, source_.processor, header, document_.parameters);
+    if (mended == 0) return;
+    source_.note("parameter_not_finite", header.parameters_begin,
+                 "a rate, scale or offset is not finite: taken as unknown", mended);
+  }
+
   const C3dLayout& layout() const { return document_.layout; }
   const C3dParameters& parameters() const { return document_.parameters; }
 
@@ -50,7 +67,7 @@ class C3dReader {
       std::string converted = as_utf8(name);
       if (converted != name) {
         source_.note("label_not_utf8", layout().parameters_begin,
-                     "a marker's name is not UTF-8; it is taken as Latin 1");
+                     "the name of a marker is not UTF-8: read as Latin 1");
         name = std::move(converted);
       }
     }
@@ -59,7 +76,8 @@ class C3dReader {
       clip_.names.push_back(fmt::format("*{}", clip_.names.size() + 1));
   }
 
-  // POINT:ANGLES and its like, and what POINT:TYPE_GROUPS names, list the points that are none.
+  // POINT:ANGLES and similar lists, and those that POINT:TYPE_GROUPS names, hold the points that
+  // are not positions.
   void read_kinds() {
     clip_.is_position.assign(clip_.marker_count(), 1);
     std::set<std::string, std::less<>> lists{"ANGLES", "FORCES",  "MOMENTS",
@@ -87,12 +105,13 @@ class C3dReader {
         options.frame_rate_hz > 0 ? options.frame_rate_hz : c3d_rate_when_unknown_hz;
     source_.note(
         "frame_rate_assumed", layout().header_begin + 20,
-        fmt::format("the file has no frame rate; it is taken to be {:g} Hz", clip_.frame_rate_hz));
+        fmt::format("the file has no frame rate: {:g} Hz is assumed", clip_.frame_rate_hz));
   }
 
   // Blocks that stay in the cache, so that the clip's memory is written once and never read.
   void read_points() {
     const std::size_t points = layout().point_count, frames = layout().frame_count;
+    if (frames > 0) mend_analog();
     if (points == 0 || frames == 0) return;
     const std::size_t block = c3d_block_frames(layout());
     C3dPoints part;
@@ -117,6 +136,13 @@ class C3dReader {
     clip_.source.facts = c3d_facts(document_, decoder.counts());
   }
 
+  void mend_analog() {
+    const std::size_t mended = mend_c3d_analog(document_.bytes, source_.processor, layout());
+    if (mended == 0) return;
+    source_.note("analog_not_finite", layout().data_begin,
+                 "an analog sample is not finite: held from the sample before", mended);
+  }
+
   // Samples whose fourth word has a residual or a camera: what was not seen has neither.
   std::vector<std::uint8_t> samples_with_a_measure() const {
     std::vector<std::uint8_t> measured(clip_.positions.size());
@@ -134,16 +160,24 @@ class C3dReader {
   void repair_points(const C3dPointCounts& counts) {
     if (counts.not_finite > 0) {
       source_.note("value_not_finite", layout().data_begin,
-                   "a position is no number although it is not marked as missing; it is missing",
+                   "a position is not finite and not marked as missing: taken as missing",
                    counts.not_finite);
     }
+    // Some programs mark missing points in this way as well, so a strict reader accepts it.
+    for (std::size_t i = 0; i < counts.missing_not_finite; ++i) {
+      source_.diagnostics.add("missing_not_finite",
+                              "a missing point holds a number that is not finite: zeros are "
+                              "written");
+    }
+    if (counts.not_finite + counts.missing_not_finite > 0)
+      mend_c3d_points(document_.bytes, source_.processor, layout());
     if (counts.zeros == 0) return;
     document_.zero_gaps =
         find_zero_gaps(clip_, layout().is_float ? 0 : layout().scale, samples_with_a_measure());
     if (document_.zero_gaps.empty()) return;
     mark_missing(document_.zero_gaps, clip_);
     source_.note("zero_is_missing", layout().data_begin,
-                 "a marker is at 0, 0, 0 where it cannot have been; it is missing",
+                 "a marker is at 0, 0, 0 where it cannot have been: taken as missing",
                  sample_count(document_.zero_gaps));
   }
 

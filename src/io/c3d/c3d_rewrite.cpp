@@ -158,8 +158,8 @@ bool same_c3d_events(const std::vector<MarkerEvent>& a, const std::vector<Marker
 
 bool keeps_c3d_layout(const MarkerClip& clip, const C3dDocument& document) {
   const bool same_frames = clip.names.empty() || clip.frame_count() == document.layout.frame_count;
-  return same_frames && clip.names == document.names && clip.unit == document.unit &&
-         clip.first_frame == document.layout.first_frame &&
+  return same_frames && document.event_times_finite && clip.names == document.names &&
+         clip.unit == document.unit && clip.first_frame == document.layout.first_frame &&
          same_c3d_events(clip.events, document.events);
 }
 

@@ -12,8 +12,8 @@ namespace kinemend {
 
 constexpr std::size_t c3d_block_bytes = 512;
 
-/// The bytes of a C3D file under reading, and what was repaired in it. Whoever reads a word has
-/// checked that it is there.
+/// The bytes of a C3D file that is being read, and its repairs. Callers check that a word is within
+/// the file before they read it.
 struct C3dSource {
   std::string_view name;
   std::string_view bytes;

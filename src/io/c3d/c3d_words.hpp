@@ -22,7 +22,7 @@ inline float from_vax(std::uint32_t bits) {
   return exponent > 2 ? std::bit_cast<float>(bits - (2u << 23)) : exponent == 0 ? 0.0f : small;
 }
 
-/// The nearest VAX F float; what is too large becomes the largest, and no number becomes zero.
+/// The nearest VAX F float. A value that is too large becomes the largest; NaN becomes zero.
 inline std::uint32_t to_vax(float value) {
   const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
   const std::uint32_t sign = bits & 0x80000000u, exponent = (bits >> 23) & 255;

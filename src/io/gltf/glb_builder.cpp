@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
+#include <span>
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/version.hpp"
@@ -14,6 +16,13 @@ namespace {
 constexpr int component_float = 5126, component_uint16 = 5123;
 constexpr int target_array_buffer = 34962;
 constexpr std::uint32_t magic = 0x46546C67, chunk_json = 0x4E4F534A, chunk_binary = 0x004E4942;
+
+// What is finite as a double need not be as a float.
+void check_finite(std::span<const float> values) {
+  if (std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); }))
+    return;
+  throw Error(ErrorKind::usage, "a length is too large for a glTF file");
+}
 
 void append_u32(std::string& out, std::uint32_t value) {
   for (int shift = 0; shift < 32; shift += 8) out += static_cast<char>(value >> shift & 0xFF);
@@ -69,6 +78,7 @@ std::size_t GlbBuilder::add_accessor(std::size_t view, int component_type, std::
 
 std::size_t GlbBuilder::add_floats(const std::vector<float>& values, std::size_t components,
                                    bool with_range, bool of_vertices) {
+  check_finite(values);
   const std::size_t view = add_view(values.data(), values.size() * sizeof(float), of_vertices);
   const std::size_t index =
       add_accessor(view, component_float, values.size() / components, type_of(components));
@@ -171,6 +181,13 @@ void GlbMesh::add_triangle(const std::array<Vec3, 3>& corners, Vec3 inside, std:
     normals.insert(normals.end(), direction.begin(), direction.end());
     joints.push_back(joint);
   }
+}
+
+std::array<float, 3> to_floats(Vec3 v) {
+  const std::array<float, 3> floats{static_cast<float>(v.x), static_cast<float>(v.y),
+                                    static_cast<float>(v.z)};
+  check_finite(floats);
+  return floats;
 }
 
 std::size_t add_mesh(GlbBuilder& file, const GlbMesh& mesh, const char* name) {

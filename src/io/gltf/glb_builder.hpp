@@ -77,8 +77,7 @@ struct GlbMesh {
 /// Adds mesh and material; returns the mesh's index.
 std::size_t add_mesh(GlbBuilder& file, const GlbMesh& mesh, const char* name);
 
-inline std::array<float, 3> to_floats(Vec3 v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
+/// Errors: `usage` for a number that is not finite as a float, which glTF cannot hold.
+std::array<float, 3> to_floats(Vec3 v);
 
 }  // namespace kinemend

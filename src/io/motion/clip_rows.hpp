@@ -11,7 +11,7 @@
 namespace kinemend {
 
 /// Turns rows of channel values into the frames of a clip, whose skeleton is there already. Values
-/// that are NaN are held from the frame before, or from the next where there is none before.
+/// that are NaN are held from the frame before, or from the next one at the start.
 class ClipRows {
  public:
   /// `position_frames`: see `MotionDocument`. `file_bytes`: how much was read, which bounds the

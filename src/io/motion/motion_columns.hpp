@@ -10,7 +10,7 @@
 
 namespace kinemend {
 
-/// What the columns of a frame mean, and rotations from them.
+/// The meaning of the columns of a frame, and rotations from them.
 class MotionColumns {
  public:
   struct Position {

@@ -36,9 +36,16 @@ class ValueLines {
     for (const char* p = line.begin; p != stop; ++p) {
       const bool blank = is_space(*p) || (commas_ == CommaStyle::separator && *p == ',');
       if (!blank && !inside && (*p == '#' || (*p == '/' && p + 1 != stop && p[1] == '/'))) return;
-      line.values += !blank && !inside ? 1 : 0;
+      line.values += !blank && !inside ? values_in_word(p, stop) : 0;
       inside = !blank;
     }
+  }
+
+  std::size_t values_in_word(const char* p, const char* stop) const {
+    const char* end = p;
+    while (end != stop && !is_space(*end) && !(commas_ == CommaStyle::separator && *end == ','))
+      ++end;
+    return numbers_in_word({p, static_cast<std::size_t>(end - p)});
   }
 
   const char* p_;

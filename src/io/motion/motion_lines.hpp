@@ -8,7 +8,7 @@
 
 namespace kinemend {
 
-/// A line that does not hold what it should.
+/// A line with a wrong number of values.
 struct LineFault {
   const char* place = nullptr;
   std::size_t expected = 0;

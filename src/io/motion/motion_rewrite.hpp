@@ -8,7 +8,7 @@
 
 namespace kinemend {
 
-/// A piece of a document before its frames, and what takes its place.
+/// A piece of a document before its frames, and the text that replaces it.
 struct DocumentEdit {
   ByteSpan place;
   std::string text;

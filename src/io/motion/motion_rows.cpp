@@ -27,8 +27,9 @@ bool MotionRows::at_line_start() const { return std::any_of(last_end_, position_
 bool MotionRows::read_rare(const char*& p, NumberToken& token) {
   for (;;) {
     if (p == end_) return false;
+    if (p < joined_until_) return read_joined(p, token);
     token = read_sample(p, end_, commas_);
-    if (token.kind == TokenKind::text) return false;
+    if (token.kind == TokenKind::text) return read_joined(p, token);
     if (token.kind == TokenKind::number) return true;
     if (token.kind == TokenKind::not_finite) {
       if (gaps_++ == 0) first_gap_ = p;
@@ -37,6 +38,19 @@ bool MotionRows::read_rare(const char*& p, NumberToken& token) {
     if (comments_++ == 0) first_comment_ = p;
     p = skip(std::find_if(p, end_, is_line_end));
   }
+}
+
+// The first number of several that are run together; false for any other text.
+bool MotionRows::read_joined(const char* p, NumberToken& token) {
+  if (p >= joined_until_) {
+    if (numbers_in_word({p, static_cast<std::size_t>(token.end - p)}) < 2) return false;
+    joined_until_ = token.end;
+  }
+  const char* const next = second_number(p, joined_until_);
+  token = read_sample(p, next, commas_);
+  if (token.kind == TokenKind::not_finite && gaps_++ == 0) first_gap_ = p;
+  if (next != joined_until_) joins_.push_back(next);
+  return true;
 }
 
 template <bool keep_tokens>

@@ -1,26 +1,27 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "io/text/number.hpp"
 
 namespace kinemend {
 
-/// Where a channel value stands.
+/// The bytes of a channel value.
 struct TokenSpan {
   const char* begin = nullptr;
   const char* end = nullptr;
 };
 
-/// Walks over channel values, a frame at a time. Words count, not lines; white space and comments
-/// between them do not matter.
+/// Walks over channel values, a frame at a time. Line ends, white space and comments between values
+/// do not matter.
 class MotionRows {
  public:
   MotionRows(const char* begin, const char* end, CommaStyle commas);
 
   /// Reads the next `count` (at least 1) values; a value that is not finite becomes NaN. Returns
-  /// how many there were before the end of the text or a word that is no number, where `position()`
-  /// then stands. `tokens`, unless null, takes the place of each.
+  /// how many there were before the end of the text or a word that is no number, which `position()`
+  /// then points at. `tokens`, unless null, receives the place of each.
   std::size_t next(double* values, std::size_t count, TokenSpan* tokens = nullptr);
 
   /// The first byte of the next word, once a row was read.
@@ -34,6 +35,8 @@ class MotionRows {
   unsigned most_decimals() const { return most_decimals_; }
   std::size_t gaps() const { return gaps_; }  ///< values that are not finite
   const char* first_gap() const { return first_gap_; }
+  /// Where numbers start that have no blank before them (`0.0-7.5`).
+  const std::vector<const char*>& joins() const { return joins_; }
   std::size_t comments() const { return comments_; }
   const char* first_comment() const { return first_comment_; }
 
@@ -41,6 +44,7 @@ class MotionRows {
   template <bool keep_tokens>
   std::size_t read(double* values, std::size_t count, TokenSpan* tokens);
   bool read_rare(const char*& p, NumberToken& token);
+  bool read_joined(const char* p, NumberToken& token);
   const char* skip(const char* p) const;
 
   bool may_be_plain(const char* p) const {
@@ -59,6 +63,8 @@ class MotionRows {
   const char* first_gap_ = nullptr;
   std::size_t comments_ = 0;
   const char* first_comment_ = nullptr;
+  std::vector<const char*> joins_;
+  const char* joined_until_ = nullptr;  // the end of a word of several numbers
 };
 
 }  // namespace kinemend

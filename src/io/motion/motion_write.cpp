@@ -49,7 +49,7 @@ void check_lengths(const Clip& clip) {
   const std::size_t frames = clip.frame_count();
   if (clip.local_rotations.size() != frames * clip.joint_count() ||
       clip.joint_translations.size() != frames * clip.translated_joints.size()) {
-    throw Error(ErrorKind::usage, "the clip's arrays do not have its number of frames");
+    throw Error(ErrorKind::usage, "the arrays of the clip have different numbers of frames");
   }
   check_frame_rate(clip.frame_rate_hz);
 }

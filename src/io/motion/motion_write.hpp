@@ -18,7 +18,7 @@ bool same_skeleton(const Skeleton& a, const Skeleton& b);
 /// or the rate is not positive.
 void check_lengths(const Clip& clip);
 
-/// What a format writes of a joint's rotation.
+/// How a format treats the rest rotation of a joint.
 enum class RestRotations : std::uint8_t {
   in_channels,  ///< the rest rotation is part of the angles
   apart,        ///< it stands in the skeleton

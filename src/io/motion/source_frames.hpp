@@ -32,7 +32,7 @@ class SourceFrames {
 
   const MotionColumns& columns() const { return columns_; }
 
-  /// Reads the next block, whose memory is used again; false after the last.
+  /// Reads the next block, reusing its memory; false after the last.
   bool next(SourceBlock& block);
 
  private:

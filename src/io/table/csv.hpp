@@ -7,7 +7,7 @@
 
 namespace kinemend {
 
-/// How surely the head of a file is a CSV table of markers or joints, 0 to 100.
+/// How likely the head of a file is a CSV table of markers or joints, 0 to 100.
 int sniff_csv(std::string_view head);
 /// Reads tables of markers or joints (docs/formats/csv.md). Errors: `unreadable_input`, naming the
 /// line.
@@ -16,8 +16,8 @@ TakeResult read_csv(std::string bytes, std::string_view name, const ReadOptions&
 /// not changed; any other in a plain layout. Errors: `usage` when the format cannot hold the take.
 std::string write_csv(const Clip& clip);
 std::string write_csv_markers(const MarkerClip& clip);
-/// What the table that a clip comes from holds beside its markers and a new file does not, in
-/// words: "the sections Devices"; empty where nothing is lost.
+/// The content of the source table that a new file loses, in words: "the sections Devices"; empty
+/// where nothing is lost.
 std::string csv_beside_markers(const MarkerClip& clip, bool as_csv);
 
 }  // namespace kinemend

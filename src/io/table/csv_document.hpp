@@ -34,7 +34,7 @@ struct CsvNote {
   std::size_t place = 0;
 };
 
-/// What stands above the rows of a CSV file.
+/// The lines above the rows of a CSV file.
 struct CsvHeader {
   std::vector<CsvNote> notes;
   std::vector<CsvGroup> groups;
@@ -43,22 +43,22 @@ struct CsvHeader {
   std::int32_t frame_column = -1;
   std::int32_t time_column = -1;
   double seconds_per_time = 1;
-  double frame_rate_hz = 0;  ///< 0 where the head tells none
+  double frame_rate_hz = 0;  ///< 0 where the head states no rate
   std::string unit;
   std::size_t labels_line = 0;
   std::size_t data_begin = 0;
-  std::size_t data_end = 0;       ///< behind the last row there can be
+  std::size_t data_end = 0;       ///< where the last row ends at the latest
   std::size_t foreign_lines = 0;  ///< above the labels, not understood
   std::size_t foreign_place = 0;  ///< of the first of them
-  bool unit_is_custom = false;    ///< the file names none; its program has no other
+  bool unit_is_custom = false;    ///< the file states no unit; its program always uses this one
   std::string beside;             ///< what else the file holds, in words; empty for nothing
 
   bool has_rotations() const;
-  /// Whether a line `# frames: 0` says that there are no rows.
+  /// Whether a line `# frames: 0` states that there are no rows.
   bool has_no_frames() const;
 };
 
-/// Parses up to the first row. Errors: `unreadable_input`, naming the line.
+/// Parses up to the first row. Errors: `unreadable_input` with the line.
 CsvHeader read_csv_header(const SourceText& text);
 /// Whether there is such a head.
 bool has_csv_header(std::string_view head);
@@ -83,7 +83,7 @@ struct CsvDocument : FollowingDocument {
   std::shared_ptr<const SourceDocument> after(const TakeChange& change) const override;
 };
 
-/// What a table held beside its markers, once the take is to be written anew.
+/// The content of a table beside its markers, for a take that is written without its layout.
 struct TableRest : FollowingDocument {
   std::string beside;
 

@@ -70,7 +70,7 @@ Cells HeadLines::take_cells() {
   separator_ = separator_of(line);
   const auto separators = std::count(line.begin(), line.end(), separator_);
   if (static_cast<std::size_t>(separators) > most_columns) {
-    throw text_->error_at(place_, fmt::format("no more than {} columns are read", most_columns));
+    throw text_->error_at(place_, fmt::format("at most {} columns can be read", most_columns));
   }
   return split_cells(line, separator_);
 }

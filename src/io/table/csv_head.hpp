@@ -7,7 +7,7 @@
 
 #include "io/table/csv_document.hpp"
 
-// What the heads of tables have in common, and the heads of programs that have their own.
+// Helpers for the heads of tables, and the heads of exports of single programs.
 namespace kinemend {
 
 using Cells = std::vector<std::string>;
@@ -16,11 +16,11 @@ inline constexpr std::size_t most_columns = 4 * most_markers;
 
 std::string lower_case(std::string_view text);
 std::string_view without_spaces_around(std::string_view text);
-/// NaN where the text is no number; a decimal comma is one too.
+/// NaN where the text is not a finite number. A decimal comma is allowed.
 double number_of(std::string_view text);
 /// A comma, semicolon or tab: whichever the line has most of outside quotes.
 char separator_of(std::string_view line);
-/// Decimal where commas can be nothing else in the first row.
+/// Decimal where the first row can only be read with decimal commas.
 CommaStyle commas_of(std::string_view rows, char separator);
 /// 3 where a byte order mark starts the text, else 0.
 std::size_t after_byte_order_mark(std::string_view text);

@@ -85,7 +85,7 @@ class CsvHeaderReader {
     if (!first_row_) first_row_ = place_;
     const char separator = separator_of(line);
     if (static_cast<std::size_t>(std::count(line.begin(), line.end(), separator)) > most_columns) {
-      throw text_.error_at(place_, fmt::format("no more than {} columns are read", most_columns));
+      throw text_.error_at(place_, fmt::format("at most {} columns can be read", most_columns));
     }
     header_.style.separator = separator;
     header_.labels_line = place_;

@@ -8,6 +8,7 @@
 #include "io/memory_limit.hpp"
 #include "io/table/csv_skeleton.hpp"
 #include "io/text/cell_patch.hpp"
+#include "io/text/cut_text.hpp"
 #include "io/text/number.hpp"
 
 namespace kinemend {
@@ -119,7 +120,7 @@ class JointReader {
     }
     if (!stated) {
       note_repair(text_, diagnostics_, "skeleton_missing", header_.labels_line,
-                  "no lines '# joint': every joint hangs on the first, without offset");
+                  "no lines '# joint': every joint is a child of the first, without an offset");
     }
   }
 
@@ -175,6 +176,10 @@ class JointReader {
     while (rows.next()) {
       const std::size_t place = rows.position();
       const CellRow row = rows.read(values_.data(), width_);
+      if (ends_in_row(row)) {
+        leave_out_from(place);
+        break;
+      }
       if (row.fault != nullptr) fail_at_cell(text_, row.fault, header_.style.separator);
       if (row.used > width_) {
         throw text_.error_at(
@@ -197,12 +202,31 @@ class JointReader {
     if (rows.not_finite() > 0) {
       note_repair(text_, diagnostics_, "value_not_finite",
                   static_cast<std::size_t>(rows.first_not_finite() - text_.bytes.data()),
-                  "a value is no finite number: missing", rows.not_finite());
+                  "a value is not finite: it is missing", rows.not_finite());
     }
-    note(too_short_, "row_too_short", "a row ends early: what it lacks is missing");
-    note(not_unit_, "rotation_not_unit", "a quaternion's length is not 1: scaled");
+    note(too_short_, "row_too_short", "a row ends early: the rest of it is missing");
+    note(not_unit_, "rotation_not_unit", "the length of a quaternion is not 1: it is scaled");
     note(rotation_missing_, "rotation_missing", "a rotation is missing: held from a neighbour");
     note(position_missing_, "position_missing", "a position is missing: held from a neighbour");
+  }
+
+  // Whether the file was cut off in this row, after others that are whole.
+  bool ends_in_row(const CellRow& row) const {
+    const char* const end = text_.bytes.data() + text_.bytes.size();
+    if (row.end != end || clip_.frame_count() == 0 || row.used != row.cells) return false;
+    if (row.fault != nullptr) {
+      return may_start_number({row.fault, static_cast<std::size_t>(end - row.fault)});
+    }
+    const char separator = header_.style.separator;
+    return row.cells < width_ || last_number_may_be_cut(text_.bytes.substr(document_.table.begin),
+                                                        header_.style.commas, separator);
+  }
+
+  // Half of a rotation is none, so the frame is left out.
+  void leave_out_from(std::size_t place) {
+    note_repair(text_, diagnostics_, "file_cut", place,
+                "the file ends in the middle of a row: the rows before it are read");
+    document_.bytes.resize(place);
   }
 
   void store(std::size_t place) {
@@ -282,6 +306,7 @@ class JointRewriter {
   std::string rewrite() {
     for (std::size_t f = 0; f < clip_.frame_count() && patch_.next();) {
       if (document_.table.is_filler(patch_.row())) continue;
+      mend_labels(f);
       for (std::size_t j = 0; j < clip_.joint_count(); ++j) compare_rotation(f, j);
       for (std::size_t i = columns_.has_root ? 0 : 1; i < columns_.positions.size(); ++i)
         compare_position(f, i);
@@ -291,13 +316,30 @@ class JointRewriter {
   }
 
  private:
+  // Numbers and times of frames that are not finite.
+  void mend_labels(std::size_t frame) {
+    const MarkerTable& table = document_.table;
+    const auto is_no_number = [&](std::int32_t column) {
+      return column >= 0 && patch_.is_no_number(static_cast<std::size_t>(column));
+    };
+    if (is_no_number(table.frame_column)) {
+      const std::int64_t first = first_frame_number(clip_);
+      patch_.replace(static_cast<std::size_t>(table.frame_column),
+                     static_cast<double>(first) + static_cast<double>(frame), 0);
+    }
+    if (is_no_number(table.time_column))
+      patch_.replace(static_cast<std::size_t>(table.time_column), not_a_number, 0);
+  }
+
   void compare_rotation(std::size_t frame, std::size_t joint) {
     const auto& [w, x, y, z] = columns_.rotations[joint];
     const Quat before =
         rotation_from_cells(patch_.value(w), patch_.value(x), patch_.value(y), patch_.value(z));
     Quat now = clip_.rotation(frame, joint);
     const bool known = clip_.is_observed(frame, joint);
-    if (is_missing(before) ? !known : known && now == before) return;
+    const bool is_number = !patch_.is_no_number(w) && !patch_.is_no_number(x) &&
+                           !patch_.is_no_number(y) && !patch_.is_no_number(z);
+    if (is_number && (is_missing(before) ? !known : known && now == before)) return;
     if (!known) now = {not_a_number, not_a_number, not_a_number, not_a_number};
     patch_.replace(w, now.w, shortest_digits);
     patch_.replace(x, now.x, shortest_digits);

@@ -32,6 +32,10 @@ class CsvReader {
     table.style = header_.style;
     table.frame_column = header_.frame_column;
     table.time_column = header_.time_column;
+    table.head_is_finite =
+        std::none_of(header_.notes.begin(), header_.notes.end(),
+                     [](const CsvNote& note) { return is_not_finite(note.value); });
+    if (!table.head_is_finite) note("head_not_finite", header_.labels_line, head_not_finite_text);
     note_header();
     if (!header_.has_rotations()) return read_markers();
     Clip clip = read_csv_joints(text_, diagnostics_, header_, document_, labels_);
@@ -53,10 +57,10 @@ class CsvReader {
       note("decimal_comma", header_.data_begin, "numbers have decimal commas");
     }
     note("head_unknown", header_.foreign_place,
-         "a line above the labels says what is not understood", header_.foreign_lines);
+         "a line above the labels is not understood: ignored", header_.foreign_lines);
     if (!header_.ignored.empty()) {
       note("column_ignored", header_.labels_line,
-           fmt::format("column {} is neither frame, time nor part of a marker or joint",
+           fmt::format("column {} is neither frame, time nor part of a marker or joint: ignored",
                        quote(header_.ignored[0])),
            header_.ignored.size());
     }
@@ -75,14 +79,16 @@ class CsvReader {
     }
     if (clip.names.empty()) throw text_.error_at(header_.labels_line, "the file has no markers");
     note("marker_unnamed", header_.labels_line,
-         "a marker has no name: called *1, *2, ... by its place", unnamed);
+         "a marker has no name: it is called *1, *2, ... by its position", unnamed);
     clip.unit = header_.unit;
     if (header_.unit_is_custom) {
-      note("unit_assumed", header_.labels_line,
-           fmt::format("the export names no unit: {} taken, as its program has it", clip.unit));
+      note(
+          "unit_assumed", header_.labels_line,
+          fmt::format("the export states no unit: {} assumed, the unit of its program", clip.unit));
     }
     constexpr std::size_t no_count = std::numeric_limits<std::size_t>::max();
     TableFinding rows = read_marker_table(text_, diagnostics_, no_count, document_.table, clip);
+    if (rows.cut_row) document_.bytes.resize(*rows.cut_row);
     if (rows.widest > 0) {
       throw text_.error_at(rows.wide_row,
                            fmt::format("expected {} cells as in the row of labels, found more",

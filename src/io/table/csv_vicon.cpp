@@ -214,7 +214,7 @@ class ViconReader {
   void refuse_text_behind(std::size_t blank) const {
     for (std::size_t at = blank; at < header_.data_end; at = next_line(text_.bytes, at)) {
       if (!is_blank(line_from(text_.bytes, at)))
-        throw text_.error_at(at, "expected another section behind the blank line");
+        throw text_.error_at(at, "expected another section after the blank line");
     }
   }
 
@@ -247,7 +247,7 @@ CsvHeader read_vicon_header(const SourceText& text) {
   }
   if (std::count_if(sections.begin(), sections.end(), is_trajectories) > 1) {
     throw text.error_at(std::find_if(found + 1, sections.end(), is_trajectories)->place,
-                        "a second section Trajectories: one is read, not several");
+                        "a second section Trajectories: only one can be read");
   }
   CsvHeader header =
       ViconReader(text, sections, static_cast<std::size_t>(found - sections.begin())).read();

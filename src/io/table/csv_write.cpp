@@ -114,10 +114,11 @@ std::string write_plain_csv(const Clip& clip) {
 // The document whose layout holds the clip; null where there is none.
 const CsvDocument* kept_layout(const MarkerClip& clip) {
   const auto* const document = dynamic_cast<const CsvDocument*>(clip.source.document.get());
-  const bool same =
-      document != nullptr && !document->names.empty() && clip.names == document->names &&
-      clip.unit == document->unit && clip.frame_count() == document->table.frames &&
-      clip.frame_rate_hz == document->frame_rate_hz && clip.first_frame == document->first_frame;
+  const bool same = document != nullptr && document->table.head_is_finite &&
+                    !document->names.empty() && clip.names == document->names &&
+                    clip.unit == document->unit && clip.frame_count() == document->table.frames &&
+                    clip.frame_rate_hz == document->frame_rate_hz &&
+                    clip.first_frame == document->first_frame;
   return same ? document : nullptr;
 }
 
@@ -154,7 +155,8 @@ std::string write_plain_csv(const MarkerClip& clip) {
 std::string write_csv(const Clip& clip) {
   clip.validate();
   const auto* document = dynamic_cast<const CsvDocument*>(clip.source.document.get());
-  const bool same_layout = document != nullptr && document->skeleton.joint_count() > 0 &&
+  const bool same_layout = document != nullptr && document->table.head_is_finite &&
+                           document->skeleton.joint_count() > 0 &&
                            same_skeleton(clip.skeleton, document->skeleton) &&
                            clip.frame_count() == document->table.frames &&
                            clip.frame_rate_hz == document->frame_rate_hz &&
@@ -165,8 +167,10 @@ std::string write_csv(const Clip& clip) {
 
 std::string write_csv_markers(const MarkerClip& clip) {
   clip.validate();
-  if (const auto* const document = kept_layout(clip))
-    return rewrite_marker_table(clip, document->bytes, document->table);
+  if (const auto* const document = kept_layout(clip)) {
+    if (auto bytes = rewrite_marker_table(clip, document->bytes, document->table))
+      return *std::move(bytes);
+  }
   if (clip.names.empty()) throw Error(ErrorKind::usage, "CSV cannot hold a clip without markers");
   return write_plain_csv(clip);
 }

@@ -10,6 +10,7 @@
 #include "io/memory_limit.hpp"
 #include "io/table/marker_zeros.hpp"
 #include "io/text/cell_patch.hpp"
+#include "io/text/cut_text.hpp"
 
 namespace kinemend {
 
@@ -36,7 +37,8 @@ class TableReader {
       row_begin_ = rows_.position();
       const CellRow row = rows_.read(values_.data(), width_);
       if (row.fault != nullptr && is_trailing_text(row)) break;
-      if (row.fault != nullptr) fail_at_cell(text_, row.fault, table_.style.separator);
+      if (row.fault != nullptr && !is_cut_number(row))
+        fail_at_cell(text_, row.fault, table_.style.separator);
       if (row.used > width_) return wider_than(row.used);
       if (table_.is_filler(row)) continue;
       store(row);
@@ -95,6 +97,7 @@ class TableReader {
     clip_.observed.resize(first + markers_);
     Vec3* const positions = clip_.positions.data() + first;
     std::uint8_t* const observed = clip_.observed.data() + first;
+    const std::size_t incomplete_before = incomplete_.count;
     for (std::size_t m = 0; m < markers_; ++m) {
       const auto& [x, y, z] = table_.columns[m];
       const Vec3 position{values_[x], values_[y], values_[z]};
@@ -106,6 +109,7 @@ class TableReader {
         store_missing(position);
       }
     }
+    incomplete_in_row_ = incomplete_.count - incomplete_before;
     ++table_.frames;
     table_.end = static_cast<std::size_t>(row.end - text_.bytes.data());
     last_row_ = row;
@@ -121,37 +125,74 @@ class TableReader {
     if (column >= 0) labels.push_back(values_[static_cast<std::size_t>(column)]);
   }
 
-  // The last number of a file that ends amid a row may have lost digits.
-  void drop_cut_sample() {
-    const bool cut = table_.frames > 0 && table_.end == text_.bytes.size() &&
-                     last_row_.cells + 1 < width_ && last_row_.used == last_row_.cells;
-    if (!cut) return;
+  // Whether the fault is what a cut has left of the last number.
+  bool is_cut_number(const CellRow& row) const {
+    if (row.end != text_.bytes.data() + text_.bytes.size()) return false;
+    const std::string_view word(row.fault, static_cast<std::size_t>(row.end - row.fault));
+    return may_start_number(word) && word.find(table_.style.separator) == word.npos;
+  }
+
+  // Whether the file was cut off in the last row.
+  bool ends_in_row() const {
+    if (table_.frames == 0 || table_.end != text_.bytes.size()) return false;
+    if (last_row_.fault != nullptr) return true;
+    const bool is_empty = last_row_.used != last_row_.cells;
+    if (is_empty || text_.bytes.back() == table_.style.separator) return false;
+    const std::string_view rows = text_.bytes.substr(table_.begin, table_.end - table_.begin);
+    return last_row_.cells + 1 < width_ ||
+           last_number_may_be_cut(rows, table_.style.commas, table_.style.separator);
+  }
+
+  // The last number of a file that ends in the middle of a row may have lost digits.
+  void leave_out_cut_value() {
+    if (!ends_in_row()) return;
+    // One repair says it all.
+    too_short_.count -= last_row_.cells + 1 < width_ ? 1 : 0;
+    incomplete_.count -= incomplete_in_row_;
+    note_repair(text_, diagnostics_, "file_cut", table_.end,
+                "the file ends in the middle of a row: its last value is not used");
+    const std::size_t column = last_row_.used - 1;
+    const auto begins_behind = [&](const auto& columns) {
+      return column < *std::min_element(columns.begin(), columns.end());
+    };
+    if (std::all_of(table_.columns.begin(), table_.columns.end(), begins_behind))
+      return drop_last_row();
     for (std::size_t m = 0; m < markers_; ++m) {
       const auto& columns = table_.columns[m];
-      if (std::find(columns.begin(), columns.end(), last_row_.used - 1) == columns.end()) continue;
+      if (std::find(columns.begin(), columns.end(), column) == columns.end()) continue;
       const std::size_t sample = (table_.frames - 1) * markers_ + m;
-      if (clip_.observed[sample] == 0) continue;
       clip_.observed[sample] = 0;
       clip_.positions[sample] = {};
-      note_repair(text_, diagnostics_, "file_cut", table_.end,
-                  "the file ends amid a row: its last marker is missing");
     }
   }
 
+  // A row without any sample.
+  void drop_last_row() {
+    --table_.frames;
+    clip_.positions.resize(table_.frames * markers_);
+    clip_.observed.resize(table_.frames * markers_);
+    for (std::vector<double>* labels : {&finding_.labels.frames, &finding_.labels.times_s}) {
+      if (!labels->empty()) labels->pop_back();
+    }
+    finding_.cut_row = row_begin_;
+    table_.end = row_begin_;
+  }
+
   void finish() {
-    drop_cut_sample();
-    note(too_short_, "row_too_short", "a row ends early: what it lacks is missing");
-    note(incomplete_, "marker_incomplete", "a marker lacks some of its coordinates: missing");
+    leave_out_cut_value();
     if (rows_.not_finite() > 0) {
       note_repair(text_, diagnostics_, "value_not_finite",
                   static_cast<std::size_t>(rows_.first_not_finite() - text_.bytes.data()),
-                  "a coordinate is no finite number: missing", rows_.not_finite());
+                  "a coordinate is not finite: the marker is missing", rows_.not_finite());
     }
+    note(too_short_, "row_too_short", "a row ends early: the rest of it is missing");
+    note(incomplete_, "marker_incomplete", "a marker lacks some of its coordinates: it is missing");
     if (table_.zeros_are_missing) hide_zeros();
     const MissingZeros zeros = mark_zeros_missing(clip_);
     if (zeros.samples > 0) {
       note_repair(text_, diagnostics_, "zero_is_missing", place_of_frame(zeros.first_frame),
-                  "a marker is at 0 0 0 but was not near: missing", zeros.samples);
+                  "a marker is at 0 0 0 but was not near before or after: it is missing",
+                  zeros.samples);
     }
     table_.observed = clip_.observed;
   }
@@ -189,6 +230,7 @@ class TableReader {
   TableFinding finding_;
   CountedRepair too_short_;
   CountedRepair incomplete_;
+  std::size_t incomplete_in_row_ = 0;  // of the last row
 };
 
 // Half a unit in the last decimal that any of the first times has.
@@ -237,6 +279,13 @@ TableFinding read_marker_table(const SourceText& text, Diagnostics& diagnostics,
   return TableReader(text, diagnostics, declared_frames, table, clip).read();
 }
 
+bool is_not_finite(std::string_view text) {
+  if (text.empty()) return false;
+  const char* const end = text.data() + text.size();
+  const NumberToken token = read_number(text.data(), end, CommaStyle::decimal);
+  return token.kind == TokenKind::not_finite && token.end == end;
+}
+
 void fail_at_cell(const SourceText& text, const char* place, char separator) {
   std::string_view cell =
       line_from(text.bytes, static_cast<std::size_t>(place - text.bytes.data()));
@@ -259,7 +308,7 @@ RowRate check_row_labels(const SourceText& text, Diagnostics& diagnostics, const
   const std::size_t jumps = count_steps(labels.frames, [](double step) { return step != 1; });
   if (jumps > 0) {
     note_repair(text, diagnostics, "frame_number_gap", table.begin,
-                "frame numbers do not go up by one: rows are taken as successive frames", jumps);
+                "frame numbers do not go up by one: rows are read as successive frames", jumps);
   }
   const auto& times = labels.times_s;
   if (times.size() < 2) return {};
@@ -272,7 +321,7 @@ RowRate check_row_labels(const SourceText& text, Diagnostics& diagnostics, const
   });
   if (uneven > 0) {
     note_repair(text, diagnostics, "time_uneven", table.begin,
-                "times are uneven: rows are taken as evenly spaced", uneven);
+                "times are uneven: rows are read as evenly spaced", uneven);
   }
   const double tolerance_s = 2.01 * rounding_s / steps;
   return {rate_of(mean_step_s, tolerance_s), mean_step_s, tolerance_s};

@@ -32,21 +32,41 @@ class TableRewriter {
       empties_cells_ = empties_cells_ || (table.observed[i] != 0 && clip.observed[i] == 0);
   }
 
-  std::string rewrite() {
+  std::optional<std::string> rewrite() {
     for (std::size_t f = 0; f < table_.frames && patch_.next();) {
       if (table_.is_filler(patch_.row())) continue;
+      mend_labels(f);
       for (std::size_t m = 0; m < clip_.marker_count(); ++m) compare(f, m);
       // The row may look whole from now on: digits that were cut must not pass for a sample.
       for (const std::size_t column : cut_) {
-        if (patch_.has_replacements()) patch_.replace(column, not_a_number, 0);
+        if (patch_.has_replacements()) empty(column);
       }
       cut_.clear();
       ++f;
     }
+    if (needs_empty_cells_ && table_.style.separator == ' ') return std::nullopt;
     return std::move(patch_).finish();
   }
 
  private:
+  // A number or a time that is not finite; the numbers of frames follow from the first.
+  void mend_labels(std::size_t frame) {
+    if (is_no_number(table_.frame_column)) {
+      patch_.replace(static_cast<std::size_t>(table_.frame_column),
+                     static_cast<double>(clip_.first_frame) + static_cast<double>(frame), 0);
+    }
+    if (is_no_number(table_.time_column)) empty(static_cast<std::size_t>(table_.time_column));
+  }
+
+  bool is_no_number(std::int32_t column) const {
+    return column >= 0 && patch_.is_no_number(static_cast<std::size_t>(column));
+  }
+
+  void empty(std::size_t column) {
+    needs_empty_cells_ = true;
+    patch_.replace(column, not_a_number, 0);
+  }
+
   void compare(std::size_t frame, std::size_t marker) {
     const bool known = clip_.is_observed(frame, marker);
     const bool was_known = table_.observed[frame * clip_.marker_count() + marker] != 0;
@@ -58,10 +78,17 @@ class TableRewriter {
       if (was_cut) cut_.insert(cut_.end(), columns.begin(), columns.end());
       // In a file that has empty cells, zeros no longer go without saying.
       if (before == Vec3{} && empties_cells_) {
-        for (const std::size_t column : columns) patch_.replace(column, not_a_number, 0);
+        for (const std::size_t column : columns) empty(column);
+      }
+      // A word such as nan: what is left of the position is missing, too.
+      const bool has_word = std::any_of(columns.begin(), columns.end(), [&](std::size_t column) {
+        return patch_.is_no_number(column);
+      });
+      if (has_word) {
+        for (const std::size_t column : columns) empty(column);
       }
     } else if (!known) {
-      for (const std::size_t column : columns) patch_.replace(column, not_a_number, 0);
+      for (const std::size_t column : columns) empty(column);
     } else if (!(was_known && now == before)) {
       patch_.replace(columns[0], now.x, decimals());
       patch_.replace(columns[1], now.y, decimals());
@@ -79,8 +106,9 @@ class TableRewriter {
   std::string_view bytes_;
   const MarkerTable& table_;
   CellPatch patch_;
-  bool empties_cells_ = false;    // a sample that was there is missing now
-  std::vector<std::size_t> cut_;  // columns of a sample that the end of the file cut
+  bool empties_cells_ = false;      // a sample that was there is missing now
+  bool needs_empty_cells_ = false;  // which only a table with separators can show
+  std::vector<std::size_t> cut_;    // columns of a sample that the end of the file cut
   std::optional<unsigned> decimals_;
 };
 
@@ -104,8 +132,8 @@ unsigned decimals_of(std::string_view bytes, const MarkerTable& table) {
   return most;
 }
 
-std::string rewrite_marker_table(const MarkerClip& clip, std::string_view bytes,
-                                 const MarkerTable& table) {
+std::optional<std::string> rewrite_marker_table(const MarkerClip& clip, std::string_view bytes,
+                                                const MarkerTable& table) {
   return TableRewriter(clip, bytes, table).rewrite();
 }
 

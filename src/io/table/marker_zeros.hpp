@@ -8,7 +8,7 @@
 
 namespace kinemend {
 
-/// Frames [first, last) in which a marker stands at the origin because it is missing.
+/// Frames [first, last) in which a marker is at the origin because it is missing.
 struct ZeroGap {
   std::size_t marker = 0;
   std::size_t first = 0;
@@ -32,7 +32,7 @@ std::size_t sample_count(const std::vector<ZeroGap>& gaps);
 /// Makes the samples of gaps missing.
 void mark_missing(const std::vector<ZeroGap>& gaps, MarkerClip& clip);
 
-/// What was found by `mark_zeros_missing`.
+/// The result of `mark_zeros_missing`.
 struct MissingZeros {
   std::size_t samples = 0;
   std::size_t first_frame = 0;  ///< of the first of them

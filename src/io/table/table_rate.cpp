@@ -16,8 +16,8 @@ double table_rate(const SourceText& text, Diagnostics& diagnostics, const RowRat
     const double off_s = std::fabs(1 / stated - times.step_s);
     if (times.rate_hz > 0 && off_s > tolerance / stated + times.tolerance_s) {
       note_repair(text, diagnostics, "time_mismatch", said.mismatch_place,
-                  fmt::format("{0} says {1} Hz, the times {2:.6g} Hz: {0} is taken", said.stated_by,
-                              stated, times.rate_hz));
+                  fmt::format("{0} states {1} Hz, the times {2:.6g} Hz: {0} is used",
+                              said.stated_by, stated, times.rate_hz));
     }
     return stated;
   }
@@ -28,7 +28,7 @@ double table_rate(const SourceText& text, Diagnostics& diagnostics, const RowRat
     note_repair(text, diagnostics, "frame_rate_assumed", said.stated_place,
                 fmt::format("{}: {:.6g} Hz {}", said.missing, rate,
                             by_times     ? "from the times"
-                            : by_options ? "as asked for"
+                            : by_options ? "as requested"
                                          : "assumed"));
   }
   return rate;

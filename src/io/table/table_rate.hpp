@@ -8,12 +8,12 @@
 
 namespace kinemend {
 
-/// What a table has to say of its rate.
+/// The statements of a table about its rate.
 struct TableRate {
   double stated_hz;            ///< NaN or 0 where nothing is stated
   std::size_t stated_place;    ///< byte at which it is, or would be
   std::size_t rows_place;      ///< byte of the first row
-  double asked_hz;             ///< of the options, 0 for none
+  double asked_hz;             ///< of the options; 0: not given
   double unknown_hz;           ///< the format's own guess
   std::string_view stated_by;  ///< in words: `DataRate`
   std::size_t mismatch_place;  ///< byte that a mismatch with the times is noted at

@@ -7,9 +7,9 @@
 
 namespace kinemend {
 
-/// How surely the head of a file is TRC, 0 to 100.
+/// How likely the head of a file is TRC, 0 to 100.
 int sniff_trc(std::string_view head);
-/// Reads TRC in its dialects (docs/formats/trc.md). Errors: `unreadable_input`, naming the line.
+/// Reads TRC in its dialects (docs/formats/trc.md). Errors: `unreadable_input` with the line.
 TakeResult read_trc(std::string bytes, std::string_view name, const ReadOptions& options);
 /// A clip read from TRC comes out in its source's layout, with the digits of every sample that has
 /// not changed; any other in a plain layout. Errors: `usage` when the format cannot hold the clip.

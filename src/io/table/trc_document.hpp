@@ -12,7 +12,7 @@
 
 namespace kinemend {
 
-/// What stands above the rows of a TRC file.
+/// The lines above the rows of a TRC file.
 struct TrcHeader {
   std::string_view first_line;  ///< `PathFileType ...`; empty where there is none
   std::string first_cell;       ///< the name that the first line gives
@@ -20,18 +20,18 @@ struct TrcHeader {
   std::vector<std::string> values;
   std::size_t values_line = 0;  ///< byte of the line of values
   std::size_t labels_line = 0;
-  std::vector<std::string> labels;  ///< behind `Frame#` and `Time`, one a marker
+  std::vector<std::string> labels;  ///< after `Frame#` and `Time`, one per marker
   bool has_time = true;
   CellStyle style;  ///< of the rows
   std::size_t data_begin = 0;
 
   /// The value of a key; empty where the header lacks it.
   std::string_view value(std::string_view key) const;
-  /// The same as a number, with a decimal comma too; NaN where it is none.
+  /// The same as a number; NaN where it is not finite. A decimal comma is allowed.
   double number(std::string_view key) const;
 };
 
-/// Parses up to the first row. Errors: `unreadable_input`, naming the line.
+/// Parses up to the first row. Errors: `unreadable_input` with the line.
 TrcHeader read_trc_header(const SourceText& text, Diagnostics& diagnostics);
 
 /// A TRC file as it was read: the bytes hold every digit, so beside them only landmarks are kept.

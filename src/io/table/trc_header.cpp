@@ -73,7 +73,7 @@ class TrcHeaderReader {
     if (is_empty(line)) return;
     if (static_cast<std::size_t>(std::count_if(line.begin(), line.end(), is_filler)) >
         6 * most_markers) {
-      throw text_.error_at(place_, fmt::format("no more than {} markers are read", most_markers));
+      throw text_.error_at(place_, fmt::format("at most {} markers can be read", most_markers));
     }
     if (head_separator_ == 0) head_separator_ = separator_of(line);
     const std::vector<std::string> cells = split_cells(line, separator_in(line));
@@ -118,8 +118,8 @@ class TrcHeaderReader {
     const bool thrice = !above_x && cells.size() % stride == 0 && is_thrice(cells);
     if (!above_x) {
       note_repair(text_, diagnostics_, "label_layout", place_,
-                  thrice ? "each name stands above all its three columns"
-                         : "names do not stand above the first of three columns");
+                  thrice ? "each name is above all its three columns"
+                         : "names are not above the first of three columns");
     }
     if (above_x || thrice) {
       for (std::size_t i = 0; i < cells.size(); i += stride) header_.labels.push_back(cells[i]);
@@ -201,9 +201,9 @@ class TrcHeaderReader {
     const bool spaces = separator == ' ';
     note_repair(
         text_, diagnostics_, spaces ? "space_separator" : "comma_separator", header_.data_begin,
-        fmt::format("{} stand between cells where tabs should", spaces             ? "spaces"
-                                                                : separator == ',' ? "commas"
-                                                                                   : "semicolons"));
+        fmt::format("{} separate the cells instead of tabs", spaces             ? "spaces"
+                                                             : separator == ',' ? "commas"
+                                                                                : "semicolons"));
   }
 
   const SourceText& text_;

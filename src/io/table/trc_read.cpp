@@ -34,7 +34,13 @@ class TrcReader {
     table.frame_column = 0;
     table.time_column = header_.has_time ? 1 : -1;
     clip_.unit = header_.value("Units");
+    table.head_is_finite =
+        std::none_of(header_.values.begin(), header_.values.end(), is_not_finite);
+    if (!table.head_is_finite)
+      note_repair(text_, diagnostics_, "head_not_finite", header_.values_line,
+                  head_not_finite_text);
     const TableFinding rows = read_rows();
+    if (rows.cut_row) document_.bytes.resize(*rows.cut_row);
     name_the_unnamed();
     check_counts();
     clip_.frame_rate_hz = table_rate(
@@ -72,8 +78,8 @@ class TrcReader {
 
   void check_marker_count(std::size_t markers) const {
     if (markers <= most_markers) return;
-    throw text_.error_at(header_.labels_line, fmt::format("{} markers: no more than {} are read",
-                                                          markers, most_markers));
+    throw text_.error_at(header_.labels_line,
+                         fmt::format("{} markers: at most {} can be read", markers, most_markers));
   }
 
   void set_columns() {
@@ -94,7 +100,7 @@ class TrcReader {
     }
     if (unnamed > 0) {
       note_repair(text_, diagnostics_, "marker_unnamed", header_.labels_line,
-                  "a marker has no name: called *1, *2, ... by its place", unnamed);
+                  "a marker has no name: it is called *1, *2, ... by its position", unnamed);
     }
   }
 

@@ -125,10 +125,13 @@ std::string write_trc(const MarkerClip& clip) {
   clip.validate();
   const auto* document = dynamic_cast<const TrcDocument*>(clip.source.document.get());
   const bool same_layout =
-      document != nullptr && clip.names == document->names && clip.unit == document->unit &&
-      clip.frame_count() == document->table.frames &&
+      document != nullptr && document->table.head_is_finite && clip.names == document->names &&
+      clip.unit == document->unit && clip.frame_count() == document->table.frames &&
       clip.frame_rate_hz == document->frame_rate_hz && clip.first_frame == document->first_frame;
-  if (same_layout) return rewrite_marker_table(clip, document->bytes, document->table);
+  if (same_layout) {
+    if (auto bytes = rewrite_marker_table(clip, document->bytes, document->table))
+      return *std::move(bytes);
+  }
   if (clip.names.empty()) throw Error(ErrorKind::usage, "TRC cannot hold a clip without markers");
   return TrcWriter(clip, style_of(clip, document)).write();
 }

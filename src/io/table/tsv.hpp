@@ -7,7 +7,7 @@
 
 namespace kinemend {
 
-/// How surely the head of a file is a table of Qualisys Track Manager, 0 to 100.
+/// How likely the head of a file is a table of Qualisys Track Manager, 0 to 100.
 int sniff_tsv(std::string_view head);
 /// Reads marker tables (docs/formats/tsv.md). Errors: `unreadable_input`, naming the line; also for
 /// tables of anything else: rigid bodies, skeletons, analog channels.

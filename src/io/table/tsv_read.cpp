@@ -84,6 +84,12 @@ class TsvReader {
   void read_key(Cells& cells) {
     const std::string key = cells[0];
     const std::string value = cells.size() > 1 ? cells[1] : "";
+    const bool is_number =
+        key != "MARKER_NAMES" && key != "DESCRIPTION" && key != "TRAJECTORY_TYPES";
+    if (is_number && std::any_of(cells.begin(), cells.end(), is_not_finite)) {
+      document_.table.head_is_finite = false;
+      note("head_not_finite", lines_.place(), head_not_finite_text);
+    }
     if (key == "NO_OF_FRAMES") frames_ = {number_of(value), lines_.place()};
     if (key == "NO_OF_MARKERS") markers_ = {number_of(value), lines_.place()};
     if (key == "FREQUENCY") rate_ = {number_of(value), lines_.place()};
@@ -103,7 +109,8 @@ class TsvReader {
     if (std::isfinite(time_s)) {
       clip_.events.push_back({cells[1], "", time_s});
     } else {
-      note("event_time_not_finite", lines_.place(), "an event has no time; it is left out");
+      note("event_time_not_finite", lines_.place(),
+           "the time of an event is not finite: the event is left out");
     }
   }
 
@@ -133,6 +140,7 @@ class TsvReader {
                               ? static_cast<std::size_t>(frames_.number)
                               : std::size_t{0};
     const TableFinding found = read_marker_table(text_, diagnostics_, declared, table, clip_);
+    if (found.cut_row) document_.bytes.resize(*found.cut_row);
     if (found.widest > 0) {
       throw text_.error_at(found.wide_row,
                            fmt::format("expected {} cells, found {}", table.width(), found.widest));
@@ -195,8 +203,8 @@ class TsvReader {
       clip_.names[m] = fmt::format("*{}", m + 1);
       ++unnamed;
     }
-    note("marker_unnamed", names_place_, "a marker has no name: called *1, *2, ... by its place",
-         unnamed);
+    note("marker_unnamed", names_place_,
+         "a marker has no name: it is called *1, *2, ... by its position", unnamed);
   }
 
   void check_counts() {

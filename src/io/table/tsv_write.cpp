@@ -16,8 +16,8 @@ bool keeps_layout(const MarkerClip& clip, const TsvDocument& document) {
   const auto same_event = [](const MarkerEvent& a, const MarkerEvent& b) {
     return a.label == b.label && a.context == b.context && a.time_s == b.time_s;
   };
-  return clip.names == document.names && clip.unit == document.unit &&
-         clip.frame_count() == document.table.frames &&
+  return document.table.head_is_finite && clip.names == document.names &&
+         clip.unit == document.unit && clip.frame_count() == document.table.frames &&
          clip.frame_rate_hz == document.frame_rate_hz && clip.first_frame == document.first_frame &&
          std::equal(clip.events.begin(), clip.events.end(), document.events.begin(),
                     document.events.end(), same_event);
@@ -100,8 +100,10 @@ class TsvWriter {
 std::string write_tsv(const MarkerClip& clip) {
   clip.validate();
   const auto* const document = dynamic_cast<const TsvDocument*>(clip.source.document.get());
-  if (document != nullptr && keeps_layout(clip, *document))
-    return rewrite_marker_table(clip, document->bytes, document->table);
+  if (document != nullptr && keeps_layout(clip, *document)) {
+    if (auto bytes = rewrite_marker_table(clip, document->bytes, document->table))
+      return *std::move(bytes);
+  }
   if (clip.names.empty()) throw Error(ErrorKind::usage, "TSV cannot hold a clip without markers");
   constexpr double millimetre = 0.001;
   if (const double unit = metres_per_unit(clip.unit); unit > 0 && unit != millimetre) {

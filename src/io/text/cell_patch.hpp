@@ -20,7 +20,7 @@ class CellPatch {
   /// `begin`: of the first row, all of which are `width` cells wide.
   CellPatch(std::string_view bytes, std::size_t begin, const CellStyle& style, std::size_t width);
 
-  /// Moves to the next row, and writes what was replaced in the one before; false at the end.
+  /// Writes the replacements of this row and moves to the next; false at the end.
   bool next();
   const CellRow& row() const { return row_; }
   /// As read, NaN where a cell is empty.
@@ -30,8 +30,8 @@ class CellPatch {
     const TokenSpan& token = tokens_[column];
     return std::isnan(values_[column]) && token.begin != token.end;
   }
-  /// NaN makes an empty cell, or `NaN` in a table without separators. Digits that already say the
-  /// new value, as well as so many decimals can, stay.
+  /// NaN makes an empty cell, or `NaN` in a table without separators. Digits that already express
+  /// the new value as well as so many decimals can are kept.
   void replace(std::size_t column, double value, unsigned decimals);
   bool has_replacements() const { return !replacements_.empty(); }
   /// The rest of the bytes, as they are.

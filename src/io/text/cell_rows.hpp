@@ -17,7 +17,7 @@ struct CellStyle {
   char separator = '\t';  ///< of cells: a tab, comma or semicolon; ' ' stands for runs of blanks,
                           ///< which leave no cell empty
   CommaStyle commas = CommaStyle::none;  ///< none or decimal
-  std::vector<std::uint8_t> texts;       ///< by column: 1 where cells are no numbers; may be short
+  std::vector<std::uint8_t> texts;       ///< by column: 1 where cells are text; may be short
 
   void mark_text(std::size_t column) {
     texts.resize(std::max(texts.size(), column + 1));
@@ -43,11 +43,11 @@ struct CellRow {
   std::size_t cells = 0;        ///< an empty one after the last separator is left out
   std::size_t used = 0;         ///< up to the last that is not empty
   const char* end = nullptr;    ///< of the line
-  const char* fault = nullptr;  ///< the first cell that is no number
+  const char* fault = nullptr;  ///< the first cell that is not a number
 };
 
 /// Walks over the rows of a table of numbers, a line each. An empty cell, or one with no finite
-/// number, is NaN. Lines of white space (tabs too) are passed over.
+/// number, is NaN. Lines of white space (tabs too) are skipped.
 class CellRows {
  public:
   CellRows(std::string_view text, std::size_t begin, CellStyle style);
@@ -60,7 +60,7 @@ class CellRows {
   /// stand when it is empty, null when the row ends before it.
   CellRow read(double* values, std::size_t count, TokenSpan* tokens = nullptr);
 
-  std::size_t not_finite() const { return not_finite_; }  ///< cells as `nan`
+  std::size_t not_finite() const { return not_finite_; }  ///< cells such as `nan`
   const char* first_not_finite() const { return first_not_finite_; }
 
  private:

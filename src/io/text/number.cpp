@@ -81,6 +81,27 @@ NumberToken read_sample(const char* begin, const char* end, CommaStyle commas) {
   return result;
 }
 
+const char* second_number(const char* begin, const char* end) {
+  for (const char* p = begin; p != end && p + 1 != end; ++p) {
+    const bool ends_number = (*p >= '0' && *p <= '9') || *p == '.';
+    if (ends_number && (p[1] == '-' || p[1] == '+')) return p + 1;
+  }
+  return end;
+}
+
+std::size_t numbers_in_word(std::string_view word) {
+  if (word.find('.') == word.npos) return 1;
+  std::size_t count = 0;
+  const char* const end = word.data() + word.size();
+  for (const char* p = word.data(); p != end; ++count) {
+    const char* const next = second_number(p, end);
+    const NumberToken number = read_number(p, next);
+    if (number.kind != TokenKind::number || number.end != next) return 1;
+    p = next;
+  }
+  return std::max<std::size_t>(count, 1);
+}
+
 CommaStyle comma_style(std::string_view line, std::size_t expected) {
   if (line.find(',') == line.npos) return CommaStyle::none;
   std::size_t by_space = 0, by_both = 0;

@@ -13,10 +13,10 @@
 
 namespace kinemend {
 
-/// A cell that holds none.
+/// The value of a cell without a number.
 inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// What a comma between digits means in one part of a file.
+/// The meaning of a comma between digits in one part of a file.
 enum class CommaStyle : std::uint8_t { none, decimal, separator };
 
 enum class TokenKind : std::uint8_t {
@@ -39,9 +39,16 @@ struct NumberToken {
 /// separates).
 NumberToken read_number(const char* begin, const char* end, CommaStyle commas = CommaStyle::none);
 
-/// The same for a place or an angle: one beyond 1e100, of which squares and sums are no finite
-/// numbers, is `not_finite` itself.
+/// The same for a position or an angle: a value beyond 1e100, whose square may not be finite, is
+/// `not_finite`.
 NumberToken read_sample(const char* begin, const char* end, CommaStyle commas = CommaStyle::none);
+
+/// How many numbers a word holds: some programs write no blank before a minus sign
+/// (`0.0-7.5094748`). A sign after a digit or a point starts the next number; one after an exponent
+/// (`1e-5`) does not. 1 for a word that is not numbers throughout, or that has no point, as a date.
+std::size_t numbers_in_word(std::string_view word);
+/// Where the second number of such a word starts.
+const char* second_number(const char* begin, const char* end);
 
 /// How the commas of `line` are to be read when it holds `expected` numbers. `none` when it has no
 /// comma, or when both readings are possible or neither is.

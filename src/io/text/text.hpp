@@ -19,7 +19,7 @@ std::string_view line_ending_of(std::string_view text);
 
 bool equal_ignoring_case(std::string_view a, std::string_view b);
 
-/// A text with its name, and what was repaired in it.
+/// A text with its name, for readers.
 struct SourceText {
   std::string_view name;
   std::string_view bytes;
@@ -54,7 +54,7 @@ class TextScanner {
 
   /// The next word, empty at the end; stays before it.
   std::string_view peek();
-  /// The next word, and moves behind it.
+  /// The next word; moves past it.
   std::string_view next();
   /// Takes the next word when it is `word` in any case.
   bool accept(std::string_view word);
@@ -64,7 +64,7 @@ class TextScanner {
   /// The rest of the line, up to a brace; stays before it.
   std::string_view rest_of_line() const;
 
-  /// Of the next word, once it was peeked at.
+  /// The place of the next word, after a call of `peek`.
   std::size_t position() const { return position_; }
   void move_to(std::size_t position) { position_ = position; }
   std::size_t comments() const { return comments_; }

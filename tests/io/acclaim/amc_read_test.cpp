@@ -214,10 +214,11 @@ TEST_F(SkeletonFolder, TheLikeliestSkeletonIsTaken) {
 
 TEST_F(SkeletonFolder, WithoutASkeletonTheNamesThatWereTriedAreSaid) {
   const auto take = put("35_01.amc", "#!OML:ASF F:\\x\\Justin.ASF\n1\nroot 0\n");
-  EXPECT_EQ(message_of([&] { read_clip(take); }, ErrorKind::unreadable_input),
-            take.string() +
-                ": an AMC file needs its skeleton: beside it is no Justin.ASF, 35_01.asf, 35.asf, "
-                "and no other ASF file; name one with --asf");
+  EXPECT_EQ(
+      message_of([&] { read_clip(take); }, ErrorKind::unreadable_input),
+      take.string() +
+          ": an AMC file needs its skeleton: its folder has no Justin.ASF, 35_01.asf, 35.asf, "
+          "and no other ASF file; name one with --asf");
 }
 
 TEST(AmcReader, IsFoundByContent) {

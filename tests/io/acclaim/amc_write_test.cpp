@@ -3,6 +3,7 @@
 #include <map>
 
 #include "acclaim.hpp"
+#include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/experimental/random.hpp"
 
@@ -55,6 +56,15 @@ TEST(AmcWriter, AnUnchangedTakeComesBackToTheByte) {
     EXPECT_EQ(write_clip(clip, "amc"), text) << name;
     EXPECT_EQ(write_clip(clip, "asf"), figure_asf()) << name;
   }
+}
+
+TEST(AmcWriter, IsTheDefaultForATakeThatWasReadFromAmc) {
+  const Clip clip = read_figure();
+  EXPECT_EQ(write_clip(clip), figure_amc());
+  EXPECT_EQ(write_take(clip), figure_amc());
+  Clip made = without_rest_rotations(clip);
+  made.source = {};
+  EXPECT_EQ(write_clip(made).substr(0, 9), "HIERARCHY") << "BVH where there is no source";
 }
 
 TEST(AmcWriter, WhatIsNoNumberIsWrittenAsItIsHeld) {

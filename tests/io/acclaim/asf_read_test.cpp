@@ -105,7 +105,7 @@ TEST(AsfReader, RepairsAreNamed) {
   strict.strict = true;
   EXPECT_EQ(message_of([&] { read_clip(chain_asf({"colour red"}), "take.asf", strict); },
                        ErrorKind::quality_limit),
-            "take.asf:7: \"colour\" is no keyword of the format");
+            "take.asf:7: \"colour\" is not a keyword of the format");
 }
 
 TEST(AsfReader, ErrorsNameTheLine) {

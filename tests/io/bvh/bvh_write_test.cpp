@@ -204,7 +204,7 @@ TEST(BvhWriter, RefusesWhatTheFormatCannotHold) {
       refuse([](Clip& c) { c.root_positions[0].x = std::numeric_limits<double>::quiet_NaN(); }),
       "a value to write is not finite");
   EXPECT_EQ(refuse([](Clip& c) { c.local_rotations.pop_back(); }),
-            "the clip's arrays do not have its number of frames");
+            "the arrays of the clip have different numbers of frames");
   EXPECT_EQ(refuse([](Clip& c) { c.frame_rate_hz = 0; }),
             "a frame rate of 0 Hz is outside 0.1 to 100000 Hz");
 }

@@ -80,7 +80,7 @@ TEST(C3dConversions, NameWhatOtherFormatsCannotHold) {
     EXPECT_EQ(lost.entries()[0].message,
               std::string(format) +
                   " files cannot hold 3 analog channels at 200 Hz; 2 force plates; the parameters "
-                  "of SUBJECTS, PROCESSING; 2 events; a point that is no position");
+                  "of SUBJECTS, PROCESSING; 2 events; a point that is not a position");
   }
   EXPECT_TRUE(lost_in_writing(make_marker_clip({"A"}, 1, 100), "trc").empty());
 }

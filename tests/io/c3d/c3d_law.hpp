@@ -207,7 +207,7 @@ inline void expect_lawful_conversions(const std::string& bytes) {
     const Diagnostics losses = lost_in_writing(converted, "c3d");
     const std::string out = write_markers(converted, "c3d");
     if (conversion.same_bytes) {
-      ASSERT_TRUE(out == bytes);
+      ASSERT_TRUE(out == write_markers(before, "c3d"));
       ASSERT_TRUE(losses.empty());
       continue;
     }

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "c3d_law.hpp"
+#include "io/mended.hpp"
 
 namespace kinemend {
 namespace {
@@ -38,9 +39,16 @@ TEST(RealC3d, EveryFileIsValidAndComesBackToTheByte) {
       continue;
     }
     const std::string bytes = read_file(path);
-    const MarkerClip clip = read_c3d_bytes(bytes).clip;
-    clip.validate();
-    EXPECT_TRUE(write_markers(clip, "c3d") == bytes);
+    const C3dResult read = read_c3d_bytes(bytes);
+    read.clip.validate();
+    const std::string written = write_markers(read.clip, "c3d");
+    if (was_mended(read.diagnostics)) {
+      // Numbers that are not finite, and nothing else.
+      EXPECT_EQ(written.size(), bytes.size());
+      EXPECT_TRUE(write_markers(read_c3d_bytes(written).clip, "c3d") == written);
+    } else {
+      EXPECT_TRUE(written == bytes);
+    }
     ++files;
   }
   EXPECT_GE(files, 90u);

@@ -3,6 +3,7 @@
 
 #include "c3d_support.hpp"
 #include "io/c3d/c3d_parameter_writer.hpp"
+#include "io/mended.hpp"
 
 namespace kinemend {
 namespace {
@@ -24,7 +25,10 @@ std::vector<std::size_t> changed_bytes(const std::string& a, const std::string& 
 TEST(C3dWriter, UnchangedClipsComeBackToTheByte) {
   for (const auto& entry : std::filesystem::directory_iterator(c3d_folder() / "good")) {
     const std::string bytes = read_file(entry.path());
-    EXPECT_TRUE(write_markers(read_c3d_bytes(bytes).clip, "c3d") == bytes) << entry.path();
+    const C3dResult read = read_c3d_bytes(bytes);
+    const std::string written = write_markers(read.clip, "c3d");
+    EXPECT_TRUE(was_mended(read.diagnostics) || written == bytes) << entry.path();
+    EXPECT_TRUE(write_markers(read_c3d_bytes(written).clip, "c3d") == written) << entry.path();
   }
 }
 
@@ -316,9 +320,9 @@ TEST(C3dWriter, RefusesWhatTheFormatCannotHold) {
     return "no error";
   };
   EXPECT_EQ(refusal(make_marker_clip({std::string(256, 'n')}, 1, 100)),
-            "a text of 256 bytes; C3D files have room for 255");
+            "a text of 256 bytes; C3D files can hold 255");
   EXPECT_EQ(refusal(make_marker_clip(std::vector<std::string>(65536), 1, 100)),
-            "65536 markers; C3D files have room for 65,535");
+            "65536 markers; C3D files can hold 65,535");
   MarkerClip clip = read_good_c3d("intel_real");
   clip.positions[0].x = 1e39;
   EXPECT_EQ(refusal(clip), "1e+39 is too large for a C3D file");

@@ -23,7 +23,9 @@ TEST(TrcWriter, EveryFixtureComesBackToTheByte) {
   for (const auto& path : fixture_paths("trc")) {
     if (path.parent_path().filename() != "good") continue;
     const std::string bytes = read_file(path);
-    EXPECT_EQ(write_markers(read_trc(bytes), "trc"), bytes) << path;
+    const std::string written = write_markers(read_trc(bytes), "trc");
+    EXPECT_TRUE(written == bytes || path.stem() == "nan") << path;
+    EXPECT_EQ(write_markers(read_trc(written), "trc"), written) << path;
   }
 }
 
@@ -78,11 +80,13 @@ TEST(TrcWriter, RowsThatEndEarlyGrow) {
 TEST(TrcWriter, SpacesAndCommasStay) {
   const std::string spaces = trc_fixture("good/spaces.trc");
   MarkerClip clip = read_trc(spaces);
-  unset(clip, 1, 1);
   clip.position(0, 0).x = 7;
-  EXPECT_EQ(write_markers(clip, "trc"),
-            with(with(spaces, "129.47598  -188.07799  724.33362", "NaN  NaN  NaN"), "-201.20056",
-                 "7.00000"));
+  EXPECT_EQ(write_markers(clip, "trc"), with(spaces, "-201.20056", "7.00000"));
+  // Only tabs can show that a cell is empty.
+  unset(clip, 1, 1);
+  const std::string tabs = write_markers(clip, "trc");
+  EXPECT_NE(tabs.find("2\t0.010000\t-200.70854\t-116.63701\t721.52441\t\t\t\n"), tabs.npos);
+  EXPECT_EQ(read_trc(tabs).observed, clip.observed);
   const std::string commas = trc_fixture("good/decimal_comma.trc");
   clip = read_trc(commas);
   clip.position(0, 0).x = 7.5;

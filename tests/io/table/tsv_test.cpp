@@ -162,8 +162,9 @@ TEST(TsvWriter, TakesOfOtherFormatsReadBack) {
   EXPECT_EQ(again.events[0].label, "Left Foot strike");
   EXPECT_TRUE(lost_in_writing(clip, "tsv").empty());
   clip.observed[5] = 1;
-  EXPECT_EQ(lost_in_writing(clip, "tsv").entries()[0].message,
-            "tsv files cannot hold that samples at 0 0 0 were measured (1)");
+  EXPECT_EQ(
+      lost_in_writing(clip, "tsv").entries()[0].message,
+      "tsv files cannot hold measured samples at 0 0 0 (1), which it uses for missing markers");
   clip.unit = "m";
   EXPECT_EQ(message_of([&] { write_markers(clip, "tsv"); }, ErrorKind::usage),
             "TSV files are in millimetres, the take is in \"m\"");

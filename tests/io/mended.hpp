@@ -1,0 +1,18 @@
+#pragma once
+
+#include "kinemend/diagnostics.hpp"
+
+namespace kinemend::test {
+
+/// Whether what is written may differ from what was read, by the repairs of the reader: a number
+/// was not finite, numbers were run together, or the file was cut off in a line.
+inline bool was_mended(const Diagnostics& repairs) {
+  for (const char* name : {"value_not_finite", "frame_time_unusable", "missing_not_finite",
+                           "analog_not_finite", "parameter_not_finite", "event_time_not_finite",
+                           "head_not_finite", "numbers_joined", "file_cut"}) {
+    if (repairs.count(name) > 0) return true;
+  }
+  return false;
+}
+
+}  // namespace kinemend::test
