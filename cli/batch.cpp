@@ -31,6 +31,7 @@
 #include "kinemend/io.hpp"
 #include "method_options.hpp"
 #include "page_report.hpp"
+#include "run_files.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -150,7 +151,7 @@ Done clean_item(const BatchItem& item, const std::string& output, const Batch& b
   done.row = *outcome.row;
   if (!batch.index.empty() && outcome.code == 0) {
     make_folder(page_path(batch, item).parent_path());
-    write_file(page_path(batch, item), outcome.report, true);
+    write_file(page_path(batch, item), outcome.page, true);
     write_file(picture_path(batch, item), outcome.picture, true);
   }
   const std::string result = outcome.code == 0 ? content_hash(read_file(output)) : std::string();
@@ -358,12 +359,12 @@ void plan_index(const Arguments& arguments, const std::vector<std::string>& inpu
         ErrorKind::usage,
         "batch: --report FILE.html is a page; rows.jsonl and summary.json are written anyway");
   check_page(batch.index, 1);
-  check_report(batch.index, inputs);
-  check_report(batch.index,
-               {arguments.text("list"), arguments.text("config"), arguments.text("gaps"),
-                arguments.text("asf"), arguments.text("noise")});
+  files_read(batch.plan, arguments)
+      .reads("IN", inputs)
+      .reads("--list", arguments.text("list"))
+      .writes("--report", batch.index)
+      .check();
   check_free(batch.index, batch.plan.force || is_our_page(batch.index));
-  batch.plan.report_path = batch.index;
   batch.plan.page = page_settings(arguments);
   // The pages of takes are those of `clean`.
   batch.plan.page->command = "clean";

@@ -11,6 +11,7 @@
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/io.hpp"
+#include "run_files.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -157,6 +158,11 @@ int run_convert(const Arguments& arguments) {
   const std::string input = arguments.positionals[0];
   const std::string output = converted_output_of(arguments);
   const bool force = arguments.flag("force");
+  RunFiles()
+      .reads("IN", input)
+      .reads("--asf", arguments.text("asf"))
+      .writes("OUT", output, input)
+      .check();
   check_free(output, force);
   TakeResult read = read_take(fs::path(input), read_options(arguments));
   warn_of_repairs(source_of(read.take), read.diagnostics);

@@ -11,6 +11,7 @@
 #include "json.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/io.hpp"
+#include "run_files.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -133,7 +134,11 @@ int run_corrupt(const Arguments& arguments) {
   for (const std::string& text : arguments.list("damage")) requests.push_back(parse_damage(text));
   if (requests.empty())
     throw Error(ErrorKind::usage, "corrupt: --damage is missing (see kinemend corrupt -h)");
-  check_single_use({input}, {output}, json);
+  RunFiles()
+      .reads("IN", input)
+      .reads("--asf", arguments.text("asf"))
+      .writes("--output", output, input)
+      .check(json);
   check_free(output, force);
   TakeResult read = read_take(std::filesystem::path(input), read_options(arguments));
   warn_of_repairs(source_of(read.take), read.diagnostics);

@@ -15,6 +15,7 @@
 #include "kinemend/io.hpp"
 #include "kinemend/metrics.hpp"
 #include "model_view.hpp"
+#include "run_files.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -348,7 +349,7 @@ void measure_noise(Looked& subject) {
 
 int run_info(const Arguments& arguments) {
   const bool json = arguments.flag("json");
-  check_single_use(arguments.positionals, {}, json);
+  RunFiles().reads("FILE", arguments.positionals).check(json);
   Json takes = Json::array();
   const auto look_at = [&](const std::string& input) {
     if (is_model_path(input)) {

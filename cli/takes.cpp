@@ -12,6 +12,7 @@
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/report.hpp"
+#include "run_files.hpp"
 #include "terminal.hpp"
 
 namespace kinemend::cli {
@@ -74,41 +75,14 @@ void write_take_output(const std::string& output, const Take& take, const std::s
   write_output(output, bytes, force);
 }
 
-namespace {
-
-/// The one path of a file, whether it exists yet or not.
-std::filesystem::path whole_path(const std::string& path) {
-  std::error_code error;
-  const std::filesystem::path canonical =
-      std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
-  return error ? std::filesystem::path(path).lexically_normal() : canonical;
-}
-
-}  // namespace
-
 void check_is_no_input(std::string_view option, const std::string& output,
                        const std::vector<std::string>& inputs) {
-  if (output.empty() || output == "-") return;
-  const auto is_same = [&](const std::string& input) {
-    if (input.empty() || input == "-") return false;
-    std::error_code error;
-    return std::filesystem::equivalent(input, output, error) ||
-           whole_path(input) == whole_path(output);
-  };
-  const auto found = std::find_if(inputs.begin(), inputs.end(), is_same);
-  if (found == inputs.end()) return;
-  throw Error(ErrorKind::usage,
-              fmt::format("{}: {} is read or written by this run already, and would be lost",
-                          option, output));
-}
-
-void check_single_use(const std::vector<std::string>& inputs,
-                      const std::vector<std::string>& outputs, bool json) {
-  if (std::count(inputs.begin(), inputs.end(), "-") > 1)
-    throw Error(ErrorKind::usage, "standard input can be read only once");
-  if (std::count(outputs.begin(), outputs.end(), "-") + (json ? 1 : 0) > 1) {
+  for (const std::string& input : inputs) {
+    if (!is_same_file(input, output)) continue;
     throw Error(ErrorKind::usage,
-                "standard output holds one thing: a take, a report or --json, not several");
+                fmt::format("{}: {} is also read or written by this run and would be lost; name "
+                            "another file",
+                            option, printable(output)));
   }
 }
 

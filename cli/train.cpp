@@ -28,6 +28,7 @@
 #include "kinemend/io.hpp"
 #include "method_options.hpp"
 #include "model_view.hpp"
+#include "run_files.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -185,7 +186,6 @@ Training training_of(const Arguments& arguments) {
   training.json = arguments.flag("json");
   training.quiet = arguments.flag("quiet");
   training.skip_unreadable = arguments.flag("skip_unreadable");
-  check_single_use({}, {training.output, training.card}, training.json);
   check_free(training.output, training.force);
   if (!training.card.empty()) check_free(training.card, training.force);
   if (const std::string fill = arguments.text("fill"); fill != "off") training.fill = fill;
@@ -200,15 +200,15 @@ Training training_of(const Arguments& arguments) {
       command.empty() ? command_text(arguments) : command, arguments.text("figures")};
   training.takes = training_inputs_of(arguments);
   const std::string list = arguments.text("list");
-  std::vector<std::string> read = training.takes;
-  read.push_back(list);
-  check_single_use(read, {}, false);
-  for (const std::vector<std::string>& inputs : {training.takes, {list}}) {
-    check_is_no_input("--output", training.output, inputs);
-    check_is_no_input("--card", training.card, inputs);
-  }
-  check_is_no_input("--card", training.card, {training.output});
   find_checkpoint(arguments, training);
+  RunFiles files;
+  files.reads("TAKE", training.takes)
+      .reads("--list", list)
+      .reads("--asf", arguments.text("asf"))
+      .writes("--output", training.output)
+      .writes("the checkpoint of --output", training.checkpoint)
+      .writes("--card", training.card)
+      .check(training.json);
   return training;
 }
 
