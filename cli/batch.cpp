@@ -107,20 +107,26 @@ std::string learned_text(const CleanPlan& plan) {
   return text;
 }
 
-/// Hash of the bytes that a result depends on: those of the take, and of skeletons (ASF) that it
-/// may be read with.
-std::string input_hash(const BatchItem& item) {
-  std::string hash = content_hash(read_file(item.input));
+/// The skeletons (ASF) beside a take that is an AMC, which it may be read with.
+std::vector<std::string> skeletons_of(const BatchItem& item) {
+  std::vector<std::string> skeletons;
   const Format* format = format_of_path(item.input);
-  if (format == nullptr || format->name != "amc") return hash;
-  std::vector<fs::path> skeletons;
+  if (format == nullptr || format->name != "amc") return skeletons;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(fs::path(item.input).parent_path(), error)) {
     const Format* known = format_of_path(entry.path());
-    if (known != nullptr && known->name == "asf") skeletons.push_back(entry.path());
+    if (known != nullptr && known->name == "asf") skeletons.push_back(entry.path().string());
   }
   std::sort(skeletons.begin(), skeletons.end());
-  for (const fs::path& skeleton : skeletons) hash += content_hash(read_file(skeleton));
+  return skeletons;
+}
+
+/// Hash of the bytes that a result depends on: those of the take, and of its skeletons.
+std::string input_hash(const BatchItem& item) {
+  std::string hash = content_hash(read_file(item.input));
+  const std::vector<std::string> skeletons = skeletons_of(item);
+  if (skeletons.empty()) return hash;
+  for (const std::string& skeleton : skeletons) hash += content_hash(read_file(skeleton));
   return content_hash(hash);
 }
 
@@ -157,19 +163,38 @@ void check_is_ours(const BatchItem& item, const std::string& output, const Batch
                   output, printable_name(record->input), printable_name(item.input)));
 }
 
+/// The same for the skeletons of a take, one of which is written beside its result.
+void check_skeletons_are_ours(const BatchItem& item, const Batch& batch) {
+  for (const std::string& skeleton : skeletons_of(item)) {
+    const fs::path name = fs::path(item.name).replace_filename(fs::path(skeleton).filename());
+    const fs::path output = fs::path(batch.folder) / name;
+    const std::string bytes = read_file(skeleton);
+    std::error_code ignored;
+    if (fs::is_regular_file(output, ignored) && read_file(output) == bytes) continue;
+    check_is_ours({skeleton, name.generic_string(), true}, output.string(),
+                  {content_hash(bytes), "", ""}, batch);
+  }
+}
+
 Done copy_skeleton(const BatchItem& item, const std::string& output, const Batch& batch) {
   Done done;
   done.row = plain_row(item.name, "copied");
   const std::string bytes = read_file(item.input);
   const BatchKey key{content_hash(bytes), "", std::string(version())};
-  check_is_ours(item, output, key, batch);
+  // A take that is done at the same time may have written it.
+  const auto is_there = [&] {
+    std::error_code ignored;
+    return fs::is_regular_file(output, ignored) && read_file(output) == bytes;
+  };
+  if (!is_there()) check_is_ours(item, output, key, batch);
   make_folder(fs::path(output).parent_path());
   const TakeLock lock(batch.folder, item.name);
-  std::error_code ignored;
-  if (fs::is_regular_file(output, ignored) && read_file(output) == bytes) return done;
-  check_is_ours(item, output, key, batch);
+  const bool is_copied = is_there();
+  if (is_copied && read_record(batch.folder, item.name)) return done;
+  if (!is_copied) check_is_ours(item, output, key, batch);
   write_record(batch.folder, item.name,
                {absolute_path(item.input), key, content_hash(bytes), done.row});
+  if (is_copied) return done;
   write_output(output, bytes, true);
   done.is_new = true;
   return done;
@@ -200,6 +225,7 @@ Done do_item(const BatchItem& item, const Batch& batch) {
   const BatchKey key{input_hash(item), batch.options_hash, std::string(version())};
   // What is refused leaves neither a folder nor a record.
   check_is_ours(item, output, key, batch);
+  check_skeletons_are_ours(item, batch);
   make_folder(fs::path(output).parent_path());
   const TakeLock lock(batch.folder, item.name);
   const auto record = read_record(batch.folder, item.name);

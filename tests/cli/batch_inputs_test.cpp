@@ -68,6 +68,11 @@ TEST_F(BatchInputs, ASkeletonOfAnotherTakeIsNotOverwritten) {
   EXPECT_EQ(refused.code, 4) << refused.err;
   EXPECT_THAT(refused.err, HasSubstr("out/take.asf: is the result of "));
   EXPECT_EQ(contents(folder / "out/take.asf"), skeleton);
+  // A take of another name would be written with its skeleton.
+  fs::rename(folder / "b/take.amc", folder / "b/other.amc");
+  EXPECT_EQ(batch({"b", "-o", "out"}).code, 4);
+  EXPECT_FALSE(fs::exists(folder / "out/other.amc"));
+  EXPECT_EQ(contents(folder / "out/take.asf"), skeleton);
   // One that has changed where it was is copied again, and counts as no take.
   put(folder / "a/take.asf", "# changed\n" + contents(folder / "a/take.asf"));
   ASSERT_EQ(batch({"a", "-o", "out"}).code, 0);
