@@ -89,6 +89,8 @@ LivePlan plan_of(const Arguments& arguments) {
   } else if (arguments.given("bind")) {
     throw Error(ErrorKind::usage, "stream: --bind needs --tcp PORT or --udp PORT");
   }
+  if (arguments.given("reorder") && !(udp && arguments.flag("numbered")))
+    throw Error(ErrorKind::usage, "stream: --reorder needs --udp and --numbered");
   plan.stall_s = static_cast<double>(arguments.whole("stall_ms")) / 1000;
   plan.holds = arguments.text("on_stall") == "hold";
   plan.once = arguments.flag("once");

@@ -190,6 +190,7 @@ TEST_F(StreamCommand, RefusesWhatMakesNoSense) {
                                              {"stream", "--udp", "localhost:0"},
                                              {"stream", "--to-tcp", "7000"},
                                              {"stream", "--bind", "0.0.0.0"},
+                                             {"stream", "--udp", "0", "--reorder", "4"},
                                              {"stream", "--to-tcp", "a:1", "--to-udp", "a:1"}}) {
     const Ran ran = run(words);
     EXPECT_EQ(ran.code, 2) << ran.err;
