@@ -44,7 +44,7 @@ bool is_running(int process) { return ::kill(process, 0) == 0 || errno == EPERM;
 }  // namespace
 
 std::string extended_name(const std::string& name, std::string_view extension) {
-  const std::size_t begin = name.rfind('/') + 1;  // 0 where there is none
+  const std::size_t begin = name.rfind('/') + 1;  // 0 without a folder
   if (name.size() - begin + extension.size() <= longest_file_name)
     return name + std::string(extension);
   const std::string hash = "~" + content_hash(name).substr(0, 16);
@@ -92,7 +92,7 @@ std::vector<std::string> recorded_names(const std::string& folder) {
     if (path.extension() != record_extension || !entries->is_regular_file(ignored)) continue;
     std::string name = path.lexically_relative(records).generic_string();
     name.resize(name.size() - record_extension.size());
-    // A name that was cut stands in the record alone.
+    // Only the record has the whole name if the file name was cut.
     if (path.filename().string().size() > longest_file_name - 4) {
       if (const auto record = read_record(folder, name)) name = record->row.name;
     }

@@ -279,7 +279,8 @@ Command stream_command() {
       "socket. Writes the same with cleaned values to standard output or a socket. A stream of "
       "markers begins with their names instead (see kinemend help live). Each frame is written as "
       "soon as the method has seen the frames that it needs after it; this delay is printed.\n\n"
-      "Lost, late, duplicate and malformed frames are counted, and the stream goes on. Senders may "
+      "Lost, late, duplicate and malformed frames are counted, and the stream continues. Senders "
+      "may "
       "pause, disconnect and return. Clients that do not read lose the oldest frames.\n\n"
       "At the end of standard input, on SIGINT and on SIGTERM, the remaining frames are written "
       "and a summary is printed on standard error.";
