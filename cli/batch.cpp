@@ -1,4 +1,4 @@
-// kinemend batch: cleans whole trees of takes, and can be stopped and taken up again at any moment.
+// kinemend batch: cleans whole trees of takes; it can be stopped and resumed at any moment.
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -27,10 +27,12 @@
 #include "kinemend/experimental/batch_rows.hpp"
 #include "kinemend/experimental/content_hash.hpp"
 #include "kinemend/experimental/model.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "kinemend/experimental/version.hpp"
 #include "kinemend/io.hpp"
 #include "method_options.hpp"
 #include "page_report.hpp"
+#include "run_files.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -40,7 +42,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// All that a batch was asked for.
+/// The settings of a batch.
 struct Batch {
   CleanPlan plan;
   std::string folder;  ///< for the results
@@ -51,30 +53,31 @@ struct Batch {
   bool verbose = false;  ///< says every error and warning
 };
 
-/// Where the page of a take stands, from the folder of the index.
+/// Path of the page of a take, relative to the folder of the index.
 fs::path page_name(const Batch& batch, const BatchItem& item) {
-  return fs::path(fs::path(batch.index).stem().string() + ".takes") / (item.name + ".html");
+  return fs::path(fs::path(batch.index).stem().string() + ".takes") /
+         extended_name(item.name, ".html");
 }
 fs::path page_path(const Batch& batch, const BatchItem& item) {
   return fs::path(batch.index).parent_path() / page_name(batch, item);
 }
-/// Of a few of its poses, for the index.
+/// Path of a picture of a few poses, for the index.
 fs::path picture_path(const Batch& batch, const BatchItem& item) {
   return page_path(batch, item).replace_extension(".svg");
 }
 
-/// What came of one file.
+/// The result of one file.
 struct Done {
   BatchRow row;
   int code = 0;
-  bool is_new = false;   ///< false where an earlier run had done it
-  bool is_begun = true;  ///< false where it was refused before anything was done
+  bool is_new = false;   ///< false if an earlier run had done it
+  bool is_begun = true;  ///< false if it was refused before anything was written
   std::string error;
   std::vector<std::string> warnings;
 };
 
-/// Every setting that a result depends on, as one text. Where results go and how many threads make
-/// them is left out.
+/// Every setting that a result depends on, as one text: not where results go, nor how many threads
+/// run.
 std::string options_text(const Arguments& arguments) {
   std::string text = settings_text(*arguments.command, merged_settings(arguments), "");
   for (const Flag& flag : cleaning_flags()) {
@@ -88,7 +91,7 @@ std::string options_text(const Arguments& arguments) {
   return text;
 }
 
-/// What a method reads beside the take, as one text: its files, and a model that ships.
+/// What a method reads besides the take, as one text: its files, and a model that ships.
 std::string learned_text(const CleanPlan& plan) {
   std::string text;
   for (const std::string& path : option_files(find_method(plan.method), plan.options))
@@ -104,19 +107,26 @@ std::string learned_text(const CleanPlan& plan) {
   return text;
 }
 
-/// The bytes a take's result depends on: its own, and those of an ASF that it is read with.
-std::string input_hash(const BatchItem& item) {
-  std::string hash = content_hash(read_file(item.input));
+/// The skeletons (ASF) beside a take that is an AMC, which it may be read with.
+std::vector<std::string> skeletons_of(const BatchItem& item) {
+  std::vector<std::string> skeletons;
   const Format* format = format_of_path(item.input);
-  if (format == nullptr || format->name != "amc") return hash;
-  std::vector<fs::path> skeletons;
+  if (format == nullptr || format->name != "amc") return skeletons;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(fs::path(item.input).parent_path(), error)) {
     const Format* known = format_of_path(entry.path());
-    if (known != nullptr && known->name == "asf") skeletons.push_back(entry.path());
+    if (known != nullptr && known->name == "asf") skeletons.push_back(entry.path().string());
   }
   std::sort(skeletons.begin(), skeletons.end());
-  for (const fs::path& skeleton : skeletons) hash += content_hash(read_file(skeleton));
+  return skeletons;
+}
+
+/// Hash of the bytes that a result depends on: those of the take, and of its skeletons.
+std::string input_hash(const BatchItem& item) {
+  std::string hash = content_hash(read_file(item.input));
+  const std::vector<std::string> skeletons = skeletons_of(item);
+  if (skeletons.empty()) return hash;
+  for (const std::string& skeleton : skeletons) hash += content_hash(read_file(skeleton));
   return content_hash(hash);
 }
 
@@ -126,15 +136,66 @@ bool is_done(const BatchRecord& record, const BatchKey& key, const std::string& 
          content_hash(read_file(output)) == record.output;
 }
 
-Done copy_skeleton(const BatchItem& item, const std::string& output, bool may_replace) {
+std::string absolute_path(const std::string& path) {
+  std::error_code error;
+  const fs::path absolute = fs::absolute(path, error);
+  return (error ? fs::path(path) : absolute.lexically_normal()).string();
+}
+
+/// What an earlier run made, or had begun to make, of the same input may be overwritten. A file
+/// that no batch made, or that belongs to another input, may not. A record is older than its
+/// result, and so the result is looked for first.
+void check_is_ours(const BatchItem& item, const std::string& output, const BatchKey& key,
+                   const Batch& batch) {
+  std::error_code ignored;
+  if (batch.plan.force || !fs::exists(output, ignored)) return;
+  const auto record = read_record(batch.folder, item.name);
+  if (!record) return check_free(output, false);
+  // The same take may have moved since.
+  const bool is_same = record->key.input == key.input || record->input.empty() ||
+                       is_same_file(record->input, item.input) ||
+                       record->input == absolute_path(item.input);
+  if (is_same) return;
+  throw Error(
+      ErrorKind::cannot_write,
+      fmt::format("{}: is the result of {}, not of {}; use another --output-dir, or --force "
+                  "to overwrite it",
+                  output, printable_name(record->input), printable_name(item.input)));
+}
+
+/// The same for the skeletons of a take, one of which is written beside its result.
+void check_skeletons_are_ours(const BatchItem& item, const Batch& batch) {
+  for (const std::string& skeleton : skeletons_of(item)) {
+    const fs::path name = fs::path(item.name).replace_filename(fs::path(skeleton).filename());
+    const fs::path output = fs::path(batch.folder) / name;
+    const std::string bytes = read_file(skeleton);
+    std::error_code ignored;
+    if (fs::is_regular_file(output, ignored) && read_file(output) == bytes) continue;
+    check_is_ours({skeleton, name.generic_string(), true}, output.string(),
+                  {content_hash(bytes), "", ""}, batch);
+  }
+}
+
+Done copy_skeleton(const BatchItem& item, const std::string& output, const Batch& batch) {
   Done done;
   done.row = plain_row(item.name, "copied");
   const std::string bytes = read_file(item.input);
-  std::error_code ignored;
-  if (fs::is_regular_file(output, ignored) && read_file(output) == bytes) {
-    return done;
-  }
-  write_output(output, bytes, may_replace);
+  const BatchKey key{content_hash(bytes), "", std::string(version())};
+  // A take that is done at the same time may have written it.
+  const auto is_there = [&] {
+    std::error_code ignored;
+    return fs::is_regular_file(output, ignored) && read_file(output) == bytes;
+  };
+  if (!is_there()) check_is_ours(item, output, key, batch);
+  make_folder(fs::path(output).parent_path());
+  const TakeLock lock(batch.folder, item.name);
+  const bool is_copied = is_there();
+  if (is_copied && read_record(batch.folder, item.name)) return done;
+  if (!is_copied) check_is_ours(item, output, key, batch);
+  write_record(batch.folder, item.name,
+               {absolute_path(item.input), key, content_hash(bytes), done.row});
+  if (is_copied) return done;
+  write_output(output, bytes, true);
   done.is_new = true;
   return done;
 }
@@ -150,48 +211,39 @@ Done clean_item(const BatchItem& item, const std::string& output, const Batch& b
   done.row = *outcome.row;
   if (!batch.index.empty() && outcome.code == 0) {
     make_folder(page_path(batch, item).parent_path());
-    write_file(page_path(batch, item), outcome.report, true);
+    write_file(page_path(batch, item), outcome.page, true);
     write_file(picture_path(batch, item), outcome.picture, true);
   }
   const std::string result = outcome.code == 0 ? content_hash(read_file(output)) : std::string();
-  write_record(batch.folder, item.name, {key, result, done.row});
+  write_record(batch.folder, item.name, {absolute_path(item.input), key, result, done.row});
   return done;
-}
-
-/// What an earlier run of the batch made, or had begun, may be replaced; what somebody else put
-/// there may not. A record is older than its result, and so it is asked for second.
-void check_is_ours(const BatchItem& item, const std::string& output, const Batch& batch) {
-  std::error_code ignored;
-  if (fs::exists(output, ignored) && !read_record(batch.folder, item.name))
-    check_free(output, batch.plan.force);
 }
 
 Done do_item(const BatchItem& item, const Batch& batch) {
   const std::string output = with_right_ending((fs::path(batch.folder) / item.name).string(),
                                                item.input, batch.plan.reading.format);
-  make_folder(fs::path(output).parent_path());
-  if (item.is_copied) {
-    const TakeLock lock(batch.folder, item.name);
-    return copy_skeleton(item, output, true);
-  }
-  // What is refused leaves no trace.
-  check_is_ours(item, output, batch);
+  if (item.is_copied) return copy_skeleton(item, output, batch);
   const BatchKey key{input_hash(item), batch.options_hash, std::string(version())};
+  // What is refused leaves neither a folder nor a record.
+  check_is_ours(item, output, key, batch);
+  check_skeletons_are_ours(item, batch);
+  make_folder(fs::path(output).parent_path());
   const TakeLock lock(batch.folder, item.name);
   const auto record = read_record(batch.folder, item.name);
-  // A take that was done without a page has none yet.
+  // A take that was done without --report has no page yet.
   std::error_code ignored;
   const bool has_page = batch.index.empty() || fs::is_regular_file(page_path(batch, item), ignored);
   if (record && has_page && is_done(*record, key, output))
     return {record->row, 0, false, true, {}, {}};
+  check_is_ours(item, output, key, batch);
   if (!record) {
-    check_is_ours(item, output, batch);
-    write_record(batch.folder, item.name, {key, "", plain_row(item.name, "begun")});
+    write_record(batch.folder, item.name,
+                 {absolute_path(item.input), key, "", plain_row(item.name, "begun")});
   }
   return clean_item(item, output, batch, key);
 }
 
-/// Whatever goes wrong with one file stops no other.
+/// As `do_item`, with errors as part of the result: one file stops no other.
 Done try_item(const BatchItem& item, const Batch& batch) {
   Done done;
   done.is_new = true;
@@ -214,14 +266,14 @@ Done try_item(const BatchItem& item, const Batch& batch) {
   return done;
 }
 
-/// How much work a take is, about.
+/// Roughly how much work a take is.
 double size_of(const BatchItem& item) {
   std::error_code error;
   const auto bytes = fs::file_size(item.input, error);
   return error ? 1.0 : 1.0 + static_cast<double>(bytes);
 }
 
-/// Errors as they come, the first ten: thousands of lines say no more.
+/// Prints errors as they occur, at most ten unless `verbose`.
 class Sayer {
  public:
   Sayer(const Batch& batch, ProgressBar& bar) : batch_(batch), bar_(bar) {}
@@ -240,8 +292,8 @@ class Sayer {
 
   void finish() const {
     if (failed_ <= most || batch_.verbose) return;
-    say_error(fmt::format("and {} more failed; the rows in {} say how", grouped(failed_ - most),
-                          batch_.folder));
+    say_error(
+        fmt::format("{} more failed; see the rows in {}", grouped(failed_ - most), batch_.folder));
   }
 
  private:
@@ -252,7 +304,8 @@ class Sayer {
   std::size_t failed_ = 0;
 };
 
-/// Inputs that hold nothing to do are mistakes: 3, or an error where there is nothing else.
+/// Folders without a take are mistakes: they give exit code 3. If there is no take at all, this
+/// throws.
 int refuse_empty(const std::vector<std::string>& inputs, const std::vector<BatchItem>& all,
                  const Arguments& arguments) {
   const std::string pattern = arguments.text("files");
@@ -276,7 +329,7 @@ std::vector<std::string> inputs_of(const Arguments& arguments) {
   if (list.empty() && inputs.empty())
     throw Error(ErrorKind::usage, "batch: IN or --list is missing (see kinemend batch -h)");
   if (list.empty()) return inputs;
-  const std::vector<std::string> listed = listed_inputs(read_file(list));
+  const std::vector<std::string> listed = listed_inputs(read_file(list), input_name(list));
   if (listed.empty()) {
     throw Error(ErrorKind::unreadable_input, fmt::format("{}: lists no take", input_name(list)));
   }
@@ -308,7 +361,7 @@ std::vector<Done> do_all(const std::vector<BatchItem>& items, const Batch& batch
   return done;
 }
 
-// Of the takes that most should be looked at, so that an index of thousands stays small.
+// Only the takes that most need review get a picture, so that an index of thousands stays small.
 void add_pictures(const Batch& batch, const std::vector<BatchItem>& items,
                   std::vector<BatchPageRow>& rows) {
   constexpr std::size_t most_pictures = 200;
@@ -327,7 +380,7 @@ void add_pictures(const Batch& batch, const std::vector<BatchItem>& items,
   }
 }
 
-// The index of the pages, of the takes that this run was about.
+// Writes the index of the pages of this run's takes.
 void write_index(const Batch& batch, const std::vector<BatchItem>& items,
                  const std::vector<Done>& done, const BatchSums& sums,
                  const PageSettings& settings) {
@@ -342,32 +395,45 @@ void write_index(const Batch& batch, const std::vector<BatchItem>& items,
   write_file(batch.index, batch_page(rows, sums, settings), true);
 }
 
-// A batch that is taken up again may replace the page of its first run.
+// A resumed batch may overwrite the page of its first run.
 bool is_our_page(const std::string& path) {
   std::error_code ignored;
   return fs::is_regular_file(path, ignored) &&
          read_file(path).find("<meta name=\"generator\" content=\"kinemend") < 1000;
 }
 
-// The page that --report names. What it would replace must be no take, and no file of somebody
-// else.
+// Checks the page that --report names. It must overwrite neither a take nor a file that no batch
+// wrote.
 void plan_index(const Arguments& arguments, const std::vector<std::string>& inputs, Batch& batch) {
   batch.index = arguments.text("report");
   if (batch.index.empty()) return;
   if (!is_page(batch.index))
     throw Error(
         ErrorKind::usage,
-        "batch: --report FILE.html is a page; rows.jsonl and summary.json are written anyway");
+        "batch: --report needs a name that ends with .html; JSON is always written, as rows.jsonl "
+        "and summary.json");
   check_page(batch.index, 1);
-  check_report(batch.index, inputs);
-  check_report(batch.index,
-               {arguments.text("list"), arguments.text("config"), arguments.text("gaps"),
-                arguments.text("asf"), arguments.text("noise")});
+  files_read(batch.plan, arguments)
+      .reads("IN", inputs)
+      .reads("--list", arguments.text("list"))
+      .writes("--report", batch.index)
+      .check();
   check_free(batch.index, batch.plan.force || is_our_page(batch.index));
-  batch.plan.report_path = batch.index;
   batch.plan.page = page_settings(arguments);
   // The pages of takes are those of `clean`.
   batch.plan.page->command = "clean";
+}
+
+// No result may overwrite a take or another file that this run reads, not even with --force.
+void check_outputs(const Arguments& arguments, const std::vector<BatchItem>& items,
+                   const Batch& batch) {
+  RunFiles files = files_read(batch.plan, arguments);
+  files.reads("--list", arguments.text("list"));
+  for (const BatchItem& item : items) {
+    files.reads("IN", item.input);
+    files.writes("--output-dir", (fs::path(batch.folder) / item.name).string());
+  }
+  files.check();
 }
 
 int run_batch(const Arguments& arguments) {
@@ -389,6 +455,8 @@ int run_batch(const Arguments& arguments) {
   std::vector<BatchItem> mine;
   std::copy_if(all.begin(), all.end(), std::back_inserter(mine),
                [&](const BatchItem& item) { return in_shard(item.name, batch.shard); });
+  check_outputs(arguments, all, batch);
+  const std::vector<fs::path> missing = missing_folders(batch.folder);
   make_folder(batch.folder);
   remove_leftovers(batch.folder);
   const std::vector<Done> done = do_all(mine, batch);
@@ -401,7 +469,7 @@ int run_batch(const Arguments& arguments) {
     counts.add(one.row, one.is_new, one.code);
     rows.push_back(one.row);
   }
-  // A batch that could begin nothing leaves no word of itself.
+  // A batch that could begin nothing leaves no file and no folder.
   const bool is_refused =
       std::any_of(done.begin(), done.end(), [](const Done& one) { return !one.is_begun; }) &&
       std::none_of(done.begin(), done.end(),
@@ -412,6 +480,9 @@ int run_batch(const Arguments& arguments) {
     write_rows(batch.folder, batch.shard, all, rows);
     write_summary(batch.folder, summary);
     if (!batch.index.empty()) write_index(batch, mine, done, sums, page_settings(arguments));
+  } else {
+    std::error_code ignored;
+    for (const fs::path& folder : missing) fs::remove(folder, ignored);  // only if it is empty
   }
   if (arguments.flag("json")) {
     write_out(summary);
@@ -422,29 +493,33 @@ int run_batch(const Arguments& arguments) {
 }
 
 std::vector<Flag> batch_flags() {
-  Flag folder = text_flag("output_dir", "DIR", "Output", "folder for the results: the same tree");
+  Flag folder = text_flag("output_dir", "DIR", "Output",
+                          "folder for the results, with the tree of the inputs");
   folder.letter = 'o';
   folder.completion = Completion::folder;
   Flag list =
-      text_flag("list", "FILE", "Input", "further takes and folders, one a line",
-                "Blank lines and lines that start with # are left out; - is standard input.");
+      text_flag("list", "FILE", "Input", "file with more takes and folders, one per line",
+                "Blank lines and lines that start with # are ignored; - is standard input.");
   list.completion = Completion::file;
   std::vector<Flag> flags = {
       std::move(folder),
       force_flag(),
-      report_flag("also write a page for a browser, FILE.html: the takes, worst first",
-                  "Beside it, below FILE.takes, stands a page for each take. Takes that were done "
-                  "without a page are done again."),
+      report_flag(
+          "also write a page for a browser, FILE.html: the takes, worst first",
+          "It links to a page for each take, in the folder FILE.takes beside it. Takes that "
+          "an earlier run cleaned without a page are cleaned again."),
       json_flag("print the merged summary as JSON instead of text"),
       switch_flag("quiet", "Output", "print errors only"),
-      switch_flag("verbose", "Output", "print every error and every warning as it comes",
-                  "Else the first ten errors, and of the rest how many there are."),
+      switch_flag("verbose", "Output", "print every error and every warning",
+                  "Otherwise the first ten errors are printed, and the number of the others."),
       std::move(list),
-      text_flag("files", "PATTERN", "Input", "of a folder only files of such names",
-                "In PATTERN * is any text and ? any character; quote it."),
-      text_flag("shard", "I/N", "Work", "do part I of N",
-                "The split depends on the names of the takes alone, so that N jobs on any machines "
-                "do each take once. A last run without --shard finds nothing to do and sums up.")};
+      text_flag("files", "PATTERN", "Input",
+                "in folders, clean only files whose name matches PATTERN",
+                "* stands for any text, ? for any character. Quote the pattern."),
+      text_flag("shard", "I/N", "Work", "clean part I of N",
+                "Only the names of the takes decide to which part they belong, so that N jobs on "
+                "any machines clean each take once. Run once more without --shard to write the "
+                "summary of all parts.")};
   append(flags, cleaning_flags());
   flags.push_back(jobs_flag());
   for (Flag& flag : flags) {
@@ -459,29 +534,32 @@ std::vector<Flag> batch_flags() {
 Command batch_command() {
   Command command;
   command.name = "batch";
-  command.summary = "clean whole trees of takes; stop and go on at any moment";
+  command.summary = "clean whole trees of takes; can be stopped and resumed at any moment";
   command.description =
-      "Cleans every take in the folders and lists, in parallel, into the same tree below "
-      "--output-dir. A take that cannot be read stops no other; the exit code is the highest of "
-      "all.\n\n"
-      "Of each result it is remembered, below .kinemend in the output folder, from which input, "
-      "with "
-      "which settings and by which version it was made. A second run does only what is missing, "
-      "has "
-      "changed or has failed. A run that is killed leaves whole files only.\n\n"
-      "rows.jsonl there holds a line for each take (rows.I-of-N.jsonl for a shard), written as "
-      "takes are done, summary.json the sums over all takes in the folder so far. Printed are the "
-      "sums and the ten takes that most should be looked at. Skeleton files (ASF) are copied "
-      "along.";
+      "Cleans every take in the given folders, files and lists, in parallel, and writes the "
+      "results "
+      "to the same tree below --output-dir. If a take cannot be read, the others are cleaned all "
+      "the "
+      "same; the exit code is the highest of all.\n\n"
+      "For each result, a record below .kinemend in the output folder keeps the input, the "
+      "settings "
+      "and the version. A second run cleans only takes that are missing, have changed or have "
+      "failed. A killed run leaves no partial file. A result of another input is not overwritten "
+      "without --force.\n\n"
+      "rows.jsonl in the output folder has one line per take (rows.I-of-N.jsonl for a shard), "
+      "written as soon as the take is done. summary.json has the totals over all takes in the "
+      "folder. The totals and the ten takes that most need review are printed. Skeleton files "
+      "(ASF) "
+      "are copied along.";
   command.positionals = {{"IN", "folder or take", 0, 1000000, {}}};
   command.flags = batch_flags();
   command.group_heading = "With --method %";
   command.groups = method_groups();
   command.groups_are_flags = true;
   command.examples = {
-      {"kinemend batch raw -o clean", "every take below raw, to the same place below clean"},
-      {"kinemend batch raw -o clean --shard 3/8", "one of eight jobs of a scheduler"},
-      {"find raw -name '*.c3d' | kinemend batch --list - -o clean", "a list of takes"}};
+      {"kinemend batch raw -o clean", "clean every take below raw, to the same place below clean"},
+      {"kinemend batch raw -o clean --shard 3/8", "the third of eight jobs on a cluster"},
+      {"find raw -name '*.c3d' | kinemend batch --list - -o clean", "clean a list of takes"}};
   command.run = run_batch;
   return command;
 }

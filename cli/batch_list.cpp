@@ -29,7 +29,7 @@ bool is_skeleton(const fs::path& path) {
   return format != nullptr && format->name == "asf";
 }
 
-// Any program writes tables; only those with the head of a take count.
+// Many programs write CSV files; only those with the header of a take count.
 bool looks_like_take(const fs::path& path) {
   const Format* format = format_of_path(path);
   if (format == nullptr || format->read == nullptr) return false;
@@ -76,8 +76,8 @@ void add_file(const std::string& input, std::vector<BatchItem>& items) {
   if (name.is_absolute() || name.empty() || *name.begin() == "..") {
     throw Error(
         ErrorKind::usage,
-        fmt::format("batch: {} has no place below the output folder; name its folder, or the "
-                    "file relative to the current one",
+        fmt::format("batch: {} has no place below the output folder; give its folder, or a path "
+                    "below the current folder",
                     input));
   }
   items.push_back({input, name.generic_string(), is_skeleton(name)});
@@ -163,10 +163,21 @@ std::vector<std::string> takes_below(const std::vector<std::string>& inputs) {
   return takes;
 }
 
-std::vector<std::string> listed_inputs(std::string_view text) {
+std::vector<std::string> listed_inputs(std::string_view text, std::string_view name) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
+    throw Error(ErrorKind::unreadable_input,
+                fmt::format("{}: the list is in UTF-16; save it as UTF-8", name));
+  }
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   std::vector<std::string> inputs;
-  while (!text.empty()) {
+  for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
+    if (text.substr(0, end).find('\0') != text.npos) {
+      throw Error::at_line(name, number,
+                           "found a NUL byte; a list is UTF-8 text with one path per line (find "
+                           "-print, not -print0)");
+    }
     std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
     while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);

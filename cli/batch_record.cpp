@@ -24,7 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view records_folder = ".kinemend";
+constexpr std::string_view records_folder = ".kinemend", record_extension = ".json";
+constexpr std::size_t longest_file_name = 255;  // bytes
 
 // The process that made `.kinemend-PID-N.tmp`; 0 for any other name.
 int maker_of(const std::string& name) {
@@ -42,8 +43,19 @@ bool is_running(int process) { return ::kill(process, 0) == 0 || errno == EPERM;
 
 }  // namespace
 
+std::string extended_name(const std::string& name, std::string_view extension) {
+  const std::size_t begin = name.rfind('/') + 1;  // 0 without a folder
+  if (name.size() - begin + extension.size() <= longest_file_name)
+    return name + std::string(extension);
+  const std::string hash = "~" + content_hash(name).substr(0, 16);
+  std::size_t end = begin + longest_file_name - extension.size() - hash.size();
+  // Not amid a character of UTF-8, which some file systems refuse.
+  while (end > begin && (static_cast<unsigned char>(name[end]) & 0xC0) == 0x80) --end;
+  return name.substr(0, end) + hash + std::string(extension);
+}
+
 std::string record_path(const std::string& folder, const std::string& name) {
-  return (fs::path(folder) / records_folder / (name + ".json")).string();
+  return (fs::path(folder) / records_folder / extended_name(name, record_extension)).string();
 }
 
 std::optional<BatchRecord> read_record(const std::string& folder, const std::string& name) {
@@ -57,6 +69,7 @@ std::optional<BatchRecord> read_record(const std::string& folder, const std::str
                   json.at("options_hash").get<std::string>(),
                   json.at("kinemend").get<std::string>()};
     record.output = json.at("output_hash").get<std::string>();
+    record.input = json.value("input", "");
     std::optional<BatchRow> row = parse_row(json.at("row").dump());
     if (!row) return std::nullopt;
     record.row = std::move(*row);
@@ -76,9 +89,14 @@ std::vector<std::string> recorded_names(const std::string& folder) {
        entries.increment(error)) {
     std::error_code ignored;
     const fs::path& path = entries->path();
-    if (path.extension() != ".json" || !entries->is_regular_file(ignored)) continue;
-    const std::string name = path.lexically_relative(records).generic_string();
-    names.push_back(name.substr(0, name.size() - path.extension().string().size()));
+    if (path.extension() != record_extension || !entries->is_regular_file(ignored)) continue;
+    std::string name = path.lexically_relative(records).generic_string();
+    name.resize(name.size() - record_extension.size());
+    // Only the record has the whole name if the file name was cut.
+    if (path.filename().string().size() > longest_file_name - 4) {
+      if (const auto record = read_record(folder, name)) name = record->row.name;
+    }
+    names.push_back(std::move(name));
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -100,12 +118,23 @@ void make_folder(const fs::path& folder) {
   }
 }
 
+std::vector<fs::path> missing_folders(const fs::path& folder) {
+  std::vector<fs::path> missing;
+  std::error_code error;
+  for (fs::path path = fs::absolute(folder, error).lexically_normal();
+       !path.empty() && !fs::exists(path, error) && path != path.parent_path();
+       path = path.parent_path()) {
+    if (path.has_filename()) missing.push_back(path);
+  }
+  return missing;
+}
+
 TakeLock::TakeLock(const std::string& folder, const std::string& name) {
   const fs::path path = fs::path(folder) / records_folder / "lock";
   make_folder(path.parent_path());
   descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor_ < 0) return;
-  // One byte of the file for each take, by its name: whose bytes are the same wait for each other.
+  // Each take locks one byte of the file, chosen by a hash of its name.
   constexpr std::uint64_t places = std::uint64_t{1} << 40;
   std::uint64_t place = 0;
   const std::string digits = content_hash(name).substr(0, 16);
@@ -115,7 +144,7 @@ TakeLock::TakeLock(const std::string& folder, const std::string& name) {
   lock.l_whence = SEEK_SET;
   lock.l_start = static_cast<off_t>(place % places);
   lock.l_len = 1;
-  // Where the file system knows no locks there are none.
+  // On a file system without locks the takes are not locked.
   while (::fcntl(descriptor_, F_OFD_SETLKW, &lock) != 0 && errno == EINTR) {
   }
 }
@@ -129,6 +158,7 @@ void write_record(const std::string& folder, const std::string& name, const Batc
   make_folder(path.parent_path());
   write_file(path,
              json_text({{"kinemend", record.key.version},
+                        {"input", record.input},
                         {"input_hash", record.key.input},
                         {"options_hash", record.key.options},
                         {"output_hash", record.output},

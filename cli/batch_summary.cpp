@@ -32,7 +32,7 @@ std::string rows_path(const std::string& folder, const Shard& shard) {
   return (fs::path(folder) / rows_name(shard)).string();
 }
 
-/// What an earlier run has left; of a take with several rows the last holds.
+/// The rows of earlier runs. If a take has several, the last one counts.
 std::vector<BatchRow> known_rows(const std::string& path) {
   std::vector<BatchRow> rows;
   std::error_code ignored;
@@ -49,7 +49,7 @@ std::vector<BatchRow> known_rows(const std::string& path) {
 void append_row(const std::string& folder, const Shard& shard, const BatchRow& row) {
   const std::string line = row.json + "\n";
   const std::string path = rows_path(folder, shard);
-  // Found and put back by whoever writes the rows anew.
+  // `write_rows` rewrites the file under the same lock.
   const TakeLock lock(folder, rows_name(shard));
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   const ssize_t count = file < 0 ? -1 : ::write(file, line.data(), line.size());
@@ -92,7 +92,7 @@ BatchSums sums_of(const std::string& folder, const std::vector<BatchItem>& all,
   }
   for (const std::string& name : recorded_names(folder)) {
     const auto record = own.count(name) > 0 ? std::nullopt : read_record(folder, name);
-    if (!record || !still_counts(folder, name, *record)) continue;
+    if (!record || record->row.status == "copied" || !still_counts(folder, name, *record)) continue;
     sums.add(name, record->row.status != "begun" ? &record->row : nullptr);
   }
   return sums;

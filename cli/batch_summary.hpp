@@ -8,16 +8,16 @@
 
 namespace kinemend::cli {
 
-/// Puts a row behind those of `rows.jsonl`, or `rows.I-of-N.jsonl` for a part, at once: what is
-/// done is known whenever the run ends.
+/// Appends a row to `rows.jsonl`, or to `rows.I-of-N.jsonl` for a shard, at once: a run that is
+/// killed has written the rows of all takes that it finished.
 void append_row(const std::string& folder, const Shard& shard, const BatchRow& row);
-/// The rows anew: a line a take, sorted by name. Rows of takes that are not of this batch stay as
-/// long as they count (`still_counts`).
+/// Rewrites the rows: one line per take, sorted by name. Rows of takes that are not in this batch
+/// are kept as long as they count (`still_counts`).
 void write_rows(const std::string& folder, const Shard& shard, const std::vector<BatchItem>& all,
                 const std::vector<BatchRow>& rows);
 
-/// Sums over the records of all takes of the batch, whichever run or shard made them, and what is
-/// still to be done; and over those that other batches have made in the same folder.
+/// Sums over the records of all takes of the batch, whichever run or shard made them, over those
+/// that are still to be done, and over those that other batches wrote to the same folder.
 BatchSums sums_of(const std::string& folder, const std::vector<BatchItem>& all,
                   const std::string& options_hash);
 /// As `summary.json`.

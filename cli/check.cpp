@@ -46,26 +46,29 @@ Checked check_file(const std::string& input, const Arguments& arguments) {
   return {std::move(read.take), {std::move(facts), std::move(report)}};
 }
 
-void check_outputs(const Arguments& arguments) {
+ReportFiles checked_outputs(const Arguments& arguments) {
   const std::vector<std::string>& inputs = arguments.positionals;
-  const std::string gaps_out = arguments.text("gaps_out"), report = arguments.text("report");
+  const std::string gaps_out = arguments.text("gaps_out");
   const bool force = arguments.flag("force");
-  check_page(report, inputs.size());
-  check_single_use(inputs, {gaps_out, report}, arguments.flag("json"));
+  const ReportFiles reports = report_files(arguments, inputs.size());
   if (!gaps_out.empty() && inputs.size() > 1)
     throw Error(ErrorKind::usage, "--gaps-out takes the spans of one take, not of several");
-  check_is_no_input("--gaps-out", gaps_out, inputs);
-  check_is_no_input("--gaps-out", gaps_out, {arguments.text("map")});
-  check_report(report, inputs);
-  check_report(report, {arguments.text("map"), arguments.text("asf"), gaps_out});
+  RunFiles files;
+  files.reads("FILE", inputs)
+      .reads("--map", arguments.text("map"))
+      .reads("--asf", arguments.text("asf"))
+      .writes("--gaps-out", gaps_out);
+  reports.add_to(files);
+  files.check(arguments.flag("json"));
   if (!gaps_out.empty()) check_free(gaps_out, force);
-  if (!report.empty()) check_free(report, force);
+  reports.check_free(force);
+  return reports;
 }
 
 int run_check(const Arguments& arguments) {
   const bool json = arguments.flag("json"), force = arguments.flag("force");
-  const std::string gaps_out = arguments.text("gaps_out"), report_path = arguments.text("report");
-  check_outputs(arguments);
+  const std::string gaps_out = arguments.text("gaps_out");
+  const ReportFiles reports = checked_outputs(arguments);
   TextOptions options;
   options.all = arguments.flag("verbose");
   options.colours = Colours::of_out().on();
@@ -77,9 +80,9 @@ int run_check(const Arguments& arguments) {
       const auto& stale = std::get<CheckReport>(report.result).stale;
       write_output(gaps_out, gaps_text(stale, report.take.first_frame), force);
     }
-    if (is_page(report_path)) page = page_of(report, take, nullptr, page_settings(arguments));
-    if (json || !report_path.empty()) takes.push_back(to_json(report));
-    if (!json && gaps_out != "-" && report_path != "-") {
+    if (reports.with_page()) page = page_of(report, take, nullptr, page_settings(arguments));
+    if (json || reports.with_json()) takes.push_back(to_json(report));
+    if (!json && gaps_out != "-" && !reports.on_out()) {
       write_out(to_text(report, options));
     }
     return say_passed_limits(report, check_figures(), arguments);
@@ -91,8 +94,7 @@ int run_check(const Arguments& arguments) {
   });
   const std::string document = report_document("check", takes);
   // Bad input leaves nothing behind.
-  if (!report_path.empty() && failed < arguments.positionals.size())
-    write_output(report_path, page.empty() ? document : page, force);
+  if (failed < arguments.positionals.size()) reports.write(document, page, force);
   if (json) write_out(document);
   return code;
 }
@@ -114,8 +116,8 @@ std::vector<Flag> check_flags() {
       json_flag("print JSON instead of text"),
       switch_flag("verbose", "Output", "list every finding and every track"),
       gaps_out,
-      report_flag("also write what was found, as JSON",
-                  "FILE.html is a page for a browser, with the motion, of one take."),
+      reports_flag("also write what was found: FILE.json, or FILE.html as a page for a browser",
+                   "A page shows one take, with its motion."),
       force_flag(),
       up,
       without_default(number_flag("metres_per_unit", "m", 0, 1e-9, 1e6, "Checks",

@@ -29,7 +29,7 @@ class Announcer {
  public:
   explicit Announcer(const CleanPlan& plan)
       : plan_(plan), outcomes_(plan.jobs.size()), bar_(plan.jobs.size()) {
-    bool stdout_is_taken = plan.report_path == "-";
+    bool stdout_is_taken = plan.reports.on_out();
     for (const CleanJob& job : plan.jobs) stdout_is_taken |= job.output == "-" && !plan.dry_run;
     to_stderr_ = stdout_is_taken;
   }
@@ -59,9 +59,8 @@ class Announcer {
       say_error(fmt::format("{} of {} failed", failed, counted(outcomes_.size(), "take")));
     if (plan_.json) write_out(report_document("clean", files));
     // Bad input leaves nothing behind.
-    if (!plan_.report_path.empty() && failed < outcomes_.size()) {
-      write_output(plan_.report_path,
-                   plan_.page ? reports.front() : report_document("clean", reports), plan_.force);
+    if (!plan_.reports.empty() && failed < outcomes_.size()) {
+      plan_.reports.write(report_document("clean", reports), outcomes_.front()->page, plan_.force);
     }
     if (stdout_is_closed_) throw ClosedPipe();
     return code;
@@ -132,7 +131,7 @@ int run_clean(const Arguments& arguments) {
   if (arguments.positionals.empty())
     throw Error(ErrorKind::usage, "clean: IN is missing (see kinemend clean -h)");
   const CleanPlan plan = make_clean_plan(arguments);
-  if (!plan.report_path.empty()) check_free(plan.report_path, plan.force);
+  plan.reports.check_free(plan.force);
   Announcer announcer(plan);
   clean_all(plan, announcer);
   return announcer.finish();

@@ -7,6 +7,7 @@
 #include "config.hpp"
 #include "kinemend/fill.hpp"
 #include "method_options.hpp"
+#include "page_report.hpp"
 #include "takes.hpp"
 
 namespace kinemend::cli {
@@ -129,9 +130,9 @@ std::vector<Flag> clean_output_flags() {
        force_flag(),
        switch_flag("dry_run", "Output", "clean and report, but write no take",
                    "A --report that is asked for is written."),
-       file_flag("report", "FILE", "Output", "write what was done to each span of samples, as JSON",
-                 "FILE.html is a page for a browser: the body before and after, curves, and all "
-                 "that was found and done, of one take."),
+       reports_flag("also write what was done: FILE.json, or FILE.html as a page for a browser",
+                    "JSON lists every span of samples that changed. The page shows one take: the "
+                    "body before and after, curves, and everything that was found and done."),
        json_flag("print the summary as JSON instead of text"),
        switch_flag("verbose", "Output", "list every joint or marker that changed"),
        switch_flag("quiet", "Output", "print warnings and errors only")});

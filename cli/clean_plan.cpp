@@ -205,6 +205,40 @@ CleanPlan make_cleaning(const Arguments& arguments) {
   return plan;
 }
 
+RunFiles files_read(const CleanPlan& plan, const Arguments& arguments) {
+  RunFiles files;
+  for (const char* flag : {"config", "gaps", "asf"})
+    files.reads(fmt::format("--{}", flag), arguments.text(flag));
+  const std::string noise = arguments.text("noise");
+  if (noise != "auto" && noise != "white") files.reads("--noise", noise);
+  files.reads("--map", map_path(arguments, plan.options));
+  for (const OptionSpec& spec : find_method(plan.method).options) {
+    const auto value = plan.options.find(spec.name);
+    if (value != plan.options.end() && names_file(spec))
+      files.reads("--" + dashed(spec.name), std::get<std::string>(value->second));
+  }
+  return files;
+}
+
+namespace {
+
+RunFiles files_of(const CleanPlan& plan, const Arguments& arguments) {
+  RunFiles files = files_read(plan, arguments);
+  files.reads("--contacts", arguments.text("contacts"));
+  const char* const option = plan.folder.empty() ? "--output" : "--output-dir";
+  for (const CleanJob& job : plan.jobs) {
+    files.reads("IN", job.input);
+    if (plan.dry_run)
+      files.would_write(option, job.output);
+    else
+      files.writes(option, job.output, job.input);
+  }
+  plan.reports.add_to(files);
+  return files;
+}
+
+}  // namespace
+
 CleanPlan make_clean_plan(const Arguments& arguments) {
   CleanPlan plan = make_cleaning(arguments);
   plan.jobs = make_jobs(arguments);
@@ -214,29 +248,13 @@ CleanPlan make_clean_plan(const Arguments& arguments) {
     plan.contacts.emplace(read_file(path), input_name(path));
   }
   plan.folder = arguments.text("output_dir");
-  plan.report_path = arguments.text("report");
-  check_page(plan.report_path, plan.jobs.size());
-  if (is_page(plan.report_path)) plan.page = page_settings(arguments);
+  plan.reports = report_files(arguments, plan.jobs.size());
+  if (plan.reports.with_page()) plan.page = page_settings(arguments);
   plan.dry_run = arguments.flag("dry_run");
   plan.json = arguments.flag("json");
   plan.verbose = arguments.flag("verbose");
   plan.quiet = arguments.flag("quiet");
-  std::vector<std::string> outputs = {plan.report_path};
-  std::vector<std::string> inputs = {arguments.text("config"), arguments.text("gaps"),
-                                     arguments.text("contacts")};
-  for (const CleanJob& job : plan.jobs) {
-    inputs.push_back(job.input);
-    if (!plan.dry_run) outputs.push_back(job.output);
-  }
-  check_single_use(inputs, outputs, plan.json);
-  // What a dry run would write is not replaced by its report either.
-  for (const CleanJob& job : plan.jobs) inputs.push_back(job.output);
-  for (const std::string& file :
-       {arguments.text("asf"), arguments.text("noise"), map_path(arguments, plan.options)})
-    inputs.push_back(file);
-  for (const std::string& file : option_files(find_method(plan.method), plan.options))
-    inputs.push_back(file);
-  check_report(plan.report_path, inputs);
+  files_of(plan, arguments).check(plan.json);
   return plan;
 }
 

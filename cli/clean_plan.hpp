@@ -12,6 +12,8 @@
 #include "kinemend/clean.hpp"
 #include "kinemend/experimental/page.hpp"
 #include "kinemend/io.hpp"
+#include "page_report.hpp"
+#include "run_files.hpp"
 
 namespace kinemend::cli {
 
@@ -36,8 +38,8 @@ struct CleanPlan {
   std::optional<std::pair<std::string, std::string>> gaps, contacts;
   bool fix_swaps = false;
   std::string folder;                  ///< --output-dir; made where it does not exist
-  std::string report_path;             ///< empty: none
-  std::optional<PageSettings> page{};  ///< where the report is a page
+  ReportFiles reports{};               ///< of `clean`
+  std::optional<PageSettings> page{};  ///< where a page is made of each take
   bool strict = false;
   bool force = false;
   bool dry_run = false;
@@ -52,6 +54,9 @@ Settings merged_settings(const Arguments& arguments);
 /// How to clean, without what and where to: what `clean` and `batch` share. Errors:
 /// `ErrorKind::usage`.
 CleanPlan make_cleaning(const Arguments& arguments);
+/// The files that the cleaning itself reads, for `RunFiles::check`: settings, gaps, skeleton,
+/// noise, model, map. `clean` and `batch` add their takes and outputs.
+RunFiles files_read(const CleanPlan& plan, const Arguments& arguments);
 /// The plan of `clean`. Errors: `ErrorKind::usage`.
 CleanPlan make_clean_plan(const Arguments& arguments);
 

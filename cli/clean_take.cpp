@@ -75,7 +75,7 @@ void read_contacts(const MarkerClip& /*clip*/, const CleanPlan& /*plan*/,
 
 // Whether anybody asks what was done.
 bool is_reported(const CleanPlan& plan) {
-  return !plan.quiet || plan.json || !plan.report_path.empty();
+  return !plan.quiet || plan.json || !plan.reports.empty() || plan.page;
 }
 
 // Cleans the take in place.
@@ -123,7 +123,7 @@ void tell(const Report& report, const CleanJob& job, const CleanPlan& plan, Outc
   options.colours = Colours::of_out().on();
   if (!plan.quiet) outcome.text = to_text(report, options);
   if (plan.json) outcome.json = to_json(report, false);
-  if (!plan.report_path.empty() && !plan.page) outcome.report = to_json(report);
+  if (plan.reports.with_json()) outcome.report = to_json(report);
   if (!job.row_name.empty()) outcome.row = cleaned_row(job.row_name, report, outcome.warnings);
 }
 
@@ -166,7 +166,7 @@ void clean_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& 
   Report report{facts_of(read.take, job.input, std::move(read.diagnostics)), std::move(cleaned)};
   if (!plan.dry_run) report.take.output = job.output;
   tell(report, job, plan, outcome);
-  if (plan.page) outcome.report = page_of(report, *before, &read.take, *plan.page);
+  if (plan.page) outcome.page = page_of(report, *before, &read.take, *plan.page);
   if (plan.page && !job.row_name.empty()) outcome.picture = picture_of(read.take);
 }
 

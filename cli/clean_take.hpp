@@ -18,7 +18,8 @@ struct Outcome {
   std::vector<std::string> warnings;
   std::string error;
   std::string json;             ///< entry of --json; empty when not asked for
-  std::string report;           ///< entry of --report
+  std::string report;           ///< entry of a --report that is JSON
+  std::string page;             ///< of `CleanPlan::page`
   std::string picture;          ///< SVG of a few poses, for the index of a batch with pages
   std::optional<BatchRow> row;  ///< of `CleanPlan::row_name`
 };

@@ -8,19 +8,19 @@
 
 #include "kinemend/options.hpp"
 
-// The tables from which parser, help, manual page, shell completion and configuration files all
-// come.
+// The tables from which parser, help, manual page, shell completion and configuration files are
+// made.
 namespace kinemend::cli {
 
 /// How often a flag takes a value.
 enum class Takes : std::uint8_t {
   nothing,  ///< a switch
-  value,    ///< one value; of several the last holds
-  list,     ///< comma-separated values, and as many times as one likes
-  repeated  ///< one value a time, as many times as one likes
+  value,    ///< one value; if given several times, the last one counts
+  list,     ///< comma-separated values; may be given several times
+  repeated  ///< one value; may be given several times
 };
 
-/// What a shell offers for a value; the choices of the flag's spec come first.
+/// What shells complete a value with, after the choices of the flag's spec.
 enum class Completion : std::uint8_t { none, file, folder };
 
 /// One flag of a command, defined once. Its spec holds name (`max_change_deg` is
@@ -29,12 +29,15 @@ struct Flag {
   OptionSpec spec;
   Takes takes = Takes::value;
   char letter = 0;         ///< `-o`; 0 for none
-  std::string value_name;  ///< "FILE"; empty: made from the spec
+  std::string value_name;  ///< "FILE"; empty: derived from the spec
   std::string group;       ///< heading in the help
-  std::string details;     ///< further sentences of the long help
+  std::string details;     ///< more sentences for the long help
   Completion completion = Completion::none;
-  bool configurable = false;  ///< may stand in a configuration file
+  bool configurable = false;  ///< allowed in a configuration file
   bool has_default = true;    ///< false: no default is shown and none applies
+  /// Of the choices those that help and shells list; empty: all. The command itself refuses the
+  /// others, and says why.
+  std::vector<std::string> offered;
 };
 
 struct Positional {
@@ -42,10 +45,10 @@ struct Positional {
   std::string help;
   std::size_t minimum = 1;
   std::size_t maximum = 1;
-  std::vector<std::string> choices;  ///< for shells; empty: files
+  std::vector<std::string> choices;  ///< for shells and parser; empty: files
 };
 
-/// Options that belong to an entry of a library table: a method's or a damage's.
+/// The options of an entry of a library table: of a method or a damage.
 struct OptionGroup {
   std::string name;     ///< "bilateral"
   std::string summary;  ///< one line
@@ -81,7 +84,7 @@ const Command* find_command(std::string_view name);
 class Arguments {
  public:
   const Command* command = nullptr;
-  std::vector<std::string> words;  ///< as they were given, all of them
+  std::vector<std::string> words;  ///< all words as given
   std::vector<std::string> positionals;
   OptionValues values;  ///< given flags with one value
   std::map<std::string, std::vector<std::string>, std::less<>> lists;  ///< given lists
@@ -101,7 +104,7 @@ class Arguments {
   OptionValue value(std::string_view name) const;
 };
 
-/// Flags in the words of a table.
+/// Flags, for the tables.
 Flag switch_flag(std::string name, std::string group, std::string help, std::string details = {});
 Flag number_flag(std::string name, std::string unit, double default_value, double minimum,
                  double maximum, std::string group, std::string help, std::string details = {});
@@ -112,13 +115,13 @@ Flag text_flag(std::string name, std::string value_name, std::string group, std:
 
 /// A switch that is on unless `--no-...` turns it off.
 bool is_on_by_default(const Flag& flag);
-/// Whether an option of a group names a file: a text that is free.
+/// Whether an option of a group names a file: its text has no fixed choices.
 bool names_file(const OptionSpec& spec);
 /// `max_change_deg` to `max-change-deg`.
 std::string dashed(std::string_view name);
 /// What a value is called in the help: "FILE", "X", "N", "a|b".
 std::string value_name(const Flag& flag);
-/// "0 to 180 deg, default 180"; empty where there is nothing to say.
+/// "0 to 180 deg; default 180"; empty if there is neither range nor default.
 std::string range_text(const OptionSpec& spec, bool has_default = true);
 
 }  // namespace kinemend::cli

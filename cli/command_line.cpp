@@ -29,7 +29,7 @@ std::string parser_names(const Flag& flag) {
 
 bool is_switch(const OptionSpec& spec) { return std::holds_alternative<bool>(spec.default_value); }
 
-/// A name may be an option of several groups: the parser knows it once, as text.
+/// A name may be an option of several groups. The parser gets it once, as text.
 std::vector<std::pair<std::string, bool>> distinct_group_options(const Command& command) {
   std::vector<std::pair<std::string, bool>> names;
   if (!command.groups_are_flags) return names;
@@ -47,8 +47,8 @@ std::vector<std::pair<std::string, bool>> distinct_group_options(const Command& 
   return names;
 }
 
-/// `--` ends the options: takes it and what follows off the words, which are inputs whatever they
-/// begin with.
+/// `--` ends the options: removes it and the words after it, which are inputs even if they begin
+/// with a dash.
 std::vector<std::string> take_behind_dashes(std::vector<std::string>& words) {
   const auto dashes = std::find(words.begin(), words.end(), "--");
   if (dashes == words.end()) return {};
@@ -59,7 +59,7 @@ std::vector<std::string> take_behind_dashes(std::vector<std::string>& words) {
 
 bool is_option(const std::string& word) { return word.size() > 1 && word[0] == '-'; }
 
-/// Whether a word can be nothing but a name that was meant for the list before it.
+/// Whether a word can only be a name that belongs to the list before it.
 bool is_stray_name(const Command& command, const std::string& word) {
   std::error_code ignored;
   if (word.empty() || word == "-" || std::filesystem::exists(word, ignored)) return false;
@@ -71,7 +71,7 @@ bool is_stray_name(const Command& command, const std::string& word) {
                       });
 }
 
-/// `--joints A B`: B would be taken for an input that is not there.
+/// `--joints A B`: without this check B would be reported as a missing input.
 void refuse_names_beside_lists(const Command& command, const std::vector<std::string>& words) {
   for (const Flag& flag : command.flags) {
     if (flag.takes != Takes::list) continue;
@@ -84,14 +84,14 @@ void refuse_names_beside_lists(const Command& command, const std::vector<std::st
         continue;
       if (!is_stray_name(command, words[next])) continue;
       const std::string first = is_joined ? words[i].substr(name.size() + 1) : words[value];
-      refuse(command, fmt::format("{1} behind {0} is neither a file nor part of the list: names "
-                                  "are separated by commas, as in {0} {2},{1}",
+      refuse(command, fmt::format("{1} after {0} is neither a file nor part of the list; separate "
+                                  "names by commas, as in {0} {2},{1}",
                                   name, words[next], first));
     }
   }
 }
 
-/// CLI11 under the tables: it splits the words; what they mean is decided here.
+/// Parses with CLI11, which splits the words; the tables decide what they mean.
 class Parser {
  public:
   explicit Parser(const Command& command) : command_(command) {
@@ -194,7 +194,7 @@ class Parser {
     if (count > maximum) refuse(command_, "unexpected argument " + arguments.positionals[maximum]);
   }
 
-  /// Names of a list are known in any capitals.
+  /// Choices match in any case.
   void match_choices(std::vector<std::string>& words) const {
     std::size_t next = 0;
     for (const Positional& positional : command_.positionals) {
@@ -207,7 +207,7 @@ class Parser {
   CLI::App app_;
   std::vector<std::string> words_;
   std::vector<std::unique_ptr<std::vector<std::string>>> storage_;
-  std::vector<CLI::Option*> options_;  ///< one a flag
+  std::vector<CLI::Option*> options_;  ///< one per flag
   std::vector<std::pair<std::string, CLI::Option*>> group_options_;
 };
 

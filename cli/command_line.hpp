@@ -7,7 +7,7 @@
 
 namespace kinemend::cli {
 
-/// What a command line asks for.
+/// A parsed command line.
 struct Request {
   enum class Kind { run, short_help, long_help, version };
   Kind kind = Kind::run;
@@ -17,10 +17,10 @@ struct Request {
 /// Parses the words after the program's name. Errors: `ErrorKind::usage`.
 Request parse_command_line(const std::vector<std::string>& words);
 
-/// Text of a flag to a value of its type. The message of an error names the flag as it is typed.
+/// The text of a flag as a value of its type. Errors name the flag as it is typed.
 OptionValue parse_flag_value(const OptionSpec& spec, const std::string& text);
 
-/// `a,b` and `c` to `a`, `b`, `c`; empty parts are left out.
+/// `a,b` and `c` to `a`, `b`, `c`; empty parts are skipped.
 std::vector<std::string> split_list(const std::vector<std::string>& texts);
 
 }  // namespace kinemend::cli

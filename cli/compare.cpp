@@ -149,24 +149,26 @@ std::string comparison_page(const Compared& both, PageSettings settings) {
 int run_compare(const Arguments& arguments) {
   const std::string reference_name = arguments.positionals[0];
   const std::string other_name = arguments.positionals[1];
-  const std::string report_path = arguments.text("report");
+  const ReportFiles reports = report_files(arguments, 1);
   const bool json = arguments.flag("json"), force = arguments.flag("force");
-  check_page(report_path, 1);
-  check_single_use({reference_name, other_name}, {report_path}, json);
-  check_report(report_path, {reference_name, other_name, arguments.text("asf")});
-  if (!report_path.empty()) check_free(report_path, force);
+  RunFiles files;
+  files.reads("REFERENCE", reference_name)
+      .reads("OTHER", other_name)
+      .reads("--fit-to", arguments.text("fit_to"))
+      .reads("--asf", arguments.text("asf"));
+  reports.add_to(files);
+  files.check(json);
+  reports.check_free(force);
   const Compared both = compared(arguments);
   const Report& report = both.report;
   const std::vector<std::string> takes = {to_json(report)};
   const std::string document = report_document("compare", takes);
-  if (!report_path.empty()) {
-    write_output(report_path,
-                 is_page(report_path) ? comparison_page(both, page_settings(arguments)) : document,
-                 force);
-  }
+  reports.write(
+      document,
+      reports.with_page() ? comparison_page(both, page_settings(arguments)) : std::string(), force);
   if (json) {
     write_out(document);
-  } else if (report_path != "-") {
+  } else if (!reports.on_out()) {
     TextOptions options;
     options.all = arguments.flag("per_joint");
     write_out(to_text(report, options));
@@ -207,8 +209,8 @@ std::vector<Flag> compare_flags() {
       number_flag("least_motion", "", 0, 0, 1e12, "Markers",
                   "channels of REFERENCE that move by less do not count, file units",
                   "Standard deviation over the take. Distances count all."),
-      report_flag("also write the figures, as JSON",
-                  "FILE.html is a page for a browser, with both takes."),
+      reports_flag("also write the figures: FILE.json, or FILE.html as a page for a browser",
+                   "The page shows both takes."),
       force_flag(),
       number_without_default("metres_per_unit", "m", 1e-9, 1e6, "Figures",
                              "length of a file unit; found from the skeleton's height otherwise"),

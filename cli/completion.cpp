@@ -28,7 +28,7 @@ void add_flag(std::vector<ShellFlag>& flags, ShellFlag flag) {
     flags.push_back(std::move(flag));
     return;
   }
-  // The option of several methods: it may take what any of them takes.
+  // Several methods have the option: offer the values of all of them.
   known->completion = std::max(known->completion, flag.completion);
   for (std::string& choice : flag.choices) {
     if (std::find(known->choices.begin(), known->choices.end(), choice) == known->choices.end())
@@ -46,8 +46,11 @@ void add_option(std::vector<ShellFlag>& flags, const OptionSpec& spec, char lett
 
 std::vector<ShellFlag> flags_of(const Command& command) {
   std::vector<ShellFlag> flags;
-  for (const Flag& flag : command.flags)
-    add_option(flags, flag.spec, flag.letter, flag.takes != Takes::nothing, flag.completion);
+  for (const Flag& flag : command.flags) {
+    OptionSpec spec = flag.spec;
+    if (!flag.offered.empty()) spec.choices = flag.offered;
+    add_option(flags, spec, flag.letter, flag.takes != Takes::nothing, flag.completion);
+  }
   if (command.groups_are_flags) {
     for (const OptionGroup& group : command.groups) {
       for (const OptionSpec& spec : group.options) {
@@ -134,7 +137,7 @@ std::string bash_script() {
   std::string text = fmt::format(
       "# bash completion of kinemend\n_kinemend_words() {{\n"
       "  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}}\n"
-      // bash takes --name=value apart at the = where that is among COMP_WORDBREAKS.
+      // bash splits --name=value at the = if that is in COMP_WORDBREAKS.
       "  if [[ $word == '=' ]]; then\n    word=\n"
       "  elif [[ $before == '=' && $COMP_CWORD -gt 2 ]]; then\n"
       "    before=${{COMP_WORDS[COMP_CWORD-2]}}\n"
@@ -254,7 +257,7 @@ int run_completion(const Arguments& arguments) {
     write_out(fish_script());
   } else {
     throw Error(ErrorKind::usage,
-                fmt::format("unknown shell {}; there are bash, zsh, fish", shell));
+                fmt::format("completion: unknown shell {}; known are bash, zsh and fish", shell));
   }
   return 0;
 }
@@ -266,8 +269,9 @@ Command completion_command() {
   command.name = "completion";
   command.summary = "print a completion script for a shell";
   command.description =
-      "For bash, load it with eval \"$(kinemend completion bash)\"; for zsh, put it into a folder "
-      "of $fpath as _kinemend; for fish, into ~/.config/fish/completions/kinemend.fish.";
+      "bash: load the script with eval \"$(kinemend completion bash)\". zsh: save it as _kinemend "
+      "in a "
+      "folder of $fpath. fish: save it as ~/.config/fish/completions/kinemend.fish.";
   command.positionals = {{"SHELL", "bash, zsh or fish", 1, 1, {"bash", "zsh", "fish"}}};
   command.run = run_completion;
   return command;

@@ -18,7 +18,7 @@ namespace {
   throw Error(kind, fmt::format("{}:{}: {}", name, line, message));
 }
 
-/// Reads the nodes of one file, whose name stands in every message.
+/// Reads the nodes of one file, whose name begins every message.
 class Reader {
  public:
   Reader(const Command& clean, std::string_view name) : clean_(clean), name_(name) {}
@@ -90,7 +90,7 @@ class Reader {
     for (const toml::node& entry : *list) {
       const auto* text = entry.as_string();
       if (!text)
-        refuse(ErrorKind::usage, name_, line_of(entry), spec.name + ": takes texts in quotes");
+        refuse(ErrorKind::usage, name_, line_of(entry), spec.name + ": expected texts in quotes");
       result.push_back(text->get());
     }
     return result;

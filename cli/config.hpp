@@ -8,17 +8,17 @@
 
 #include "command.hpp"
 
-// Settings of `clean` from presets, configuration files and the command line, one over the other.
+// Settings of `clean` from presets, configuration files and the command line. Later ones override.
 namespace kinemend::cli {
 
-/// What one source sets; what it does not set is absent.
+/// The settings of one source; those that it does not set are absent.
 struct Settings {
   OptionValues values;                                                 ///< by flag
   std::map<std::string, std::vector<std::string>, std::less<>> lists;  ///< by flag
   std::map<std::string, OptionValues, std::less<>> methods;            ///< options by method
 };
 
-/// A preset as it is embedded: its TOML text.
+/// An embedded preset: its TOML text.
 struct Preset {
   std::string_view name;
   std::string_view text;
@@ -26,15 +26,15 @@ struct Preset {
 std::span<const Preset> presets();
 /// The first line of a preset's leading comment.
 std::string preset_summary(const Preset& preset);
-/// Errors: `ErrorKind::usage` with the names there are.
+/// Errors: `ErrorKind::usage` with the known names.
 const Preset& find_preset(std::string_view name);
 
-/// The settings in a TOML text; `name` stands in messages. Errors: `ErrorKind::unreadable_input`
-/// for what is no TOML, `ErrorKind::usage` for an unknown key or a value out of range, both with
-/// the line.
+/// The settings in a TOML text; `name` is for messages. Errors, with the line:
+/// `ErrorKind::unreadable_input` for text that is not TOML, `ErrorKind::usage` for an unknown key
+/// or a value out of range.
 Settings parse_settings(const Command& clean, std::string_view text, std::string_view name);
 
-/// Puts `over` over `base`.
+/// Overrides settings of `base` with those of `over`.
 void put_over(Settings& base, const Settings& over);
 
 /// A TOML text with every setting of `clean`, its unit and its range, and the options of the method

@@ -9,6 +9,7 @@
 #include "kinemend/feet.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"
+#include "run_files.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -30,8 +31,12 @@ int run_contacts(const Arguments& arguments) {
   std::string output = arguments.text("output");
   const bool json = arguments.flag("json"), force = arguments.flag("force");
   const std::string map = arguments.text("map");
-  check_single_use({input, map}, {output}, json);
-  check_is_no_input("--output", output, {input, map});
+  RunFiles()
+      .reads("IN", input)
+      .reads("--map", map)
+      .reads("--asf", arguments.text("asf"))
+      .writes("--output", output)
+      .check(json);
   if (!output.empty()) check_free(output, force);
   const Clip clip = read_joints(input, read_options(arguments));
   Clip copy = clip;

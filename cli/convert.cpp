@@ -11,6 +11,7 @@
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/io.hpp"
+#include "run_files.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -148,6 +149,11 @@ int run_convert(const Arguments& arguments) {
   const std::string input = arguments.positionals[0];
   const std::string output = converted_output_of(arguments);
   const bool force = arguments.flag("force");
+  RunFiles()
+      .reads("IN", input)
+      .reads("--asf", arguments.text("asf"))
+      .writes("OUT", output, input)
+      .check();
   if (!arguments.given("to")) check_take_ending(output);
   check_free(output, force);
   TakeResult read = read_take(fs::path(input), read_options(arguments));

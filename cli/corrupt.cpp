@@ -1,4 +1,4 @@
-// kinemend corrupt: seeded damage, for tests and comparisons.
+// kinemend corrupt: damages a take in a known way, for tests and comparisons.
 
 #include "kinemend/experimental/corrupt.hpp"
 
@@ -11,6 +11,7 @@
 #include "json.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/io.hpp"
+#include "run_files.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -33,7 +34,7 @@ const Damage& damage_or_refuse(const std::string& name) {
   throw Error(
       ErrorKind::usage,
       guess.empty()
-          ? fmt::format("--damage: unknown damage {}; there are {}", name, fmt::join(names, ", "))
+          ? fmt::format("--damage: unknown damage {}; known are {}", name, fmt::join(names, ", "))
           : fmt::format("--damage: unknown damage {} (did you mean {}?)", name, guess));
 }
 
@@ -54,7 +55,7 @@ bool is_switch_of(const Damage& damage, const std::string& name) {
   });
 }
 
-/// "a=1,b=x,y,c" to {a=1, b=x,y, c}: a part without = is a switch, or goes on with the value before
+/// "a=1,b=x,y,c" to {a=1, b=x,y, c}: a part without = is a switch, or belongs to the value before
 /// it.
 std::vector<std::string> split_options(const Damage& damage, const std::string& text) {
   std::vector<std::string> parts;
@@ -124,7 +125,11 @@ int run_corrupt(const Arguments& arguments) {
   for (const std::string& text : arguments.list("damage")) requests.push_back(parse_damage(text));
   if (requests.empty())
     throw Error(ErrorKind::usage, "corrupt: --damage is missing (see kinemend corrupt -h)");
-  check_single_use({input}, {output}, json);
+  RunFiles()
+      .reads("IN", input)
+      .reads("--asf", arguments.text("asf"))
+      .writes("--output", output, input)
+      .check(json);
   check_take_ending(output);
   check_free(output, force);
   TakeResult read = read_take(std::filesystem::path(input), read_options(arguments));
@@ -161,21 +166,21 @@ int run_corrupt(const Arguments& arguments) {
 }  // namespace
 
 Command corrupt_command() {
-  Flag damage = text_flag("damage", "NAME:OPTION=VALUE,...", "Work",
-                          "what to do to the take, in the order given",
-                          "Give it again for several damages, one after the other.");
+  Flag damage = text_flag("damage", "NAME:OPTION=VALUE,...", "Work", "damage to apply",
+                          "Repeat the option to apply several damages, in the order given.");
   damage.takes = Takes::repeated;
   Command command;
   command.name = "corrupt";
   command.summary = "damage a take in a known way, for tests";
   command.description =
-      "Applies controlled damage and prints how much of it came out. The same seed gives the same "
-      "bytes on every machine. A calibration pose at the start stays as it is.";
+      "Applies controlled damage and prints how many samples it changed and by how much. The same "
+      "seed gives the same bytes on every machine. A calibration pose at the start is not "
+      "changed.";
   command.positionals = {{"IN", "take to read; - is standard input", 1, 1, {}}};
   command.flags = {output_flag("where to write; - is standard output"), force_flag(),
-                   json_flag("print what was done as JSON"), damage,
-                   seed_flag("seed of the random numbers")};
-  append(command.flags, reading_flags("what needs a repair becomes an error"));
+                   json_flag("print the summary as JSON instead of text"), damage,
+                   seed_flag("seed of the random number generator")};
+  append(command.flags, reading_flags("treat repairs of the input as errors"));
   for (const Damage& entry : damages()) {
     command.groups.push_back({entry.name, entry.summary, entry.paper, entry.options});
     command.flags[3].spec.choices.push_back(entry.name);
@@ -183,7 +188,7 @@ Command corrupt_command() {
   command.group_heading = "Options of --damage %";
   command.examples = {
       {"kinemend corrupt walk.bvh -o noisy.bvh --damage gaussian:std_deg=1.5 --seed 7",
-       "jitter on every joint"}};
+       "add jitter to every joint"}};
   command.run = run_corrupt;
   return command;
 }

@@ -22,7 +22,7 @@ void say_filling(const Report& report, const FillRun& run, const std::string& do
   if (run.json) return write_out(document);
   if (run.quiet) return;
   const bool out_is_taken =
-      (run.output == "-" && !run.dry_run) || run.report_path == "-" || run.plan_out_path == "-";
+      (run.output == "-" && !run.dry_run) || run.reports.on_out() || run.plan_out_path == "-";
   TextOptions options;
   options.all = run.verbose;
   options.colours = Colours::of_out().on();
@@ -33,7 +33,7 @@ void say_filling(const Report& report, const FillRun& run, const std::string& do
 int run_fill(const Arguments& arguments) {
   const FillRun run = fill_run_of(arguments);
   const std::string name = input_name(run.input);
-  const bool with_page = is_page(run.report_path);
+  const bool with_page = run.reports.with_page();
   FilledTake filled = fill_take(run, with_page);
   for (const std::string& warning : filled.warnings) say_warning(warning);
 
@@ -52,11 +52,11 @@ int run_fill(const Arguments& arguments) {
     write_output(run.plan_out_path, filled.plan_text, run.force);
   const std::vector<std::string> takes = {to_json(filled.report)};
   const std::string document = report_document("fill", takes);
-  if (run.report_path == "-" || (!run.report_path.empty() && !failed)) {
-    write_output(
-        run.report_path,
+  if (run.reports.on_out() || !failed) {
+    run.reports.write(
+        document,
         with_page ? page_of(filled.report, filled.before, &filled.after, page_settings(arguments))
-                  : document,
+                  : std::string(),
         run.force);
   }
   say_filling(filled.report, run, document);
@@ -109,8 +109,8 @@ std::vector<Flag> fill_flags() {
       force_flag(),
       switch_flag("dry_run", "Output", "report, but write no take",
                   "A --report that is asked for is written."),
-      report_flag("also write what was done, as JSON",
-                  "FILE.html is a page for a browser, with the motion before and after."),
+      reports_flag("also write what was done: FILE.json, or FILE.html as a page for a browser",
+                   "The page shows the motion before and after."),
       json_flag("print what was done as JSON"),
       lettered('v', switch_flag("verbose", "Output", "list every gap")),
       lettered('q', switch_flag("quiet", "Output", "print warnings and errors only")),

@@ -138,7 +138,7 @@ FillRun fill_run_of(const Arguments& arguments) {
   check_take_ending(run.output);
   if (run.output.empty()) run.output = output_beside(run.input, "filled", arguments.text("from"));
   const std::string gap_file = arguments.text("gaps"), plan_file = arguments.text("plan");
-  run.report_path = arguments.text("report");
+  run.reports = report_files(arguments, 1);
   check_plan_alone(arguments);
   run.plan_out_path = arguments.text("plan_out");
   run.preview = arguments.flag("preview");
@@ -155,19 +155,20 @@ FillRun fill_run_of(const Arguments& arguments) {
   run.strict = arguments.flag("strict");
   run.quiet = arguments.flag("quiet");
   run.verbose = arguments.flag("verbose");
-  check_page(run.report_path, 1);
-  check_single_use({run.input, gap_file, plan_file},
-                   {run.dry_run ? std::string() : run.output, run.report_path, run.plan_out_path},
-                   run.json);
-  check_report(run.report_path, {run.input, gap_file, plan_file, run.plan_out_path, run.output,
-                                 arguments.text("asf")});
-  const std::string model = arguments.text("model"), map = arguments.text("map");
-  check_is_no_input("--plan-out", run.plan_out_path,
-                    {run.input, gap_file, plan_file, run.output, model, map});
-  check_is_no_input("--output", run.output, {gap_file, plan_file, model, map});
+  RunFiles files;
+  files.reads("TAKE", run.input);
+  for (const char* flag : {"gaps", "plan", "model", "map", "asf"})
+    files.reads(fmt::format("--{}", flag), arguments.text(flag));
+  if (run.dry_run)
+    files.would_write("--output", run.output);
+  else
+    files.writes("--output", run.output, run.input);
+  files.writes("--plan-out", run.plan_out_path);
+  run.reports.add_to(files);
+  files.check(run.json);
   if (!run.dry_run) check_free(run.output, run.force);
   if (!run.plan_out_path.empty()) check_free(run.plan_out_path, run.force);
-  if (!run.report_path.empty()) check_free(run.report_path, run.force);
+  run.reports.check_free(run.force);
   if (!gap_file.empty()) run.gaps.emplace(read_file(gap_file), input_name(gap_file));
   if (!plan_file.empty()) run.plan.emplace(read_file(plan_file), input_name(plan_file));
   return run;

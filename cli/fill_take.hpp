@@ -11,12 +11,14 @@
 #include "kinemend/fill.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"
+#include "page_report.hpp"
 
 namespace kinemend::cli {
 
 /// All that `fill` was asked for, checked.
 struct FillRun {
-  std::string input, output, report_path, plan_out_path;
+  std::string input, output, plan_out_path;
+  ReportFiles reports;
   /// Of --gaps and --plan: bytes and name. Names and frames are those of a take.
   std::optional<std::pair<std::string, std::string>> gaps, plan;
   FillSettings settings;

@@ -1,7 +1,12 @@
 #include "help.hpp"
 
 #include <fmt/format.h>
+#include <sys/utsname.h>
 
+#include <string_view>
+#include <vector>
+
+#include "kinemend/experimental/model.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/experimental/version.hpp"
 #include "terminal.hpp"
@@ -13,7 +18,7 @@ namespace {
 
 constexpr std::size_t help_column = 30;
 
-/// A name and its text beside it, or below it where the name is long.
+/// A name and its text beside it, or below it if the name is long.
 std::string entry(std::string_view name, std::string_view text, std::size_t column = help_column) {
   std::string line = fmt::format("  {}", name);
   const std::size_t width = display_width(line);
@@ -35,7 +40,7 @@ std::string flags_text(const Command& command, bool is_long) {
     if (is_long && !flag.details.empty()) text += wrap(flag.details, help_column);
   }
   text += heading("Help");
-  text += entry("-h, --help", "this list; --help is the long one");
+  text += entry("-h, --help", "-h prints this list, --help adds details and examples");
   return text;
 }
 
@@ -62,7 +67,7 @@ std::string groups_text(const Command& command) {
 
 std::string group_names_text(const Command& command) {
   if (command.groups.empty()) return "";
-  std::string text = heading(group_title(command, "NAME") + ", NAME being one of");
+  std::string text = heading(group_title(command, "NAME") + " (NAME is one of these)");
   for (const OptionGroup& group : command.groups) text += entry(group.name, group.summary, 18);
   return text;
 }
@@ -84,10 +89,10 @@ std::string description_text(const std::string& description) {
 const std::vector<ExitCode>& exit_codes() {
   static const std::vector<ExitCode> codes = {
       {0, "done"},
-      {1, "a quality limit was passed, or --strict met something to repair or to warn of"},
-      {2, "the command line or a configuration makes no sense"},
+      {1, "a quality limit was exceeded, or --strict found something to repair or to warn about"},
+      {2, "the command line or a configuration file is wrong"},
       {3, "an input cannot be read"},
-      {4, "an output cannot be written, or exists and --force is not given"}};
+      {4, "an output cannot be written, or it exists and --force is not given"}};
   return codes;
 }
 
@@ -110,8 +115,9 @@ std::string flag_names(const Flag& flag) {
 
 std::string flag_line(const Flag& flag) {
   if (flag.takes == Takes::nothing) return flag.spec.help;
-  // Choices already stand in the value's name unless that has a name of its own.
+  // Without a name of its own, the value is shown as its choices: they are not repeated.
   OptionSpec spec = flag.spec;
+  if (!flag.offered.empty()) spec.choices = flag.offered;
   if (flag.value_name.empty()) spec.choices.clear();
   const std::string range = range_text(spec, flag.has_default);
   return range.empty() ? spec.help : fmt::format("{} ({})", spec.help, range);
@@ -135,6 +141,28 @@ std::string group_option_line(const OptionSpec& spec) {
   return range.empty() ? spec.help : fmt::format("{} ({})", spec.help, range);
 }
 
+std::string version_text() {
+#if defined(__clang__)
+  const std::string compiler =
+      fmt::format("Clang {}.{}.{}", __clang_major__, __clang_minor__, __clang_patchlevel__);
+#else
+  const std::string compiler =
+      fmt::format("GCC {}.{}.{}", __GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__);
+#endif
+  utsname machine{};
+  const bool is_known = uname(&machine) == 0;
+  std::vector<std::string_view> models;
+  for (const ShippedModel& model : shipped_models()) models.push_back(model.method);
+  return fmt::format(
+      "kinemend {}\n"
+      "built with {}, running on {} {}\n"
+      "learned models: {}\n"
+      "licence: Apache 2.0\n",
+      version(), compiler, is_known ? machine.sysname : "an unknown system",
+      is_known ? machine.machine : "",
+      models.empty() ? "none" : fmt::format("{}", fmt::join(models, ", ")));
+}
+
 std::string program_help(bool is_long) {
   std::string text = fmt::format(
       "kinemend {}: cleans human motion capture\n\nUsage: kinemend COMMAND [OPTIONS] ...\n",
@@ -142,26 +170,26 @@ std::string program_help(bool is_long) {
   text += heading("Commands");
   for (const Command& command : commands()) text += entry(command.name, command.summary, 16);
   text += heading("Options");
-  text += entry("-h, --help", "this list; --help adds the exit codes", 16);
-  text += entry("-V, --version", "the version", 16);
+  text += entry("-h, --help", "-h prints this list, --help adds exit codes and topics", 16);
+  text += entry("-V, --version", "print the version", 16);
   if (is_long) {
     text += heading("Exit codes");
     for (const ExitCode& code : exit_codes())
       text += entry(fmt::format("{}", code.code), code.meaning, 8);
   }
   if (is_long) {
-    text += heading("Topics of kinemend help");
+    text += heading("Topics (kinemend help NAME)");
     for (const Topic& topic : topics()) text += entry(topic.name, topic.summary, 16);
   }
   return text +
-         "\nkinemend COMMAND -h tells more of a command, --help all; kinemend help NAME tells of a "
-         "method or topic.\n";
+         "\nkinemend COMMAND -h explains a command, kinemend COMMAND --help in full; kinemend help "
+         "NAME\nexplains a command, method or topic.\n";
 }
 
 std::string group_help(std::string_view name) {
   std::string text;
   for (const Command& command : commands()) {
-    // What it says of methods is what clean says.
+    // It has the same methods as clean.
     if (command.name == "batch") continue;
     for (const OptionGroup& group : command.groups) {
       if (group.name != name) continue;

@@ -8,16 +8,20 @@
 
 namespace kinemend::cli {
 
-/// `-h` of the program and `--help`, which adds the exit codes.
+/// `--version`: the version, and what a report of a fault should state besides.
+std::string version_text();
+
+/// `-h` of the program; `--help` adds exit codes and topics.
 std::string program_help(bool is_long);
-/// `-h`: a line a flag. `--help`: with details, the options of every method or damage, examples.
+/// `-h`: one line per flag. `--help` adds details, the options of every method or damage, and
+/// examples.
 std::string command_help(const Command& command, bool is_long);
 
-/// What `kinemend help NAME` prints of a method, a damage or the like: its options in every command
-/// that has it. Empty where there is none of that name.
+/// `kinemend help NAME` for a method, a damage or the like: its options in every command that has
+/// it. Empty if nothing has that name.
 std::string group_help(std::string_view name);
 
-/// Paragraphs, each behind an empty line.
+/// Paragraphs, each after an empty line.
 std::string description_text(const std::string& description);
 
 /// "clean [OPTIONS] IN..."

@@ -1,4 +1,4 @@
-// kinemend help: of a command, a method, a damage or a topic.
+// kinemend help: explains a command, a method, a damage or a topic.
 
 #include <fmt/format.h>
 
@@ -53,12 +53,12 @@ int run_help(const Arguments& arguments) {
 Command help_command(const std::vector<Command>& others) {
   Command command;
   command.name = "help";
-  command.summary = "tell of a command, a method or a topic";
+  command.summary = "explain a command, a method or a topic";
   command.description =
       "NAME is a command, a method of cleaning, filling or training, a damage, or one of the "
-      "topics that kinemend help lists. What several things are called is told of each.";
-  Positional positional{
-      "NAME", "what to tell of; the whole program where it is left out", 0, 1, {}};
+      "topics "
+      "that kinemend help lists. If a name has several meanings, all of them are explained.";
+  Positional positional{"NAME", "what to explain; without it, the whole program", 0, 1, {}};
   std::vector<std::string>& names = positional.choices;
   const auto add = [&](const std::string& name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);

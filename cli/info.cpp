@@ -15,6 +15,7 @@
 #include "kinemend/io.hpp"
 #include "kinemend/metrics.hpp"
 #include "model_view.hpp"
+#include "run_files.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -72,7 +73,7 @@ std::string tree_text(const Skeleton& skeleton) {
   for (std::size_t j = 0; j < skeleton.joint_count(); ++j) {
     // The indent of deep chains is limited.
     const std::string indent(2 * std::min<std::size_t>(depth[j], 40), ' ');
-    table.add({indent + printable(skeleton.names[j]), channel_names(skeleton.channels[j])});
+    table.add({indent + printable_name(skeleton.names[j]), channel_names(skeleton.channels[j])});
   }
   return text + table.text();
 }
@@ -81,7 +82,7 @@ std::string noise_text(const Looked& subject, const std::string& kind, const std
   Table table({Align::left, Align::right, Align::right}, 4);
   table.add({kind, "noise " + unit, "samples to repair"});
   for (const Looked::Noise& track : subject.noise)
-    table.add({printable(track.name), figure(track.level), grouped(track.to_repair)});
+    table.add({printable_name(track.name), figure(track.level), grouped(track.to_repair)});
   return "\n" + table.text();
 }
 
@@ -123,7 +124,7 @@ std::string people_text(const MarkerClip& clip) {
   parts.reserve(people.size());
   for (const Subject& person : people) {
     parts.push_back(fmt::format("{} ({})",
-                                person.name.empty() ? "no subject" : printable(person.name),
+                                person.name.empty() ? "no subject" : printable_name(person.name),
                                 counted(person.markers.size(), "marker")));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
@@ -208,7 +209,7 @@ std::string markers_text(const Looked& subject, const MarkerClip& clip, bool wit
   table.add({"markers", markers});
   const std::string contents = pointless_text(subject.read.take);
   table.add({"length", contents.empty() ? numbered_length(clip) : contents});
-  table.add({"unit", clip.unit.empty() ? "not stated" : printable(clip.unit)});
+  table.add({"unit", clip.unit.empty() ? "not stated" : printable_name(clip.unit)});
   if (contents.empty()) table.add({"missing", missing_text(missing, clip.frame_rate_hz)});
   const std::string people = people_text(clip);
   if (!people.empty()) table.add({"subjects", people});
@@ -220,7 +221,7 @@ std::string markers_text(const Looked& subject, const MarkerClip& clip, bool wit
   list.add({"marker", "missing %"});
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
     const double share = percent(missing.samples[m], clip.frame_count());
-    list.add({printable(clip.names[m]),
+    list.add({printable_name(clip.names[m]),
               clip.holds_positions(m) ? fmt::format("{:.2f}", share) : "not a position"});
   }
   return text + "\n" + list.text();
@@ -341,7 +342,7 @@ void measure_noise(Looked& subject) {
 
 int run_info(const Arguments& arguments) {
   const bool json = arguments.flag("json");
-  check_single_use(arguments.positionals, {}, json);
+  RunFiles().reads("FILE", arguments.positionals).check(json);
   Json takes = Json::array();
   const auto look_at = [&](const std::string& input) {
     if (is_model_path(input)) {

@@ -10,12 +10,12 @@ namespace kinemend::cli {
 
 using Json = nlohmann::ordered_json;
 
-/// Indented, ended by a newline; bytes that are no UTF-8 are replaced.
+/// Indented, with a newline at the end; bytes that are not UTF-8 are replaced.
 std::string json_text(const Json& json);
 Json json_of(const OptionValue& value);
 Json json_of(const OptionValues& values);
 Json json_of(const OptionSpec& spec);
-/// `first_line` of each, or `first_byte` of a format whose places are bytes.
+/// Each has `first_line`, or `first_byte` in a binary format.
 Json json_of(const Diagnostics& diagnostics, std::string_view format);
 
 }  // namespace kinemend::cli

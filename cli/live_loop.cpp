@@ -24,7 +24,7 @@ using Seconds = std::chrono::duration<double>;
 using TimePoint = LiveClock::time_point;
 
 constexpr std::chrono::seconds between_attempts{1};
-/// How long a client may take for the last frames.
+/// Time that a client has to take the last frames.
 constexpr std::chrono::seconds last_patience{2};
 
 int signal_pipe_end = -1;
@@ -36,7 +36,8 @@ extern "C" void tell_signal(int /*signal*/) {
   errno = error;
 }
 
-/// While it lives, SIGINT and SIGTERM are bytes in a pipe; the same once more ends the program.
+/// While it lives, SIGINT and SIGTERM are written to a pipe as bytes. The same signal once more
+/// ends the program.
 class SignalPipe {
  public:
   SignalPipe() {
@@ -78,6 +79,7 @@ class LiveLoop {
     last_frame_ = LiveClock::now();
     tell_notes();
     while (!ended_) step();
+    plan_.came->reset();
     session_.finish();
     tell_notes();
     drain();
@@ -85,7 +87,8 @@ class LiveLoop {
 
  private:
   void open_input() {
-    // A pipe waits for its reader; a device does not, and its frames would grow old.
+    // A program that writes to a pipe waits for its reader. A device does not: its frames would
+    // queue up and be late.
     output_.set_dropping(plan_.source != LiveSource::standard);
     switch (plan_.source) {
       case LiveSource::standard:
@@ -115,7 +118,7 @@ class LiveLoop {
     for (const std::string& note : session_.take_notes()) tell(note);
   }
 
-  // What can happen next, each with what to wait for.
+  // The events that a step waits for.
   enum Slot : std::size_t { signals, sender, listener, client, slot_count };
 
   void step() {
@@ -132,7 +135,7 @@ class LiveLoop {
       ended_ = true;
       return;
     }
-    // A silence that the reader of the output makes is none of the sender.
+    // While the output is full nothing is read, which is no silence of the sender.
     if (waits[sender].fd < 0 && plan_.source == LiveSource::standard)
       last_frame_ = LiveClock::now();
     if (waits[client].revents != 0) output_.write_some();
@@ -160,7 +163,7 @@ class LiveLoop {
     return static_cast<int>(std::ceil(1000 * std::clamp(seconds, 0.0, 3600.0)));
   }
 
-  // When a silence will have to be dealt with.
+  // When to report a silence, or to repeat the last frame.
   std::optional<TimePoint> stall_time() const {
     if (plan_.stall_s <= 0 || session_.counts().frames_in == 0) return std::nullopt;
     if (!is_stalled_) return after(plan_.stall_s);
@@ -178,8 +181,10 @@ class LiveLoop {
     while (stall_time() && now >= *stall_time()) {
       if (!is_stalled_) {
         is_stalled_ = true;
-        tell(fmt::format("nothing has come for {:.3g} s{}", plan_.stall_s,
-                         plan_.holds ? ": the last frame is held" : ""));
+        *plan_.came = now;
+        session_.settle();
+        tell(fmt::format("no frame for {:.3g} s{}", plan_.stall_s,
+                         plan_.holds ? ": repeating the last one" : ""));
       } else {
         *plan_.came = now;
         session_.hold();
@@ -190,7 +195,7 @@ class LiveLoop {
 
   void accept_sender() {
     input_ = accept_from(listener_);
-    if (input_) tell("a sender has come");
+    if (input_) tell("a sender connected");
   }
 
   void begin_receiving() {
@@ -203,7 +208,7 @@ class LiveLoop {
   void receive() {
     if (is_connecting_) {
       is_connecting_ = false;
-      if (connection_error(input_) == 0) return tell("the sender is back");
+      if (connection_error(input_) == 0) return tell("the sender is connected again");
       input_.close();
       next_connection_ = LiveClock::now() + between_attempts;
       return;
@@ -213,7 +218,7 @@ class LiveLoop {
     const ssize_t count = ::read(descriptor, buffer_.data(), buffer_.size());
     if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) return;
     if (plan_.source == LiveSource::udp) {
-      // An error is that of an earlier datagram, and an empty one is none.
+      // An error belongs to an earlier datagram; an empty datagram is ignored.
       if (count > 0) feed(static_cast<std::size_t>(count), true);
       return;
     }
@@ -232,27 +237,27 @@ class LiveLoop {
     if (ends_line) session_.end_line();
     if (session_.counts().frames_in == frames_before) return;
     if (is_stalled_) {
-      tell(fmt::format("frames come again after {:.3g} s",
-                       Seconds(*plan_.came - last_frame_).count()));
+      tell(fmt::format("frames arrive again after {:.3g} s",
+                       Seconds(**plan_.came - last_frame_).count()));
     }
     is_stalled_ = false;
     held_ = 0;
-    last_frame_ = *plan_.came;
+    last_frame_ = **plan_.came;
   }
 
-  // `whole`: it has sent all that it meant to.
+  // `whole`: the sender closed the connection, so that its last line is complete.
   void sender_gone(bool whole) {
     if (whole) session_.end_line();
     input_.close();
     ended_ = plan_.source == LiveSource::standard || plan_.once;
     if (ended_) return;
     session_.drop_line();
-    tell("the sender has gone; it may come back");
+    tell("the sender disconnected; waiting for it to return");
     if (plan_.source == LiveSource::tcp_connect)
       next_connection_ = LiveClock::now() + between_attempts;
   }
 
-  // A pipe's reader is waited for; a client that does not read is not.
+  // Waits for the reader of a pipe, but only so long for a client.
   void drain() {
     const TimePoint end = LiveClock::now() + last_patience;
     while (!output_.is_empty()) {

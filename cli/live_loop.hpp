@@ -15,17 +15,18 @@ enum class LiveSource : std::uint8_t { standard, tcp_listen, tcp_connect, udp };
 struct LivePlan {
   LiveSource source = LiveSource::standard;
   Address from;
-  double stall_s = 1;  ///< a silence longer than this is told, once; 0: never
-  bool holds = false;  ///< in a silence the frame before comes out again and again
-  bool once = false;   ///< the end of the first connection is the end
+  double stall_s = 1;  ///< a longer silence is reported, once; 0: never
+  bool holds = false;  ///< repeat the last frame during a silence
+  bool once = false;   ///< end with the first connection
   bool quiet = false;
   LiveSession* session = nullptr;
   LiveOutput* output = nullptr;
-  LiveClock::time_point* came = nullptr;  ///< set to when bytes came, before they are fed
+  /// Set to the time when bytes arrived, before they are fed; to none before the stream is ended.
+  std::optional<LiveClock::time_point>* came = nullptr;
 };
 
-/// Receives, cleans and sends until the input ends or the program is told to end (SIGINT, SIGTERM);
-/// then gives what is left. Errors: `ClosedPipe`, `ErrorKind::unreadable_input` for an input that
+/// Receives, cleans and sends until the input ends or SIGINT or SIGTERM arrives; then gives the
+/// remaining frames. Errors: `ClosedPipe`, `ErrorKind::unreadable_input` for an input that
 /// cannot be opened, `cannot_write`.
 void run_live(const LivePlan& plan);
 

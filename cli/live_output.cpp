@@ -70,24 +70,41 @@ LiveOutput::LiveOutput(const Address& address, Transport transport, std::size_t 
     throw Error(ErrorKind::cannot_write, fmt::format("{}: {}", to_string(address), error));
 }
 
-void LiveOutput::add(bool is_header, std::string_view text, LiveClock::time_point came) {
+void LiveOutput::add(bool is_header, std::string_view text,
+                     std::optional<LiveClock::time_point> came) {
   if (is_header) header_ = text;
-  // A client that has gone is given the header when it comes back, and no frames from before it.
+  // A client that reconnects gets the header first, and no frames from before it.
   if (is_header && !is_connected_) return give_up();
   if (drops_ && !is_header && is_full()) drop_oldest();
+  if (drops_ && is_header) drop_header_before(waiting_.size());
   waiting_.push_back({is_header, std::string(text), came});
   frames_waiting_ += is_header ? 0 : 1;
 }
 
-// Of one that is written in part, the rest must follow.
+// Headers count too: a sender that gives nothing else must not fill the memory.
+bool LiveOutput::is_full() const {
+  return frames_waiting_ >= most_waiting_ || waiting_.size() >= 2 * most_waiting_ + 2;
+}
+
+// A header that is followed by another one at `place`, with no frame between them, is of no use to
+// a client.
+void LiveOutput::drop_header_before(std::size_t place) {
+  const std::size_t first = offset_ > 0 ? 1 : 0;
+  if (place <= first || !waiting_[place - 1].is_header) return;
+  waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(place - 1));
+}
+
+// A piece that is written in part stays: its rest must follow.
 void LiveOutput::drop_oldest() {
   const auto first = waiting_.begin() + (offset_ > 0 ? 1 : 0);
   const auto frame =
       std::find_if(first, waiting_.end(), [](const Waiting& piece) { return !piece.is_header; });
   if (frame == waiting_.end()) return;
+  const auto place = static_cast<std::size_t>(frame - waiting_.begin());
   waiting_.erase(frame);
   --frames_waiting_;
   ++dropped_;
+  if (place < waiting_.size() && waiting_[place].is_header) drop_header_before(place);
 }
 
 int LiveOutput::descriptor() const {
@@ -113,10 +130,9 @@ void LiveOutput::write_some() {
       return;
     }
     is_connected_ = true;
-    say(fmt::format("{}: the client is back", to_string(address_)));
+    say(fmt::format("{}: the client is connected again", to_string(address_)));
     const bool begins_with_header = !waiting_.empty() && waiting_.front().is_header;
-    if (!header_.empty() && !begins_with_header)
-      waiting_.push_front({true, header_, LiveClock::now()});
+    if (!header_.empty() && !begins_with_header) waiting_.push_front({true, header_, std::nullopt});
     return;
   }
   if (waiting_.empty()) return;
@@ -159,7 +175,7 @@ void LiveOutput::write_tcp() {
   }
 }
 
-// Nobody may listen, which a datagram does not mind.
+// Errors are ignored: a datagram may go to an address that nobody listens at.
 void LiveOutput::write_udp() {
   while (!waiting_.empty()) {
     const std::string_view piece =
@@ -174,7 +190,8 @@ void LiveOutput::write_udp() {
 void LiveOutput::written() {
   const Waiting& piece = waiting_.front();
   if (!piece.is_header) {
-    latency_.add(std::chrono::duration<double>(LiveClock::now() - piece.came).count());
+    if (piece.came)
+      latency_.add(std::chrono::duration<double>(LiveClock::now() - *piece.came).count());
     --frames_waiting_;
   }
   waiting_.pop_front();
@@ -182,12 +199,12 @@ void LiveOutput::written() {
 }
 
 void LiveOutput::client_gone() {
-  say(fmt::format("{}: the client has gone; it is looked for again", to_string(address_)));
+  say(fmt::format("{}: the client disconnected; trying to reconnect", to_string(address_)));
   socket_.close();
   next_attempt_ = LiveClock::now() + between_connections;
   is_connected_ = false;
   offset_ = 0;
-  // It will be given the last header before all else.
+  // The last header is sent first when the client reconnects.
   std::erase_if(waiting_, [](const Waiting& piece) { return piece.is_header; });
 }
 

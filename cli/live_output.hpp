@@ -14,7 +14,7 @@ namespace kinemend::cli {
 
 using LiveClock = std::chrono::steady_clock;
 
-/// How long things took, in bounded memory: to within 2 %, from 1 us to 1,000 s.
+/// A histogram of durations in bounded memory: to within 2 %, from 1 us to 1,000 s.
 class LatencyHistogram {
  public:
   void add(double seconds);
@@ -30,9 +30,9 @@ class LatencyHistogram {
   double most_ = 0;
 };
 
-/// Where cleaned frames go: standard output, or a client. What a client does not take waits, so
-/// many frames at most; then the oldest are dropped and counted. A client over TCP that has gone is
-/// looked for again, and gets the header once more.
+/// Where cleaned frames go: standard output or a client. A limited number of frames waits for a
+/// client that does not read; then the oldest are dropped and counted. If a client over TCP
+/// disconnects, the output connects again and sends the header first.
 class LiveOutput {
  public:
   /// To standard output.
@@ -40,21 +40,23 @@ class LiveOutput {
   /// To a client. Errors: `ErrorKind::cannot_write` where it cannot be reached.
   LiveOutput(const Address& address, Transport transport, std::size_t most_waiting);
 
-  /// `came`: when the bytes came in that this is made of.
-  void add(bool is_header, std::string_view text, LiveClock::time_point came);
-  /// Frames are dropped where more wait than may; else they wait, and whoever adds asks `is_full`.
+  /// `came`: when the bytes arrived that made this piece. None for the last frames of a stream,
+  /// which waited for its end: their latency is not counted.
+  void add(bool is_header, std::string_view text, std::optional<LiveClock::time_point> came);
+  /// Whether to drop frames when too many wait. If not, the caller asks `is_full` before it adds.
   void set_dropping(bool drops) { drops_ = drops; }
-  bool is_full() const { return frames_waiting_ >= most_waiting_; }
+  bool is_full() const;
   bool is_empty() const { return waiting_.empty(); }
 
-  /// What to wait for; -1: nothing.
+  /// The descriptor to wait for; -1: none.
   int descriptor() const;
-  /// When to look for the client again.
+  /// When to try the client again.
   std::optional<LiveClock::time_point> next_attempt() const;
   void try_again();
-  /// Once the descriptor can be written to. Errors: `ClosedPipe`, `ErrorKind::cannot_write`.
+  /// To be called when the descriptor can be written to. Errors: `ClosedPipe`,
+  /// `ErrorKind::cannot_write`.
   void write_some();
-  /// Nothing more goes out: what waits is dropped.
+  /// Drops everything that waits.
   void give_up();
 
   std::size_t dropped() const { return dropped_; }
@@ -64,11 +66,12 @@ class LiveOutput {
   struct Waiting {
     bool is_header;
     std::string text;
-    LiveClock::time_point came;
+    std::optional<LiveClock::time_point> came;
   };
   enum class Kind : std::uint8_t { standard, tcp, udp };
 
   void drop_oldest();
+  void drop_header_before(std::size_t place);
   void written();
   void client_gone();
   void write_standard();
@@ -84,7 +87,7 @@ class LiveOutput {
   bool drops_ = true;
   std::deque<Waiting> waiting_;
   std::size_t frames_waiting_ = 0;
-  std::size_t offset_ = 0;  ///< of what is written of the first one
+  std::size_t offset_ = 0;  ///< bytes of the first piece that are written
   std::string header_;      ///< the last one
   std::size_t dropped_ = 0;
   LatencyHistogram latency_;

@@ -17,6 +17,7 @@
 #include <memory>
 
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/text.hpp"
 
 namespace kinemend::cli {
 
@@ -29,7 +30,7 @@ struct FreeAddresses {
 };
 using Addresses = std::unique_ptr<addrinfo, FreeAddresses>;
 
-// None where the name is not known; `error` then says so.
+// Empty if the name is unknown; `error` then has the reason.
 Addresses addresses_of(const Address& address, Transport transport, bool passive,
                        std::string& error) {
   addrinfo hints{};
@@ -83,7 +84,8 @@ Address parse_address(std::string_view option, std::string_view text) {
   if (port.empty() || read.ec != std::errc() || read.ptr != port.data() + port.size() ||
       number > 65535 || (colon != text.npos && address.host.empty())) {
     throw Error(ErrorKind::usage,
-                fmt::format("{}: {} is no PORT or HOST:PORT (ports 0 to 65535)", option, text));
+                fmt::format("{}: expected PORT or HOST:PORT with a port of 0 to 65535, found {}",
+                            option, printable_name(text)));
   }
   address.port = port;
   return address;
@@ -103,7 +105,7 @@ Descriptor listen_at(const Address& address, Transport transport) {
     if (opened) {
       set_option(opened, SOL_SOCKET, SO_REUSEADDR);
       if (bind(opened.number(), info->ai_addr, info->ai_addrlen) == 0 &&
-          (transport == Transport::udp || listen(opened.number(), 1) == 0)) {
+          (transport == Transport::udp || listen(opened.number(), SOMAXCONN) == 0)) {
         return opened;
       }
     }

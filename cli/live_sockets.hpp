@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-// Sockets of `kinemend stream`: plain POSIX, none of them blocks.
+// Sockets of `kinemend stream`: plain POSIX, non-blocking.
 namespace kinemend::cli {
 
-/// A descriptor that is closed with its owner.
+/// Closes its descriptor on destruction.
 class Descriptor {
  public:
   Descriptor() = default;
@@ -34,7 +34,7 @@ class Descriptor {
 
 /// `PORT`, `HOST:PORT` or `[HOST]:PORT`.
 struct Address {
-  std::string host;  ///< empty: none was given
+  std::string host;  ///< empty if not given
   std::string port;
 };
 /// Errors: `ErrorKind::usage`, naming the option.
@@ -43,19 +43,19 @@ std::string to_string(const Address& address);
 
 enum class Transport : std::uint8_t { tcp, udp };
 
-/// A socket that takes connections, or datagrams, at this address; port 0 is any that is free.
+/// A socket that accepts connections or datagrams at this address; port 0 takes any free port.
 /// Errors: `ErrorKind::unreadable_input`.
 Descriptor listen_at(const Address& address, Transport transport);
-/// "127.0.0.1:7001": where a socket is.
+/// The address of a socket: "127.0.0.1:7001".
 std::string place_of(const Descriptor& socket);
-/// A connection under way, or an empty descriptor where it failed at once. It is there when the
-/// socket can be written to and `connection_error` is 0.
+/// Starts a connection; returns an empty descriptor if that fails at once. The connection is
+/// established when the socket can be written to and `connection_error` is 0.
 Descriptor begin_connection(const Address& address, Transport transport);
-/// The number of the error of a connection under way; 0: none.
+/// The error number of a started connection; 0: none.
 int connection_error(const Descriptor& socket);
-/// Waits for it. Empty where it failed; `error` then says why.
+/// Connects and waits. Returns an empty descriptor on failure; `error` then has the reason.
 Descriptor connect_to(const Address& address, Transport transport, std::string& error);
-/// The connection of a sender, or an empty descriptor.
+/// Accepts the connection of a sender; an empty descriptor on failure.
 Descriptor accept_from(const Descriptor& listener);
 
 }  // namespace kinemend::cli

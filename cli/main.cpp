@@ -13,7 +13,6 @@
 
 #include "command_line.hpp"
 #include "help.hpp"
-#include "kinemend/experimental/version.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -22,7 +21,7 @@ namespace {
 using namespace kinemend;
 using namespace kinemend::cli;
 
-/// What no part of the program foresaw is at least told with the take that it happened in.
+/// An exception that is no `Error` is reported with the name of the take.
 int run_command(const Command& command, const Arguments& arguments) {
   const std::string place =
       arguments.positionals.size() == 1 ? input_name(arguments.positionals[0]) + ": " : "";
@@ -45,7 +44,7 @@ int run(const std::vector<std::string>& words) {
   const bool is_long = request.kind == Request::Kind::long_help;
   switch (request.kind) {
     case Request::Kind::version:
-      write_out(fmt::format("kinemend {}\n", version()));
+      write_out(version_text());
       return 0;
     case Request::Kind::short_help:
     case Request::Kind::long_help:
@@ -62,8 +61,8 @@ int fail(const std::string& message, ErrorKind kind) {
   return static_cast<int>(kind);
 }
 
-// A long take's tracks are taken and given back by the hundred; what went back to the system each
-// time would have to be faulted in again, page by page.
+// Cleaning allocates and frees tracks by the hundred. Memory that is returned to the system each
+// time would have to be mapped in again, page by page.
 void keep_freed_memory() {
 #ifdef __GLIBC__
   constexpr int largest_kept = 8 << 20, most_kept = 64 << 20;  // bytes
@@ -74,11 +73,11 @@ void keep_freed_memory() {
 
 }  // namespace
 
-// The locale is never set: the C library keeps to "C", and numbers look alike everywhere.
+// The locale is never set, so that numbers look the same everywhere.
 int main(int argc, char** argv) {
   open_standard_streams();
   keep_freed_memory();
-  // A reader that has gone shows as an error of the write, not as a signal.
+  // A closed pipe is then an error of the write, not a signal.
   std::signal(SIGPIPE, SIG_IGN);
   try {
     return run({argv + 1, argv + argc});

@@ -13,7 +13,7 @@ namespace kinemend::cli {
 
 namespace {
 
-/// Text that troff takes for nothing but text.
+/// Escapes text for troff.
 std::string roff(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -101,7 +101,7 @@ std::string page() {
   for (const ExitCode& code : exit_codes())
     text += item(fmt::format("{}", code.code), code.meaning + ".");
   text += ".SH ENVIRONMENT\n";
-  text += item("NO_COLOR", "When set, nothing is printed in colour.");
+  text += item("NO_COLOR", "If set, output has no colours.");
   return text;
 }
 
@@ -116,8 +116,8 @@ Command man_command() {
   Command command;
   command.name = "man";
   command.summary = "print the manual page";
-  command.description = "The page is written in troff's man macros.";
-  command.examples = {{"kinemend man | man -l -", "reads it"}};
+  command.description = "The page is in troff format, for man.";
+  command.examples = {{"kinemend man | man -l -", "read the manual page"}};
   command.run = run;
   return command;
 }

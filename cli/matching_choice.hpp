@@ -6,8 +6,8 @@
 
 namespace kinemend::cli {
 
-/// The choice that is meant: that of the very name, else the only one that differs from it in
-/// capitals alone, else the name as it is.
+/// The choice with exactly this name, else the only one that differs from it in case alone, else
+/// the name unchanged.
 std::string matching_choice(std::string_view name, const std::vector<std::string>& choices);
 
 }  // namespace kinemend::cli

@@ -13,7 +13,7 @@ namespace kinemend::cli {
 /// The table of methods as groups of flags.
 std::vector<OptionGroup> method_groups();
 std::vector<std::string> method_names();
-/// nullptr when there is none.
+/// nullptr if there is none.
 const Method* method_called(std::string_view name);
 
 /// Texts of group options from the command line, as values of the group called `chosen`. Errors:
@@ -22,7 +22,7 @@ const Method* method_called(std::string_view name);
 OptionValues parse_group_options(const std::vector<OptionGroup>& groups, std::string_view chosen,
                                  const std::map<std::string, std::string, std::less<>>& texts,
                                  std::string_view hint = "");
-/// The same for the methods of cleaning.
+/// The same for cleaning methods.
 OptionValues parse_method_options(const Method& method,
                                   const std::map<std::string, std::string, std::less<>>& texts);
 

@@ -1,4 +1,4 @@
-// kinemend methods: the table of methods.
+// kinemend methods: lists the cleaning methods.
 
 #include <fmt/format.h>
 
@@ -69,9 +69,9 @@ Command methods_command() {
   command.name = "methods";
   command.summary = "list the cleaning methods with their options";
   command.description =
-      "Of each method: what it does, where it comes from, and its options with default, unit and "
-      "range. They are options of kinemend clean.";
-  command.positionals = {{"NAME", "method to tell of (default all)", 0, 100, method_names()}};
+      "Prints for each method what it does, the paper it comes from, and its options with default, "
+      "unit and range. They are options of kinemend clean, batch and stream.";
+  command.positionals = {{"NAME", "method to describe (default all)", 0, 100, method_names()}};
   command.flags = {json_flag("print JSON instead of text")};
   command.run = run_methods;
   return command;

@@ -23,7 +23,7 @@ std::string size_text(std::size_t bytes) {
                          : fmt::format("{:.2f} MB", static_cast<double>(bytes) / 1e6);
 }
 
-// What the card says and what is known without it, in the order in which people want it.
+// The card and other facts, the most wanted first.
 Facts facts_of(const ModelFile& file) {
   const Model& model = file.model;
   const ModelCard& card = model.card;
@@ -44,7 +44,7 @@ Facts facts_of(const ModelFile& file) {
 
 std::string title_of(const ModelFile& file) {
   const std::string& title = file.model.card.title;
-  return title.empty() ? fmt::format("A model of {}", file.model.method) : title;
+  return title.empty() ? fmt::format("A model for {}", file.model.method) : title;
 }
 
 std::string parts_text(const BodyLayout& layout) {
@@ -53,8 +53,8 @@ std::string parts_text(const BodyLayout& layout) {
   table.add({joints ? "joint" : "marker", joints ? "parent" : ""});
   for (std::size_t i = 0; i < layout.track_count(); ++i) {
     const std::int32_t parent = joints ? layout.parents[i] : -1;
-    table.add({printable(layout.names[i]),
-               parent < 0 ? "" : printable(layout.names[static_cast<std::size_t>(parent)])});
+    table.add({printable_name(layout.names[i]),
+               parent < 0 ? "" : printable_name(layout.names[static_cast<std::size_t>(parent)])});
   }
   return "\n" + table.text();
 }
@@ -63,11 +63,11 @@ std::string numbers_text(const Model& model) {
   if (model.numbers.empty()) return "";
   Table table({Align::left, Align::right}, 4);
   for (const auto& [name, value] : model.numbers)
-    table.add({printable(name), fmt::format("{:.6g}", value)});
+    table.add({printable_name(name), fmt::format("{:.6g}", value)});
   return "\n" + table.text();
 }
 
-// A text of a card as a paragraph: what stands at the start of a line is no list and no heading.
+// Escapes a text of a card, so that Markdown sees a plain paragraph.
 std::string paragraph(std::string_view text) {
   std::string result;
   for (const char c : printable(text)) {
@@ -123,7 +123,7 @@ std::string card_markdown(const ModelFile& file) {
                     : fmt::format("| {} | {} |\n", name, paragraph(fact));
   }
   const BodyLayout& layout = file.model.layout;
-  text += fmt::format("\nIt knows the {} ", to_string(layout.kind));
+  text += fmt::format("\nIt covers the {} ", to_string(layout.kind));
   for (std::size_t i = 0; i < layout.track_count(); ++i)
     text += (i == 0 ? "" : ", ") + paragraph(layout.names[i]);
   text += ".\n";

@@ -6,7 +6,7 @@
 
 #include "kinemend/experimental/model.hpp"
 
-// What commands say of a learned model.
+// Learned models as text, JSON and Markdown.
 namespace kinemend::cli {
 
 /// A model and the file it came from.
@@ -22,7 +22,7 @@ bool is_model_path(std::string_view path);
 
 /// "31 joints, 96 channels"
 std::string body_text(const BodyLayout& layout);
-/// A table of facts; with the parts of the body where asked.
+/// A table of facts, and on request the parts of the body.
 std::string model_text(const ModelFile& file, bool with_parts);
 nlohmann::ordered_json model_json(const ModelFile& file);
 /// The card as a Markdown document.

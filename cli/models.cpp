@@ -1,4 +1,5 @@
-// kinemend models: the learned models that ship, and names to use any model with other takes.
+// kinemend models: lists the learned models that ship, and maps names of a take to those of a
+// model.
 
 #include <fmt/format.h>
 
@@ -35,7 +36,7 @@ int list_models(bool json) {
   if (json) {
     write_out(json_text({{"kinemend", version()}, {"models", std::move(list)}}));
   } else {
-    write_out(text.empty() ? "no model ships with this program\n" : text);
+    write_out(text.empty() ? "this program ships without models\n" : text);
   }
   return 0;
 }
@@ -48,7 +49,7 @@ int export_model(const std::string& method, const Arguments& arguments) {
     names.reserve(models.size());
     for (const ShippedModel& model : models) names.emplace_back(model.method);
     throw Error(ErrorKind::usage,
-                fmt::format("models: no model ships for {}{} (there are {})", method,
+                fmt::format("models: no model ships for {}{} (models ship for {})", method,
                             suggestion(method, names),
                             names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
   }
@@ -79,26 +80,25 @@ int write_map(const std::string& model_name, const Arguments& arguments) {
 int run_models(const Arguments& arguments) {
   const std::string exported = arguments.text("export"), mapped = arguments.text("map");
   if (!exported.empty() && !mapped.empty())
-    throw Error(ErrorKind::usage, "models: --export and --map are two things (give one)");
+    throw Error(ErrorKind::usage, "models: --export and --map cannot be combined");
   if (mapped.empty() && !arguments.positionals.empty())
-    throw Error(ErrorKind::usage, "models: a take is for --map MODEL (see kinemend models -h)");
+    throw Error(ErrorKind::usage, "models: TAKE needs --map MODEL (see kinemend models -h)");
   if (!exported.empty()) return export_model(exported, arguments);
   if (!mapped.empty()) return write_map(mapped, arguments);
   return list_models(arguments.flag("json"));
 }
 
 std::vector<Flag> models_flags() {
-  Flag exported = text_flag("export", "METHOD", "Work", "write the model that ships for METHOD",
-                            "To --output.");
-  Flag map = text_flag("map", "MODEL", "Work",
-                       "print which parts of TAKE are those of MODEL, as a file of names",
-                       "MODEL is a file, or the method of a model that ships. What was not found "
-                       "is left empty: complete it and give it to clean as --map.");
+  Flag exported =
+      text_flag("export", "METHOD", "Work", "write the model that ships for METHOD to --output");
+  Flag map =
+      text_flag("map", "MODEL", "Work", "print a map from the parts of MODEL to names in TAKE",
+                "MODEL is a file, or the method of a model that ships. Names that are not "
+                "found are left empty. Complete them and use the map with clean --map.");
   map.completion = Completion::file;
-  std::vector<Flag> list = {output_flag("where to write what --export or --map gives"),
-                            force_flag(), json_flag("print the list as JSON instead of text"),
-                            exported, map};
-  append(list, reading_flags("what needs a repair becomes an error"));
+  std::vector<Flag> list = {output_flag("where to write the model or the map"), force_flag(),
+                            json_flag("print the list as JSON instead of text"), exported, map};
+  append(list, reading_flags("treat repairs of the input as errors"));
   return list;
 }
 
@@ -107,16 +107,18 @@ std::vector<Flag> models_flags() {
 Command models_command() {
   Command command;
   command.name = "models";
-  command.summary = "list the learned models that ship; match one with a take";
+  command.summary = "list the learned models that ship; map a model to a take";
   command.description =
-      "Of each model that is part of the program: what it was learned from, under which licence, "
-      "by which command, and its checksum. kinemend info tells the same of a model file.";
+      "Lists the models that are part of the program, each with its training data, licence, "
+      "training "
+      "command and checksum. kinemend info prints the same about a model file.";
   command.positionals = {{"TAKE", "take for --map; - is standard input", 0, 1, {}}};
   command.flags = models_flags();
   command.examples = {
-      {"kinemend models", "what ships"},
-      {"kinemend models --export wiener -o wiener.kmodel", "as a file"},
-      {"kinemend models --map walk.kmodel take.bvh -o names.csv", "names to complete by hand"}};
+      {"kinemend models", "list the models"},
+      {"kinemend models --export wiener -o wiener.kmodel", "save a model as a file"},
+      {"kinemend models --map walk.kmodel take.bvh -o names.csv",
+       "write a map to complete by hand"}};
   command.run = run_models;
   return command;
 }

@@ -39,6 +39,11 @@ bool is_page(const std::string& path) {
 }
 
 void check_page(const std::string& path, std::size_t takes) {
+  if (lower_extension(path) == ".asf") {
+    throw Error(ErrorKind::usage,
+                "--report: a file that ends in .asf is the skeleton of takes; reports are "
+                "FILE.html or FILE.json");
+  }
   if (!is_page(path)) return;
   if (!has_report_page()) {
     throw Error(ErrorKind::usage,
@@ -49,13 +54,31 @@ void check_page(const std::string& path, std::size_t takes) {
     throw Error(ErrorKind::usage, "--report: a page is of one take; FILE.json holds several");
 }
 
-void check_report(const std::string& path, const std::vector<std::string>& others) {
-  check_is_no_input("--report", path, others);
-  if (!path.empty() && lower_extension(path) == ".asf") {
-    throw Error(ErrorKind::usage,
-                "--report: a file that ends in .asf is the skeleton of takes; reports are "
-                "FILE.html or FILE.json");
-  }
+bool ReportFiles::with_page() const { return std::any_of(paths.begin(), paths.end(), is_page); }
+
+bool ReportFiles::with_json() const { return !std::all_of(paths.begin(), paths.end(), is_page); }
+
+bool ReportFiles::on_out() const {
+  return std::find(paths.begin(), paths.end(), "-") != paths.end();
+}
+
+void ReportFiles::add_to(RunFiles& files) const {
+  for (const std::string& path : paths) files.writes("--report", path);
+}
+
+void ReportFiles::check_free(bool force) const {
+  for (const std::string& path : paths) cli::check_free(path, force);
+}
+
+void ReportFiles::write(std::string_view document, std::string_view page, bool force) const {
+  for (const std::string& path : paths) write_output(path, is_page(path) ? page : document, force);
+}
+
+ReportFiles report_files(const Arguments& arguments, std::size_t takes) {
+  ReportFiles files{arguments.list("report")};
+  std::erase(files.paths, "");
+  for (const std::string& path : files.paths) check_page(path, takes);
+  return files;
 }
 
 std::string command_line_of(const Arguments& arguments) {
@@ -85,6 +108,13 @@ std::string page_of(const Report& report, const Take& before, const Take* after,
 Flag report_flag(std::string help, std::string details) {
   Flag flag = text_flag("report", "FILE", "Output", std::move(help), std::move(details));
   flag.completion = Completion::file;
+  return flag;
+}
+
+Flag reports_flag(std::string help, const std::string& details) {
+  Flag flag = report_flag(std::move(help), (details.empty() ? "" : details + " ") +
+                                               "Give it twice to write both a page and JSON.");
+  flag.takes = Takes::repeated;
   return flag;
 }
 

@@ -17,6 +17,7 @@
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/pictures.hpp"
 #include "kinemend/io.hpp"
+#include "run_files.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -135,8 +136,11 @@ int run_plot(const Arguments& arguments) {
   if (output.empty())
     throw Error(ErrorKind::usage, "plot: --output is missing (see kinemend plot -h)");
   const bool force = arguments.flag("force");
-  check_single_use(inputs, {output}, false);
-  check_is_no_input("--output", output, inputs);
+  RunFiles()
+      .reads("IN", inputs)
+      .reads("--asf", arguments.text("asf"))
+      .writes("--output", output)
+      .check();
   check_only_ending(output, ".svg");
   check_free(output, force);
   const Drawing drawing = drawing_of(arguments);

@@ -1,4 +1,4 @@
-// kinemend stream: cleans frames as they come.
+// kinemend stream: cleans frames as they arrive.
 
 #include <fmt/format.h>
 
@@ -30,7 +30,20 @@ std::string live_name(const LiveMethod& method) {
   return name;
 }
 
-// Of a method that runs live with a model of its own only. Errors: what it says of the model.
+bool has_live_form(const Method& method) {
+  return std::any_of(method.options.begin(), method.options.end(),
+                     [](const OptionSpec& spec) { return spec.name == "live"; });
+}
+
+// Whether a method runs live: as it is, with an option, or with a model of the user's own.
+bool may_run_live(const Method& method) {
+  static const std::vector<LiveMethod> list = live_methods();
+  return has_live_form(method) || std::any_of(list.begin(), list.end(), [&](const LiveMethod& m) {
+           return m.name == method.name;
+         });
+}
+
+// For a method that needs a model to run live. Errors: those of the model.
 std::unique_ptr<Cleaner> live_with_model(const Method& method, OptionValues values) {
   values.try_emplace("live", true);
   return make_cleaner(method.name, values);
@@ -48,14 +61,13 @@ std::unique_ptr<Cleaner> live_cleaner(const Method& method, OptionValues values)
       runs = values.try_emplace(option, value).first->second == value && runs;
   }
   if (runs) return make_cleaner(method.name, values);
-  const bool has_form = std::any_of(method.options.begin(), method.options.end(),
-                                    [](const OptionSpec& spec) { return spec.name == "live"; });
-  if (has_form) return live_with_model(method, std::move(values));
+  if (has_live_form(method)) return live_with_model(method, std::move(values));
   std::vector<std::string> names;
   names.reserve(list.size());
   for (const LiveMethod& m : list) names.push_back(live_name(m));
-  throw Error(ErrorKind::usage, fmt::format("stream: {} needs the whole take; live run {}",
-                                            method.name, fmt::join(names, ", ")));
+  throw Error(ErrorKind::usage,
+              fmt::format("stream: {} needs the whole take; methods that run live: {}", method.name,
+                          fmt::join(names, ", ")));
 }
 
 LivePlan plan_of(const Arguments& arguments) {
@@ -69,14 +81,16 @@ LivePlan plan_of(const Arguments& arguments) {
     if (udp && !listens)
       throw Error(ErrorKind::usage, "stream: --udp takes a port; --bind names the address");
     if (!listens && arguments.given("bind"))
-      throw Error(ErrorKind::usage, "stream: --bind is of a port that is listened at");
+      throw Error(ErrorKind::usage, "stream: --bind is for --tcp PORT, not for --tcp HOST:PORT");
     plan.source = udp       ? LiveSource::udp
                   : listens ? LiveSource::tcp_listen
                             : LiveSource::tcp_connect;
     if (listens) plan.from.host = arguments.text("bind");
   } else if (arguments.given("bind")) {
-    throw Error(ErrorKind::usage, "stream: --bind is of --tcp or --udp");
+    throw Error(ErrorKind::usage, "stream: --bind needs --tcp PORT or --udp PORT");
   }
+  if (arguments.given("reorder") && !(udp && arguments.flag("numbered")))
+    throw Error(ErrorKind::usage, "stream: --reorder needs --udp and --numbered");
   plan.stall_s = static_cast<double>(arguments.whole("stall_ms")) / 1000;
   plan.holds = arguments.text("on_stall") == "hold";
   plan.once = arguments.flag("once");
@@ -88,10 +102,14 @@ LiveOptions options_of(const Arguments& arguments, const Method& method) {
   LiveOptions options;
   options.format = arguments.text("format") == "jsonl" ? LiveFormat::jsonl : LiveFormat::bvh;
   options.strength = arguments.number("strength");
-  // What this method changes is repairs, which are made whole at any strength.
+  // This method only repairs spikes, and a repair is made in full at any strength.
   if (method.name == "hampel" && options.strength > 0) options.strength = 1;
   options.frame_rate_hz = arguments.given("fps") ? arguments.number("fps") : 0;
   options.numbered = arguments.flag("numbered");
+  // Only datagrams overtake one another.
+  options.datagrams = arguments.given("udp");
+  if (options.datagrams)
+    options.reorder_frames = static_cast<std::size_t>(arguments.whole("reorder"));
   options.skipped_words = static_cast<std::size_t>(arguments.whole("skip_words"));
   options.body_height = arguments.number("body_height");
   options.longest_gap_s = arguments.number("longest_gap_s");
@@ -108,30 +126,31 @@ std::unique_ptr<LiveOutput> live_output_of(const Arguments& arguments) {
   const std::string option = tcp ? "to-tcp" : "to-udp";
   const Address address = parse_address("--" + option, arguments.text(tcp ? "to_tcp" : "to_udp"));
   if (address.host.empty())
-    throw Error(ErrorKind::usage, fmt::format("stream: --{} takes HOST:PORT", option));
+    throw Error(ErrorKind::usage, fmt::format("stream: --{} needs HOST:PORT", option));
   return std::make_unique<LiveOutput>(address, tcp ? Transport::tcp : Transport::udp, queue);
 }
 
 void tell_summary(const LiveSession& session, const LiveOutput& output) {
   const LiveCounts& c = session.counts();
-  say(
-      fmt::format("frames: {} in, {} out, {} lost, {} made up, {} held, {} late, {} doubled, {} "
-                  "malformed, {} dropped",
-                  c.frames_in, c.frames_out, c.lost, c.made_up, c.held, c.late, c.doubled,
-                  c.malformed, output.dropped()));
+  say(fmt::format(
+      "frames: {} in, {} out, {} lost, {} interpolated, {} held, {} late, {} duplicate, {} "
+      "malformed, {} dropped",
+      c.frames_in, c.frames_out, c.lost, c.made_up, c.held, c.late, c.doubled, c.malformed,
+      output.dropped()));
   const auto tell_if = [](std::size_t count, std::string_view what) {
     if (count > 0) say(fmt::format("{}: {}", what, count));
   };
-  tell_if(c.not_finite, "values that were no finite numbers");
-  tell_if(c.restarts, "leaps of the frame numbers");
-  tell_if(c.bad_headers, "headers that were none");
+  tell_if(c.reordered, "frames that arrived out of order and were put in their place");
+  tell_if(c.not_finite, "values that were not finite numbers");
+  tell_if(c.restarts, "jumps of the frame number");
+  tell_if(c.bad_headers, "unreadable headers");
   if (c.sessions > 1) tell_if(c.sessions, "skeletons");
   if (output.latency().empty()) return;
   const double delay_ms =
       1000 * static_cast<double>(session.latency_frames()) / session.frame_rate_hz();
   say(
-      fmt::format("latency: {:.3g} ms median, {:.3g} ms at the 99th percentile, {:.3g} ms at most, "
-                  "beside {:.3g} ms of delay",
+      fmt::format("latency: {:.3g} ms median, {:.3g} ms at the 99th percentile, {:.3g} ms maximum, "
+                  "plus {:.3g} ms of delay",
                   1000 * output.latency().quantile_s(0.5), 1000 * output.latency().quantile_s(0.99),
                   1000 * output.latency().most_s(), delay_ms));
 }
@@ -142,7 +161,7 @@ int run_stream(const Arguments& arguments) {
   LivePlan plan = plan_of(arguments);
   const LiveOptions options = options_of(arguments, method);
   const auto output = live_output_of(arguments);
-  LiveClock::time_point came = LiveClock::now();
+  std::optional<LiveClock::time_point> came = LiveClock::now();
   if (!plan.quiet) say(fmt::format("method {}", method.name));
   LiveSession session(*cleaner, options, [&](const LivePiece& piece) {
     output->add(piece.is_header, piece.text, came);
@@ -153,12 +172,15 @@ int run_stream(const Arguments& arguments) {
   try {
     run_live(plan);
   } catch (const ClosedPipe&) {
-    // Whoever read has seen enough.
+    // The reader has closed the pipe, which is not an error.
     output->give_up();
   }
   if (plan.source == LiveSource::standard && !session.has_skeleton()) {
     for (const std::string& note : session.take_notes()) say_error(note);
-    throw Error(ErrorKind::unreadable_input, "standard input: no header of a stream has come");
+    throw Error(
+        ErrorKind::unreadable_input,
+        "standard input: no header found; a stream begins with the hierarchy of a BVH file, "
+        "or with MARKERS, the rate and the names");
   }
   if (!plan.quiet) tell_summary(session, *output);
   return 0;
@@ -172,65 +194,78 @@ Flag endpoint_flag(std::string name, std::string value, std::string group, std::
 
 std::vector<Flag> stream_flags() {
   Flag method =
-      text_flag("method", "NAME", "Cleaning", "how to clean, of the methods that run live",
-                "Those that need the whole take are refused, with the list of the others. "
-                "An option without which a method does not run live (--causal) is set.");
+      text_flag("method", "NAME", "Cleaning", "how to clean: a method that runs live",
+                "An option that a method needs to run live, such as --causal, is set for you.");
   method.spec.default_value = std::string(default_method);
   method.spec.choices = method_names();
+  for (const Method& known : methods()) {
+    if (may_run_live(known)) method.offered.push_back(known.name);
+  }
   method.has_default = true;
   method.letter = 'm';
-  Flag format = text_flag("format", "", "Output", "how cleaned frames are written");
+  Flag format = text_flag("format", "", "Output", "how to write cleaned frames");
   format.spec.default_value = std::string("bvh");
   format.spec.choices = {"bvh", "jsonl"};
   format.has_default = true;
-  Flag on_stall = text_flag("on_stall", "", "Trouble", "what to do while nothing comes",
-                            "hold: the frame before comes out again and again, at the frame rate.");
+  Flag on_stall = text_flag("on_stall", "", "Trouble", "what to do while no frames arrive",
+                            "wait: write nothing. hold: repeat the last frame at the frame rate.");
   on_stall.spec.default_value = std::string("wait");
   on_stall.spec.choices = {"wait", "hold"};
   on_stall.has_default = true;
-  Flag bind = text_flag("bind", "ADDRESS", "Input", "where --tcp PORT and --udp PORT listen",
-                        "0.0.0.0 is every network; by default nobody but this machine is heard.");
+  Flag bind =
+      text_flag("bind", "ADDRESS", "Input", "address that --tcp PORT and --udp PORT listen at",
+                "0.0.0.0 accepts senders from every network; the default accepts only "
+                "those on this machine.");
   bind.spec.default_value = std::string("127.0.0.1");
   bind.has_default = true;
-  Flag skeleton = text_flag("skeleton", "FILE", "Input",
-                            "a BVH file whose skeleton and rate hold where the sender sends none");
+  Flag skeleton =
+      text_flag("skeleton", "FILE", "Input",
+                "BVH file with skeleton and frame rate, for a sender that sends no header");
   skeleton.completion = Completion::file;
   Flag fps =
-      number_flag("fps", "Hz", 0, 0.1, 100000, "Input", "frame rate, whatever the header says");
+      number_flag("fps", "Hz", 0, 0.1, 100000, "Input", "frame rate; overrides that of the header");
   fps.has_default = false;
   Flag quiet = switch_flag("quiet", "Output", "print warnings and errors only");
   quiet.letter = 'q';
   return {
       endpoint_flag("tcp", "[HOST:]PORT", "Input",
-                    "frames over TCP: PORT waits for a sender, HOST:PORT connects to one",
-                    "Port 0 is any that is free; which one is printed."),
-      endpoint_flag("udp", "PORT", "Input", "frames over UDP: datagrams of whole lines"),
+                    "receive over TCP: PORT waits for a sender, HOST:PORT connects to one",
+                    "Port 0 takes any free port, which is printed."),
+      endpoint_flag("udp", "PORT", "Input", "receive over UDP; each datagram holds whole lines",
+                    "Datagrams that are not frames are counted and ignored."),
       bind,
       skeleton,
       fps,
-      switch_flag("numbered", "Input", "a motion line begins with the number of its frame",
-                  "By it lost, late and doubled frames are known."),
+      switch_flag("numbered", "Input", "each line of values begins with its frame number",
+                  "Lost, late and duplicate frames are recognised by it. Lost frames are "
+                  "interpolated."),
+      whole_flag("reorder", 4, 0, 1000, "Input",
+                 "with --udp --numbered: frames that wait for a missing one",
+                 "A frame that another one overtook is put back in its place. After so many more "
+                 "frames it counts as lost. 0 never waits."),
       whole_flag("skip_words", 0, 0, 1000, "Input",
-                 "words before the number and the values of a motion line"),
+                 "words to skip at the start of each line of values"),
       number_flag("body_height", "", 1750, 1e-6, 1e9, "Input",
-                  "height of the person, in the units of a stream of markers",
-                  "Their distances are measured by it."),
-      switch_flag("once", "Input", "end when the first sender has gone"),
+                  "markers: height of the person, in the units of the stream",
+                  "Methods with settings in length scale them by it."),
+      switch_flag("once", "Input", "exit when the first sender disconnects"),
       method,
       number_flag("strength", "", 1, 0, 1, "Cleaning",
-                  "how far to go from the input (0) to the cleaned motion (1)"),
-      endpoint_flag("to_tcp", "HOST:PORT", "Output", "cleaned frames to a TCP server"),
-      endpoint_flag("to_udp", "HOST:PORT", "Output", "cleaned frames as datagrams, a line each"),
+                  "blend between the input (0) and the cleaned motion (1)"),
+      endpoint_flag("to_tcp", "HOST:PORT", "Output", "send cleaned frames to a TCP server"),
+      endpoint_flag("to_udp", "HOST:PORT", "Output",
+                    "send cleaned frames over UDP, one line per datagram"),
       format,
       quiet,
       number_flag("longest_gap_s", "s", 1, 0, 3600, "Trouble",
-                  "lost frames in a row that are made up, so that the output keeps its clock"),
+                  "longest run of lost frames that is interpolated",
+                  "The output then keeps its frame rate. A longer gap is a restart."),
       whole_flag("stall_ms", 1000, 0, 1e9, "Trouble",
-                 "a longer silence of the sender is told, once; 0: never"),
+                 "report when no frame arrives for so many milliseconds; 0: never"),
       on_stall,
       whole_flag("queue", 240, 1, 1e6, "Trouble",
-                 "frames that wait for a client that does not read; the oldest are dropped",
-                 "From standard input to standard output nothing is dropped: the input waits.")};
+                 "frames to keep for a client that does not read; then the oldest are dropped",
+                 "From standard input to standard output nothing is dropped: reading waits.")};
 }
 
 }  // namespace
@@ -238,27 +273,30 @@ std::vector<Flag> stream_flags() {
 Command stream_command() {
   Command command;
   command.name = "stream";
-  command.summary = "clean frames as they come, with a constant delay";
+  command.summary = "clean frames as they arrive, with a constant delay";
   command.description =
-      "Reads a BVH header and then a line of channel values a frame, or names of markers and then "
-      "their positions, from standard input or a socket, and writes the same with cleaned values "
-      "to standard output or a socket, "
-      "as soon as a frame's window is there. The delay is printed. Frames that are lost, late, "
-      "doubled or malformed are counted and end nothing; neither do senders that fall silent or "
-      "come and go, nor clients that do not read.\n\n"
-      "The end of standard input, SIGINT and SIGTERM give the frames that are left, and a summary "
-      "on standard error.";
+      "Reads a BVH header and then one line of channel values per frame, from standard input or a "
+      "socket. Writes the same with cleaned values to standard output or a socket. A stream of "
+      "markers begins with their names instead (see kinemend help live). Each frame is written as "
+      "soon as the method has seen the frames that it needs after it; this delay is printed.\n\n"
+      "Lost, late, duplicate and malformed frames are counted, and the stream continues. Senders "
+      "may "
+      "pause, disconnect and return. Clients that do not read lose the oldest frames.\n\n"
+      "At the end of standard input, on SIGINT and on SIGTERM, the remaining frames are written "
+      "and a summary is printed on standard error.";
   command.flags = stream_flags();
   command.group_heading = "With --method %";
   command.groups = method_groups();
+  std::erase_if(command.groups,
+                [](const OptionGroup& group) { return !may_run_live(find_method(group.name)); });
   command.groups_are_flags = true;
-  command.examples = {{"kinemend stream < take.bvh > clean.bvh", "a take, as it would be live"},
+  command.examples = {{"kinemend stream < take.bvh > clean.bvh", "clean a file as if it were live"},
                       {"kinemend stream --tcp 7001 --to-udp 127.0.0.1:7002",
-                       "waits for a suit, and sends what it cleans on"},
+                       "wait for a suit to connect, and send the cleaned frames on"},
                       {"kinemend stream --tcp 192.168.0.7:7001 --numbered --format jsonl",
-                       "connects to a server whose lines begin with frame numbers"},
+                       "connect to a server whose lines begin with frame numbers"},
                       {"kinemend stream --udp 7001 --skeleton suit.bvh --method kalman",
-                       "a sender without a header"}};
+                       "receive from a sender that sends no header"}};
   command.run = run_stream;
   return command;
 }

@@ -40,10 +40,10 @@ Command synth_command() {
   command.name = "synth";
   command.summary = "write a synthetic take of a full humanoid";
   command.description =
-      "Clean truth for tests and trials: the joint curves follow published normative gait data. "
+      "Writes clean motion to test with. The joint curves follow published normative gait data. "
       "The "
       "same seed gives the same bytes.";
-  Positional motion{"MOTION", "what is done", 1, 1, {}};
+  Positional motion{"MOTION", "", 1, 1, {}};
   for (const std::string_view name : synth_motions()) motion.choices.emplace_back(name);
   motion.help = fmt::format("one of {}", fmt::join(motion.choices, ", "));
   command.positionals = {motion};
@@ -52,9 +52,10 @@ Command synth_command() {
       force_flag(),
       number_flag("duration_s", "s", defaults.duration_s, 0.1, 600, "Work", "length of the take"),
       number_flag("frame_rate_hz", "Hz", defaults.frame_rate_hz, 1, 1000, "Work", "frame rate"),
-      switch_flag("t_pose_first", "Work", "put a T-pose before the motion, as in the CMU files"),
-      seed_flag("seed of the performer's build and strides")};
-  command.examples = {{"kinemend synth walk -o walk.bvh", "six seconds of walking at 120 Hz"}};
+      switch_flag("t_pose_first", "Work", "begin with a T-pose, as the CMU files do"),
+      seed_flag("seed for the build of the performer and the strides")};
+  command.examples = {
+      {"kinemend synth walk -o walk.bvh", "write six seconds of walking at 120 Hz"}};
   command.run = run_synth;
   return command;
 }

@@ -15,6 +15,7 @@
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/report.hpp"
+#include "run_files.hpp"
 #include "terminal.hpp"
 
 namespace kinemend::cli {
@@ -167,40 +168,14 @@ void write_take_output(const std::string& output, const Take& take, const std::s
   write_output(output, bytes, force);
 }
 
-namespace {
-
-/// The absolute path of a file, whether or not it exists.
-std::filesystem::path whole_path(const std::string& path) {
-  std::error_code error;
-  const std::filesystem::path canonical =
-      std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
-  return error ? std::filesystem::path(path).lexically_normal() : canonical;
-}
-
-}  // namespace
-
 void check_is_no_input(std::string_view option, const std::string& output,
                        const std::vector<std::string>& inputs) {
-  if (output.empty() || output == "-") return;
-  const auto is_same = [&](const std::string& input) {
-    if (input.empty() || input == "-") return false;
-    std::error_code error;
-    return std::filesystem::equivalent(input, output, error) ||
-           whole_path(input) == whole_path(output);
-  };
-  const auto found = std::find_if(inputs.begin(), inputs.end(), is_same);
-  if (found == inputs.end()) return;
-  throw Error(ErrorKind::usage,
-              fmt::format("{}: {} is already read or written by this run and would be lost", option,
-                          output));
-}
-
-void check_single_use(const std::vector<std::string>& inputs,
-                      const std::vector<std::string>& outputs, bool json) {
-  if (std::count(inputs.begin(), inputs.end(), "-") > 1)
-    throw Error(ErrorKind::usage, "standard input can be read only once");
-  if (std::count(outputs.begin(), outputs.end(), "-") + (json ? 1 : 0) > 1) {
-    throw Error(ErrorKind::usage, "standard output can hold one of a take, a report and --json");
+  for (const std::string& input : inputs) {
+    if (!is_same_file(input, output)) continue;
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: {} is also read or written by this run and would be lost; name "
+                            "another file",
+                            option, printable(output)));
   }
 }
 

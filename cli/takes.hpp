@@ -43,17 +43,13 @@ void write_output(const std::string& output, std::string_view bytes, bool force)
 /// Writes the take in `format`, and the file that it needs beside it (the skeleton of an AMC file).
 void write_take_output(const std::string& output, const Take& take, const std::string& format,
                        bool force);
-/// Refuses an output that is one of the inputs, or another output, under any name, even with
-/// `--force`. For reports and the like; an output that may replace its input is not checked here.
-/// Errors: `ErrorKind::usage`.
+/// Refuses an output that is one of `inputs` under any name. Commands whose files are all known
+/// before they work use `RunFiles`, which checks them together. Errors: `ErrorKind::usage`.
 void check_is_no_input(std::string_view option, const std::string& output,
                        const std::vector<std::string>& inputs);
-/// Refuses a second use of standard input or standard output. Errors: `ErrorKind::usage`.
-void check_single_use(const std::vector<std::string>& inputs,
-                      const std::vector<std::string>& outputs, bool json);
-/// Calls `visit` with each input and returns the highest exit code. An unreadable input gets an
-/// error line, its JSON entry goes to `add_failure`, and the next input follows; an output that
-/// cannot be written ends the run.
+/// Calls `visit` with each input and returns the highest exit code. An input that cannot be read is
+/// said, its entry in JSON goes to `add_failure`, and it stops none of the others; an output that
+/// cannot be written stops all.
 int for_each_input(const std::vector<std::string>& inputs,
                    const std::function<int(const std::string&)>& visit,
                    const std::function<void(std::string entry)>& add_failure);

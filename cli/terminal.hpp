@@ -13,25 +13,24 @@
 
 namespace kinemend::cli {
 
-/// The reader of standard output is gone, which is no failure: `head` has seen enough.
+/// Thrown if the reader of standard output has closed the pipe, as `head` does. Not an error.
 struct ClosedPipe {};
 
-/// Opens those of the descriptors 0 to 2 that are closed on the null device: else the next file
-/// that is opened would be taken for a standard stream. The first thing of all in `main`.
+/// Opens closed standard streams (descriptors 0 to 2) on the null device, so that the next opened
+/// file does not become one of them. Call it first in `main`.
 void open_standard_streams();
-/// Throws `Error` of kind `cannot_write` where standard output was closed from the start: a take
-/// that is meant for it must not vanish.
+/// Errors: `cannot_write` if standard output was closed from the start, so that no take is lost.
 void check_out_is_open();
 /// Throws `ClosedPipe`, or `Error` of kind `cannot_write`.
 void write_out(std::string_view text);
-/// Never fails: there is nobody left to tell.
+/// Ignores errors.
 void write_err(std::string_view text);
-/// `kinemend: text` on standard error, on one line whatever is in the text.
+/// `kinemend: text` on standard error, as one line (`printable`).
 void say(std::string_view text);
 void say_warning(std::string_view text);
 void say_error(std::string_view text);
 
-/// Colours for one of the standard streams: none unless it is a terminal and NO_COLOR is not set.
+/// Colours for a standard stream, if it is a terminal and NO_COLOR is not set.
 class Colours {
  public:
   static Colours of_out();
@@ -44,18 +43,19 @@ class Colours {
   bool on_;
 };
 
-/// A bar on standard error, on a terminal only. Calls may come from any thread.
+/// A progress bar on standard error, if that is a terminal. Thread-safe.
 class ProgressBar {
  public:
-  /// `work`: how much there is to do, in any unit; 0: a take is as much as another.
+  /// `work`: total amount of work, in any unit; 0: all takes count the same.
   explicit ProgressBar(std::size_t total, double work = 0);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// One more is done, which was so much of the work; nothing of it where `is_new` is false.
+  /// One more take is done, with this share of the work; `is_new` is false if it had been done
+  /// before.
   void step(double work = 1, bool is_new = true);
-  /// Takes the bar off the line so that other text can be printed; `step` draws it again.
+  /// Erases the bar so that other text can be printed; `step` draws it again.
   void clear();
 
  private:
@@ -64,7 +64,7 @@ class ProgressBar {
   std::mutex mutex_;
   std::size_t total_;
   std::size_t done_ = 0;
-  double work_, work_done_ = 0;  ///< `work_` shrinks by what was done already
+  double work_, work_done_ = 0;  ///< work that had been done before is subtracted from `work_`
   std::chrono::steady_clock::time_point start_;
   bool on_;
 };
@@ -72,7 +72,7 @@ class ProgressBar {
 /// "45 s", "12 min", "3.5 h".
 std::string duration_text(double seconds);
 
-/// A bar for work of one thread whose length is known as a share, on a terminal only.
+/// A progress bar for a share of 0 to 1, if standard error is a terminal. For one thread.
 class ProgressLine {
  public:
   ProgressLine();
@@ -82,7 +82,7 @@ class ProgressLine {
 
   /// `done`: 0 to 1.
   void show(std::string_view stage, double done);
-  /// Takes the line away so that other text can be printed; `show` draws it again.
+  /// Erases the line so that other text can be printed; `show` draws it again.
   void clear();
 
  private:
@@ -90,8 +90,8 @@ class ProgressLine {
   bool on_;
 };
 
-/// A `ProgressLine` that appears only where work takes longer than a second. Calls may come from
-/// any thread. It goes with the object.
+/// A `ProgressLine` that appears only if work takes longer than a second, and is erased when the
+/// object is destroyed. Thread-safe.
 class LateProgressLine {
  public:
   explicit LateProgressLine(bool wanted);

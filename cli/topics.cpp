@@ -12,8 +12,8 @@ namespace {
 
 std::string formats_text() {
   std::string text =
-      "A file's format is found by its content, then by its extension; --from and "
-      "--to name it where neither tells.";
+      "The format of a file is recognised by its content, then by its extension. If neither tells, "
+      "use --from; for an output without an extension, use --to.";
   for (const Format& format : formats()) {
     const bool is_read = format.read != nullptr;
     const bool is_written = format.write != nullptr || format.write_markers != nullptr;
@@ -28,15 +28,15 @@ std::string formats_text() {
 
 std::string presets_text() {
   std::string text =
-      "--preset NAME of clean and batch chooses settings for a kind of motion. "
-      "They go under --config and the command line.";
+      "With --preset NAME, clean and batch use settings made for a kind of motion. --config and "
+      "options on the command line override them.";
   for (const Preset& preset : presets())
     text += fmt::format("\n\n{}: {}.", preset.name, preset_summary(preset));
   return text;
 }
 
 std::string exit_codes_text() {
-  std::string text = "Of several takes the highest code holds.";
+  std::string text = "For several takes, the highest code is returned.";
   for (const ExitCode& code : exit_codes())
     text += fmt::format("\n\n{}: {}.", code.code, code.meaning);
   return text;
@@ -47,40 +47,52 @@ std::string exit_codes_text() {
 const std::vector<Topic>& topics() {
   static const std::vector<Topic> table = {
       {"frames", "how frames are counted",
-       "A frame has the number that its file gives it, wherever the program reads or writes one: "
-       "in --range, in reports and findings, in JSON, in side files of gaps and of contacts. A C3D "
-       "file states the number of its first frame, a TRC, TSV or CSV table and an AMC file that of "
-       "their first row; takes that state none, as BVH, count from 1. Frames follow one another: "
-       "where a table leaves numbers out, they are counted on from the first.\n\n"
-       "Both ends of a span belong to it. A calibration pose at the start counts as a frame. "
-       "Seconds (--range 1s:2.5s) count from the first frame, which is at 0 s."},
+       "Frames have the numbers that the file gives them, everywhere: in --range, in reports, in "
+       "JSON "
+       "and in side files of gaps and contacts. A C3D file states the number of its first frame. "
+       "In a "
+       "TRC, TSV or CSV table and in an AMC file, the first row does. Takes without numbers, such "
+       "as "
+       "BVH, start at 1. From the first frame on, numbers go up by one, even if a table skips "
+       "some.\n\n"
+       "A range includes both of its ends. A calibration pose at the start counts as a frame. "
+       "Times "
+       "(--range 1s:2.5s) are measured from the first frame, which is at 0 s."},
       {"names", "how joints and markers are named",
-       "--joints, --markers, --exclude and --names take names and patterns, separated by commas: "
-       "* is any text, ? any character; quote them. A marker is known without its subject too: "
-       "LASI for Ann:LASI. Where nothing has that very name, capitals do not count.\n\n"
-       "A side file for --map has lines NAME,NAME IN THE TAKE, for takes whose names mean nothing "
-       "to the program; # starts a comment."},
+       "--joints, --markers, --exclude and --names take names and patterns, separated by commas. "
+       "In a "
+       "pattern * stands for any text and ? for any character; quote patterns. The subject may be "
+       "omitted: LASI means Ann:LASI. If no name matches exactly, matching ignores case.\n\n"
+       "A map (--map FILE) is for takes whose names the program does not know. Each line is "
+       "NAME,NAME "
+       "IN THE TAKE. # starts a comment."},
       {"formats", "which files are read and written", formats_text()},
       {"presets", "settings for kinds of motion", presets_text()},
       {"gaps", "the side file of gaps, for --gaps",
-       "Lines NAME,FIRST,LAST: a joint or marker, named as in --names (* for all), and its first "
-       "and last missing frame. "
-       "A heading, # comments, blank lines and quoted names are understood. kinemend check "
-       "--gaps-out writes one."},
-      {"live", "frames as they come, for kinemend stream",
-       "The sender gives the hierarchy of a BVH file, MOTION, Frames: and Frame Time:, then a line "
-       "of channel values a frame; lines end with LF, CR LF or ||, and each datagram ends one. A "
-       "method with a window gives a frame when half a window has come behind it; the delay is "
-       "printed.\n\n"
-       "With --numbered a line begins with the frame's number, and lost frames are made up between "
-       "those on either side, late and doubled ones left out. A malformed line is made up too. A "
-       "sender may fall silent, go and come back, with or without its header; a client that does "
-       "not read loses the oldest frames. The summary counts all of it.\n\n"
-       "A stream of markers begins with a line MARKERS, the rate in hertz and the names, as in "
-       "MARKERS 120 LASI,RASI; then come lines of three values a marker with commas between them, "
-       "empty ones where a marker is missing.\n\n"
-       "--format jsonl writes a line that describes the stream and one a frame: frame, root, "
-       "rotations (quaternions w, x, y, z) and translations."},
+       "Each line is NAME,FIRST,LAST: a joint or marker, and its first and last missing frame. "
+       "NAME is "
+       "a name or pattern as in --names; * means all. A header line, # comments, blank lines and "
+       "quoted names are allowed. kinemend check --gaps-out writes such a file."},
+      {"live", "live frames, for kinemend stream",
+       "The sender sends the hierarchy of a BVH file, MOTION, Frames: and Frame Time:, and then "
+       "one "
+       "line of channel values per frame. Lines end with LF, CR LF or ||; the end of a datagram "
+       "ends "
+       "a line too. A method with a window writes a frame once it has seen half a window after it. "
+       "This delay is printed.\n\n"
+       "With --numbered each line begins with the number of its frame. Lost frames are then "
+       "interpolated between their neighbours, and late and duplicate frames are ignored. With "
+       "--udp, "
+       "frames that arrive out of order are put back in order (--reorder). A malformed line is "
+       "interpolated like a lost frame, except with --udp, where it is ignored: anyone can send a "
+       "datagram. A sender may pause, disconnect and return, with or without its header. A client "
+       "that does not read loses the oldest frames. The summary at the end counts all of this.\n\n"
+       "A stream of markers begins with a line MARKERS, the rate in hertz and the names, such as "
+       "MARKERS 120 LASI,RASI. Then each line has three values per marker, separated by commas. "
+       "The "
+       "values of a missing marker are empty.\n\n"
+       "--format jsonl writes one line that describes the stream, and then one line per frame with "
+       "frame, root, rotations (quaternions w, x, y, z) and translations."},
       {"exit-codes", "what the exit code means", exit_codes_text()}};
   return table;
 }

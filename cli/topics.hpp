@@ -5,7 +5,8 @@
 
 namespace kinemend::cli {
 
-/// What no single command is about: `kinemend help NAME`, and a section of the manual page.
+/// A subject that concerns several commands: `kinemend help NAME`, and a section of the manual
+/// page.
 struct Topic {
   std::string name;     ///< "frames"
   std::string summary;  ///< one line

@@ -28,6 +28,7 @@
 #include "kinemend/io.hpp"
 #include "method_options.hpp"
 #include "model_view.hpp"
+#include "run_files.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -35,7 +36,7 @@ namespace kinemend::cli {
 
 namespace {
 
-/// All that `train` was asked for.
+/// The settings of a training.
 struct Training {
   std::string method;
   OptionValues options;
@@ -55,14 +56,14 @@ Take read_training_take(const Training& training, const std::string& path) {
   return std::move(read.take);
 }
 
-/// Nothing where it cannot be read and such takes are left out, which is said.
+/// Empty if it cannot be read and such takes are skipped, with a warning.
 std::optional<Take> training_take(const Training& training, const std::string& path) {
   std::optional<Take> take;
   try {
     take = read_training_take(training, path);
   } catch (const Error& error) {
     if (!training.skip_unreadable || error.kind() != ErrorKind::unreadable_input) throw;
-    say_warning(fmt::format("{} (left out)", error.what()));
+    say_warning(fmt::format("{} (skipped)", error.what()));
     return take;
   }
   if (!training.fill.empty()) {
@@ -89,11 +90,11 @@ std::string summary_text(const ModelFile& file, double training_s) {
                       model.seconds / 60, training_s, grouped((file.bytes + 999) / 1000));
   Table table({Align::left, Align::right}, 4);
   for (const auto& [name, value] : model.numbers)
-    table.add({printable(name), fmt::format("{:.6g}", value)});
+    table.add({printable_name(name), fmt::format("{:.6g}", value)});
   return text + table.text();
 }
 
-/// Words that a shell reads as they were meant.
+/// A word quoted for a shell.
 std::string shell_word(const std::string& word) {
   const bool is_plain =
       !word.empty() && word.find_first_not_of(
@@ -105,7 +106,7 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
-/// The command as it stands on the card, without what has no influence on the model.
+/// The command for the card, without options that have no influence on the model.
 std::string command_text(const Arguments& arguments) {
   static constexpr std::array<std::string_view, 10> aside = {
       "force", "json", "quiet", "card", "title", "data", "licence", "figures", "jobs", "resume"};
@@ -136,7 +137,7 @@ std::string command_text(const Arguments& arguments) {
 std::vector<std::string> training_inputs_of(const Arguments& arguments) {
   std::vector<std::string> inputs(arguments.positionals.begin() + 1, arguments.positionals.end());
   if (const std::string list = arguments.text("list"); !list.empty()) {
-    const std::vector<std::string> listed = listed_inputs(read_file(list));
+    const std::vector<std::string> listed = listed_inputs(read_file(list), input_name(list));
     inputs.insert(inputs.end(), listed.begin(), listed.end());
   }
   if (inputs.empty())
@@ -158,17 +159,18 @@ void find_checkpoint(const Arguments& arguments, Training& training) {
   const bool is_there = std::filesystem::exists(training.checkpoint);
   if (goes_on) {
     if (!is_there)
-      throw Error(ErrorKind::unreadable_input,
-                  fmt::format("{}: there is no such checkpoint; without --resume the training "
-                              "begins anew",
-                              training.checkpoint));
+      throw Error(
+          ErrorKind::unreadable_input,
+          fmt::format("{}: no such checkpoint; leave out --resume to start the training anew",
+                      training.checkpoint));
     training.settings.checkpoint.name = training.checkpoint;
     training.settings.checkpoint.start = read_file(training.checkpoint);
   } else if (is_there && !training.force) {
-    throw Error(ErrorKind::cannot_write,
-                fmt::format("{}: an unfinished training left this; --resume goes on with it, "
-                            "--force begins anew",
-                            training.checkpoint));
+    throw Error(
+        ErrorKind::cannot_write,
+        fmt::format("{}: left by an unfinished training; --resume continues it, --force starts "
+                    "anew",
+                    training.checkpoint));
   }
 }
 
@@ -185,7 +187,6 @@ Training training_of(const Arguments& arguments) {
   training.json = arguments.flag("json");
   training.quiet = arguments.flag("quiet");
   training.skip_unreadable = arguments.flag("skip_unreadable");
-  check_single_use({}, {training.output, training.card}, training.json);
   check_free(training.output, training.force);
   if (!training.card.empty()) check_free(training.card, training.force);
   if (const std::string fill = arguments.text("fill"); fill != "off") training.fill = fill;
@@ -200,15 +201,15 @@ Training training_of(const Arguments& arguments) {
       command.empty() ? command_text(arguments) : command, arguments.text("figures")};
   training.takes = training_inputs_of(arguments);
   const std::string list = arguments.text("list");
-  std::vector<std::string> read = training.takes;
-  read.push_back(list);
-  check_single_use(read, {}, false);
-  for (const std::vector<std::string>& inputs : {training.takes, {list}}) {
-    check_is_no_input("--output", training.output, inputs);
-    check_is_no_input("--card", training.card, inputs);
-  }
-  check_is_no_input("--card", training.card, {training.output});
   find_checkpoint(arguments, training);
+  RunFiles files;
+  files.reads("TAKE", training.takes)
+      .reads("--list", list)
+      .reads("--asf", arguments.text("asf"))
+      .writes("--output", training.output)
+      .writes("the checkpoint of --output", training.checkpoint)
+      .writes("--card", training.card)
+      .check(training.json);
   return training;
 }
 
@@ -220,10 +221,10 @@ Json summary_json(const ModelFile& file, double training_s) {
   return summary;
 }
 
-/// The command that goes on with this training.
+/// The command that continues this training.
 std::string resuming_command(const Arguments& arguments) {
   std::vector<std::string> words = arguments.words;
-  // What follows -- is no option.
+  // Words after -- are not options.
   if (!arguments.flag("resume"))
     words.insert(std::find(words.begin(), words.end(), "--"), "--resume");
   std::string text = "kinemend";
@@ -231,7 +232,7 @@ std::string resuming_command(const Arguments& arguments) {
   return text;
 }
 
-/// While it lives, the first SIGINT or SIGTERM is noted; a second one ends the program.
+/// While it lives, the first SIGINT or SIGTERM is only noted; a second one ends the program.
 class StopRequest {
  public:
   StopRequest() {
@@ -263,13 +264,13 @@ class StopRequest {
   struct sigaction old_[2] = {};
 };
 
-/// What the user is told of a training that was stopped.
+/// Tells the user how to continue a stopped training.
 void say_stopped(const Training& training, const Arguments& arguments) {
   if (!training.checkpoint.empty() && std::filesystem::exists(training.checkpoint)) {
-    write_err(fmt::format("stopped; {} keeps what was done, and this goes on with it:\n  {}\n",
-                          training.checkpoint, resuming_command(arguments)));
+    write_err(fmt::format("stopped; the work so far is in {}; to continue:\n  {}\n",
+                          printable(training.checkpoint), resuming_command(arguments)));
   } else {
-    write_err("stopped, with nothing done yet that could be kept\n");
+    write_err("stopped before anything could be saved\n");
   }
 }
 
@@ -311,7 +312,8 @@ int run_train(const Arguments& arguments) {
     say_stopped(training, arguments);
     StopRequest::obey();
   } catch (const Error& error) {
-    // What has no model as it is needs no going on; what could not be written does.
+    // Takes and options that give no model need no checkpoint. A model that could not be written
+    // does.
     if (error.kind() == ErrorKind::usage && training.kept) remove_checkpoint(training);
     throw;
   }
@@ -335,15 +337,15 @@ int run_train(const Arguments& arguments) {
 
 Flag names_flag(std::string name, std::string help) {
   Flag flag = text_flag(std::move(name), "A,B,...", "Work", std::move(help),
-                        "Names or patterns in which * is any text and ? any character; quote "
+                        "Names or patterns: * stands for any text, ? for any character. Quote "
                         "them.");
   flag.takes = Takes::list;
   return flag;
 }
 
 Flag train_fill_flag() {
-  Flag flag = text_flag("fill", "METHOD", "Work", "fill gaps of the takes first",
-                        "What the method refuses stays missing, and is not learned from.");
+  Flag flag = text_flag("fill", "METHOD", "Work", "fill gaps in the takes first",
+                        "Gaps that the method refuses stay open and are not learned from.");
   flag.spec.default_value = std::string("auto");
   flag.spec.choices = {"off"};
   for (const FillMethod& method : fill_methods()) {
@@ -354,13 +356,14 @@ Flag train_fill_flag() {
 }
 
 std::vector<Flag> train_flags() {
-  Flag list = text_flag("list", "FILE", "Input", "further takes and folders, one a line",
-                        "Blank lines and lines that start with # are left out; - is standard "
+  Flag list = text_flag("list", "FILE", "Input", "file with more takes and folders, one per line",
+                        "Blank lines and lines that start with # are ignored; - is standard "
                         "input.");
   list.completion = Completion::file;
-  Flag card = text_flag("card", "FILE", "Output", "also write the model's card, as Markdown");
+  Flag card = text_flag("card", "FILE", "Output", "also write the card of the model, as Markdown");
   card.completion = Completion::file;
-  Flag quiet = switch_flag("quiet", "Output", "print warnings of takes left out and errors only");
+  Flag quiet =
+      switch_flag("quiet", "Output", "print only errors, and warnings about skipped takes");
   quiet.letter = 'q';
   std::vector<Flag> all = {
       output_flag("where to write the model; - is standard output"),
@@ -368,23 +371,23 @@ std::vector<Flag> train_flags() {
       card,
       json_flag("print the summary as JSON instead of text"),
       quiet,
-      names_flag("joints", "joints to learn (default all that move)"),
-      names_flag("markers", "the same for markers"),
+      names_flag("joints", "joints to learn (default: all that move)"),
+      names_flag("markers", "markers to learn (default: all)"),
       train_fill_flag(),
-      seed_flag("seed of all that is drawn at random"),
+      seed_flag("seed of the random number generator"),
       jobs_flag(),
-      text_flag("title", "TEXT", "Card", "what the model is, in a line"),
-      text_flag("data", "TEXT", "Card", "what it is learned from"),
-      text_flag("licence", "TEXT", "Card", "under which licence data and model are"),
-      text_flag("command", "TEXT", "Card", "the command that made it (default this one)"),
+      text_flag("title", "TEXT", "Card", "title of the model, one line"),
+      text_flag("data", "TEXT", "Card", "training data"),
+      text_flag("licence", "TEXT", "Card", "licence of data and model"),
+      text_flag("command", "TEXT", "Card", "command that made the model (default: this one)"),
       text_flag("figures", "TEXT", "Card", "measured quality"),
       list,
-      switch_flag("skip_unreadable", "Input", "leave takes out that cannot be read",
-                  "Without it the first of them ends the training, with exit code 3."),
-      switch_flag("resume", "Output", "go on with a training that was broken off",
-                  "From the checkpoint beside the output, with the same takes and options, to the "
-                  "same bytes. Takes are read again.")};
-  append(all, reading_flags("what needs a repair becomes an error"));
+      switch_flag("skip_unreadable", "Input", "skip takes that cannot be read",
+                  "Without it the first such take ends the training, with exit code 3."),
+      switch_flag("resume", "Output", "continue a training that was stopped",
+                  "Reads the checkpoint beside the output. Use the same takes and options; the "
+                  "result has the same bytes as without the stop. Takes are read again.")};
+  append(all, reading_flags("treat repairs of the input as errors"));
   return all;
 }
 
@@ -401,27 +404,30 @@ Command train_command() {
   command.name = "train";
   command.summary = "learn a model from clean takes";
   command.description =
-      "Learns how people move from takes that are clean, for the methods that need a model: "
-      "kinemend clean --method METHOD --model FILE. All takes are of joints, or all of markers. "
-      "Bodies may differ in size and in the names of their parts; calibration frames are left "
-      "out.\n\n"
-      "Takes are read one at a time and once. What is learned from is kept in memory up to half a "
-      "gigabyte, then in the temporary folder (TMPDIR). The same takes and options give the same "
-      "bytes. While it works, FILE.checkpoint beside the output keeps what is done; Ctrl-C leaves "
-      "it "
-      "and says the command that goes on.";
-  command.positionals = {{"METHOD", "which model, see below", 1, 1, train_method_names()},
-                         {"TAKE", "take, or folder in which all takes are meant", 0, 1000000, {}}};
+      "Learns from clean takes how people move, for methods that need a model (kinemend clean "
+      "--method METHOD --model FILE). Give takes of joints or takes of markers, not both. Bodies "
+      "may "
+      "differ in size and in the names of their parts. Calibration frames are skipped.\n\n"
+      "Each take is read once. Training data is kept in memory up to half a gigabyte, and beyond "
+      "that "
+      "in the temporary folder (TMPDIR). The same takes and options give the same bytes. During "
+      "the "
+      "training, FILE.checkpoint beside the output saves the work so far. Ctrl-C keeps it and "
+      "prints "
+      "the command that continues.";
+  command.positionals = {
+      {"METHOD", "method to train a model for, see below", 1, 1, train_method_names()},
+      {"TAKE", "take, or folder with takes", 0, 1000000, {}}};
   command.flags = train_flags();
   for (const LearnedMethod& method : learned_methods())
     command.groups.push_back({method.name, method.summary, "", method.options});
   command.group_heading = "Options of %";
   command.groups_are_flags = true;
   command.examples = {
-      {"kinemend train example walks/*.bvh -o walk.kmodel", "filter bases of some walks"},
+      {"kinemend train example walks/*.bvh -o walk.kmodel", "learn filter bases from some walks"},
       {"kinemend train wiener takes -o mine.kmodel --card mine.md --licence CC0",
-       "all takes in a folder"},
-      {"kinemend clean noisy.bvh --method example --model walk.kmodel", "what it is for"}};
+       "learn from all takes in a folder"},
+      {"kinemend clean noisy.bvh --method example --model walk.kmodel", "use the model"}};
   command.run = run_train;
   return command;
 }

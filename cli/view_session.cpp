@@ -282,7 +282,6 @@ std::string ViewSession::clean_page(const Json& asked, const Turn& turn) {
     plan.contacts.emplace(*text, "contacts");
   }
   plan.dry_run = plan.quiet = true;
-  plan.report_path = "page";
   plan.page.emplace();
   plan.page->command = "clean";
   plan.page->command_line = line_of(words);
@@ -292,7 +291,7 @@ std::string ViewSession::clean_page(const Json& asked, const Turn& turn) {
                              [&](std::string_view stage, double done) { tell(turn, stage, done); });
   turn.check();
   if (outcome.code != 0) throw Error(ErrorKind::usage, outcome.error);
-  return std::move(outcome.report);
+  return std::move(outcome.page);
 }
 
 FillRun ViewSession::fill_run(const Json& asked) const {

@@ -19,6 +19,7 @@ struct Diagnostic {
 /// What a reader repaired, in order of first occurrence.
 class Diagnostics {
  public:
+  /// The message is escaped and bounded as that of an `Error` is.
   void add(std::string_view name, std::string_view message, std::size_t line = 0);
 
   const std::vector<Diagnostic>& entries() const noexcept { return entries_; }

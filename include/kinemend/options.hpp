@@ -18,7 +18,7 @@ using OptionValue = std::variant<double, std::int64_t, bool, std::string>;
 using OptionValues = std::map<std::string, OptionValue, std::less<>>;
 
 /// One option of a method, defined once: parser, help, configuration files, shell completion and
-/// manual page all come from this.
+/// manual page are derived from it.
 struct OptionSpec {
   std::string
       name;  ///< snake_case with the unit in it: `cutoff_hz`. On a command line: `--cutoff-hz`.
@@ -32,16 +32,16 @@ struct OptionSpec {
 
 /// The value as text, in the form that `parse_option` reads.
 std::string to_string(const OptionValue& value);
-/// Text to the type of the option's default. Errors: `ErrorKind::usage`, naming the option and what
-/// it takes.
+/// Converts text to the type of the option's default. Errors: `ErrorKind::usage`, naming the option
+/// and what it takes.
 OptionValue parse_option(const OptionSpec& spec, std::string_view text);
 /// Checks type, range and choice; an integer is accepted for a number. Returns the value in the
 /// option's own type. Errors: `ErrorKind::usage`: `cutoff_hz: 900 is outside 0.1 to 120 Hz`.
 OptionValue check_option(const OptionSpec& spec, const OptionValue& value);
 
-/// The name of `candidates` that looks most like `name`, for messages; empty when none is near.
+/// The candidate most similar to `name`, for messages; empty if none is similar.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
-/// The same as part of a message: `; did you mean walk?`, or nothing.
+/// The same as part of a message: `; did you mean walk?`, or empty.
 std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
 
 /// Binds option names to the members of a plain options struct, whose initialisers are the
@@ -78,14 +78,14 @@ class OptionTable {
                {std::move(name), "", Options{}.*member, 0, 0, std::move(choices), std::move(help)});
   }
 
-  /// A path or another text of the user's own; empty by default.
+  /// A path or another free text; empty by default.
   OptionTable& text(std::string Options::*member, std::string name, std::string help) {
     return add(member, {std::move(name), "", Options{}.*member, 0, 0, {}, std::move(help)});
   }
 
   const std::vector<OptionSpec>& specs() const noexcept { return specs_; }
 
-  /// The struct with `values` put in. Errors: `ErrorKind::usage` for an unknown name, a wrong type
+  /// The struct with these values set. Errors: `ErrorKind::usage` for an unknown name, a wrong type
   /// or a value out of range.
   Options parse(const OptionValues& values) const {
     Options options;

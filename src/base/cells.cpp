@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::string_view blanks = " \t";
 
-// Removes and returns a cell, and the comma behind it; none for a quote that does not end, or that
-// ends inside the cell.
+// Removes and returns a cell, and the comma after it; nothing for a quote without an end, or with
+// more text after it.
 std::optional<std::string> take_cell(std::string_view& line) {
   line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
   std::string cell;
@@ -41,7 +41,7 @@ std::vector<std::string> cells_of(std::string_view line, std::string_view name,
   for (;;) {
     const auto cell = take_cell(line);
     if (!cell)
-      throw Error::at_line(name, number, "expected a quoted name that ends with its quote");
+      throw Error::at_line(name, number, "expected a closing quote at the end of a quoted name");
     cells.push_back(*cell);
     if (line.empty()) return cells;
     line.remove_prefix(1);

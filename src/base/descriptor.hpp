@@ -6,7 +6,7 @@
 
 namespace kinemend {
 
-/// Closes a file that was opened, but none of the standard streams.
+/// Closes the file on destruction, but never a standard stream.
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_(number) {}

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kinemend/experimental/text.hpp"
+
 namespace kinemend {
 
 namespace {
@@ -18,7 +20,7 @@ void Diagnostics::add(std::string_view name, std::string_view message, std::size
   if (known != entries_.end()) {
     ++known->count;
   } else {
-    entries_.push_back({std::string(name), std::string(message), line, 1});
+    entries_.push_back({std::string(name), printable(message), line, 1});
   }
 }
 

@@ -2,7 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "kinemend/experimental/text.hpp"
+
 namespace kinemend {
+
+Error::Error(ErrorKind kind, const std::string& message)
+    : std::runtime_error(printable(message)), kind_(kind) {}
 
 Error Error::at_line(std::string_view source, std::size_t line, std::string_view message) {
   return {ErrorKind::unreadable_input, fmt::format("{}:{}: {}", source, line, message)};

@@ -5,7 +5,7 @@
 
 namespace kinemend {
 
-/// All of a file, or of standard input for "-". Errors: `unreadable_input`.
+/// The whole content of a file, or of standard input for "-". Errors: `unreadable_input`.
 std::string file_bytes(const std::filesystem::path& path);
 
 }  // namespace kinemend

@@ -9,9 +9,10 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "kinemend/options.hpp"
 
-// Entries that are chosen by their member `name`: methods, trainings, options.
+// Tables whose entries are chosen by their member `name`: methods, trainings, options.
 namespace kinemend {
 
 std::vector<std::string> names_of(const auto& entries) {
@@ -30,8 +31,8 @@ const auto& find_named(const auto& entries, std::string_view name, std::string_v
   if (found != entries.end()) return *found;
   const std::vector<std::string> names = names_of(entries);
   throw Error(ErrorKind::usage,
-              fmt::format("{} \"{}\"{} ({} {})", unknown, name, suggestion(name, names), listed,
-                          fmt::join(names, ", ")));
+              fmt::format("{} \"{}\"{} ({} {})", unknown, printable_name(name),
+                          suggestion(name, names), listed, fmt::join(names, ", ")));
 }
 
 /// The option of a method. Errors: `ErrorKind::usage`, naming `taker` and what it takes.

@@ -8,7 +8,7 @@ namespace kinemend {
 
 namespace {
 
-// Longer names are no slips of the finger, and the distance takes the product of the lengths.
+// Longer names are not misspelt names, and the distance costs the product of the lengths.
 constexpr std::size_t longest_name = 60;
 
 // Levenshtein's distance, one row at a time.

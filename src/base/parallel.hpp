@@ -5,8 +5,8 @@
 
 namespace kinemend {
 
-/// Calls `work(i)` for each i below `count`, in parallel where `samples` (all that is to be done)
-/// pays for it. `work` writes to what belongs to i alone.
+/// Calls `work(i)` for each i below `count`, in parallel if `samples` (the total amount of work) is
+/// worth it. `work(i)` must write only to data of its own.
 void for_each_parallel(std::size_t count, std::size_t samples,
                        const std::function<void(std::size_t)>& work);
 

@@ -6,15 +6,15 @@
 
 namespace kinemend {
 
-/// How far some work is, which may be told of from any thread: tells on, one call at a time, shares
-/// (0..1) that rise, in steps that can be seen. Without a callback it does nothing.
+/// Reports the progress of some work to a callback, as a rising share (0..1) in visible steps.
+/// Thread-safe: the callback gets one call at a time. Without a callback it does nothing.
 class ShareProgress {
  public:
   explicit ShareProgress(const std::function<void(double)>& tell) : tell_(tell) {}
   ShareProgress(const ShareProgress&) = delete;
   ShareProgress& operator=(const ShareProgress&) = delete;
 
-  /// What follows is the part from where the last one ended up to `done`, in so many steps.
+  /// Begins the next part of the work, which ends at the share `done` and has so many steps.
   void begin_part(double done, std::size_t steps) {
     if (!tell_) return;
     const std::lock_guard lock(mutex_);
@@ -25,7 +25,7 @@ class ShareProgress {
     report(from_);
   }
 
-  /// One step of the part is done; more of them than were announced count for nothing.
+  /// One step of the part is done. More steps than announced are ignored.
   void step() {
     if (!tell_) return;
     const std::lock_guard lock(mutex_);
@@ -34,7 +34,7 @@ class ShareProgress {
         steps_ > 0 ? static_cast<double>(count_) / static_cast<double>(steps_) : 0.0;
     report(from_ + share * (to_ - from_));
   }
-  /// So far, where the work itself knows.
+  /// The share that is done, for work that knows it.
   void reach(double done) {
     if (!tell_) return;
     const std::lock_guard lock(mutex_);

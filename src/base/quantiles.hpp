@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-// Medians, quantiles, and what they are of normal numbers.
+// Medians, quantiles, and their values for normal numbers.
 namespace kinemend {
 
 /// From the median size of normal numbers of mean 0, or a median absolute deviation, to their
@@ -14,24 +14,24 @@ inline constexpr double deviations_per_median = 1.482602218505602;
 /// median of the chi-squared distribution of three degrees of freedom.
 inline constexpr double median_of_chi3 = 1.5381722544550522;
 
-/// The value of rank `rank`, which is below their number, by reordering them: no value before it
-/// is larger then, and none behind it smaller.
+/// The value of rank `rank` (below the number of values). Reorders the values: those before it are not
+/// larger, those after it not smaller.
 inline double of_rank(std::vector<double>& values, std::size_t rank) {
   const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank);
   std::nth_element(values.begin(), place, values.end());
   return *place;
 }
 
-/// The value that `share` (0..1) of them do not exceed, by reordering them; 0 for none.
+/// The value that a share (0..1) of the values do not exceed; 0 if there are none. Reorders them.
 inline double quantile_of(std::vector<double>& values, double share) {
   if (values.empty()) return 0;
   return of_rank(values, static_cast<std::size_t>(share * static_cast<double>(values.size() - 1)));
 }
 
-/// The middle of values, the lower of the two middle ones of an even number, by reordering them; 0
-/// for none.
+/// The median, for an even number the lower of the two middle values; 0 if there are none. Reorders
+/// them.
 inline double median_of(std::vector<double>& values) { return quantile_of(values, 0.5); }
-/// The same with the upper of the two.
+/// The same with the upper of the two middle values.
 inline double upper_median_of(std::vector<double>& values) {
   return values.empty() ? 0 : of_rank(values, values.size() / 2);
 }

@@ -1,13 +1,24 @@
 #include "base/quote.hpp"
 
+#include "base/utf8.hpp"
+
 namespace kinemend {
 
 std::string quote(std::string_view found) {
   constexpr std::size_t longest = 40;
   if (found.empty()) return "the end of the file";
   std::string text = "\"";
-  for (const char c : found.substr(0, longest)) text += c >= ' ' && c <= '~' ? c : '.';
-  return text + (found.size() > longest ? "...\"" : "\"");
+  for (std::size_t count = 0; !found.empty(); ++count) {
+    if (count == longest) return text + "...\"";
+    const Character character = first_character(found);
+    if (character.is_valid && !commands_terminal(character.code)) {
+      text += found.substr(0, character.size);
+    } else {
+      text += '.';
+    }
+    found.remove_prefix(character.size);
+  }
+  return text + "\"";
 }
 
 }  // namespace kinemend

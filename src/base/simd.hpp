@@ -1,6 +1,6 @@
 #pragma once
 
 // To be included before Highway in each kernel file. Sizeless vectors (SVE, RVV) cannot be held in
-// arrays, and the other targets left out add nothing here but code.
+// arrays; the other disabled targets would only add code.
 #define HWY_DISABLED_TARGETS \
   (HWY_AVX3_DL | HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)

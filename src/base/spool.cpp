@@ -34,7 +34,7 @@ std::string temporary_folder() {
   fail(ErrorKind::cannot_write, named != nullptr ? named : "/tmp", "cannot be made", error.value());
 }
 
-// Its name goes at once; the file stays as long as it is open.
+// The name is removed at once; the file exists as long as it is open.
 int nameless_file(const std::string& folder) {
   std::string name = folder + "/kinemend-XXXXXX";
   const int descriptor = ::mkostemp(name.data(), O_CLOEXEC);

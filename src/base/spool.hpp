@@ -10,25 +10,25 @@
 
 namespace kinemend {
 
-/// Records of bytes that are written once and read in any order as often as one likes. They lie in
-/// memory as long as there is room, then in a file of the temporary folder. It has no name, so that
-/// nothing is left of it however the program ends. Reading is safe from several threads.
+/// Records of bytes that are written once and can then be read in any order, any number of times. They
+/// are kept in memory up to a limit, and beyond it in a file in the temporary folder. The file has no
+/// name, so that nothing is left of it however the program ends. Several threads may read at once.
 class Spool {
  public:
-  /// `most_memory`: bytes of records that may lie in memory.
+  /// `most_memory`: bytes of records to keep in memory.
   explicit Spool(std::size_t most_memory) : room_(most_memory) {}
 
   /// Returns the number of the record: 0, 1, ... Errors: `ErrorKind::cannot_write`, naming the
   /// folder.
   std::size_t append(std::span<const std::byte> bytes);
-  /// As many bytes as `bytes` has, from byte `from` of the record on, which has them. Errors:
+  /// Fills `bytes` from byte `from` of the record on, which must be long enough. Errors:
   /// `ErrorKind::unreadable_input`.
   void read(std::size_t record, std::size_t from, std::span<std::byte> bytes) const;
 
   std::size_t count() const noexcept { return records_.size(); }
-  /// Bytes of a record.
+  /// Size of a record in bytes.
   std::size_t size(std::size_t record) const { return records_[record].size; }
-  /// Bytes that lie in the file.
+  /// Number of bytes in the file.
   std::uint64_t bytes_in_file() const noexcept { return file_end_; }
 
  private:
@@ -46,12 +46,12 @@ class Spool {
   std::uint64_t file_end_ = 0;
 };
 
-/// The same of values that are plain bytes.
+/// The same for trivially copyable values.
 template <class Value>
 std::size_t append_values(Spool& spool, std::span<const Value> values) {
   return spool.append(std::as_bytes(values));
 }
-/// Values [first, first + count) of a record of such values.
+/// Values [first, first + count) of a record.
 template <class Value>
 std::vector<Value> read_values(const Spool& spool, std::size_t record, std::size_t first,
                                std::size_t count) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/utf8.hpp"
+
 namespace kinemend {
 
 namespace {
@@ -39,6 +41,69 @@ std::size_t display_width(std::string_view text) {
   }));
 }
 
+namespace {
+
+constexpr std::size_t longest_word = 80;       // characters
+constexpr std::size_t longest_message = 2000;  // bytes
+constexpr std::size_t head_of_message = 1200;  // bytes of a longer one; the rest is its end
+constexpr std::string_view omitted = "...";
+
+// The character as it is shown: itself, or its code in ASCII.
+std::string shown(const Character& character, std::string_view text) {
+  if (!character.is_valid)
+    return fmt::format("\\x{:02x}", static_cast<unsigned char>(text.front()));
+  if (!commands_terminal(character.code)) return std::string(text.substr(0, character.size));
+  return character.code < 0x100 ? fmt::format("\\x{:02x}", character.code)
+                                : fmt::format("\\u{:04x}", character.code);
+}
+
+// `most`: characters as shown; of a longer text the rest is left out.
+std::string escaped(std::string_view text, std::size_t most = std::string_view::npos) {
+  std::string result;
+  std::size_t count = 0;
+  while (!text.empty()) {
+    const Character character = first_character(text);
+    const std::string piece = shown(character, text);
+    count += display_width(piece);
+    if (count > most) return result + std::string(omitted);
+    result += piece;
+    text.remove_prefix(character.size);
+  }
+  return result;
+}
+
+bool is_cut(std::string_view word) {
+  return word.ends_with(omitted) && display_width(word) <= longest_word + omitted.size();
+}
+
+// Cuts long words of a text that is escaped already. Paths are left whole, as their end says most.
+std::string with_short_words(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t blanks = std::min(text.find_first_not_of(' '), text.size());
+    result.append(blanks, ' ');
+    text.remove_prefix(blanks);
+    const std::string_view word = text.substr(0, text.find(' '));
+    text.remove_prefix(word.size());
+    const bool is_path = word.find('/') != word.npos;
+    result += is_path || is_cut(word) ? std::string(word) : escaped(word, longest_word);
+  }
+  return result;
+}
+
+// Where a text may be cut: not amid a character.
+std::size_t boundary(std::string_view text, std::size_t place) {
+  while (place > 0 && (static_cast<unsigned char>(text[place]) & 0xC0) == 0x80) --place;
+  return place;
+}
+
+}  // namespace
+
+void Table::add(std::vector<std::string> cells) {
+  for (std::string& cell : cells) cell = with_short_words(escaped(cell));
+  rows_.push_back(std::move(cells));
+}
+
 std::string Table::text() const {
   std::vector<std::size_t> widths(columns_.size(), 0);
   for (const auto& row : rows_) {
@@ -59,7 +124,9 @@ std::string Table::text() const {
   return result;
 }
 
-std::string wrap(std::string_view text, std::size_t indent, std::size_t width, bool hanging) {
+std::string wrap(std::string_view whole, std::size_t indent, std::size_t width, bool hanging) {
+  const std::string safe = escaped(whole);
+  std::string_view text = safe;
   const std::string lead(indent, ' ');
   std::string result;
   std::string line = hanging ? "" : lead;
@@ -123,51 +190,18 @@ std::string length_text(std::size_t frames, double frame_rate_hz) {
                      frame_rate_hz > 0 ? static_cast<double>(frames) / frame_rate_hz : 0.0);
 }
 
-namespace {
-
-// At most 80 characters of each word, and three dots where it was longer; paths are left whole, as
-// their end says most.
-std::string shortened(std::string_view text) {
-  constexpr std::size_t longest = 80;
-  constexpr std::string_view blanks = " \t\r\n";
-  std::string result;
-  while (!text.empty()) {
-    const std::size_t blank = std::min(text.find_first_not_of(blanks), text.size());
-    result += text.substr(0, blank);
-    text.remove_prefix(blank);
-    const std::string_view word = text.substr(0, text.find_first_of(blanks));
-    text.remove_prefix(word.size());
-    if (word.size() <= longest || word.find('/') != word.npos) {
-      result += word;
-      continue;
-    }
-    // Not within a character of several bytes.
-    std::size_t end = longest;
-    while (end > 0 && (static_cast<unsigned char>(word[end]) & 0xC0) == 0x80) --end;
-    result += word.substr(0, end);
-    result += "...";
-  }
-  return result;
+std::string printable_name(std::string_view name) {
+  std::string text = escaped(name);
+  return is_cut(text) ? text : escaped(text, longest_word);
 }
 
-}  // namespace
-
-std::string printable(std::string_view whole) {
-  const std::string text = shortened(whole);
-  std::string result;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0;
-    // U+0080 to U+009F are control characters too.
-    const bool is_c1 = byte == 0xC2 && next >= 0x80 && next <= 0x9F;
-    if (byte < 0x20 || byte == 0x7F || is_c1) {
-      result += fmt::format("\\x{:02x}", is_c1 ? next : byte);
-      i += is_c1 ? 1 : 0;
-    } else {
-      result += text[i];
-    }
-  }
-  return result;
+std::string printable(std::string_view text) {
+  const std::string result = with_short_words(escaped(text));
+  if (result.size() <= longest_message) return result;
+  const std::size_t tail =
+      boundary(result, result.size() - (longest_message - head_of_message - omitted.size() - 2));
+  return fmt::format("{} {} {}", result.substr(0, boundary(result, head_of_message)), omitted,
+                     result.substr(tail));
 }
 
 }  // namespace kinemend

@@ -12,7 +12,7 @@
 
 namespace kinemend {
 
-/// Frames from lines of values.
+/// Reads frames from lines of values.
 class FrameReader {
  public:
   FrameReader(bool numbered, std::size_t skipped_words)
@@ -21,19 +21,19 @@ class FrameReader {
 
   enum class Read : std::uint8_t {
     frame,
-    number,  ///< it has no whole number where it should
-    text,    ///< it does not begin like a frame
-    values,  ///< other than as many values as there should be, or no values
+    number,  ///< the frame number is not a whole number
+    text,    ///< the line does not begin like a frame
+    values,  ///< too few or too many values, or text among them
   };
-  /// Without `Read::frame` nothing has changed.
+  /// Anything but `Read::frame` leaves the last frame unchanged.
   Read read(std::string_view line);
 
   const Frame& frame() const { return frame_; }
-  std::int64_t number() const { return number_; }  ///< of a numbered frame
+  std::int64_t number() const { return number_; }  ///< of the frame, if frames are numbered
   std::size_t gaps() const { return gaps_; }       ///< values of the frame that were not finite
   virtual std::size_t values_expected() const = 0;
   std::size_t values_found() const { return values_found_; }  ///< of the last line
-  /// Of the frame, as they stood: of joints degrees and file units, by column.
+  /// The values of the frame as read. For joints: degrees and file units, by column.
   const std::vector<double>& values() const { return row_; }
 
  protected:
@@ -50,8 +50,8 @@ class FrameReader {
   std::int64_t number_ = 0;
 };
 
-/// Lines of channel values. A frame is whole: a value that is no finite number is that of the frame
-/// before (at first, that of the rest pose), and its joint not observed.
+/// Lines of channel values. A value that is not finite is replaced by that of the frame before (at
+/// first, of the rest pose), and its joint is marked as not observed.
 class JointReader final : public FrameReader {
  public:
   JointReader(const Skeleton& skeleton, bool numbered, std::size_t skipped_words);
@@ -68,8 +68,8 @@ class JointReader final : public FrameReader {
   std::vector<double> line_;
 };
 
-/// Lines of three cells a marker, with commas between them. A marker of which a cell is empty or no
-/// finite number is not observed.
+/// Lines of three cells per marker, separated by commas. A marker with an empty or not finite cell is
+/// not observed.
 class MarkerReader final : public FrameReader {
  public:
   MarkerReader(std::size_t markers, bool numbered, std::size_t skipped_words);

@@ -67,7 +67,7 @@ std::string JointWriter::json_header(std::size_t latency_frames) const {
     json["offsets"].push_back({offset.x, offset.y, offset.z});
   json["translated"] = nlohmann::ordered_json::array();
   for (const std::int32_t joint : columns_.translated_joints()) json["translated"].push_back(joint);
-  // Names in no encoding that is known are shown as far as they go.
+  // Bytes of names that are not UTF-8 are replaced.
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -76,7 +76,7 @@ void JointWriter::start_near(const std::vector<double>& values) {
   for (std::size_t j = 0; j < angles_.size(); ++j) {
     const MotionColumns::Rotation& rotation = columns_.rotations()[j];
     for (std::size_t i = 0; i < rotation.order.count; ++i) {
-      // Of an angle of so many turns no digit after the point would be left.
+      // An angle of more turns would have no digits after the decimal point.
       constexpr double most_degrees = 1e9;
       const double degrees = values[rotation.columns[i]];
       angles_[j][i] = (std::fabs(degrees) > most_degrees ? std::fmod(degrees, 360.0) : degrees) *

@@ -15,18 +15,18 @@
 
 namespace kinemend {
 
-/// Cleaned frames as text, a line each.
+/// Writes cleaned frames as text, one line each.
 class FrameWriter {
  public:
   virtual ~FrameWriter() = default;
 
-  /// What stands before the frames. `latency_frames`: the delay.
+  /// The header. `latency_frames`: the delay.
   virtual std::string header_text(std::size_t latency_frames) const = 0;
-  /// The channel values of joints (degrees, file units) that the first frame's angles are chosen
-  /// near to.
+  /// The angles of the first frame are chosen near these channel values of joints (degrees, file
+  /// units).
   virtual void start_near(const std::vector<double>& /*values*/) {}
-  /// A line with its end. A value that is no finite number is that of the frame before, or 0. Valid
-  /// until the next call.
+  /// A line with its line end, valid until the next call. A value that is not finite is replaced by
+  /// that of the frame before, or 0.
   std::string_view write(const Frame& frame, std::int64_t number);
 
  protected:
@@ -39,7 +39,7 @@ class FrameWriter {
   std::string line_;
 };
 
-/// Joints; angles continue the frame before.
+/// Joints. Angles continue those of the frame before.
 class JointWriter final : public FrameWriter {
  public:
   JointWriter(const LiveHeader& header, LiveFormat format);
@@ -60,7 +60,7 @@ class JointWriter final : public FrameWriter {
   std::vector<double> row_;  ///< as written
 };
 
-/// Markers; one that is missing has empty cells, or is null.
+/// Markers. A missing one has empty cells, or is null in JSON.
 class MarkerWriter final : public FrameWriter {
  public:
   MarkerWriter(const LiveHeader& header, LiveFormat format) : header_(header), format_(format) {}

@@ -17,7 +17,7 @@ namespace {
 constexpr double rate_when_unknown_hz = 30;
 constexpr std::size_t most_depth = 512;
 
-// The letters that a line begins with, which `Frames:` and `Frame Time:` are told by.
+// The first word of a line, which distinguishes `Frames:` and `Frame Time:` from frames.
 std::string_view first_word(std::string_view line) {
   std::size_t begin = 0;
   if (line.substr(0, 3) == "\xEF\xBB\xBF") begin = 3;
@@ -81,8 +81,7 @@ LiveHeader read_marker_header(std::string_view line, double frame_rate_hz) {
   const NumberToken token =
       rate.empty() ? NumberToken{} : read_number(rate.data(), rate.data() + rate.size());
   if (token.kind != TokenKind::number || !is_usable_frame_rate(token.value))
-    fail(fmt::format("expected MARKERS, the rate in hertz and names, found the rate {}",
-                     quote(rate)));
+    fail(fmt::format("expected the rate in hertz after MARKERS, found {}", quote(rate)));
   header.frame_rate_hz = frame_rate_hz > 0 ? frame_rate_hz : token.value;
   std::string_view names = line.substr(scanner.position());
   while (!names.empty()) {
@@ -101,7 +100,7 @@ LiveHeader read_marker_header(std::string_view line, double frame_rate_hz) {
 
 HeaderLines::Next HeaderLines::take(std::string_view line) {
   const std::string_view word = first_word(line);
-  // No statement begins with a number: what began as a header was none, or lost its end.
+  // No line of a header begins with a number: its end is lost, or it was not a header.
   constexpr std::string_view firsts_of_numbers = "0123456789+-.";
   if (!word.empty() && firsts_of_numbers.find(word.front()) != firsts_of_numbers.npos)
     return Next::over;

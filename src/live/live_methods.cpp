@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/live.hpp"
 
@@ -5,7 +7,11 @@ namespace kinemend {
 
 namespace {
 
-// A method that cannot be made without more (a model) does not run live.
+bool has_option(const Method& method, std::string_view name) {
+  return std::any_of(method.options.begin(), method.options.end(),
+                     [&](const OptionSpec& spec) { return spec.name == name; });
+}
+
 bool runs_live(const Method& method, const OptionValues& options) {
   constexpr double any_rate_hz = 120;
   try {
@@ -20,6 +26,9 @@ bool runs_live(const Method& method, const OptionValues& options) {
 std::vector<LiveMethod> live_methods() {
   std::vector<LiveMethod> list;
   for (const Method& method : methods()) {
+    // A learned method runs live with a model of the user's own only, by its option `live`. To make
+    // one reads a model, which takes long.
+    if (has_option(method, "model")) continue;
     if (runs_live(method, {})) {
       list.push_back({method.name, {}});
       continue;

@@ -19,7 +19,7 @@ namespace kinemend {
 
 namespace {
 
-// Notes of bad headers that are told; all are counted.
+// Notes that bad headers get; more are only counted.
 constexpr std::size_t most_header_notes = 3;
 
 void check(const LiveOptions& options) {
@@ -78,6 +78,9 @@ class LiveSession::Work {
   void hold() {
     if (stage_) stage_->hold();
   }
+  void settle() {
+    if (stage_) stage_->settle();
+  }
 
   void finish() {
     std::string_view line;
@@ -113,23 +116,21 @@ class LiveSession::Work {
     }
     if (is_blank(line)) return;
     if (is_marker_header(line)) return take_marker_header(line);
-    if (!stage_) return count_malformed("there are frames before any header", false);
+    if (!stage_) return count_malformed("frames arrived before a header", false);
     switch (stage_->take(line)) {
       case FrameReader::Read::frame:
         return;
       case FrameReader::Read::number:
-        return count_malformed("a line does not begin with the number of a frame", true);
+        return count_malformed("a line does not begin with a frame number", true);
       case FrameReader::Read::text:
-        return count_malformed("a line is no frame", false);
+        return count_malformed("a line does not hold a frame", false);
       case FrameReader::Read::values: {
         const FrameReader& reader = stage_->reader();
         const bool more = reader.values_found() > reader.values_expected();
         return count_malformed(
             is_told_malformed_
                 ? std::string()
-                : fmt::format("a line is no frame: expected {} channel values, found "
-                              "{}",
-                              reader.values_expected(),
+                : fmt::format("expected {} channel values, found {}", reader.values_expected(),
                               more ? "more" : fmt::to_string(reader.values_found())),
             true);
       }
@@ -147,9 +148,10 @@ class LiveSession::Work {
   // `has_place`: a frame was meant.
   void count_malformed(std::string_view why, bool has_place) {
     ++counts_.malformed;
-    if (has_place && stage_) stage_->miss();
+    if (has_place && stage_ && !options_.datagrams) stage_->miss();
     if (std::exchange(is_told_malformed_, true)) return;
-    notes_.push_back(fmt::format("{}; such lines are counted", why));
+    notes_.push_back(
+        fmt::format("ignored a malformed line: {} (more of them are only counted)", why));
   }
 
   void collect(std::string_view line) {
@@ -224,6 +226,7 @@ void LiveSession::feed(std::string_view bytes) { work_->feed(bytes); }
 void LiveSession::end_line() { work_->end_line(); }
 void LiveSession::drop_line() { work_->drop_line(); }
 void LiveSession::hold() { work_->hold(); }
+void LiveSession::settle() { work_->settle(); }
 void LiveSession::finish() { work_->finish(); }
 const LiveCounts& LiveSession::counts() const noexcept { return work_->counts(); }
 bool LiveSession::has_skeleton() const noexcept { return work_->stage() != nullptr; }

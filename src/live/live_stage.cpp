@@ -39,7 +39,7 @@ std::unique_ptr<Stream> stream_of(const Cleaner& cleaner, const LiveHeader& head
   return make_stream(cleaner, like, options.body_height);
 }
 
-// A share of the way from one frame to another. Joints are there; a marker is where it is in both.
+// Interpolates between two frames. A marker is observed if it is in both.
 void go_between(const Frame& from, const Frame& to, double share, Frame& result) {
   result.rotations.resize(from.rotations.size());
   result.positions.resize(from.positions.size());
@@ -65,6 +65,7 @@ LiveStage::LiveStage(const Cleaner& cleaner, const LiveOptions& options, LiveHea
       numbered_(options.numbered),
       longest_gap_(
           static_cast<std::size_t>(std::ceil(options.longest_gap_s * header_.frame_rate_hz))),
+      reorder_(options.numbered ? options.reorder_frames : 0),
       reader_(reader_of(header_, options)),
       writer_(writer_of(header_, options.format)),
       stream_(stream_of(cleaner, header_, options)),
@@ -85,29 +86,78 @@ FrameReader::Read LiveStage::take(std::string_view line) {
     missed_ = 0;
   }
   const std::int64_t number = numbered_ ? reader_->number() : last_number_ + 1;
-  if (!is_due(number)) return read;
+  if (may_be_overtaker(number)) {
+    keep(number);
+  } else {
+    // After a jump of the numbers nothing that is missing will arrive.
+    if (std::abs(number - last_number_) > static_cast<std::int64_t>(longest_gap_)) settle();
+    counts_.reordered += !overtakers_.empty() && number == last_number_ + 1 ? 1 : 0;
+    accept(frame, number, reader_->gaps());
+  }
+  give_overtakers();
+  return read;
+}
+
+// Whether earlier frames are missing that may still arrive.
+bool LiveStage::may_be_overtaker(std::int64_t number) const {
+  const std::int64_t ahead = number - last_number_;
+  return reorder_ > 0 && !any_number_ && ahead > 1 &&
+         ahead <= static_cast<std::int64_t>(longest_gap_) + 1;
+}
+
+void LiveStage::keep(std::int64_t number) {
+  const auto place = std::lower_bound(
+      overtakers_.begin(), overtakers_.end(), number,
+      [](const Overtaker& overtaker, std::int64_t n) { return overtaker.number < n; });
+  if (place != overtakers_.end() && place->number == number) {
+    ++counts_.doubled;
+    return;
+  }
+  counts_.reordered += place != overtakers_.end() ? 1 : 0;
+  overtakers_.insert(place, {reader_->frame(), number, reader_->gaps()});
+}
+
+// Gives the frames whose predecessors have arrived, and those that have waited long enough.
+void LiveStage::give_overtakers() {
+  while (!overtakers_.empty() &&
+         (overtakers_.front().number == last_number_ + 1 || overtakers_.size() > reorder_)) {
+    take_next_overtaker();
+  }
+}
+
+void LiveStage::take_next_overtaker() {
+  const Overtaker next = std::move(overtakers_.front());
+  overtakers_.erase(overtakers_.begin());
+  accept(next.frame, next.number, next.gaps);
+}
+
+void LiveStage::settle() {
+  while (!overtakers_.empty()) take_next_overtaker();
+}
+
+void LiveStage::accept(const Frame& frame, std::int64_t number, std::size_t gaps) {
+  if (!is_due(frame, number)) return;
   ++counts_.frames_in;
-  counts_.not_finite += reader_->gaps();
+  counts_.not_finite += gaps;
   last_ = frame;
   last_number_ = numbered_ ? number : last_number_ + 1;
   held_ = missed_ = 0;
   push(frame, last_number_);
-  return read;
 }
 
-// Makes up what was lost before the frame that has come. False where it comes too late.
-bool LiveStage::is_due(std::int64_t number) {
+// Interpolates the frames that were lost before this one. Returns false if it comes too late.
+bool LiveStage::is_due(const Frame& frame, std::int64_t number) {
   const bool may_be_any = std::exchange(any_number_, false);
   if (!numbered_) {
     counts_.lost += missed_;
-    make_up(missed_);
+    make_up(missed_, frame);
     return true;
   }
   const auto longest = static_cast<std::int64_t>(longest_gap_);
   const std::int64_t ahead = number - last_number_;
   if (ahead > 0 && ahead <= longest + 1) {
     counts_.lost += static_cast<std::size_t>(ahead - 1);
-    make_up(static_cast<std::size_t>(ahead - 1));
+    make_up(static_cast<std::size_t>(ahead - 1), frame);
     return true;
   }
   if (may_be_any || ahead > 0 || ahead < -longest) {
@@ -118,14 +168,13 @@ bool LiveStage::is_due(std::int64_t number) {
   return false;
 }
 
-// Frames that were held meanwhile have taken the place of as many lost ones.
-void LiveStage::make_up(std::size_t frames) {
+// Repeated frames have taken the place of as many lost ones.
+void LiveStage::make_up(std::size_t frames, const Frame& before) {
   if (frames <= held_) return;
   const std::size_t count = frames - held_;
   const std::int64_t first = last_number_ + static_cast<std::int64_t>(held_) + 1;
   for (std::size_t i = 0; i < count; ++i) {
-    go_between(last_, reader_->frame(), static_cast<double>(i + 1) / static_cast<double>(count + 1),
-               made_);
+    go_between(last_, before, static_cast<double>(i + 1) / static_cast<double>(count + 1), made_);
     push(made_, first + static_cast<std::int64_t>(i));
   }
   counts_.made_up += count;
@@ -136,8 +185,14 @@ void LiveStage::miss() {
   if (!numbered_ && has_started_ && missed_ < longest_gap_) ++missed_;
 }
 
+void LiveStage::expect_any_number() {
+  settle();
+  any_number_ = true;
+}
+
 void LiveStage::hold() {
   if (!has_started_) return;
+  settle();
   if (header_.markers.empty()) last_.observed.clear();
   ++held_;
   ++counts_.held;
@@ -146,6 +201,7 @@ void LiveStage::hold() {
 
 void LiveStage::finish() {
   if (!has_started_) return;
+  settle();
   const std::size_t missed = std::exchange(missed_, 0);
   counts_.lost += missed;
   while (held_ < missed) hold();
@@ -166,7 +222,7 @@ void LiveStage::give() {
   sink_({false, writer_->write(out_, waiting.number)});
 }
 
-// What was not measured is a repair, which is made whole.
+// A joint that was not measured is repaired, and a repair is made in full at any strength.
 void LiveStage::blend(const Frame& from) {
   for (std::size_t j = 0; j < out_.rotations.size(); ++j) {
     const bool seen = from.observed.empty() || from.observed[j] != 0;

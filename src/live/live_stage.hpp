@@ -14,11 +14,11 @@
 
 namespace kinemend {
 
-/// A live stream of one skeleton, or one set of markers: lines in, cleaned lines out, on a clock
-/// that lost frames do not stop.
+/// A live stream of one skeleton or one set of markers: takes lines and gives cleaned lines. Lost
+/// frames are interpolated, so that the output keeps its rate.
 class LiveStage {
  public:
-  /// Gives the header of the output at once. All but `header` outlive the stage.
+  /// Gives the header of the output at once. All arguments but `header` must outlive the stage.
   LiveStage(const Cleaner& cleaner, const LiveOptions& options, LiveHeader header,
             const LiveSink& sink, LiveCounts& counts);
 
@@ -27,23 +27,37 @@ class LiveStage {
   std::size_t latency_frames() const { return stream_->latency_frames(); }
 
   FrameReader::Read take(std::string_view line);
-  /// A frame was meant, and is lost.
+  /// A malformed line took the place of a frame.
   void miss();
-  /// The next number may be any: the sender begins again.
-  void expect_any_number() { any_number_ = true; }
+  /// The sender starts again: the next frame may have any number.
+  void expect_any_number();
   void hold();
-  /// Gives what is left; no frame may follow.
+  /// Gives the frames that wait for a missing one.
+  void settle();
+  /// Gives the remaining frames. No frame may follow.
   void finish();
 
  private:
-  /// A frame between its way in and its way out.
+  /// A frame of the input whose result is not given yet.
   struct Waiting {
     Frame frame;
     std::int64_t number = 0;
   };
 
-  bool is_due(std::int64_t number);
-  void make_up(std::size_t frames);
+  /// A frame that arrived before earlier ones, and waits for them.
+  struct Overtaker {
+    Frame frame;
+    std::int64_t number = 0;
+    std::size_t gaps = 0;
+  };
+
+  bool may_be_overtaker(std::int64_t number) const;
+  void keep(std::int64_t number);
+  void give_overtakers();
+  void take_next_overtaker();
+  void accept(const Frame& frame, std::int64_t number, std::size_t gaps);
+  bool is_due(const Frame& frame, std::int64_t number);
+  void make_up(std::size_t frames, const Frame& before);
   void push(const Frame& frame, std::int64_t number);
   void give();
   void blend(const Frame& from);
@@ -54,15 +68,17 @@ class LiveStage {
   double strength_;
   bool numbered_;
   std::size_t longest_gap_;
+  std::size_t reorder_;
   std::unique_ptr<FrameReader> reader_;
   std::unique_ptr<FrameWriter> writer_;
   std::unique_ptr<Stream> stream_;
   std::vector<Waiting> waiting_;  ///< a ring
   std::size_t pushed_ = 0, given_ = 0;
+  std::vector<Overtaker> overtakers_;  ///< by number, at most `reorder_` between calls
   Frame last_, made_, out_;
   std::int64_t last_number_ = -1;
-  std::size_t missed_ = 0;  ///< frames without a number that were lost since the last one
-  std::size_t held_ = 0;    ///< since the last one
+  std::size_t missed_ = 0;  ///< frames without a number that were lost since the last frame
+  std::size_t held_ = 0;    ///< repeated since the last frame
   bool has_started_ = false;
   bool any_number_ = false;
 };

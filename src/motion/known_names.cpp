@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "kinemend/marker_clip.hpp"
 #include "motion/name_pattern.hpp"
 
@@ -21,11 +22,11 @@ std::size_t part_called(const std::vector<std::string>& names, const std::string
   const auto count = std::count(meant.begin(), meant.end(), 1);
   if (count == 1)
     return static_cast<std::size_t>(std::find(meant.begin(), meant.end(), 1) - meant.begin());
-  throw Error(
-      ErrorKind::usage,
-      count == 0
-          ? fmt::format("names: the take has no \"{}\" (it has {})", name, fmt::join(names, ", "))
-          : fmt::format("names: \"{}\" is the name of {} parts of the take", name, count));
+  throw Error(ErrorKind::usage,
+              count == 0 ? fmt::format("names: the take has no \"{}\" (it has {})",
+                                       printable_name(name), fmt::join(names, ", "))
+                         : fmt::format("names: \"{}\" is the name of {} parts of the take",
+                                       printable_name(name), count));
 }
 
 /// With the subject of the joint or marker, unless it has its own.

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "kinemend/marker_clip.hpp"
 
 namespace kinemend {
@@ -61,8 +62,9 @@ std::vector<std::uint8_t> names_meant(const std::vector<std::string>& names,
   for (const std::string& pattern : patterns) {
     const std::vector<std::uint8_t> marks = names_meant(names, pattern);
     if (std::find(marks.begin(), marks.end(), 1) == marks.end()) {
-      throw Error(ErrorKind::usage, fmt::format("no {} matches \"{}\" (the {}s are {})", kind,
-                                                pattern, kind, fmt::join(names, ", ")));
+      throw Error(ErrorKind::usage,
+                  fmt::format("no {} matches \"{}\" (the {}s are {})", kind,
+                              printable_name(pattern), kind, fmt::join(names, ", ")));
     }
     for (std::size_t i = 0; i < names.size(); ++i) meant[i] |= marks[i];
   }

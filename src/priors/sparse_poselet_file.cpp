@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "motion/name_pattern.hpp"
 #include "priors/sparse_prior.hpp"
 
@@ -38,7 +39,8 @@ void mark_points(const Line& line, std::string_view name, const BodyLayout& layo
   const std::vector<std::uint8_t> meant = names_meant(layout.names, std::string(name));
   if (std::find(meant.begin(), meant.end(), 1) == meant.end()) {
     line.refuse(fmt::format("no {} is named \"{}\"",
-                            points.kind == BodyKind::joints ? "joint" : "marker", name));
+                            points.kind == BodyKind::joints ? "joint" : "marker",
+                            printable_name(name)));
   }
   for (std::size_t p = 0; p < points.count(); ++p) {
     const std::size_t track = p < meant.size() ? p : static_cast<std::size_t>(points.parents[p]);
@@ -50,12 +52,14 @@ SparsePoselet poselet_of_line(const Line& line, const BodyLayout& layout,
                               const SparsePoints& points) {
   const std::size_t colon = line.text.find(':');
   if (colon == line.text.npos)
-    line.refuse(fmt::format("expected \"poselet: name, name, ...\", found \"{}\"", line.text));
+    line.refuse(fmt::format("expected \"poselet: name, name, ...\", found \"{}\"",
+                            printable_name(line.text)));
   SparsePoselet poselet;
   poselet.name = trimmed(line.text.substr(0, colon));
   if (poselet.name.empty()) line.refuse("expected the poselet's name before the colon");
   std::string_view rest = trimmed(line.text.substr(colon + 1));
-  if (rest.empty()) line.refuse(fmt::format("poselet \"{}\" is empty", poselet.name));
+  if (rest.empty())
+    line.refuse(fmt::format("poselet \"{}\" is empty", printable_name(poselet.name)));
   std::vector<std::uint8_t> marks(points.count(), 0);
   for (bool more = true; more;) {
     const std::size_t comma = rest.find(',');
@@ -100,7 +104,8 @@ std::vector<SparsePoselet> parse_poselets(std::string_view text, std::string_vie
     SparsePoselet poselet = poselet_of_line(line, layout, points);
     for (const SparsePoselet& other : poselets) {
       if (other.name == poselet.name)
-        line.refuse(fmt::format("poselet \"{}\" stands in a line above already", other.name));
+        line.refuse(
+            fmt::format("poselet \"{}\" is already in a line above", printable_name(other.name)));
     }
     if (poselets.size() == most_poselets)
       line.refuse(fmt::format("more than {} poselets", most_poselets));

@@ -43,7 +43,7 @@ std::string dashes_to_spaces(std::string_view name) {
 std::string finding_sentence(const Finding& finding, const TakeFacts& take,
                              const CheckReport& report) {
   std::string text = frames_text(finding, take, report) + ": ";
-  if (!finding.track.empty()) text += printable(finding.track) + " ";
+  if (!finding.track.empty()) text += printable_name(finding.track) + " ";
   text += printable(finding.words);
   const bool says_all = finding.figure == 0 || finding.kind == FindingKind::calibration;
   if (!says_all) text += fmt::format(" ({})", with_unit(finding.figure, finding.unit));
@@ -88,7 +88,7 @@ std::string tracks_text(const CheckReport& report) {
              "frozen or bridged", report.is_markers ? "swaps" : "flips",
              report.noise_unit.empty() ? "noise" : "noise " + report.noise_unit});
   for (const TrackHealth& track : report.tracks) {
-    table.add({printable(track.name), grouped(track.gaps), grouped(track.missing_frames),
+    table.add({printable_name(track.name), grouped(track.gaps), grouped(track.missing_frames),
                grouped(track.longest_gap), grouped(track.spikes),
                grouped(track.frozen + track.bridged),
                grouped(report.is_markers ? track.swaps : track.flips), figure(track.noise)});
@@ -105,8 +105,8 @@ std::string subjects_text(const CheckReport& report) {
   Table table({Align::left, Align::right, Align::right, Align::right});
   table.add({"subject", "markers", "slide cm", "depth cm"});
   for (const SubjectHealth& subject : report.subjects) {
-    table.add({subject.name.empty() ? "(none)" : printable(subject.name), grouped(subject.markers),
-               length(subject.slide_cm), length(subject.sink_cm)});
+    table.add({subject.name.empty() ? "(none)" : printable_name(subject.name),
+               grouped(subject.markers), length(subject.slide_cm), length(subject.sink_cm)});
   }
   return "\n" + table.text();
 }

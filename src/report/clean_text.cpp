@@ -63,8 +63,9 @@ std::string change_table(const CleanReport& report, bool all_rows) {
   const std::size_t shown = all_rows ? rows.size() : std::min(rows.size(), short_list);
   for (std::size_t i = 0; i < shown; ++i) {
     const TrackSummary& row = *rows[i];
-    table.add({printable(row.name), row.noise > 0 ? figure(row.noise) : "-", figure(row.rms_change),
-               figure(row.max_change), row.frames_repaired > 0 ? grouped(row.frames_repaired) : "-",
+    table.add({printable_name(row.name), row.noise > 0 ? figure(row.noise) : "-",
+               figure(row.rms_change), figure(row.max_change),
+               row.frames_repaired > 0 ? grouped(row.frames_repaired) : "-",
                figure(row.peak_speed_before), figure(row.peak_speed_after)});
   }
   std::string text = table.text();
@@ -87,7 +88,7 @@ std::string gaps_text(const CleanReport& report, std::int64_t first_frame, bool 
     }
     if (++listed > short_list && !all_rows) continue;
     refused += fmt::format("    {}, frames {} to {}: {}\n",
-                           printable(report.tracks[outcome.gap.track].name),
+                           printable_name(report.tracks[outcome.gap.track].name),
                            frame_number(outcome.gap.first_frame, first_frame),
                            frame_number(outcome.gap.last_frame, first_frame), outcome.reason);
   }
@@ -110,8 +111,8 @@ std::string swap_text(const CleanOutcome& outcome, std::int64_t first_frame) {
   std::string text;
   for (const MarkerSwap& swap : outcome.swaps) {
     text += fmt::format("  {} and {} were swapped in frames {} to {}\n",
-                        printable(report.tracks[swap.first_marker].name),
-                        printable(report.tracks[swap.second_marker].name),
+                        printable_name(report.tracks[swap.first_marker].name),
+                        printable_name(report.tracks[swap.second_marker].name),
                         frame_number(swap.first_frame, first_frame),
                         frame_number(swap.last_frame, first_frame));
   }
@@ -134,7 +135,7 @@ std::string fall_backs_text(const CleanReport& report, bool all_rows) {
     double sum = 0;
     for (std::size_t i = 0; i < fall_back.tracks.size(); ++i) {
       if (!is_changed(report, fall_back.tracks[i])) continue;
-      names.push_back(printable(track_name(report, fall_back.tracks[i])));
+      names.push_back(printable_name(track_name(report, fall_back.tracks[i])));
       sum += fall_back.shares[i];
     }
     if (names.empty()) continue;

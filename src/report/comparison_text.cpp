@@ -30,7 +30,7 @@ std::string joints_text(const TakeFacts& take, const Comparison& comparison) {
   table.add({"joint", "rms deg", "max deg", "peak deg/s reference", "other"});
   for (std::size_t j = 0; j < comparison.joints.size(); ++j) {
     const JointComparison& joint = comparison.joints[j];
-    table.add({printable(take.tracks[j]), figure(joint.geodesic_rms_deg),
+    table.add({printable_name(take.tracks[j]), figure(joint.geodesic_rms_deg),
                figure(joint.geodesic_max_deg), figure(joint.peak_speed_reference_deg_s),
                figure(joint.peak_speed_other_deg_s)});
   }
@@ -44,7 +44,7 @@ std::string markers_text(const TakeFacts& take, const MarkerComparison& comparis
              "above 6 Hz " + unit});
   for (std::size_t m = 0; m < comparison.markers.size(); ++m) {
     const MarkerErrors& row = comparison.markers[m];
-    table.add({printable(comparison.names[m]), grouped(row.samples), figure(row.rms_distance),
+    table.add({printable_name(comparison.names[m]), grouped(row.samples), figure(row.rms_distance),
                figure(row.max_distance), figure(row.velocity_rms),
                row.above_6_hz ? figure(*row.above_6_hz) : "-"});
   }

@@ -173,7 +173,7 @@ std::string curves_svg(const TrackCurves& curves, std::span<const ReportFinding>
   const Span span{first, last < first || frames == 0 ? 0 : last - first + 1, style.width};
   const std::size_t panels = curves.axes.size() + (style.one_take ? 0 : 1);
   const double last_y = top + static_cast<double>(panels) * (style.panel_height + space) - space;
-  const std::string name = xml_escaped(printable(curves.name));
+  const std::string name = xml_escaped(printable_name(curves.name));
   const std::string unit = curves.unit.empty() ? "" : ", " + xml_escaped(printable(curves.unit));
   Svg svg(style.width, last_y + bottom, style.one_take ? name : name + " before and after");
   svg.open_group(inks::font);

@@ -11,7 +11,7 @@ namespace {
 
 std::string contact_text(const FeetReport& report, const FootContact& contact,
                          std::int64_t first_frame) {
-  return fmt::format("{} {}, frames {} to {}", printable(report.sides[contact.leg]),
+  return fmt::format("{} {}, frames {} to {}", printable_name(report.sides[contact.leg]),
                      to_string(contact.part), frame_number(contact.first_frame, first_frame),
                      frame_number(contact.last_frame, first_frame));
 }

@@ -28,7 +28,7 @@ constexpr std::size_t most_filled = 10, most_refused = 8;
 
 std::vector<std::string> gap_cells(const TakeFacts& take, const GapOutcome& outcome) {
   const Gap& gap = outcome.gap;
-  std::string name = printable(take.tracks[gap.track]);
+  std::string name = printable_name(take.tracks[gap.track]);
   if (outcome.is_position) name += " (position)";
   return {std::move(name),
           fmt::format("{}-{}", frame_number(gap.first_frame, take.first_frame),

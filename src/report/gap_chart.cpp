@@ -42,7 +42,7 @@ void draw_gaps(Svg& svg, const std::vector<Gap>& gaps, std::size_t frames, doubl
 void draw_row(Svg& svg, const Row& row, std::size_t frames, bool two, double y) {
   const double bar = two ? row_height / 2 - 2 : row_height - 5;
   svg.text(chart_left - 8, y + 13, fmt::format("text-anchor=\"end\" fill=\"{}\"", inks::text),
-           xml_escaped(printable(row.name.substr(0, 60))));
+           xml_escaped(printable_name(row.name)));
   svg.rectangle(chart_left, y + 1, chart_width - chart_left - chart_right, row_height - 3,
                 "fill=\"#f1f3f5\"");
   draw_gaps(svg, row.before, frames, y + 2, bar, inks::before);

@@ -149,7 +149,7 @@ TrackSpectrum track_spectrum(const TrackCurves& curves) {
 std::string spectrum_svg(const TrackCurves& curves, bool one_take) {
   const TrackSpectrum spectrum = track_spectrum(curves);
   const Axes axes = axes_of(spectrum, one_take);
-  const std::string name = xml_escaped(printable(curves.name));
+  const std::string name = xml_escaped(printable_name(curves.name));
   const std::string unit =
       curves.unit.empty() ? "" : xml_escaped(printable(curves.unit)) + "\u00b2/Hz";
   Svg svg(960, 276, name + ": spectrum");

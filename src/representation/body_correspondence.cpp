@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "representation/body_names.hpp"
 
 namespace kinemend::representation {
@@ -38,14 +39,15 @@ MappedTracks mapped_tracks(const BodyLayout& layout, const std::vector<std::stri
     if (track < 0) {
       throw Error(ErrorKind::usage,
                   fmt::format("names: the model has no {} \"{}\" (it knows {})", noun(layout),
-                              model_name, fmt::join(layout.names, ", ")));
+                              printable_name(model_name), fmt::join(layout.names, ", ")));
     }
     mapped.settled[static_cast<std::size_t>(track)] = 1;
     if (take_name.empty()) continue;
     const std::int32_t index = find_name(names, take_name);
     if (index < 0) {
-      throw Error(ErrorKind::usage, fmt::format("names: the take has no {} \"{}\" (it has {})",
-                                                noun(layout), take_name, fmt::join(names, ", ")));
+      throw Error(ErrorKind::usage,
+                  fmt::format("names: the take has no {} \"{}\" (it has {})", noun(layout),
+                              printable_name(take_name), fmt::join(names, ", ")));
     }
     mapped.tracks[static_cast<std::size_t>(track)] = index;
     mapped.used[static_cast<std::size_t>(index)] = 1;

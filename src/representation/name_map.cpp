@@ -4,6 +4,7 @@
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/body.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "representation/body_correspondence.hpp"
 
 namespace kinemend {
@@ -25,17 +26,20 @@ void read_line(std::string_view line, std::size_t number, std::string_view name,
   const std::size_t comma = line.find_first_of(",=");
   if (comma == line.npos)
     refuse(name, number,
-           fmt::format("expected \"model name,name in the take\", found \"{}\"", line));
+           fmt::format("expected \"model name,name in the take\", found \"{}\"",
+                       printable_name(line)));
   const std::string model(trimmed(line.substr(0, comma))), take(trimmed(line.substr(comma + 1)));
   if (model.empty()) refuse(name, number, "expected a name of the model before the comma");
   if (take.find_first_of(",=") != take.npos)
-    refuse(name, number, fmt::format("expected one name in the take, found \"{}\"", take));
+    refuse(name, number,
+           fmt::format("expected one name in the take, found \"{}\"", printable_name(take)));
   const auto known = map.find(model);
   if (known != map.end())
-    refuse(name, number, fmt::format("\"{}\" stands in a line above already", model));
+    refuse(name, number, fmt::format("\"{}\" is already in a line above", printable_name(model)));
   for (const auto& [other, used] : map) {
     if (!take.empty() && used == take)
-      refuse(name, number, fmt::format("\"{}\" is \"{}\" already", take, other));
+      refuse(name, number,
+             fmt::format("\"{}\" is already \"{}\"", printable_name(take), printable_name(other)));
   }
   map.emplace(model, take);
 }

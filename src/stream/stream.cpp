@@ -27,7 +27,7 @@ MarkerClip without_frames(const MarkerClip& like) {
   return clip;
 }
 
-// The shape of frames.
+// The number of rotations and positions of frames.
 struct FrameShape {
   bool of_joints = true;
   std::size_t rotations = 0, positions = 0;
@@ -104,7 +104,7 @@ void copy_row(const std::vector<T>& values, std::size_t row, std::size_t width,
   result.assign(first, first + static_cast<std::ptrdiff_t>(width));
 }
 
-// A frame as it came.
+// A frame of the input.
 void copy_frame(const Clip& window, std::size_t frame, Frame& result) {
   copy_row(window.local_rotations, frame, window.joint_count(), result.rotations);
   copy_row(window.root_positions, frame, 1, result.positions);
@@ -179,13 +179,13 @@ class DelayedStream final : public Stream {
   std::unique_ptr<DelayedFilter> filter_;
 };
 
-// Keeps the frames that the next result depends on: at most half a window behind it and half a
-// window ahead. At the ends of the stream the window is cut, as it is at the ends of a take. Where
-// nothing is missing in it, a cleaner may have a quicker way.
+// Keeps the frames that the next result depends on: at most half a window before it and half a
+// window after it. At the ends of the stream the window is shorter, as it is at the ends of a take.
+// If nothing is missing in the window, some cleaners have a faster form.
 template <class AnyClip>
 class WindowedStream final : public Stream {
  public:
-  // `ahead`: the frames of `half` that the cleaner itself does not look at.
+  // `ahead`: those frames of `half` that the cleaner itself does not use.
   WindowedStream(const Cleaner& cleaner, const AnyClip& like, Selection selection, std::size_t half,
                  std::size_t ahead)
       : cleaner_(cleaner),
@@ -236,7 +236,7 @@ class WindowedStream final : public Stream {
     inner_out_.positions.resize(shape_.positions);
   }
 
-  // Whether the frame that comes out next is cleaned then.
+  // Returns whether the next frame of the output is clean.
   bool feed_inner(Frame& out) {
     if (!inner_ || frames_ <= ahead_) return false;
     copy_frame(window_, frames_ - 1 - ahead_, inner_in_);
@@ -297,8 +297,7 @@ std::unique_ptr<Stream> stream_of(const Cleaner& cleaner, const AnyClip& like,
       break;
   }
   throw Error(ErrorKind::usage,
-              "this method needs the whole take; for live use choose one with a window, or its "
-              "causal form");
+              "this method needs the whole take; live, use a method with a window or a causal one");
 }
 
 }  // namespace

@@ -29,6 +29,17 @@ TEST(Error, KeepsItsKind) {
   EXPECT_EQ(static_cast<int>(ErrorKind::cannot_write), 4);
 }
 
+TEST(Error, HoldsNothingThatCommandsATerminal) {
+  const std::string name("a\0b\x1b[2J", 7);
+  EXPECT_STREQ(Error(ErrorKind::usage, name + ": unknown").what(), "a\\x00b\\x1b[2J: unknown");
+  EXPECT_STREQ(Error::at_line(name, 1, "x").what(), "a\\x00b\\x1b[2J:1: x");
+  EXPECT_LT(std::string(Error(ErrorKind::usage, std::string(1 << 20, ' ') + "x").what()).size(),
+            2001u);
+  Diagnostics diagnostics;
+  diagnostics.add("odd", name);
+  EXPECT_EQ(diagnostics.entries().front().message, "a\\x00b\\x1b[2J");
+}
+
 TEST(Diagnostics, CountRepeatsAndKeepTheFirst) {
   Diagnostics diagnostics;
   EXPECT_TRUE(diagnostics.empty());

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
+
+#include "base/quote.hpp"
 
 namespace kinemend::test {
 namespace {
@@ -36,7 +39,57 @@ TEST(Text, TablesAreAsWideAsTheirCells) {
 
 TEST(Text, NamesCannotCommandATerminal) {
   EXPECT_EQ(printable("a\nb\x1b[31m"), "a\\x0ab\\x1b[31m");
+  EXPECT_EQ(printable(std::string("a\0b", 3)), "a\\x00b");
+  // C1 controls as characters and as bytes, bytes that are no UTF-8, and one that is too short.
+  EXPECT_EQ(printable("\xC2\x9B"
+                      "2J \x9B"
+                      "2J \xFF \xC0\x80 \xE2\x82"),
+            "\\x9b2J \\x9b2J \\xff \\xc0\\x80 \\xe2\\x82");
+  // Marks that turn the direction of text, and the ends of lines and paragraphs.
+  EXPECT_EQ(printable("a\xE2\x80\xAE"
+                      "b\xE2\x81\xA6 \xE2\x80\xA8"),
+            "a\\u202eb\\u2066 \\u2028");
+}
+
+TEST(Text, LettersOfAnyScriptSurvive) {
+  const std::string name =
+      "Sch\xC3\xA4"
+      "del \xE9\xAA\xA8 \xF0\x9F\xA6\xB4";
+  EXPECT_EQ(printable(name), name);
+  EXPECT_EQ(printable_name(name), name);
+  EXPECT_EQ(quote(name), "\"" + name + "\"");
+  EXPECT_EQ(quote("\x1b[31m\xC3\xA4\xFF"), "\".[31m\xC3\xA4.\"");
+}
+
+TEST(Text, LongTextsAreCutAtWholeCharacters) {
   EXPECT_EQ(printable(std::string(200, 'x')), std::string(80, 'x') + "...");
+  EXPECT_EQ(printable("/" + std::string(200, 'x')), "/" + std::string(200, 'x')) << "a path";
+  std::string blanks, letters, cut;
+  for (int i = 0; i < 100000; ++i) blanks += "ab ";
+  for (int i = 0; i < 100; ++i) letters += "\xC3\xA4";
+  cut = letters.substr(0, 160) + "...";
+  EXPECT_EQ(printable_name(blanks), blanks.substr(0, 80) + "...");
+  EXPECT_EQ(printable_name(letters), cut);
+  EXPECT_EQ(printable(letters), cut);
+  const std::string message = "side.csv:1: no column is called " + blanks + " in the take";
+  EXPECT_LE(printable(message).size(), 2000u);
+  EXPECT_EQ(printable(message).substr(0, 20), message.substr(0, 20));
+  EXPECT_EQ(printable(message).substr(printable(message).size() - 12), " in the take");
+  // Once is enough.
+  for (const std::string& text : {blanks, letters, message, std::string(200, '\x1b')}) {
+    EXPECT_EQ(printable(printable(text)), printable(text));
+    EXPECT_EQ(printable_name(printable_name(text)), printable_name(text));
+  }
+}
+
+TEST(Text, TablesAndParagraphsAreEscaped) {
+  Table table({Align::left, Align::left});
+  table.add({"LASI\x1b[2J", "1"});
+  EXPECT_EQ(table.text(), "  LASI\\x1b[2J  1\n");
+  EXPECT_EQ(wrap("LASI\x1b[2J\nRASI", 0), "LASI\\x1b[2J\\x0aRASI\n");
+}
+
+TEST(Text, ColoursAreCodesOfATerminal) {
   EXPECT_EQ(painted(Paint::bold, "a"), "\033[1ma\033[0m");
   EXPECT_EQ(painted(Paint::bold, "a", false), "a");
   EXPECT_EQ(painted(Paint::bold, ""), "");

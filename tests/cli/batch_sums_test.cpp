@@ -51,7 +51,7 @@ TEST_F(BatchSums, ManyTakesAreSummedUpInFewLines) {
   EXPECT_LE(lines_of(ran.out).size(), 13u);
   const std::vector<std::string> errors = lines_of(ran.err);
   ASSERT_EQ(errors.size(), 11u) << ran.err;
-  EXPECT_EQ(errors.back(), "kinemend: and 20 more failed; the rows in out say how");
+  EXPECT_EQ(errors.back(), "kinemend: 20 more failed; see the rows in out");
   const Ran verbose = run({"batch", "raw", "-o", "loud", "--verbose"});
   EXPECT_EQ(lines_of(verbose.err).size(), 70u);
   EXPECT_EQ(run({"batch", "raw", "-o", "still", "--quiet"}).out, "");

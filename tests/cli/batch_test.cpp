@@ -206,7 +206,8 @@ TEST_F(Batch, ARefusedBatchLeavesNoSums) {
   fs::create_directories(folder / "one");
   fs::copy_file(folder / "raw/a.bvh", folder / "one/a.bvh");
   EXPECT_EQ(run({"batch", "one", "-o", "clean"}).code, 4);
-  EXPECT_EQ(run({"batch", "missing.bvh", "-o", "nothing"}).code, 3);
+  EXPECT_EQ(run({"batch", "missing.bvh", "-o", "nothing/deeper"}).code, 3);
+  EXPECT_FALSE(fs::exists(folder / "nothing")) << "not even a folder is left";
   for (const char* name : {"clean", "nothing"}) {
     EXPECT_FALSE(fs::exists(folder / name / "summary.json")) << name;
     EXPECT_FALSE(fs::exists(folder / name / "rows.jsonl")) << name;

@@ -51,7 +51,10 @@ TEST_F(Help, BothLevelsExistForEveryCommand) {
 
 TEST_F(Help, TheVersionIsPrinted) {
   for (const char* word : {"--version", "-V"})
-    EXPECT_THAT(run({word}).out, testing::MatchesRegex("kinemend [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+    EXPECT_THAT(run({word}).out, testing::MatchesRegex("kinemend [0-9]+\\.[0-9]+\\.[0-9]+\n"
+                                      "built with .*, running on .*\n"
+                                      "learned models: .*wiener.*\n"
+                                      "licence: Apache 2.0\n"));
 }
 
 TEST_F(Help, TheLongHelpHoldsEveryOptionOfEveryMethod) {

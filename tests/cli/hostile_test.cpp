@@ -110,6 +110,49 @@ TEST_F(Hostile, EveryOddButUsableFixtureIsCleaned) {
   EXPECT_EQ(files().size(), words.size() - 2);
 }
 
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != text.npos; at += to.size())
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+TEST_F(Hostile, NamesInAFileCannotCommandTheTerminal) {
+  put(folder / "a.bvh", replaced(hand_take(), "LeftArm", "Arm\x1b[2J\xE2\x80\xAE\xC3\xA4\xFF"));
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"info", "a.bvh", "--tree"},
+           {"check", "a.bvh", "--verbose"},
+           {"clean", "a.bvh", "-o", "out.bvh", "--method", "gaussian", "--verbose"},
+           {"clean", "a.bvh", "-o", "other.bvh", "--joints", "Leg"}}) {
+    const Ran ran = run(words);
+    const std::string said = ran.out + ran.err;
+    EXPECT_THAT(said, testing::HasSubstr("Arm\\x1b[2J\\u202e\xC3\xA4\\xff")) << words[0];
+    EXPECT_EQ(said.find('\x1b'), said.npos) << words[0];
+    EXPECT_EQ(said.find("\xE2\x80\xAE"), said.npos) << words[0];
+  }
+}
+
+TEST_F(Hostile, LongNamesInSideFilesAreCut) {
+  put(folder / "a.bvh", hand_take());
+  std::string blanks;
+  for (int i = 0; i < 300000; ++i) blanks += "ab ";
+  for (const char* flag : {"--gaps", "--map", "--noise", "--config", "--contacts"}) {
+    put(folder / "side", blanks + ",1,2\n");
+    const Ran ran = run({"clean", "a.bvh", "-o", "out.bvh", flag, "side", "--feet"});
+    EXPECT_NE(ran.code, 0) << flag;
+    EXPECT_THAT(ran.err, IsOneLine()) << flag;
+    EXPECT_LT(ran.err.size(), 2100u) << flag;
+  }
+}
+
+TEST_F(Hostile, ANulInANameDoesNotEndTheMessage) {
+  put(folder / "a.bvh", hand_take());
+  put(folder / "side", std::string("Le\0ft,1,2\n", 11));
+  const Ran ran = run({"clean", "a.bvh", "-o", "out.bvh", "--gaps", "side"});
+  EXPECT_NE(ran.code, 0);
+  EXPECT_THAT(ran.err, IsOneLine());
+  EXPECT_THAT(ran.err, testing::HasSubstr("Le\\x00ft"));
+}
+
 TEST_F(Hostile, AHostileConfigurationIsRefused) {
   put(folder / "a.bvh", hand_take());
   put(folder / "deep.toml", "joints = " + std::string(100000, '['));

@@ -170,12 +170,15 @@ class Running {
   /// Its exit code; 128 + signal where a signal ended it.
   int wait() {
     int status = 0;
-    ::waitpid(child_, &status, 0);
+    rusage usage{};
+    ::wait4(child_, &status, 0, &usage);
+    peak_kilobytes = usage.ru_maxrss;
     ended_ = true;
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
 
   Incoming out{-1}, err{-1};
+  long peak_kilobytes = 0;  ///< once it has ended
 
  private:
   pid_t child_ = -1;

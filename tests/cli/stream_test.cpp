@@ -4,8 +4,10 @@ namespace kinemend::test {
 namespace {
 
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 class StreamCommand : public Program {
  protected:
@@ -64,11 +66,12 @@ TEST_F(StreamCommand, GivesWhatCleanMakesOfTheFile) {
 TEST_F(StreamCommand, SaysTheDelayAndASummary) {
   make_take();
   const Ran ran = run({"stream"}, fed(take_));
-  EXPECT_THAT(ran.err, AllOf(HasSubstr("kinemend: method median\n"),
-                             HasSubstr("31 joints at 60 Hz: 4 frames of delay, 66.7 ms\n"),
-                             HasSubstr("frames: 60 in, 60 out, 0 lost, 0 made up, 0 held, 0 late, "
-                                       "0 doubled, 0 malformed, 0 dropped\n"),
-                             HasSubstr("ms at the 99th percentile")));
+  EXPECT_THAT(ran.err,
+              AllOf(HasSubstr("kinemend: method median\n"),
+                    HasSubstr("31 joints at 60 Hz: 4 frames of delay, 66.7 ms\n"),
+                    HasSubstr("frames: 60 in, 60 out, 0 lost, 0 interpolated, 0 held, 0 late, "
+                              "0 duplicate, 0 malformed, 0 dropped\n"),
+                    HasSubstr("ms at the 99th percentile")));
   EXPECT_EQ(frames_in(ran.out), 60);
   EXPECT_EQ(run({"stream", "--quiet"}, fed(take_)).err, "");
 }
@@ -76,9 +79,107 @@ TEST_F(StreamCommand, SaysTheDelayAndASummary) {
 TEST_F(StreamCommand, RefusesAMethodThatNeedsTheWholeTakeAndNamesTheOthers) {
   const Ran ran = run({"stream", "--method", "auto"});
   EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.err,
-              AllOf(IsOneLine(), HasSubstr("auto needs the whole take; live run bilateral"),
-                    HasSubstr("butterworth --causal"), HasSubstr("one-euro")));
+  EXPECT_THAT(
+      ran.err,
+      AllOf(IsOneLine(), HasSubstr("auto needs the whole take; methods that run live: bilateral"),
+            HasSubstr("butterworth --causal"), HasSubstr("one-euro")));
+}
+
+TEST_F(StreamCommand, ListsTheMethodsThatRunLiveAlone) {
+  for (const char* help : {"-h", "--help"}) {
+    const std::string text = run({"stream", help}).out;
+    EXPECT_THAT(text, AllOf(HasSubstr("bilateral"), HasSubstr("one-euro"), HasSubstr("recurrent")));
+    EXPECT_THAT(text, Not(ContainsRegex("[ (]auto[ ,);:]"))) << help;
+    EXPECT_THAT(text, Not(HasSubstr("wiener"))) << help;
+  }
+  EXPECT_THAT(run({"completion", "fish"}).out,
+              HasSubstr("from stream' -l method -s m -d 'how to clean: a method that runs live' -x "
+                        "-a 'bilateral nonlocal"));
+}
+
+TEST_F(StreamCommand, LeavesTheLastFramesOutOfTheLatency) {
+  make_take();
+  // The method looks four frames ahead: all of these wait for the end.
+  const Ran ran = run({"stream"}, fed(header_ + first(4)));
+  EXPECT_THAT(ran.err, AllOf(HasSubstr("frames: 4 in, 4 out"), Not(HasSubstr("latency: "))));
+}
+
+TEST_F(StreamCommand, PutsDatagramsThatOvertookEachOtherInOrder) {
+  make_take();
+  const Socket client = Socket::listening(SOCK_DGRAM);
+  const auto program =
+      start({"--udp", "0", "--numbered", "--to-udp", client.at(), "--method", "one-euro"});
+  const Socket sender = Socket::connected(SOCK_DGRAM, program->port());
+  sender.send(header_);
+  std::string all = client.datagram();
+  for (const std::size_t f : {0, 1, 3, 2, 4}) sender.send(std::to_string(f) + " " + frames_[f]);
+  for (int i = 0; i < 5; ++i) all += client.datagram();
+  program->tell(SIGINT);
+  EXPECT_EQ(program->wait(), 0);
+  const std::string whole = streamed({"--method", "one-euro"});
+  EXPECT_EQ(all, whole.substr(0, all.size()));
+  EXPECT_THAT(program->err.all(),
+              AllOf(HasSubstr("frames: 5 in, 5 out, 0 lost, 0 interpolated, 0 held, 0 late"),
+                    HasSubstr("frames that arrived out of order and were put in their place: 1")));
+}
+
+TEST_F(StreamCommand, MakesNoFrameOfGarbageDatagrams) {
+  make_take();
+  const Socket client = Socket::listening(SOCK_DGRAM);
+  const auto program = start({"--udp", "0", "--to-udp", client.at(), "--method", "one-euro"});
+  const Socket sender = Socket::connected(SOCK_DGRAM, program->port());
+  sender.send(header_);
+  client.datagram();
+  for (const std::string& datagram :
+       {frames_[0], std::string("1 2 3"), std::string("\xff\x00\x13", 3), frames_[1]})
+    sender.send(datagram);
+  for (int i = 0; i < 2; ++i) client.datagram();
+  program->tell(SIGINT);
+  EXPECT_EQ(program->wait(), 0);
+  EXPECT_THAT(program->err.all(),
+              HasSubstr("frames: 2 in, 2 out, 0 lost, 0 interpolated, 0 held, 0 "
+                        "late, 0 duplicate, 2 malformed"));
+}
+
+TEST_F(StreamCommand, LetsSendersQueueWhileOneIsConnected) {
+  make_take();
+  const auto program = start({"--tcp", "0", "--method", "one-euro"});
+  const int port = program->port();
+  std::vector<Socket> senders;
+  for (std::size_t i = 0; i < 8; ++i) {
+    senders.push_back(Socket::connected(SOCK_STREAM, port));
+    senders.back().send(header_ + first(2, 2 * i));
+  }
+  for (Socket& sender : senders) sender.close();
+  program->err.until("the sender disconnected", senders.size());
+  program->tell(SIGTERM);
+  EXPECT_EQ(program->wait(), 0);
+  EXPECT_THAT(program->err.all(), HasSubstr("frames: 16 in, 16 out"));
+}
+
+TEST_F(StreamCommand, KeepsNoHeadersForAClientThatDoesNotRead) {
+  make_take();
+  const Socket client = Socket::listening(SOCK_STREAM);
+  const auto program =
+      start({"--tcp", "0", "--once", "--to-tcp", client.at(), "--queue", "5", "-m", "one-euro"});
+  const Socket received = client.accept();
+  // Two rates in turn: each change gives the client a new header.
+  std::string faster = header_;
+  faster.replace(faster.find("Frame Time:"), faster.npos, "Frame Time: 0.01\n");
+  constexpr std::size_t rounds = 8000;
+  {
+    const Socket sender = Socket::connected(SOCK_STREAM, program->port());
+    std::string many;
+    for (int i = 0; i < 100; ++i) many += header_ + faster;
+    for (std::size_t sent = 100; sent <= rounds; sent += 100) {
+      sender.send(many);
+      program->err.until(" at 100 Hz", sent);
+    }
+  }
+  EXPECT_EQ(program->wait(), 0);
+#if !defined(KINEMEND_SANITIZED)
+  EXPECT_LT(program->peak_kilobytes, 50 * 1024);
+#endif
 }
 
 TEST_F(StreamCommand, RefusesWhatMakesNoSense) {
@@ -89,6 +190,7 @@ TEST_F(StreamCommand, RefusesWhatMakesNoSense) {
                                              {"stream", "--udp", "localhost:0"},
                                              {"stream", "--to-tcp", "7000"},
                                              {"stream", "--bind", "0.0.0.0"},
+                                             {"stream", "--udp", "0", "--reorder", "4"},
                                              {"stream", "--to-tcp", "a:1", "--to-udp", "a:1"}}) {
     const Ran ran = run(words);
     EXPECT_EQ(ran.code, 2) << ran.err;
@@ -175,7 +277,7 @@ TEST_F(StreamCommand, GoesOnWhenTheSenderComesBack) {
     sender.send(header_ + first(10, 10 * round));
     program->out.until("\n", head + 10 * (round + 1));
   }
-  program->err.until("the sender has gone", 2);
+  program->err.until("the sender disconnected", 2);
   program->tell(SIGTERM);
   EXPECT_EQ(program->wait(), 0);
   const std::string whole = streamed({"--method", "one-euro"});
@@ -225,7 +327,7 @@ TEST_F(StreamCommand, HoldsTheLastFrameWhileTheSenderIsSilent) {
   program->write(header_ + first(1));
   program->out.until("\n", head + 4);
   program->write(first(1, 1));
-  program->err.until("frames come again");
+  program->err.until("frames arrive again");
   program->close_in();
   EXPECT_EQ(program->wait(), 0);
   const std::vector<std::string> lines = lines_of(program->out.all());
@@ -241,8 +343,8 @@ TEST_F(StreamCommand, CountsLostLateDoubledAndMalformedFrames) {
   text += "7 1 2 3\n";
   const Ran ran = run({"stream", "--numbered", "--format", "jsonl"}, fed(text));
   EXPECT_EQ(ran.code, 0);
-  EXPECT_THAT(ran.err, HasSubstr("frames: 5 in, 7 out, 2 lost, 2 made up, 0 held, 1 late, 1 "
-                                 "doubled, 1 malformed, 0 dropped\n"));
+  EXPECT_THAT(ran.err, HasSubstr("frames: 5 in, 7 out, 2 lost, 2 interpolated, 0 held, 1 late, 1 "
+                                 "duplicate, 1 malformed, 0 dropped\n"));
   const std::vector<std::string> lines = lines_of(ran.out);
   ASSERT_EQ(lines.size(), 8);
   EXPECT_EQ(Json::parse(lines[0])["delay_frames"], 4);

@@ -129,7 +129,7 @@ TEST_F(Train, ATakeThatCannotBeReadEndsItUnlessItMayBeLeftOut) {
   const Ran ran = run(skipping);
   EXPECT_EQ(ran.code, 0);
   EXPECT_THAT(ran.err, HasSubstr("bad.bvh:2: "));
-  EXPECT_THAT(ran.err, HasSubstr("(left out)"));
+  EXPECT_THAT(ran.err, HasSubstr("(skipped)"));
   EXPECT_EQ(Json::parse(ran.out)["takes"], 2);
 }
 

@@ -142,8 +142,64 @@ TEST_F(LiveSessionTest, GivesAMalformedLineThePlaceOfItsFrame) {
       digits_rad);
   EXPECT_LT(angle_between(clip.rotation(29, 1), whole.rotation(29, 1)), digits_rad);
   EXPECT_THAT(run.session.take_notes(),
-              Contains("a line is no frame: expected 21 channel values, found 3; such lines are "
-                       "counted"));
+              Contains("ignored a malformed line: expected 21 channel values, found 3 (more of them "
+                       "are only counted)"));
+}
+
+TEST_F(LiveSessionTest, PutsOvertakenFramesBackInTheirPlace) {
+  LiveOptions options = with_numbers();
+  LiveRun in_order(*filter_, options);
+  in_order.feed(stream_.header + lines({0, 1, 2, 3, 4, 5, 6, 7, 8}));
+  in_order.session.finish();
+  options.reorder_frames = 4;
+  LiveRun run(*filter_, options);
+  run.feed(stream_.header + lines({0, 1, 3, 2, 7, 6, 5, 6, 4, 8}));
+  EXPECT_EQ(run.lines.size(), 9) << "no frame waits once those before it have come";
+  run.session.finish();
+  EXPECT_EQ(run.text, in_order.text);
+  EXPECT_EQ(run.counts().reordered, 4);
+  EXPECT_EQ(run.counts().doubled, 1);
+  EXPECT_EQ(run.counts().lost + run.counts().made_up + run.counts().late, 0);
+}
+
+TEST_F(LiveSessionTest, CountsAFrameAsLostWhenTheOthersMayWaitNoLonger) {
+  LiveOptions options = with_numbers();
+  options.reorder_frames = 4;
+  LiveRun run(*filter_, options);
+  run.feed(stream_.header + lines({0, 1, 3, 4, 5, 6}));
+  EXPECT_EQ(run.lines.size(), 2);
+  run.feed(lines({7}));
+  EXPECT_EQ(run.lines.size(), 8);
+  EXPECT_EQ(run.counts().made_up, 1);
+  run.feed(lines({2}));
+  EXPECT_EQ(run.counts().late, 1);
+  // Silence, a sender that comes back and the end let those that wait go.
+  run.feed(lines({9}));
+  run.session.settle();
+  EXPECT_EQ(run.lines.size(), 10);
+  run.feed(lines({11}));
+  run.session.drop_line();
+  EXPECT_EQ(run.lines.size(), 12);
+  run.feed(lines({0, 2}));
+  run.session.finish();
+  EXPECT_EQ(run.lines.size(), 15);
+  EXPECT_EQ(run.counts().frames_out, run.counts().frames_in + run.counts().made_up);
+}
+
+TEST_F(LiveSessionTest, GivesAMalformedDatagramNoFrame) {
+  LiveOptions options;
+  options.datagrams = true;
+  LiveRun run(*filter_, options);
+  run.feed(stream_.header + stream_.frames[0]);
+  for (const std::string_view garbage : {"1 2 3", "7", "\xff\xfe\x01"}) {
+    run.feed(garbage);
+    run.session.end_line();
+  }
+  run.feed(stream_.frames[1] + "1 2 3\n");
+  run.session.finish();
+  EXPECT_EQ(run.counts().malformed, 4);
+  EXPECT_EQ(run.counts().made_up + run.counts().held + run.counts().lost, 0);
+  EXPECT_EQ(run.counts().frames_out, 2);
 }
 
 TEST_F(LiveSessionTest, CountsTextThatIsNoFrameWithoutAPlace) {

@@ -25,33 +25,40 @@ struct LiveOptions {
   LiveFormat format = LiveFormat::bvh;
   double strength = 1;       ///< 0..1: geodesic blend from the frame as it came to the cleaned one
   double frame_rate_hz = 0;  ///< 0.1 to 100,000; 0: that of the header, or 30 where it has none
-  /// A motion line begins with the frame's number, which counts up by one: lost, late and doubled
-  /// frames are told by it.
+  /// A motion line begins with the number of its frame, which counts up by one. Lost, late and
+  /// duplicate frames are recognised by it.
   bool numbered = false;
-  std::size_t skipped_words = 0;  ///< at the start of a motion line, before the number
-  /// BVH whose hierarchy and rate hold until a header comes; empty: frames wait for a header.
+  /// How many numbered frames at most wait for a missing one that they may have overtaken. After
+  /// that it counts as lost. 0: frames never wait.
+  std::size_t reorder_frames = 0;
+  /// The input comes in datagrams, which anyone can send: a malformed line is only counted, and not
+  /// interpolated.
+  bool datagrams = false;
+  std::size_t skipped_words = 0;  ///< words to skip at the start of a motion line
+  /// BVH text with hierarchy and rate, used until a header arrives. Empty: frames before the first
+  /// header are malformed.
   std::string skeleton;
   double body_height = 1750;  ///< of the person, in the units of a stream of markers (> 0)
-  double longest_gap_s = 1;   ///< lost frames in a row that are made up (>= 0)
+  double longest_gap_s = 1;   ///< longest run of lost frames that is interpolated (>= 0)
   std::size_t most_line_bytes = 1U << 20;    ///< a longer line is malformed
-  std::size_t most_header_bytes = 1U << 22;  ///< a longer header is none
+  std::size_t most_header_bytes = 1U << 22;  ///< a longer header is rejected
 };
 
-/// What came in and went out. Every frame that came out was in, made up or held:
-/// `frames_out = frames_in + made_up + held` once the stream has ended.
+/// Counts of a stream. Once it has ended, `frames_out = frames_in + made_up + held`.
 struct LiveCounts {
   std::size_t frames_in = 0;
   std::size_t frames_out = 0;
-  std::size_t lost = 0;        ///< by their numbers, or malformed in a place of their own
-  std::size_t made_up = 0;     ///< of those lost, between the frames on either side
-  std::size_t held = 0;        ///< `LiveSession::hold`
-  std::size_t late = 0;        ///< came after a later one, and were left out
-  std::size_t doubled = 0;     ///< the number of the frame before once more, and left out
-  std::size_t malformed = 0;   ///< lines that are no frame
-  std::size_t not_finite = 0;  ///< values (nan, inf) that the frame before stood in for
-  std::size_t restarts = 0;    ///< leaps of the numbers that are no loss
+  std::size_t lost = 0;        ///< missing by their numbers, or malformed lines in their place
+  std::size_t made_up = 0;     ///< lost frames that were interpolated
+  std::size_t held = 0;        ///< repeated by `LiveSession::hold`
+  std::size_t late = 0;        ///< arrived after a later one, and were ignored
+  std::size_t doubled = 0;     ///< had the number of an earlier frame, and were ignored
+  std::size_t malformed = 0;   ///< lines that do not hold a frame
+  std::size_t not_finite = 0;  ///< values (nan, inf) that were replaced by those of the frame before
+  std::size_t restarts = 0;    ///< jumps of the numbers too large to be a loss
   std::size_t bad_headers = 0;
-  std::size_t sessions = 0;  ///< skeletons, each with a header in the output
+  std::size_t sessions = 0;   ///< skeletons, each with a header in the output
+  std::size_t reordered = 0;  ///< of those in: arrived after a later one, and were put in order
 };
 
 /// A piece of the output: text that ends with a newline.
@@ -61,13 +68,13 @@ struct LivePiece {
 };
 using LiveSink = std::function<void(const LivePiece&)>;
 
-/// One live stream: bytes in, in pieces of any size, and cleaned frames out with a constant delay.
-/// Nothing in the bytes is an error: what is no frame is counted. Once it is warm, a frame takes
-/// nothing from the heap.
+/// One live stream: takes bytes in pieces of any size, and gives cleaned frames with a constant delay.
+/// No input is an error: malformed lines are counted. Once the stream is warm, a frame allocates no
+/// memory.
 class LiveSession {
  public:
-  /// The cleaner outlives the session. Errors: `ErrorKind::usage` for options out of range and for
-  /// a method that needs the whole take, `unreadable_input` for a `skeleton` that is no BVH.
+  /// The cleaner must outlive the session. Errors: `ErrorKind::usage` for options out of range and
+  /// for a method that needs the whole take, `unreadable_input` for a `skeleton` that is not BVH.
   LiveSession(const Cleaner& cleaner, const LiveOptions& options, LiveSink sink);
   ~LiveSession();
   LiveSession(const LiveSession&) = delete;
@@ -75,25 +82,28 @@ class LiveSession {
 
   /// Bytes as they arrive.
   void feed(std::string_view bytes);
-  /// What stands of a line is a line: a datagram ends there. A header goes on.
+  /// Ends the current line, as the end of a datagram does; a partial header is kept.
   void end_line();
-  /// The sender has gone: what stands of a line or a header is forgotten. When one comes back, it
-  /// goes on with a frame or with a header; one with another skeleton or rate ends the output of
-  /// the old one and begins a new one.
+  /// The sender has disconnected: discards a partial line or header. A sender that returns continues
+  /// with a frame or a header. A header with another skeleton or rate ends the current output and
+  /// begins a new one.
   void drop_line();
-  /// The frame before once more, for an output that keeps its clock while nothing comes; nothing
+  /// Repeats the last frame, so that the output keeps its rate while no frame arrives. Does nothing
   /// before the first frame.
   void hold();
-  /// The end of the stream: takes what stands of a line, and gives all frames that are left.
+  /// Gives the frames that wait for a missing one (`reorder_frames`), for example because no more
+  /// input arrives. `hold`, `drop_line` and `finish` do so too.
+  void settle();
+  /// Ends the stream: takes a partial line, and gives all remaining frames.
   void finish();
 
   const LiveCounts& counts() const noexcept;
   bool has_skeleton() const noexcept;
-  std::size_t joint_count() const noexcept;     ///< 0 of markers, and before a header
+  std::size_t joint_count() const noexcept;     ///< 0 for markers, and before a header
   double frame_rate_hz() const noexcept;        ///< 0 before a header
   std::size_t latency_frames() const noexcept;  ///< 0 before a header
-  /// Lines for people since the last call: a new skeleton with its delay, headers that are none,
-  /// the first malformed line.
+  /// Messages since the last call: a new skeleton with its delay, unreadable headers, the first
+  /// malformed line.
   std::vector<std::string> take_notes();
 
  private:
@@ -101,7 +111,7 @@ class LiveSession {
   std::unique_ptr<Work> work_;
 };
 
-/// A method that runs live, and the options without which it does not (`causal` of `butterworth`).
+/// A method that runs live, and the options that it needs for that (`causal` for `butterworth`).
 struct LiveMethod {
   std::string name;
   OptionValues options;

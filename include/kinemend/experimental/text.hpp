@@ -16,7 +16,8 @@ class Table {
  public:
   explicit Table(std::vector<Align> columns, std::size_t indent = 2)
       : columns_(std::move(columns)), indent_(indent) {}
-  void add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
+  /// Cells are escaped as `printable` does it, and of a long word the first 80 characters are kept.
+  void add(std::vector<std::string> cells);
   bool empty() const { return rows_.empty(); }
   std::string text() const;
 
@@ -28,7 +29,8 @@ class Table {
 
 /// Columns that a text takes on a terminal.
 std::size_t display_width(std::string_view text);
-/// Words broken into lines of at most `width`, each led by `indent` spaces and ended by a newline.
+/// Words, escaped and broken into lines of at most `width`, each led by `indent` spaces and ended
+/// by a newline.
 /// The first line lacks its indent where `hanging` is set.
 std::string wrap(std::string_view text, std::size_t indent, std::size_t width = 96,
                  bool hanging = false);
@@ -42,8 +44,16 @@ std::string counted(std::size_t count, std::string_view noun);
 /// "2,404 frames at 120 Hz (20.03 s)".
 std::string length_text(std::size_t frames, double frame_rate_hz);
 
-/// Control characters as \xNN, so that a name in a file can neither break a line nor command the
-/// terminal, and words cut at 80 characters, so that it cannot fill it. Paths are left whole.
+// Text that comes from a file or the command line must neither command the terminal nor fill it.
+// Characters that do (control characters, marks that turn the direction of text) and bytes that are
+// no UTF-8 are shown as \xNN or \uNNNN; letters of any script stay. Both functions leave a text
+// that they have made unchanged.
+
+/// One name: escaped, and at most 80 characters of it.
+std::string printable_name(std::string_view name);
+/// A message or a path: escaped, with words cut at 80 characters (paths are left whole), and the
+/// middle left out of what is longer than 2,000 bytes. `Error` and `Diagnostics` do this to every
+/// message.
 std::string printable(std::string_view text);
 
 enum class Paint { bold, dim, red, green, yellow };
