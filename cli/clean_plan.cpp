@@ -121,6 +121,7 @@ std::optional<FillSettings> fill_settings(const Settings& settings) {
   FillSettings fill;
   fill.method = method == "off" ? "auto" : method;
   fill.fill_all = fill_all;
+  fill.unlabelled = std::get<bool>(settings.values.find("unlabelled")->second);
   return fill;
 }
 
@@ -260,6 +261,9 @@ CleanPlan make_clean_plan(const Arguments& arguments) {
     plan.contacts.emplace(read_file(path), input_name(path));
   }
   plan.folder = arguments.text("output_dir");
+  for (const Flag& flag : arguments.command->flags) {
+    if (arguments.given(flag.spec.name)) plan.asked.push_back(flag.spec.name);
+  }
   plan.reports = report_files(arguments, plan.jobs.size());
   if (plan.reports.with_page()) plan.page = page_settings(arguments);
   plan.dry_run = arguments.flag("dry_run");

@@ -104,6 +104,16 @@ std::vector<Flag> fill_flags() {
   Flag longest = number_flag("longest_gap", "s", 0, 0, 100000, "Work",
                              "longest gap to fill, in place of the method's own rule");
   longest.has_default = false;
+  constexpr double smallest_error = 1e-9, largest_error = 1e6;
+  Flag max_error_mm = number_flag(
+      "max_error_mm", "mm", 0, smallest_error, largest_error, "Work",
+      "refuse fills of positions whose expected error is above this",
+      "A fill whose error the method cannot tell is refused too. Cannot be combined with "
+      "--fill-all.");
+  max_error_mm.has_default = false;
+  Flag max_error_deg = number_flag("max_error_deg", "deg", 0, smallest_error, 180, "Work",
+                                   "the same for rotations of joints");
+  max_error_deg.has_default = false;
   std::vector<Flag> flags = {
       output_flag("where to write (default walk.filled.bvh beside walk.bvh); - is standard output"),
       force_flag(),
@@ -121,6 +131,9 @@ std::vector<Flag> fill_flags() {
                 "Either end may be left out. A gap that reaches out of it stays, and is counted."),
       text_flag("donor", "MARKER", "Work", "marker whose movement --method pattern copies"),
       longest,
+      max_error_mm,
+      max_error_deg,
+      unlabelled_flag(),
       switch_flag("fill_all", "Work", "also fill what the rules refuse",
                   "By the best guess there is."),
       fill_file_flag(

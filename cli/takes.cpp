@@ -38,7 +38,7 @@ void check_free(const std::string& output, bool force) {
   std::error_code ignored;
   if (output == "-" || force || !std::filesystem::is_regular_file(output, ignored)) return;
   throw Error(ErrorKind::cannot_write,
-              fmt::format("{}: exists already (--force replaces it)", output));
+              fmt::format("{}: exists already (--force overwrites it)", output));
 }
 
 void write_output(const std::string& output, std::string_view bytes, bool force) {
@@ -156,13 +156,14 @@ int say_passed_limits(const Report& report, std::span<const FigureRule> figures,
 }
 
 Flag force_flag() {
-  return switch_flag("force", "Output", "replace outputs that exist",
-                     "Without it an output that exists is left alone, with exit code 4.");
+  return switch_flag("force", "Output", "overwrite existing outputs",
+                     "Without it an existing output is an error, with exit code 4.");
 }
 
 Flag json_flag(std::string help) {
-  return switch_flag("json", "Output", std::move(help),
-                     "Frames count from 1 there too; a figure that is not finite is null.");
+  return switch_flag(
+      "json", "Output", std::move(help),
+      "Frames have the numbers that the file gives them; a figure that is not finite is null.");
 }
 
 Flag output_flag(std::string help) {
@@ -177,8 +178,7 @@ Flag seed_flag(std::string help) {
 }
 
 Flag from_flag() {
-  Flag flag =
-      text_flag("from", "", "Input", "format of the input, where its content does not tell");
+  Flag flag = text_flag("from", "", "Input", "format of the input, if its content does not tell");
   for (const Format& format : formats()) {
     if (format.read != nullptr) flag.spec.choices.emplace_back(format.name);
   }
@@ -187,7 +187,14 @@ Flag from_flag() {
 
 Flag strict_flag(std::string help) {
   return switch_flag("strict", "Input", std::move(help),
-                     "A file that is odd but usable is read with a warning otherwise.");
+                     "Otherwise an odd but usable file is read with a warning.");
+}
+
+Flag unlabelled_flag() {
+  return switch_flag(
+      "unlabelled", "Work", "also fill unlabelled points (*52, U_12), and use them",
+      "Without it they are left alone and are no evidence for labelled markers: such "
+      "a point often changes from one marker to another.");
 }
 
 void append(std::vector<Flag>& list, std::vector<Flag> more) {
@@ -197,10 +204,10 @@ void append(std::vector<Flag>& list, std::vector<Flag> more) {
 
 Flag map_flag() {
   Flag flag = text_flag("map", "FILE", "Input",
-                        "what feet are called in the take: lines known name,name in the take",
-                        "For takes whose names mean nothing to the program: LeftFoot,bone_17 or "
-                        "LTOE,M3. Lines about other parts do no harm, so that the file of a "
-                        "learned model serves too.");
+                        "names of the feet in the take: lines known name,name in the take",
+                        "For takes whose names the program does not know: LeftFoot,bone_17 or "
+                        "LTOE,M3. Lines about other parts are ignored, so the map of a learned "
+                        "model can be used too.");
   flag.completion = Completion::file;
   return flag;
 }
@@ -214,8 +221,8 @@ std::vector<Flag> reading_flags(std::string strict_help) {
                        "Without it: the ASF file that the AMC file names, or one beside it.");
   asf.completion = Completion::file;
   Flag fps = number_flag("from_fps", "Hz", 120, least_frame_rate_hz, most_frame_rate_hz, "Input",
-                         "frame rate of a file that does not state it",
-                         "Formats that state one ignore it.");
+                         "frame rate of a file that does not state one",
+                         "Ignored by formats that state one.");
   fps.has_default = false;
   return {from_flag(), asf, fps, strict_flag(std::move(strict_help))};
 }

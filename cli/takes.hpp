@@ -64,6 +64,8 @@ Flag output_flag(std::string help);
 Flag seed_flag(std::string help);
 Flag from_flag();
 Flag strict_flag(std::string help);
+/// --unlabelled, of the commands that fill gaps.
+Flag unlabelled_flag();
 /// --map, for feet whose names are not known.
 Flag map_flag();
 /// What --map names; nothing where it is not given.

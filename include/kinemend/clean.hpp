@@ -80,8 +80,9 @@ struct ReportSpan {
 /// One joint or marker over the whole take: degrees for joints, file units for markers.
 struct TrackSummary {
   std::string name;
-  double noise = 0;       ///< estimated noise per axis before; 0 where the method estimates none
-  double rms_change = 0;  ///< of a marker over the samples that were observed
+  bool is_position = true;  ///< false for a point that is an angle or a force: no count has it
+  double noise = 0;         ///< noise per axis before: the method's estimate, else measured
+  double rms_change = 0;    ///< of a marker over the samples that were observed
   double max_change = 0;
   std::size_t frames_changed = 0;
   std::size_t frames_repaired = 0;  ///< despiked or filled
@@ -104,7 +105,7 @@ struct CleanReport {
   std::size_t calibration_frames = 0;  ///< at the start, left alone; joints only
   double frame_rate_hz = 0;
   double body_height = 0;             ///< file units: what degrees were measured by; markers only
-  std::vector<TrackSummary> tracks;   ///< J or M
+  std::vector<TrackSummary> tracks;   ///< J or M, also points that are no positions
   std::vector<NoiseCharacter> noise;  ///< `CleanTrace::characters`
   double root_rms_change = 0;         ///< file units; joints only
   double root_max_change = 0;
