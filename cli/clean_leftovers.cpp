@@ -185,7 +185,7 @@ std::vector<std::string> meaningless_flags(const Take& take, const CleanPlan& pl
   const bool has_gaps = !clip->observed.empty() || !clip->observed_positions.empty();
   if (!has_gaps && (is_given("fill") || is_given("fill_all"))) {
     lines.push_back(
-        fmt::format("--{} has no effect: the take states no gaps; --gaps FILE names them",
+        fmt::format("--{} has no effect: the take states no gaps; --gaps FILE lists them",
                     is_given("fill") ? "fill" : "fill-all"));
   }
   return lines;

@@ -59,9 +59,9 @@ std::vector<CleanJob> make_jobs(const Arguments& arguments) {
   const std::string output = arguments.text("output");
   const std::string folder = arguments.text("output_dir");
   if (!output.empty() && !folder.empty())
-    throw Error(ErrorKind::usage, "clean: --output and --output-dir exclude each other");
+    throw Error(ErrorKind::usage, "clean: --output and --output-dir cannot be combined");
   if (!output.empty() && inputs.size() > 1)
-    throw Error(ErrorKind::usage, "clean: --output takes one input; for several, --output-dir");
+    throw Error(ErrorKind::usage, "clean: --output is for one take; use --output-dir for several");
   std::vector<CleanJob> jobs;
   std::map<std::string, std::string> taken;
   for (const std::string& input : inputs) {
@@ -257,7 +257,7 @@ CleanPlan make_clean_plan(const Arguments& arguments) {
   plan.jobs = make_jobs(arguments);
   if (const std::string path = arguments.text("contacts"); !path.empty()) {
     if (plan.jobs.size() > 1)
-      throw Error(ErrorKind::usage, "clean: --contacts are of one take, not of several");
+      throw Error(ErrorKind::usage, "clean: --contacts is for one take; clean several one by one");
     plan.contacts.emplace(read_file(path), input_name(path));
   }
   plan.folder = arguments.text("output_dir");

@@ -51,12 +51,12 @@ LearnedFill learned_of(const Arguments& arguments) {
   const bool may_need = arguments.text("method") == "recurrent" || arguments.given("plan") ||
                         arguments.flag("preview");
   if (model.empty()) {
-    if (!map.empty()) throw Error(ErrorKind::usage, "fill: --map goes with --model");
+    if (!map.empty()) throw Error(ErrorKind::usage, "fill: --map needs --model");
     return {};
   }
   if (!may_need)
     throw Error(ErrorKind::usage,
-                "fill: --model is of --method recurrent, of a --plan and of --preview");
+                "fill: --model is used by --method recurrent, --plan and --preview only");
   return make_recurrent_fill({model, map});
 }
 
@@ -66,9 +66,10 @@ void check_plan_alone(const Arguments& arguments) {
   for (const char* name : {"method", "names", "range", "donor", "longest_gap", "fill_all",
                            "max_error_mm", "max_error_deg", "unlabelled"}) {
     if (!arguments.given(name)) continue;
-    throw Error(ErrorKind::usage,
-                fmt::format("fill: --plan says for each gap how it is filled: --{} goes without it",
-                            dashed(name)));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("fill: --{} cannot be combined with --plan, which says how each gap is filled",
+                    dashed(name)));
   }
 }
 
@@ -176,7 +177,7 @@ FillRun fill_run_of(const Arguments& arguments) {
   run.plan_out_path = arguments.text("plan_out");
   run.preview = arguments.flag("preview");
   if (run.preview && run.plan_out_path.empty())
-    throw Error(ErrorKind::usage, "fill: --preview is of the plan that --plan-out FILE writes");
+    throw Error(ErrorKind::usage, "fill: --preview needs --plan-out FILE");
   if (const std::string range = arguments.text("range"); !range.empty())
     run.range = parse_range(range);
   run.settings = settings_of(arguments);

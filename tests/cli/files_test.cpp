@@ -172,7 +172,7 @@ TEST_F(Files, AnExistingOutputIsLeftAloneWithoutForce) {
   put(folder / "walk.clean.bvh", "precious");
   const Ran refused = run({"clean", "walk.bvh"});
   EXPECT_EQ(refused.code, 4);
-  EXPECT_EQ(refused.err, "kinemend: walk.clean.bvh: exists already (--force replaces it)\n");
+  EXPECT_EQ(refused.err, "kinemend: walk.clean.bvh: exists already (--force overwrites it)\n");
   EXPECT_EQ(contents(folder / "walk.clean.bvh"), "precious");
   EXPECT_EQ(run({"clean", "walk.bvh", "--force"}).code, 0);
   EXPECT_THAT(contents(folder / "walk.clean.bvh"), HasSubstr("HIERARCHY"));
