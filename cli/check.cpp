@@ -52,7 +52,7 @@ ReportFiles checked_outputs(const Arguments& arguments) {
   const bool force = arguments.flag("force");
   const ReportFiles reports = report_files(arguments, inputs.size());
   if (!gaps_out.empty() && inputs.size() > 1)
-    throw Error(ErrorKind::usage, "--gaps-out takes the spans of one take, not of several");
+    throw Error(ErrorKind::usage, "--gaps-out: needs a single take");
   RunFiles files;
   files.reads("FILE", inputs)
       .reads("--map", arguments.text("map"))
@@ -108,9 +108,9 @@ std::vector<Flag> check_flags() {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Flag gaps_out = text_flag(
       "gaps_out", "FILE", "Output", "write frozen and bridged spans as a side file of gaps",
-      "kinemend fill and clean take it with --gaps, so that these spans are filled anew.");
+      "Give it to kinemend fill or clean with --gaps to fill these spans again.");
   gaps_out.completion = Completion::file;
-  Flag up = text_flag("up", "", "Checks", "vertical axis, where the body does not tell");
+  Flag up = text_flag("up", "", "Checks", "vertical axis, if it cannot be found from the body");
   up.spec.choices = {"x", "y", "z"};
   std::vector<Flag> list = {
       json_flag("print JSON instead of text"),
@@ -121,14 +121,14 @@ std::vector<Flag> check_flags() {
       force_flag(),
       up,
       without_default(number_flag("metres_per_unit", "m", 0, 1e-9, 1e6, "Checks",
-                                  "length of a file unit, where the take does not tell")),
+                                  "length of a file unit, if the take does not state it")),
   };
   list.push_back(map_flag());
-  append(list, reading_flags("what needs a repair becomes an error"));
+  append(list, reading_flags("a repair becomes an error"));
   for (const FigureRule& entry : check_figures()) {
     list.push_back(without_default(
         number_flag(std::string(entry.limit), std::string(entry.unit), 0, 0, infinity, "Limits",
-                    fmt::format("exit code 1 where {} {} above this", entry.label,
+                    fmt::format("exit code 1 if {} {} above this", entry.label,
                                 entry.label.back() == 's' ? "are" : "is"))));
   }
   return list;
@@ -141,20 +141,20 @@ Command check_command() {
   command.name = "check";
   command.summary = "say what is wrong with a take";
   command.description =
-      "Gaps, spikes, frozen and bridged spans, noise of each joint or marker, swapped markers, "
-      "lengths that change, feet that slide or sink, a rate or a unit that looks wrong, leaps of "
-      "Euler angles, frames that repeat or are all zero. Findings stand worst first. Nothing is "
-      "changed.\n\n"
-      "Each --max option sets a limit; where a figure passes one, the exit code is 1 and the worst "
-      "finding is named. A figure that a take does not have, such as the slide of feet that nobody "
-      "finds or that never stand, passes none. --map names feet whose names are not known; of "
-      "several people in a file of markers (Ann:LTOE, Bob:LTOE) each is judged by itself.";
+      "Lists what is wrong with a take, worst first: gaps, spikes, frozen and bridged spans, noise "
+      "of each joint or marker, swapped markers, lengths that change, feet that slide or sink, a "
+      "rate or a unit that looks wrong, jumps of Euler angles, and frames that repeat or are all "
+      "zero. The take is not changed.\n\n"
+      "Each --max option sets a limit. If a figure exceeds one, the exit code is 1 and the worst "
+      "finding is printed. A figure that the take does not have (the slide, without ground "
+      "contact) exceeds no limit. --map gives the names of feet that the program does not know. In "
+      "a file with several people (Ann:LTOE, Bob:LTOE) each person is checked separately.";
   command.positionals = {{"FILE", "take to check; - is standard input", 1, 1000000, {}}};
   command.flags = check_flags();
   command.examples = {
       {"kinemend check walk.c3d", "what is wrong with it"},
       {"kinemend check *.bvh --max-spikes 0 --max-gap-s 0.2", "as a check in a script"},
-      {"kinemend check walk.bvh --gaps-out gaps.csv", "the spans that were made up"}};
+      {"kinemend check walk.bvh --gaps-out gaps.csv", "frozen and bridged spans as a side file"}};
   command.run = run_check;
   return command;
 }

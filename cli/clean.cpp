@@ -117,8 +117,8 @@ void clean_all(const CleanPlan& plan, Announcer& announcer) {
 int print_config(const Arguments& arguments) {
   const Settings settings = merged_settings(arguments);
   std::string heading =
-      "Settings of `kinemend clean --config FILE`. What is left out has the default; the command "
-      "line goes over this file, this file over --preset.";
+      "Settings of `kinemend clean --config FILE`. A setting that is left out has its default. The "
+      "command line overrides this file, and this file overrides --preset.";
   const std::string preset = arguments.text("preset");
   if (!preset.empty())
     heading += fmt::format(" Preset {}: {}", preset, preset_summary(find_preset(preset)));
@@ -145,14 +145,12 @@ Command clean_command() {
   command.summary = "clean takes: jitter, spikes, gaps";
   command.description =
       "Reads each take, cleans its rotations and its root position, or its markers, and writes it "
-      "back in its own format (or that of the output's name) and layout: what no step changed "
-      "keeps its digits. Without --output and --output-dir "
-      "the result of walk.bvh is walk.clean.bvh beside it; that of standard input (-) goes to "
-      "standard output.\n\n"
-      "The report goes to standard output, or to standard error where standard output holds the "
-      "take. Warnings and errors go to standard error. A take that cannot be read stops none of "
-      "the "
-      "others; the exit code is the highest of all.";
+      "in its own format and layout, or in the format of the output's name. Values that no step "
+      "changed keep their digits. Without --output and --output-dir, walk.bvh is written to "
+      "walk.clean.bvh beside it, and standard input (-) to standard output.\n\n"
+      "The report goes to standard output, or to standard error if standard output holds the "
+      "take. Warnings and errors go to standard error. If one take cannot be read, the others are "
+      "still cleaned; the exit code is the highest of all.";
   command.positionals = {{"IN", "take to clean; - is standard input", 0, 1000000, {}}};
   command.flags = clean_output_flags();
   append(command.flags, cleaning_flags());
@@ -168,11 +166,11 @@ Command clean_command() {
       {"kinemend clean *.bvh --output-dir clean --preset sport", "many takes in parallel"},
       {"kinemend clean take.bvh --joints 'Left*' --exclude LeftHand --range 2s:5s",
        "part of the body, part of the time"},
-      {"kinemend clean walk.bvh --feet auto", "and no foot slides where it stands"},
+      {"kinemend clean walk.bvh --feet auto", "also stop standing feet from sliding"},
       {"kinemend clean trial.c3d --fix-swaps --fill auto", "markers: labels, gaps, then noise"},
       {"kinemend clean - < in.bvh > out.bvh", "in a pipeline"},
       {"kinemend clean --preset biomech --print-config > lab.toml",
-       "a file of settings to keep and change"}};
+       "a settings file to keep and edit"}};
   command.run = run_clean;
   return command;
 }

@@ -25,6 +25,11 @@ Flag list_flag(std::string name, std::string help, std::string details) {
   return configurable(flag);
 }
 
+Flag with_group(std::string group, Flag flag) {
+  flag.group = std::move(group);
+  return flag;
+}
+
 Flag markers_flag() {
   Flag flag = list_flag("markers", "the same as --joints", {});
   flag.configurable = false;
@@ -32,9 +37,8 @@ Flag markers_flag() {
 }
 
 Flag method_flag() {
-  Flag flag =
-      text_flag("method", "NAME", "Cleaning", "how to clean; kinemend methods tells of each",
-                "The options of each method are valid with that method only.");
+  Flag flag = text_flag("method", "NAME", "Cleaning", "how to clean; kinemend methods lists all",
+                        "The options of a method are valid with that method only.");
   flag.spec.default_value = std::string("auto");
   flag.spec.choices = method_names();
   flag.has_default = true;
@@ -48,7 +52,7 @@ Flag preset_flag() {
     flag.spec.choices.emplace_back(preset.name);
     summaries.push_back(fmt::format("{} ({})", preset.name, preset_summary(preset)));
   }
-  flag.details = fmt::format("Goes under --config and the command line. There are {}.",
+  flag.details = fmt::format("--config and the command line override it. Presets: {}.",
                              fmt::join(summaries, "; "));
   return flag;
 }
@@ -71,19 +75,21 @@ std::vector<std::string> fill_choices() {
 
 Flag noise_flag() {
   Flag flag = file_flag("noise", "white|auto|FILE", "Cleaning",
-                        "what the noise is: found in the take (auto), white, or as in a report",
-                        "FILE is a --report of clean or --json of check on a take of the same "
-                        "system: its colour, and the strength of each joint or marker, are gone "
-                        "by. For auto and the learned methods.");
+                        "what the noise is: measured in the take (auto), white, or as in a report",
+                        "FILE is a --report of clean or check as JSON, made from a take of the "
+                        "same capture system: its colour of the noise, and the strength for each "
+                        "joint or marker, are used. For auto and the learned methods.");
   flag.spec.default_value = std::string("auto");
   flag.has_default = true;
   return flag;
 }
 
 Flag fill_flag() {
-  Flag flag = text_flag("fill", "METHOD", "Cleaning", "fill gaps before anything is smoothed",
-                        "auto picks a method for each gap, and refuses what it would only guess; "
-                        "what is refused is listed, and stays missing in marker files.");
+  Flag flag =
+      text_flag("fill", "METHOD", "Cleaning", "fill gaps, from the cleaned motion around them",
+                "auto tests the methods on artificial gaps, picks one for each gap, and "
+                "leaves a gap open when none is reliable. Open gaps are listed and stay "
+                "missing in marker files.");
   flag.spec.default_value = std::string("off");
   flag.spec.choices = fill_choices();
   flag.has_default = true;
@@ -92,11 +98,11 @@ Flag fill_flag() {
 
 Flag feet_flag() {
   Flag flag = text_flag(
-      "feet", "", "Cleaning", "stop feet that stand from sliding, after everything else",
-      "auto holds what slides by error and leaves an intended slide alone; force holds whatever "
-      "stands. Joints only; it moves legs and lowers the root, so that nothing does it unasked. "
-      "Where "
-      "names do not tell of feet, --map FILE does, with lines known name,name in the take.");
+      "feet", "", "Cleaning", "stop standing feet from sliding, as the last step",
+      "auto holds feet that slide by error and keeps intentional slides; force holds every foot "
+      "that stands. For joints. It moves the legs and lowers the root, and is off unless asked "
+      "for. If the names of the feet are not known, --map FILE gives them, in lines known "
+      "name,name in the take.");
   flag.spec.default_value = std::string("off");
   flag.spec.choices = {"off", "auto", "force"};
   flag.has_default = true;
@@ -125,11 +131,11 @@ std::vector<Flag> clean_output_flags() {
   return with_letters(
       {output_flag("where to write one take; - is standard output"),
        file_flag("output_dir", "DIR", "Output", "folder for the results, under the inputs' names",
-                 "It is made where it does not exist. Several takes are cleaned in parallel.",
+                 "Created if it does not exist. Several takes are cleaned in parallel.",
                  Completion::folder),
        force_flag(),
        switch_flag("dry_run", "Output", "clean and report, but write no take",
-                   "A --report that is asked for is written."),
+                   "A --report is still written."),
        reports_flag("also write what was done: FILE.json, or FILE.html as a page for a browser",
                     "JSON lists every span of samples that changed. The page shows one take: the "
                     "body before and after, curves, and everything that was found and done."),
@@ -143,43 +149,44 @@ std::vector<Flag> cleaning_flags() {
       {method_flag(),
        configurable(number_flag("strength", "", 1, 0, 1, "Cleaning",
                                 "how far to go from the input (0) to the cleaned motion (1)",
-                                "Typical: 0.5 to 1. Spikes and gaps are repaired whole at any "
-                                "strength above 0.")),
+                                "Typical: 0.5 to 1. Any strength above 0 repairs spikes and gaps "
+                                "in full.")),
        configurable(number_flag("max_change_deg", "deg", 180, 0, 180, "Cleaning",
-                                "no rotation goes further than this from its input",
+                                "largest change of a rotation, for joints",
                                 "Typical: 5 to 30 against jitter alone; spikes need more.")),
        configurable(number_flag("max_change", "", 0, 0, 1e12, "Cleaning",
-                                "no marker moves further than this, file units; 0: no limit",
+                                "largest change of a marker, in file units; 0: no limit",
                                 "Typical: 5 to 20 mm against jitter alone; spikes need more.")),
        noise_flag(),
        fill_flag(),
-       configurable(switch_flag("fill_all", "Cleaning",
-                                "fill every gap, also where the rules of --fill refuse")),
+       configurable(
+           switch_flag("fill_all", "Cleaning", "fill every gap, also those that --fill refuses")),
        feet_flag(),
-       configurable(switch_flag("fix_swaps", "Cleaning", "undo swapped labels of markers first",
-                                "As kinemend check finds them; nothing happens to joints.")),
+       configurable(switch_flag("fix_swaps", "Cleaning", "undo swapped marker labels first",
+                                "As kinemend check finds them. For markers.")),
        configurable(number_flag("peak_loss_limit", "", 0.1, 0, 1, "Cleaning",
-                                "share of a peak speed that may go without a warning",
+                                "share of a peak speed that may be lost without a warning",
                                 "Typical: 0.05 for impacts to 0.2 for slow motion.")),
+       configurable(with_group("Cleaning", unlabelled_flag())),
        preset_flag(),
-       file_flag("config", "FILE", "Cleaning", "settings from a TOML file, over those of --preset"),
+       file_flag("config", "FILE", "Cleaning", "settings from a TOML file; they override --preset"),
        switch_flag("print_config", "Cleaning",
-                   "print the settings as a TOML file with comments, and stop"),
+                   "print the settings as a commented TOML file, then exit"),
        list_flag("joints", "joints or markers that may change (default all)",
                  "Names or patterns in which * is any text and ? any character; quote them."),
        markers_flag(),
-       list_flag("exclude", "what may not change after all", "Written like --joints."),
+       list_flag("exclude", "exceptions to --joints", "Written like --joints."),
        root_position_flag(),
        text_flag(
            "range", "FIRST:LAST", "Where",
            "what may change: frames 121:240, as the file numbers them, or seconds 1s:2.5s",
-           "Either end may be left out. The method sees all of the take; the result is blended "
-           "in over 0.1 s."),
-       file_flag("gaps", "FILE", "Input", "samples that count as missing: lines name,first,last",
-                 "Frames as the file numbers them; for formats that cannot hold a gap. The name * "
+           "Either end may be omitted. The method sees the whole take; the result is blended in "
+           "over 0.1 s."),
+       file_flag("gaps", "FILE", "Input", "samples to treat as missing: lines name,first,last",
+                 "Frames as the file numbers them. For formats that cannot hold a gap. The name * "
                  "means all."),
        seed_flag("seed of the methods that draw random numbers")});
-  append(list, reading_flags("what needs a repair or a warning becomes an error"));
+  append(list, reading_flags("a repair or a warning becomes an error"));
   for (Flag& flag : list) {
     if (flag.spec.name == "strict") flag.configurable = true;
   }
@@ -188,12 +195,12 @@ std::vector<Flag> cleaning_flags() {
 
 Flag contacts_flag() {
   return file_flag("contacts", "FILE", "Input",
-                   "times in which feet stand, as kinemend contacts writes them; all are held",
-                   "Of one take; sets --feet auto where that is off.");
+                   "ground contacts to hold, as kinemend contacts writes them",
+                   "For one take. Implies --feet auto.");
 }
 
 Flag jobs_flag() {
-  Flag flag = whole_flag("jobs", 0, 0, 1024, "Work", "threads; 0: as many as there are cores",
+  Flag flag = whole_flag("jobs", 0, 0, 1024, "Work", "threads; 0: one per core",
                          "The result does not depend on it.");
   flag.letter = 'j';
   return flag;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <string_view>
+#include <variant>
 
 #include "kinemend/experimental/text.hpp"
 #include "takes.hpp"
@@ -48,6 +50,145 @@ std::vector<Leftover> leftovers_of(const std::vector<Finding>& findings, const C
     if (finding.kind == FindingKind::unit) leftovers.push_back({"the unit looks wrong", words});
   }
   return leftovers;
+}
+
+namespace {
+
+// The findings of one kind: how many, and the worst figure with its unit.
+struct Found {
+  std::size_t count = 0;
+  std::string worst;
+};
+
+Found found_of(const std::vector<Finding>& findings, FindingKind kind) {
+  Found found;
+  double largest = -1;
+  for (const Finding& finding : findings) {
+    if (finding.kind != kind || finding.severity == Severity::note) continue;
+    ++found.count;
+    if (finding.figure <= largest) continue;
+    largest = finding.figure;
+    found.worst = fmt::format("{} {}", figure(finding.figure), finding.unit);
+  }
+  return found;
+}
+
+// Why a method keeps a take as it is although it is noisy; empty: nothing but the noise is known.
+Leftover reason_of_method(const CleanReport& report, const CleanPlan& plan) {
+  constexpr std::size_t fewest_frames = 4;  // from which noise can be told from motion
+  if (plan.settings.strength == 0)
+    return {"--strength 0 keeps the input", "a strength above 0 cleans it"};
+  const auto cutoff = plan.options.find("cutoff_hz");
+  if (cutoff != plan.options.end()) {
+    const double cutoff_hz = std::get<double>(cutoff->second),
+                 nyquist_hz = report.frame_rate_hz / 2;
+    if (cutoff_hz >= nyquist_hz) {
+      return {fmt::format("the cutoff of {} Hz is not below the Nyquist frequency of {} Hz",
+                          figure(cutoff_hz), figure(nyquist_hz)),
+              "a lower --cutoff-hz smooths it"};
+    }
+  }
+  const std::size_t frames = report.frames - report.calibration_frames;
+  if (frames > 0 && frames < fewest_frames) {
+    return {fmt::format("too short to tell noise from motion: {}, and {} are needed",
+                        counted(frames, "frame"), fewest_frames),
+            "--method gaussian smooths without measuring the noise"};
+  }
+  return {};
+}
+
+// Joints or markers with noise that one can see, which the method has measured and left.
+Leftover noise_left(const CleanReport& report, double metres_per_unit) {
+  constexpr double noticeable_deg = 0.1, noticeable_m = 0.0005;
+  const bool is_joints = report.kind == TakeKind::joints;
+  if (!is_joints && metres_per_unit <= 0) return {};
+  const double least = is_joints ? noticeable_deg : noticeable_m / metres_per_unit;
+  std::size_t count = 0;
+  double worst = 0;
+  for (const TrackSummary& track : report.tracks) {
+    if (track.noise < least) continue;
+    ++count;
+    worst = std::max(worst, track.noise);
+  }
+  if (count == 0) return {};
+  return {fmt::format("jitter on {} left, {} {} at most",
+                      counted(count, is_joints ? "joint" : "marker"), figure(worst), report.unit),
+          fmt::format("{} took it for motion; --method butterworth --cutoff-hz 6 smooths it anyway",
+                      report.method)};
+}
+
+}  // namespace
+
+std::vector<Leftover> reasons_unchanged(const Take& take, const CleanReport& report,
+                                        const CleanPlan& plan, const std::string& input) {
+  std::vector<Leftover> reasons;
+  if (report.frames == 0 || report.tracks.empty()) return reasons;
+  const CheckReport check = std::visit([](const auto& clip) { return check_take(clip); }, take);
+  const Leftover reason = reason_of_method(report, plan);
+  if (!reason.what.empty()) reasons.push_back(reason);
+  const std::string listing = fmt::format("kinemend check {} lists them", printable(input));
+  const auto add = [&](FindingKind kind, const auto& what, const std::string& mend) {
+    if (const Found found = found_of(check.findings, kind); found.count > 0)
+      reasons.push_back({what(found), mend});
+  };
+  const Leftover noise = noise_left(report, check.metres_per_unit);
+  if (!noise.what.empty() && reason.what.empty()) reasons.push_back(noise);
+  add(
+      FindingKind::spike,
+      [](const Found& found) { return counted(found.count, "spike") + " left"; },
+      plan.method == "auto" ? listing : "--method auto repairs them");
+  const bool is_joints = std::holds_alternative<Clip>(take);
+  add(
+      FindingKind::slide,
+      [](const Found& found) {
+        return fmt::format("{} of standing feet left, {} at most", counted(found.count, "slide"),
+                           found.worst);
+      },
+      !is_joints           ? "markers are measured points and are not moved to hold feet"
+      : plan.settings.feet ? "--feet force also holds intentional slides"
+                           : "--feet auto holds the feet");
+  add(
+      FindingKind::sink,
+      [](const Found& found) {
+        return fmt::format("{} of feet below the floor left, {} at most",
+                           counted(found.count, "time"), found.worst);
+      },
+      listing);
+  add(
+      FindingKind::length,
+      [](const Found& found) {
+        return fmt::format("{} of lengths left, {} at most", counted(found.count, "change"),
+                           found.worst);
+      },
+      listing);
+  return reasons;
+}
+
+std::vector<std::string> meaningless_flags(const Take& take, const CleanPlan& plan) {
+  const auto is_given = [&](std::string_view flag) {
+    return std::find(plan.asked.begin(), plan.asked.end(), flag) != plan.asked.end();
+  };
+  std::vector<std::string> lines;
+  const auto* const clip = std::get_if<Clip>(&take);
+  if (clip == nullptr) {
+    if (is_given("max_change_deg"))
+      lines.emplace_back("--max-change-deg has no effect on markers; --max-change limits them");
+    if (is_given("root_position"))
+      lines.emplace_back("--root-position has no effect on markers, which have no root");
+    return lines;
+  }
+  if (is_given("max_change"))
+    lines.emplace_back("--max-change has no effect on joints; --max-change-deg limits them");
+  if (is_given("fix_swaps"))
+    lines.emplace_back("--fix-swaps has no effect on joints; only marker labels can be swapped");
+  if (is_given("unlabelled")) lines.emplace_back("--unlabelled has no effect on joints");
+  const bool has_gaps = !clip->observed.empty() || !clip->observed_positions.empty();
+  if (!has_gaps && (is_given("fill") || is_given("fill_all"))) {
+    lines.push_back(
+        fmt::format("--{} has no effect: the take states no gaps; --gaps FILE lists them",
+                    is_given("fill") ? "fill" : "fill-all"));
+  }
+  return lines;
 }
 
 }  // namespace kinemend::cli

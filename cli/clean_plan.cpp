@@ -61,9 +61,9 @@ std::vector<CleanJob> make_jobs(const Arguments& arguments) {
   const std::string output = arguments.text("output");
   const std::string folder = arguments.text("output_dir");
   if (!output.empty() && !folder.empty())
-    throw Error(ErrorKind::usage, "clean: --output and --output-dir exclude each other");
+    throw Error(ErrorKind::usage, "clean: --output and --output-dir cannot be combined");
   if (!output.empty() && inputs.size() > 1)
-    throw Error(ErrorKind::usage, "clean: --output takes one input; for several, --output-dir");
+    throw Error(ErrorKind::usage, "clean: --output is for one take; use --output-dir for several");
   check_take_ending(output);
   std::vector<CleanJob> jobs;
   std::map<std::string, std::string> taken;
@@ -124,6 +124,7 @@ std::optional<FillSettings> fill_settings(const Settings& settings) {
   FillSettings fill;
   fill.method = method == "off" ? "auto" : method;
   fill.fill_all = fill_all;
+  fill.unlabelled = std::get<bool>(settings.values.find("unlabelled")->second);
   return fill;
 }
 
@@ -244,10 +245,13 @@ CleanPlan make_clean_plan(const Arguments& arguments) {
   plan.jobs = make_jobs(arguments);
   if (const std::string path = arguments.text("contacts"); !path.empty()) {
     if (plan.jobs.size() > 1)
-      throw Error(ErrorKind::usage, "clean: --contacts are of one take, not of several");
+      throw Error(ErrorKind::usage, "clean: --contacts is for one take; clean several one by one");
     plan.contacts.emplace(read_file(path), input_name(path));
   }
   plan.folder = arguments.text("output_dir");
+  for (const Flag& flag : arguments.command->flags) {
+    if (arguments.given(flag.spec.name)) plan.asked.push_back(flag.spec.name);
+  }
   plan.reports = report_files(arguments, plan.jobs.size());
   if (plan.reports.with_page()) plan.page = page_settings(arguments);
   plan.dry_run = arguments.flag("dry_run");

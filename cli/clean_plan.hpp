@@ -37,6 +37,7 @@ struct CleanPlan {
   /// Of --gaps and --contacts: bytes and name. Names and frames are those of a take.
   std::optional<std::pair<std::string, std::string>> gaps, contacts;
   bool fix_swaps = false;
+  std::vector<std::string> asked{};    ///< of `clean`: flags that the command line itself gives
   std::string folder;                  ///< --output-dir; made where it does not exist
   ReportFiles reports{};               ///< of `clean`
   std::optional<PageSettings> page{};  ///< where a page is made of each take

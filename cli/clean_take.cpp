@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <new>
 #include <utility>
 #include <variant>
@@ -78,6 +80,22 @@ bool is_reported(const CleanPlan& plan) {
   return !plan.quiet || plan.json || !plan.reports.empty() || plan.page;
 }
 
+bool is_unchanged(const CleanOutcome& outcome) {
+  const CleanReport& report = outcome.report;
+  return outcome.swaps.empty() && report.root_max_change == 0 &&
+         std::all_of(report.tracks.begin(), report.tracks.end(),
+                     [](const TrackSummary& track) { return track.frames_changed == 0; });
+}
+
+void refuse_folder(const std::string& input) {
+  std::error_code ignored;
+  if (!fs::is_directory(input, ignored)) return;
+  throw Error(ErrorKind::unreadable_input,
+              fmt::format("{0}: this is a directory; to clean a tree of takes use: kinemend batch "
+                          "{0} -o OUT",
+                          input));
+}
+
 // Cleans the take in place.
 CleanOutcome clean_in_place(Take& take, const std::string& input, const CleanPlan& plan,
                             const TakeProgress& progress) {
@@ -102,6 +120,10 @@ CleanOutcome clean_in_place(Take& take, const std::string& input, const CleanPla
         outcome.report = std::move(result.report);
       },
       take);
+  if (is_reported(plan) && is_unchanged(outcome)) {
+    std::vector<Leftover> reasons = reasons_unchanged(take, outcome.report, plan, input);
+    std::move(reasons.begin(), reasons.end(), std::back_inserter(outcome.leftovers));
+  }
   return outcome;
 }
 
@@ -141,6 +163,7 @@ std::string picture_of(const Take& take) {
 void clean_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& progress,
                 Outcome& outcome) {
   const std::string name = input_name(job.input);
+  refuse_folder(job.input);
   if (!plan.dry_run) check_free(job.output, plan.force || job.may_replace);
   TakeResult read = as_stage(progress, "reading", [&](const auto& tell) {
     ReadOptions options = plan.reading;
@@ -151,6 +174,10 @@ void clean_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& 
     outcome.warnings.push_back(diagnostic_line(source_of(read.take), entry));
   const std::string format = format_for(job.output, source_of(read.take));
   check_can_hold(name, read.take, format);
+  const std::vector<std::string> meaningless = meaningless_flags(read.take, plan);
+  if (plan.strict) refuse_warnings(name, meaningless);
+  for (const std::string& line : meaningless)
+    outcome.warnings.push_back(fmt::format("{}: {}", name, line));
   // Cleaning takes the take apart.
   std::optional<Take> before;
   if (plan.page) before = read.take;

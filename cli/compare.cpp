@@ -55,7 +55,7 @@ const MarkerClip& markers_of(const TakeResult& read, const std::string& name) {
   if (const auto* markers = std::get_if<MarkerClip>(&read.take)) return *markers;
   throw Error(ErrorKind::usage,
               fmt::format("{}: holds joints, and the other take markers; kinemend "
-                          "convert makes markers of joints",
+                          "convert turns joints into markers",
                           name));
 }
 
@@ -195,7 +195,7 @@ std::vector<Flag> compare_flags() {
   fit.spec.default_value = std::string("none");
   fit.has_default = true;
   Flag fit_to = text_flag("fit_to", "TAKE", "Markers",
-                          "fit to this take in place of OTHER: the one before cleaning",
+                          "fit to this take instead of OTHER, usually the uncleaned one",
                           "A fit to each of several cleaned takes flatters the one that stands "
                           "still.");
   fit_to.completion = Completion::file;
@@ -204,20 +204,20 @@ std::vector<Flag> compare_flags() {
       switch_flag("per_joint", "Output", "also list every joint or marker"),
       fit,
       fit_to,
-      whole_flag("lag", 0, -1e6, 1e6, "Markers", "frames by which OTHER comes behind REFERENCE",
-                 "The lag that is found is printed as lag_s, and not applied."),
+      whole_flag("lag", 0, -1e6, 1e6, "Markers", "frames by which OTHER is behind REFERENCE",
+                 "The measured lag is printed as lag_s and not applied."),
       number_flag("least_motion", "", 0, 0, 1e12, "Markers",
-                  "channels of REFERENCE that move by less do not count, file units",
-                  "Standard deviation over the take. Distances count all."),
+                  "ignore channels of REFERENCE that move by less, in file units",
+                  "Standard deviation over the take. Distances use all channels."),
       reports_flag("also write the figures: FILE.json, or FILE.html as a page for a browser",
                    "The page shows both takes."),
       force_flag(),
       number_without_default("metres_per_unit", "m", 1e-9, 1e6, "Figures",
-                             "length of a file unit; found from the skeleton's height otherwise"),
+                             "length of a file unit; default: from the height of the skeleton"),
       number_without_default("psnr_peak", "rad", 1e-9, 1e6, "Figures",
                              "peak of psnr_db (default pi / 2)"),
       up};
-  append(list, reading_flags("what needs a repair becomes an error"));
+  append(list, reading_flags("a repair becomes an error"));
   for (const FigureRule& entry : comparison_figures()) {
     Flag limit =
         number_without_default(std::string(entry.limit), std::string(entry.unit),

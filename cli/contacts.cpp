@@ -23,7 +23,8 @@ Clip read_joints(const std::string& input, const ReadOptions& options) {
   if (Clip* clip = std::get_if<Clip>(&read.take)) return std::move(*clip);
   throw Error(
       ErrorKind::usage,
-      fmt::format("{}: contacts are of takes of joints, and these are markers", input_name(input)));
+      fmt::format("{}: this take holds markers; ground contacts are found in takes of joints",
+                  input_name(input)));
 }
 
 int run_contacts(const Arguments& arguments) {
@@ -44,7 +45,7 @@ int run_contacts(const Arguments& arguments) {
   settings.names = names_of_map(map);
   const FeetReport report = clean_feet(copy, settings);
   if (report.sides.empty()) {
-    say_warning(fmt::format("{}: no legs are found by their names (--map FILE says what they are)",
+    say_warning(fmt::format("{}: no legs found; --map FILE gives the names of the feet",
                             input_name(input)));
   }
   for (const std::string& warning : report.warnings)
@@ -68,24 +69,21 @@ int run_contacts(const Arguments& arguments) {
 Command contacts_command() {
   Command command;
   command.name = "contacts";
-  command.summary = "say when feet stand, as a file to edit";
+  command.summary = "list ground contacts of the feet, as a file to edit";
   command.description =
-      "Finds the times in which heels and toes stand and writes them one a line: side, part, first "
-      "and last frame as the file numbers them. A slide that clean --feet auto would take for "
-      "intended stands in a "
-      "comment that says why. Lines are SIDE PART FIRST LAST, as in left heel 12 40; # starts a "
-      "comment. Edit the file and give it to clean with --contacts: it holds what is "
-      "listed.";
+      "Finds the ground contacts of heels and toes and writes one a line: SIDE PART FIRST LAST, as "
+      "in left heel 12 40, with frames as the file numbers them. # starts a comment. A slide that "
+      "clean --feet auto would keep as intentional is written as a comment with the reason. Edit "
+      "the file and give it to clean with --contacts, which holds every contact listed.";
   command.positionals = {{"IN", "take of joints; - is standard input", 1, 1, {}}};
-  command.flags = {output_flag("where to write; standard output where it is left out"),
-                   force_flag(), json_flag("print the contacts as JSON instead of text"),
-                   map_flag()};
-  append(command.flags, reading_flags("what needs a repair becomes an error"));
+  command.flags = {output_flag("where to write; default: standard output"), force_flag(),
+                   json_flag("print the contacts as JSON instead of text"), map_flag()};
+  append(command.flags, reading_flags("a repair becomes an error"));
   command.examples = {
       {"kinemend contacts dance.bvh -o dance.contacts", "to look at and edit"},
       {"kinemend contacts rig.bvh --map names.csv -o rig.contacts",
-       "joints whose names are not known"},
-      {"kinemend clean dance.bvh --contacts dance.contacts", "holds what it lists"}};
+       "names of feet that the program does not know"},
+      {"kinemend clean dance.bvh --contacts dance.contacts", "hold the listed contacts"}};
   command.run = run_contacts;
   return command;
 }

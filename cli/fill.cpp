@@ -77,10 +77,10 @@ Flag fill_method_flag() {
 
 Flag fill_gaps_flag() {
   Flag gaps = text_flag(
-      "gaps", "FILE", "Input", "gaps that the take's own format cannot hold",
-      "Lines NAME,FIRST,LAST: a joint or marker (* for all), and frames as the "
-      "file numbers them, last included. A joint's gap is one of its position too, where it has "
-      "position channels. What stands in a gap is not looked at.");
+      "gaps", "FILE", "Input", "gaps that the format of the take cannot hold",
+      "Lines NAME,FIRST,LAST: a joint or marker (* for all), and frames as the file numbers them, "
+      "last included. The gap of a joint also covers its position channels, if any. Values inside "
+      "a gap are ignored.");
   gaps.completion = Completion::file;
   return gaps;
 }
@@ -102,13 +102,22 @@ std::vector<Flag> fill_flags() {
                          "Names and patterns (* any text, ? any character); quote them.");
   names.takes = Takes::list;
   Flag longest = number_flag("longest_gap", "s", 0, 0, 100000, "Work",
-                             "longest gap to fill, in place of the method's own rule");
+                             "longest gap to fill, instead of the method's own rule");
   longest.has_default = false;
+  constexpr double smallest_error = 1e-9, largest_error = 1e6;
+  Flag max_error_mm = number_flag(
+      "max_error_mm", "mm", 0, smallest_error, largest_error, "Work",
+      "refuse fills of positions whose expected error is above this",
+      "A fill whose error the method cannot tell is refused too. Cannot be combined with "
+      "--fill-all.");
+  max_error_mm.has_default = false;
+  Flag max_error_deg = number_flag("max_error_deg", "deg", 0, smallest_error, 180, "Work",
+                                   "the same for rotations of joints");
+  max_error_deg.has_default = false;
   std::vector<Flag> flags = {
       output_flag("where to write (default walk.filled.bvh beside walk.bvh); - is standard output"),
       force_flag(),
-      switch_flag("dry_run", "Output", "report, but write no take",
-                  "A --report that is asked for is written."),
+      switch_flag("dry_run", "Output", "report, but write no take", "A --report is still written."),
       reports_flag("also write what was done: FILE.json, or FILE.html as a page for a browser",
                    "The page shows the motion before and after."),
       json_flag("print what was done as JSON"),
@@ -116,30 +125,34 @@ std::vector<Flag> fill_flags() {
       lettered('q', switch_flag("quiet", "Output", "print warnings and errors only")),
       fill_method_flag(),
       names,
-      text_flag("range", "FIRST:LAST", "Work",
-                "fill gaps within frames 121:240, as the file numbers them, or seconds 1s:2.5s",
-                "Either end may be left out. A gap that reaches out of it stays, and is counted."),
+      text_flag(
+          "range", "FIRST:LAST", "Work",
+          "fill gaps within frames 121:240, as the file numbers them, or seconds 1s:2.5s",
+          "Either end may be omitted. A gap that is only partly inside stays open and is counted."),
       text_flag("donor", "MARKER", "Work", "marker whose movement --method pattern copies"),
       longest,
-      switch_flag("fill_all", "Work", "also fill what the rules refuse",
-                  "By the best guess there is."),
+      max_error_mm,
+      max_error_deg,
+      unlabelled_flag(),
+      switch_flag("fill_all", "Work", "also fill gaps that the rules refuse",
+                  "With the best guess available."),
       fill_file_flag(
-          "plan", "Work", "do what a gap plan says, and nothing else",
-          "A row a gap, as --plan-out writes them: its verdict is fill, force (also what the "
-          "rules refuse) or refuse. Gaps without a row stay."),
+          "plan", "Work", "fill the gaps of a gap plan, and no others",
+          "One row for each gap, as --plan-out writes them. The verdict is fill, force (also if "
+          "the rules refuse) or refuse. Gaps without a row stay open."),
       fill_file_flag("plan_out", "Work",
-                     "write the gap plan of this run: a row a gap, to look at and edit",
-                     "A table, or FILE.json. With --dry-run no take is written."),
-      switch_flag("preview", "Work", "into the plan also what every method would make of each gap",
-                  "The distance, over the gap, from what the row's own method fills."),
+                     "write the gap plan of this run, one row for each gap, to edit",
+                     "A CSV table, or FILE.json. With --dry-run no take is written."),
+      switch_flag("preview", "Work", "add to the plan how far every other method would differ",
+                  "The distance over the gap from the method of the row."),
       fill_gaps_flag(),
-      fill_file_flag("model", "Work", "network of --method recurrent, made by kinemend-train paper",
-                     "--network ebd --head pose makes one that fills gaps; none ships. Also of "
-                     "the rows of a "
-                     "--plan with that method, and of --preview."),
+      fill_file_flag("model", "Work",
+                     "network for --method recurrent, made by kinemend-train paper",
+                     "--network ebd --head pose trains one that fills gaps; none is included. Also "
+                     "used for rows of a --plan with that method, and for --preview."),
       fill_file_flag("map", "Work", "names in the take for those of --model",
                      "Lines NAME IN THE MODEL,NAME IN THE TAKE.")};
-  append(flags, reading_flags("what needs a repair, and a gap that is refused, is an error"));
+  append(flags, reading_flags("a repair or a refused gap becomes an error"));
   return flags;
 }
 
@@ -151,15 +164,14 @@ Command fill_command() {
   command.summary = "fill the gaps of a take from the take itself";
   command.description =
       "Fills missing markers, and rotations and positions of joints, without a trained model "
-      "(--method recurrent: with one). A filled span meets its ends in value and velocity; what "
-      "was observed keeps its bytes. The "
-      "method auto makes gaps of the same length in the take, tries the others on them, and takes "
-      "what does best there.\n\n"
-      "Each method has rules for what it accepts. A gap that they refuse is listed with the reason "
-      "and stays missing (in BVH and AMC, which know no gaps: as the file had it), unless "
-      "--fill-all is given. The report lists the longest gaps and apart from them what was "
-      "refused, "
-      "30 lines at most; --verbose lists all.";
+      "(except --method recurrent). A filled span joins its neighbours in value and velocity. "
+      "Observed samples keep their bytes. The method auto tests the others on artificial gaps of "
+      "the same length in the take and uses the best.\n\n"
+      "Each method has rules for the gaps that it fills. A refused gap is listed with the reason "
+      "and stays missing (BVH and AMC cannot hold gaps: they keep the values of the file), unless "
+      "--fill-all is given. --max-error-mm and --max-error-deg also refuse fills whose expected "
+      "error is too large. The report lists the longest filled gaps and the refused ones; "
+      "--verbose lists all.";
   command.positionals = {{"TAKE", "take to read; - is standard input", 1, 1, {}}};
   command.flags = fill_flags();
   for (const FillMethod& method : fill_methods()) {
@@ -174,12 +186,13 @@ Command fill_command() {
   }
   command.group_heading = "--method %";
   command.examples = {
-      {"kinemend fill walk.c3d", "every gap by the method that suits it, into walk.filled.c3d"},
-      {"kinemend fill walk.c3d --dry-run --plan-out plan.csv", "what would be done, a row a gap"},
-      {"kinemend fill walk.c3d --plan plan.csv", "what the plan says, after an edit"},
-      {"kinemend fill dance.bvh --gaps gaps.csv -o filled.bvh", "gaps that a side file names"},
+      {"kinemend fill walk.c3d", "each gap by the best method, into walk.filled.c3d"},
+      {"kinemend fill walk.c3d --dry-run --plan-out plan.csv",
+       "a plan with one row for each gap, without filling"},
+      {"kinemend fill walk.c3d --plan plan.csv", "fill by the edited plan"},
+      {"kinemend fill dance.bvh --gaps gaps.csv -o filled.bvh", "gaps listed in a side file"},
       {"kinemend fill walk.c3d -o filled.c3d --method pattern --donor RTHI --names RKNE",
-       "one marker, after its neighbour"}};
+       "one marker, with the movement of its neighbour"}};
   command.run = run_fill;
   return command;
 }

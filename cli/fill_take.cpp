@@ -40,6 +40,8 @@ FillSettings settings_of(const Arguments& arguments) {
   settings.donor = arguments.text("donor");
   settings.longest_gap_s = arguments.given("longest_gap") ? arguments.number("longest_gap") : 0;
   settings.fill_all = arguments.flag("fill_all");
+  settings.unlabelled = arguments.flag("unlabelled");
+  if (arguments.given("max_error_deg")) settings.max_error_deg = arguments.number("max_error_deg");
   return settings;
 }
 
@@ -49,27 +51,58 @@ LearnedFill learned_of(const Arguments& arguments) {
   const bool may_need = arguments.text("method") == "recurrent" || arguments.given("plan") ||
                         arguments.flag("preview");
   if (model.empty()) {
-    if (!map.empty()) throw Error(ErrorKind::usage, "fill: --map goes with --model");
+    if (!map.empty()) throw Error(ErrorKind::usage, "fill: --map needs --model");
     return {};
   }
   if (!may_need)
     throw Error(ErrorKind::usage,
-                "fill: --model is of --method recurrent, of a --plan and of --preview");
+                "fill: --model is used by --method recurrent, --plan and --preview only");
   return make_recurrent_fill({model, map});
 }
 
 /// A plan says these of each gap.
 void check_plan_alone(const Arguments& arguments) {
   if (!arguments.given("plan")) return;
-  for (const char* name : {"method", "names", "range", "donor", "longest_gap", "fill_all"}) {
+  for (const char* name : {"method", "names", "range", "donor", "longest_gap", "fill_all",
+                           "max_error_mm", "max_error_deg", "unlabelled"}) {
     if (!arguments.given(name)) continue;
-    throw Error(ErrorKind::usage,
-                fmt::format("fill: --plan says for each gap how it is filled: --{} goes without it",
-                            dashed(name)));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("fill: --{} cannot be combined with --plan, which says how each gap is filled",
+                    dashed(name)));
   }
 }
 
 bool is_json(const std::string& path) { return std::filesystem::path(path).extension() == ".json"; }
+
+double metres_of_unit(const MarkerClip& clip) { return metres_per_unit(clip.unit); }
+double metres_of_unit(const Clip& clip) {
+  if (clip.metres_per_unit > 0) return clip.metres_per_unit;
+  const auto guess = guess_length_unit(clip.skeleton);
+  return guess ? guess->metres : 0;
+}
+
+/// --max-error-mm in the unit of the file.
+template <class AnyClip>
+double max_error_in_file_units(const AnyClip& clip, const FillRun& run) {
+  constexpr double metres_per_mm = 0.001;
+  const double metres = metres_of_unit(clip);
+  if (metres > 0) return *run.max_error_mm * metres_per_mm / metres;
+  throw Error(ErrorKind::usage,
+              fmt::format("{}: the unit of its lengths is not known, so that --max-error-mm cannot "
+                          "be applied; kinemend convert --unit states it",
+                          input_name(run.input)));
+}
+
+/// Limits of rotations mean nothing for markers.
+std::vector<std::string> meaningless_flags(const Take& take, const FillRun& run) {
+  const bool markers = std::holds_alternative<MarkerClip>(take);
+  if (markers && run.settings.max_error_deg > 0)
+    return {"--max-error-deg has no effect on markers; --max-error-mm limits their error"};
+  if (!markers && run.settings.unlabelled)
+    return {"--unlabelled has no effect on a take of joints"};
+  return {};
+}
 
 /// Fills the gaps of the clip in place.
 template <class AnyClip>
@@ -110,6 +143,7 @@ FillOutcome fill_in_place(Take& take, const FillRun& run, const FillCheck& check
         if (run.range)
           settings.range = frames_of(*run.range, clip.frame_count(), clip.frame_rate_hz,
                                      first_frame_number(clip));
+        if (run.max_error_mm) settings.max_error = max_error_in_file_units(clip, run);
         std::optional<std::decay_t<decltype(clip)>> before;
         if (run.preview) before = clip;
         PlannedFill filled = fill_clip(clip, settings, run, check);
@@ -122,7 +156,8 @@ FillOutcome fill_in_place(Take& take, const FillRun& run, const FillCheck& check
         if (run.range) {
           // What is neither filled nor refused was not asked for.
           const std::size_t left = count_gaps(clip);
-          outcome.not_within_range = left - std::min(left, outcome.report.refused());
+          const std::size_t told = outcome.report.refused() + outcome.report.unlabelled;
+          outcome.not_within_range = left - std::min(left, told);
         }
         return outcome;
       },
@@ -143,11 +178,17 @@ FillRun fill_run_of(const Arguments& arguments) {
   run.plan_out_path = arguments.text("plan_out");
   run.preview = arguments.flag("preview");
   if (run.preview && run.plan_out_path.empty())
-    throw Error(ErrorKind::usage, "fill: --preview is of the plan that --plan-out FILE writes");
+    throw Error(ErrorKind::usage, "fill: --preview needs --plan-out FILE");
   if (const std::string range = arguments.text("range"); !range.empty())
     run.range = parse_range(range);
   run.settings = settings_of(arguments);
   run.settings.learned = learned_of(arguments);
+  if (arguments.given("max_error_mm")) run.max_error_mm = arguments.number("max_error_mm");
+  const bool has_limit = run.max_error_mm || run.settings.max_error_deg > 0;
+  if (has_limit && run.settings.fill_all)
+    throw Error(ErrorKind::usage,
+                "fill: --fill-all fills every gap, so that --max-error-mm and --max-error-deg "
+                "cannot be combined with it");
   run.reading = read_options(arguments);
   run.json = arguments.flag("json");
   run.force = arguments.flag("force");
@@ -180,6 +221,11 @@ FilledTake fill_take(const FillRun& run, bool with_before, const FillCheck& chec
   for (const Diagnostic& entry : read.diagnostics.entries())
     filled.warnings.push_back(diagnostic_line(source_of(read.take), entry));
   check_can_hold(input_name(run.input), read.take, format_for(run.output, source_of(read.take)));
+  for (const std::string& line : meaningless_flags(read.take, run)) {
+    const std::string warning = fmt::format("{}: {}", input_name(run.input), line);
+    if (run.strict) throw Error(ErrorKind::quality_limit, warning + " (an error under --strict)");
+    filled.warnings.push_back(warning);
+  }
   mark_given_gaps(read.take, run);
   if (with_before) filled.before = read.take;
   FillOutcome outcome = fill_in_place(read.take, run, check, filled.plan_text);

@@ -22,6 +22,7 @@ struct FillRun {
   /// Of --gaps and --plan: bytes and name. Names and frames are those of a take.
   std::optional<std::pair<std::string, std::string>> gaps, plan;
   FillSettings settings;
+  std::optional<double> max_error_mm;
   std::optional<FrameRange> range;
   ReadOptions reading;
   bool preview = false;

@@ -15,7 +15,7 @@ namespace {
 }
 
 [[noreturn]] void refuse_form(const std::string& text) {
-  refuse(text + " is neither FIRST:LAST in frames nor FIRSTs:LASTs in seconds");
+  refuse(text + " is neither a range of frames (121:240) nor of seconds (1s:2.5s)");
 }
 
 struct End {
@@ -67,7 +67,8 @@ std::pair<std::size_t, std::size_t> frames_of(const FrameRange& range, std::size
     // A frame that lies on an end, give or take the rounding of the rate, belongs to the range.
     constexpr double slack = 1e-6;
     if (range.last && *range.last * frame_rate_hz > frames + slack)
-      refuse(fmt::format("{}s is after the end, {:.3f}s", *range.last, frames / frame_rate_hz));
+      refuse(fmt::format("{} s is after the end of the take, {:.3f} s", *range.last,
+                         frames / frame_rate_hz));
     if (range.first) first = std::ceil(*range.first * frame_rate_hz - slack);
     if (range.last) last = std::min(last, std::floor(*range.last * frame_rate_hz + slack));
   } else {
@@ -82,7 +83,7 @@ std::pair<std::size_t, std::size_t> frames_of(const FrameRange& range, std::size
     if (range.last) last = *range.last - start;
   }
   if (first > last || first >= frames)
-    refuse(fmt::format("holds none of the {} frames", frame_count));
+    refuse(fmt::format("contains none of the {} frames of the take", frame_count));
   return {static_cast<std::size_t>(first), static_cast<std::size_t>(last)};
 }
 

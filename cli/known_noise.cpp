@@ -21,15 +21,15 @@ const Json& noise_of_tracks(const Json& take, const std::string& path) {
   for (const Json& noise : take.at("noise")) {
     if (noise.at("quantity") == quantity) return noise;
   }
-  fail(path, "the take of this report has no noise");
+  fail(path, "the report found no noise in its take");
 }
 
 KnownNoise noise_of_report(const Json& report, const std::string& path) {
   if (!report.is_object() || report.value("schema", "") != report_schema)
-    fail(path, "is not white, auto, or a report of clean or check");
+    fail(path, "expected white, auto, or a JSON report of clean or check");
   const Json& takes = report.at("takes");
   if (takes.empty() || !takes.front().contains("noise"))
-    fail(path, "the report says nothing of noise; clean and check write such reports");
+    fail(path, "the report has no noise in it; use a report of clean or check");
   const Json& take = takes.front();
   KnownNoise known;
   known.correlation = noise_of_tracks(take, path).at("correlation").get<double>();
@@ -49,7 +49,7 @@ std::optional<KnownNoise> known_noise(const std::string& choice) {
   try {
     return noise_of_report(Json::parse(text), choice);
   } catch (const Json::exception&) {
-    fail(choice, "is not white, auto, or a report of clean or check");
+    fail(choice, "expected white, auto, or a JSON report of clean or check");
   }
 }
 

@@ -47,11 +47,11 @@ void check_page(const std::string& path, std::size_t takes) {
   if (!is_page(path)) return;
   if (!has_report_page()) {
     throw Error(ErrorKind::usage,
-                "--report: this kinemend was built without its report page (KINEMEND_WEB=OFF); "
-                "FILE.json is there in any build");
+                "--report: this kinemend was built without its report page (KINEMEND_WEB=OFF); use "
+                "FILE.json");
   }
   if (takes > 1)
-    throw Error(ErrorKind::usage, "--report: a page is of one take; FILE.json holds several");
+    throw Error(ErrorKind::usage, "--report: a page shows one take; use FILE.json for several");
 }
 
 bool ReportFiles::with_page() const { return std::any_of(paths.begin(), paths.end(), is_page); }

@@ -283,6 +283,13 @@ Flag strict_flag(std::string help) {
                      "Without it, a damaged but usable file is read with a warning.");
 }
 
+Flag unlabelled_flag() {
+  return switch_flag(
+      "unlabelled", "Work", "also fill unlabelled points (*52, U_12), and use them",
+      "Without it they are left alone and are no evidence for labelled markers: such "
+      "a point often changes from one marker to another.");
+}
+
 void append(std::vector<Flag>& list, std::vector<Flag> more) {
   list.insert(list.end(), std::make_move_iterator(more.begin()),
               std::make_move_iterator(more.end()));

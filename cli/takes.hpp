@@ -78,7 +78,9 @@ Flag output_flag(std::string help);
 Flag seed_flag(std::string help);
 Flag from_flag();
 Flag strict_flag(std::string help);
-/// --map, for takes whose feet have unknown names.
+/// --unlabelled, of the commands that fill gaps.
+Flag unlabelled_flag();
+/// --map, for feet whose names are not known.
 Flag map_flag();
 /// The names that the file of --map gives; empty where `path` is.
 KnownNames names_of_map(const std::string& path);

@@ -18,29 +18,29 @@ namespace kinemend {
 
 enum class FindingKind : std::uint8_t {
   gap,              ///< missing samples
-  spike,            ///< a sample far off its neighbours
+  spike,            ///< samples that deviate from the neighbouring frames
   frozen,           ///< a track that repeats one sample while others move
-  bridged,          ///< a straight line where a gap was
+  bridged,          ///< a straight line drawn over a gap
   noise,            ///< jitter of a track
-  swap,             ///< two markers that bear each other's label
+  swap,             ///< two markers with exchanged labels
   rate,             ///< the frame rate looks wrong
   unit,             ///< the unit of length looks wrong
   length,           ///< a bone or the distance of two markers of a segment changes
   slide,            ///< a foot travels while it stands
   sink,             ///< a foot goes below the floor
-  euler_flip,       ///< the file's angles leap while the rotation does not
-  repeated_frames,  ///< whole frames that are equal to the one before
+  euler_flip,       ///< the file's angles jump although the rotation does not
+  repeated_frames,  ///< whole frames equal to the previous one
   zero_frames,      ///< whole frames of zeros
-  calibration,      ///< frames at the start that are no part of the motion
-  left_out          ///< points that are no positions
+  calibration,      ///< a calibration pose at the start
+  left_out          ///< points that are angles or forces
 };
 /// "gap", "euler_flip", ...
 std::string_view to_string(FindingKind kind);
 
 enum class Severity : std::uint8_t {
-  note,     ///< good to know
-  warning,  ///< cleaning repairs it, or it may be meant
-  serious   ///< spoils what is made from the take
+  note,     ///< for information
+  warning,  ///< cleaning repairs it, or it may be intended
+  serious   ///< makes results from this take wrong
 };
 std::string_view to_string(Severity severity);
 
@@ -49,28 +49,27 @@ struct Finding {
   Severity severity = Severity::note;
   std::string track;  ///< joint or marker; "A, B" for two; empty for the whole take
   std::size_t first_frame = 0;
-  std::size_t last_frame = 0;  ///< inclusive, counted from 0; what holds throughout: all frames
+  std::size_t last_frame = 0;  ///< inclusive, counted from 0; all frames if it holds throughout
   double figure = 0;           ///< how much, in `unit`
   std::string unit;            ///< "s", "deg", "mm", "cm", "%", "frames", ...
   std::string words;           ///< a sentence without track and frames
 };
 
-/// One joint or marker over the whole take. Frames count where the take is motion: calibration
-/// frames are left out.
+/// One joint or marker over the whole take, without calibration frames.
 struct TrackHealth {
   std::string name;
   std::size_t gaps = 0;
   std::size_t longest_gap = 0;     ///< frames
   std::size_t missing_frames = 0;  ///< of all gaps
-  std::size_t spikes = 0;
-  std::size_t frozen = 0;   ///< spans
-  std::size_t bridged = 0;  ///< spans
+  std::size_t spikes = 0;          ///< runs of frames
+  std::size_t frozen = 0;          ///< spans
+  std::size_t bridged = 0;         ///< spans
   std::size_t swaps = 0;
   std::size_t flips = 0;
   double noise = 0;  ///< standard deviation per axis: degrees of joints, file units of markers
 };
 
-/// Two markers whose labels change places over a span of frames.
+/// Two markers whose labels are exchanged over a span of frames.
 struct MarkerSwap {
   std::size_t first_marker = 0;
   std::size_t second_marker = 0;
@@ -80,7 +79,7 @@ struct MarkerSwap {
   friend bool operator==(const MarkerSwap&, const MarkerSwap&) = default;
 };
 
-/// The figures that limits are set on.
+/// The figures that can have limits.
 struct CheckFigures {
   std::size_t gaps = 0;
   double longest_gap_s = 0;
@@ -127,32 +126,32 @@ struct CheckReport {
   std::vector<NoiseCharacter> noise;   ///< what `auto` finds; none of a space without noise
   CheckFigures figures;
   std::vector<TrackHealth> tracks;      ///< J, or the markers that are positions
-  std::vector<SubjectHealth> subjects;  ///< of a take of several; their feet, lengths and size are
-                                        ///< judged one by one
+  std::vector<SubjectHealth> subjects;  ///< of a take of several people; feet, lengths and size
+                                        ///< are checked for each person
   std::vector<Finding> findings;        ///< worst first
   std::vector<MarkerSwap> swaps;
-  std::vector<NamedGap> stale;  ///< frozen and bridged spans, by track, then frame: what a gap side
-                                ///< file holds
+  std::vector<NamedGap> stale;  ///< frozen and bridged spans, by track, then frame, for a side
+                                ///< file of gaps
 };
 
-/// All checks at once. Errors: `ErrorKind::usage` for a clip that breaks the rules of its type or a
+/// Runs all checks. Errors: `ErrorKind::usage` for a clip that breaks the rules of its type or a
 /// setting out of range.
 CheckReport check_take(const Clip& clip, const CheckSettings& settings = {});
 CheckReport check_take(const MarkerClip& clip, const CheckSettings& settings = {});
 
-/// What no cleaning mends, without the checks that take as long as cleaning: findings that are
-/// serious (of gaps, swaps, frames and the unit), and all frozen and bridged spans. In the order of
-/// `CheckReport::findings`. Errors: as of `check_take`.
+/// The findings that cleaning does not mend: the serious ones among gaps, swaps, frames and the
+/// unit, and all frozen and bridged spans. Leaves out the checks that take as long as cleaning.
+/// Ordered as `CheckReport::findings`. Errors: those of `check_take`.
 std::vector<Finding> find_beyond_cleaning(const Clip& clip);
 std::vector<Finding> find_beyond_cleaning(const MarkerClip& clip);
 
-/// The spans in which two labels are swapped, as far as the take itself proves it: at either end,
-/// exchanging the labels makes both tracks continuous in position and velocity, and between the
-/// ends the distances to the markers that keep theirs to both become what they are elsewhere. A
-/// swap may begin or end inside a gap of the two. Which side of a single exchange is the wrong one
-/// no take can prove: the shorter one is reported. By frame.
+/// The spans in which two labels are exchanged, as far as the take itself proves it. At both ends,
+/// exchanging the labels makes both tracks continuous in position and velocity. Between the ends it
+/// restores the distances to the other markers. A swap may begin or end inside a gap of the two.
+/// After a single exchange no take can prove which side is wrong: the shorter one is reported. By
+/// frame.
 std::vector<MarkerSwap> find_swaps(const MarkerClip& clip);
-/// Gives the samples of each span to the other marker, in place: positions, `observed` and
+/// Exchanges the samples of each span between the two markers, in place: positions, `observed` and
 /// residuals. Spans that overlap are undone from the last to the first. Errors:
 /// `ErrorKind::usage` for a marker or a frame that the clip does not have.
 void undo_swaps(MarkerClip& clip, const std::vector<MarkerSwap>& swaps);

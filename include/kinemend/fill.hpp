@@ -32,6 +32,12 @@ struct FillSettings {
   std::string donor;               ///< of `pattern`: the marker whose movement is copied
   double longest_gap_s = 0;        ///< longer gaps are refused; 0: what the method's rules say
   bool fill_all = false;           ///< also where the rules refuse: the best guess there is
+  /// Gaps whose expected error is above this, or not known, are refused: of positions in file
+  /// units, of rotations in degrees; 0: no limit. Not together with `fill_all`.
+  double max_error = 0, max_error_deg = 0;
+  /// Markers whose name is a number that the capture system gave (`*52`, `U_12`) are filled, and
+  /// used as evidence for others. They change from one marker to another within a take.
+  bool unlabelled = false;
   /// First and last frame, from 0: gaps that do not lie within stay, and are not listed.
   std::optional<std::pair<std::size_t, std::size_t>> range;
   LearnedFill learned = {};  ///< of the method `recurrent`, which needs it
@@ -51,6 +57,7 @@ struct GapOutcome {
 struct FillReport {
   std::vector<GapOutcome> gaps;  ///< by track, then frame
   std::vector<std::string> warnings;
+  std::size_t unlabelled = 0;  ///< gaps of unlabelled markers, which were left alone
 
   std::size_t filled() const;
   std::size_t refused() const;

@@ -17,8 +17,7 @@
 #include "kinemend/metrics.hpp"
 #include "kinemend/options.hpp"
 
-// What was done to a take or found in it: the result of any command as figures, findings and tracks
-// in one form, and that as JSON and as text.
+// The result of any command as figures, findings and tracks in one form, and as JSON and text.
 namespace kinemend {
 
 /// Name and version of the JSON; docs/report.md describes it, docs/report.schema.json states it.
@@ -27,11 +26,11 @@ inline constexpr std::string_view report_schema = "kinemend.report/1";
 /// What a report says of the take itself.
 struct TakeFacts {
   std::string input;   ///< as it was named; "-" is standard input
-  std::string output;  ///< where the result went; empty where none is written
+  std::string output;  ///< where the result was written; empty for none
   TakeKind kind = TakeKind::joints;
   std::string format;               ///< "bvh"
-  std::string unit;                 ///< of lengths; empty where the file does not say
-  double metres_per_unit = 0;       ///< 0 where the file does not say
+  std::string unit;                 ///< of lengths; empty if the file does not state it
+  double metres_per_unit = 0;       ///< 0 if the file does not state it
   std::vector<std::string> tracks;  ///< names of all joints or markers
   std::size_t frames = 0;
   std::int64_t first_frame = 1;  ///< the number that the file gives to the first
@@ -46,10 +45,10 @@ TakeFacts take_facts(const MarkerClip& clip);
 /// `TakeFacts::contents`.
 std::string contents_without_markers(const MarkerClip& clip);
 
-/// Something wrong with a take that cleaning leaves as it is.
+/// Something wrong with a take that cleaning left as it was.
 struct Leftover {
   std::string what;  ///< "34 frozen or bridged spans left"
-  std::string mend;  ///< the command or option that mends it
+  std::string mend;  ///< the command or option that mends it, or why it was left
 };
 
 /// What `clean` did.
@@ -62,9 +61,9 @@ struct CleanOutcome {
 /// What `fill` did.
 struct FillOutcome {
   FillReport report;
-  std::size_t not_within_range = 0;  ///< gaps that do not lie within `FillSettings::range`
+  std::size_t not_within_range = 0;  ///< gaps outside `FillSettings::range`
 };
-/// What `compare` measured: the take is the other one.
+/// What `compare` measured. The take is the other one.
 struct CompareOutcome {
   std::string reference;                      ///< as it was named
   Comparison comparison;                      ///< of joints
@@ -88,32 +87,33 @@ std::string verdict_of(const Report& report);
 struct ReportFigure {
   std::string name;             ///< for programs: "longest_gap_s"
   std::string label;            ///< for people: "longest gap"
-  std::optional<double> value;  ///< none where the take does not have it
+  std::optional<double> value;  ///< none if the take does not have it
   bool is_count = false;
-  std::string unit;  ///< "deg", "mm"; empty for counts and where it is not known
+  std::string unit;  ///< "deg", "mm"; empty for counts and unknown units
 };
 std::vector<ReportFigure> figures_of(const Report& report);
 
-/// A time in which something was wrong with a track, and what became of it.
+/// A span in which something was wrong with a track, and what was done about it. `check` and
+/// `clean` count alike: a spike is a run of frames, and noise is one finding for each track.
 struct ReportFinding {
-  /// As `to_string(FindingKind)`, whichever command: what was smoothed is "noise", a repaired
-  /// sample "spike", a filled one "gap", a foot that was held "slide".
+  /// As `to_string(FindingKind)`, for every command: "noise" was smoothed, "spike" repaired, "gap"
+  /// filled or refused, "slide" held.
   std::string kind;
-  /// Of `check` the severity; of others what was done: "denoised", "despiked", "filled",
+  /// For `check` the severity, else what was done: "denoised", "despiked", "filled",
   /// "foot_adjusted", "refused", "undone".
   std::string verdict;
   std::string track;     ///< joint or marker; "A, B" for two; empty for the whole take
-  std::string quantity;  ///< "rotation" or "position"; empty where it is not one of them
+  std::string quantity;  ///< "rotation", "position" or empty
   std::size_t first_frame = 0;
   std::size_t last_frame = 0;    ///< inclusive, counted from 0
-  std::optional<double> amount;  ///< the largest change, or how much is wrong
+  std::optional<double> amount;  ///< the largest change, or the size of the fault
   std::optional<double> rms;     ///< of the change over the frames
   std::string unit;              ///< of both
-  std::string method;            ///< that filled it or refused to
+  std::string method;            ///< that filled the gap or refused to
   std::string reason;            ///< in words
 };
-/// Of `check` worst first, of others by track, then frame. `with_spans`: also those that `clean`
-/// has for every span of samples that it changed.
+/// For `check` worst first, else by track, then frame. `with_spans`: also what `clean` smoothed and
+/// repaired.
 std::vector<ReportFinding> findings_of(const Report& report, bool with_spans = true);
 
 /// One figure of every track.
@@ -124,21 +124,21 @@ struct ReportColumn {
   std::vector<double> values;  ///< one a track
 };
 struct ReportTracks {
-  std::string unit;  ///< of figures whose name does not tell: "deg" of joints, the markers' unit
+  std::string unit;  ///< of figures whose name states none: "deg" for joints, the markers' unit
   std::vector<std::string> names;
   std::vector<ReportColumn> columns;
 };
-/// No names where a command looks at no tracks.
+/// Empty for a command without figures of tracks. Points that are angles or forces are left out.
 ReportTracks tracks_of(const Report& report);
 
-/// A figure of `check` or `compare` (joints' first, then markers'), on which a limit can be set.
+/// A figure of `check` or `compare` (those of joints first) that can have a limit.
 struct FigureRule {
   std::string_view name;   ///< as in `ReportFigure`
   std::string_view label;  ///< for people
   std::string_view unit;   ///< empty: a count, or that of the tracks
-  std::string_view limit;  ///< what the limit is called: "max_gap_s"
+  std::string_view limit;  ///< name of the limit: "max_gap_s"
   bool is_count = false;
-  bool more_is_better = false;  ///< the limit is the least, not the most
+  bool more_is_better = false;  ///< the limit is a minimum
 };
 std::span<const FigureRule> check_figures();
 std::span<const FigureRule> comparison_figures();
@@ -147,29 +147,29 @@ struct FigureLimit {
   std::string_view figure;  ///< its name
   double value = 0;
 };
-/// A line for each limit that a figure passes, of `check` with the worst finding. A figure that the
-/// take does not have passes none of `check`, and any of `compare`.
+/// A line for each limit that is exceeded, for `check` with the worst finding. A figure that the
+/// take does not have exceeds no limit of `check`, and every limit of `compare`.
 std::vector<std::string> passed_limits(const Report& report, std::span<const FigureLimit> limits);
 
 struct TextOptions {
-  bool details = true;   ///< of `clean`: what follows the first line
-  bool all = false;      ///< every row, not only the first few of a kind
-  bool colours = false;  ///< codes of a terminal
+  bool details = true;   ///< of `clean`: also the lines after the first
+  bool all = false;      ///< every row, not only the first few of each kind
+  bool colours = false;  ///< escape codes for a terminal
 };
-/// Lines for people. A list that is cut short says that --verbose lists all.
+/// Lines for people. A shortened list says that --verbose lists all.
 std::string to_text(const Report& report, const TextOptions& options = {});
 
-/// One take's entry of the document, two blanks a level. A figure that is not finite is null, bytes
-/// that are no UTF-8 are replaced. `with_spans`: as in `findings_of`.
+/// The entry of one take in the document, indented by two spaces. A figure that is not finite is
+/// null; bytes that are not UTF-8 are replaced. `with_spans`: as in `findings_of`.
 std::string to_json(const Report& report, bool with_spans = true);
-/// The entry of a take with which something went wrong.
+/// The entry of a take that failed.
 std::string failure_json(std::string_view input, std::string_view error, int exit_code);
 /// The whole document of a command: `takes` are entries, in order.
 std::string report_document(std::string_view command, std::span<const std::string> takes);
-/// The list `diagnostics` of an entry. Places in some formats are bytes, in others lines.
+/// The list `diagnostics` of an entry. Positions are bytes in binary formats, else lines.
 std::string diagnostics_json(const Diagnostics& diagnostics, std::string_view format);
 
-/// "walk.bvh:12: ...", or "walk.c3d: byte 12: ..." of a format whose places are bytes.
+/// "walk.bvh:12: ...", or "walk.c3d: byte 12: ..." for a format whose positions are bytes.
 std::string diagnostic_line(const SourceInfo& source, const Diagnostic& diagnostic);
 /// The same without the name of the take: "line 12: ...", "byte 12: ...".
 std::string diagnostic_text(std::string_view format, const Diagnostic& diagnostic);

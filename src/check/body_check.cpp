@@ -34,8 +34,10 @@ void report_feet(const BodyPoints& body, Up up, const CheckSettings& settings,
     const double slide = 100 * contact.slide_m, sink = depths.empty() ? 0 : 100 * depths[i];
     slide_cm = std::max(slide_cm, slide);
     sink_cm = std::max(sink_cm, sink);
-    if (slide > settings.slide_cm) report_cm(FindingKind::slide, slide, "slides while it stands");
-    if (sink > settings.sink_cm) report_cm(FindingKind::sink, sink, "stands below the floor");
+    if (slide > settings.slide_cm)
+      report_cm(FindingKind::slide, slide, "slides during ground contact");
+    if (sink > settings.sink_cm)
+      report_cm(FindingKind::sink, sink, "is below the floor during ground contact");
   }
   // Feet that never stand neither slide nor sink.
   if (contacts.empty()) return;
@@ -82,7 +84,7 @@ void report_rate_of_fall(const BodyPoints& body, Up up, CheckReport& report) {
   const double rate = report.frame_rate_hz / std::sqrt(found / gravity);
   report.findings.push_back(
       {FindingKind::rate, Severity::serious, "", 0, body.frames - 1, rate, "Hz",
-       fmt::format("in the air the body falls at {:.3g} m/s2: the rate may be about {:.0f} Hz",
+       fmt::format("the body falls at {:.3g} m/s2, not 9.81: the frame rate may be about {:.0f} Hz",
                    found, rate)});
 }
 

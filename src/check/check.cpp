@@ -47,7 +47,7 @@ void report_calibration(CheckReport& report) {
   if (count == 0) return;
   report.findings.push_back({FindingKind::calibration, Severity::note, "", 0, count - 1,
                              static_cast<double>(count), "frames",
-                             "a calibration pose and no part of the motion"});
+                             "are a calibration pose, not part of the motion"});
 }
 
 void report_left_out(const MarkerClip& clip, const std::vector<std::size_t>& markers,
@@ -57,7 +57,7 @@ void report_left_out(const MarkerClip& clip, const std::vector<std::size_t>& mar
   const std::size_t last = std::max<std::size_t>(report.frames, 1) - 1;
   report.findings.push_back({FindingKind::left_out, Severity::note, "", 0, last,
                              static_cast<double>(count), "points",
-                             "points that are no positions (angles, forces, ...) are left out"});
+                             "angles, forces and the like among the points are ignored"});
 }
 
 // With a row for each joint.

@@ -51,7 +51,7 @@ void report_low_rate(const std::vector<std::uint8_t>& repeated, CheckReport& rep
       report.findings.push_back(
           {FindingKind::rate, Severity::serious, "", 0, repeated.size() - 1,
            report.frame_rate_hz / static_cast<double>(stride), "Hz",
-           fmt::format("only one frame in {} is new: the motion was taken at {:.6g} Hz", stride,
+           fmt::format("only one frame in {} is new: the motion was captured at {:.6g} Hz", stride,
                        report.frame_rate_hz / static_cast<double>(stride))});
       return;
     }

@@ -123,7 +123,7 @@ void check_lengths(const Clip& clip, const CheckSettings& settings, CheckReport&
     for (double& length : lengths) length = 100 * std::fabs(length - usual) / usual;
     const auto joint = static_cast<std::size_t>(clip.translated_joints[i]);
     report_length(lengths, clip.skeleton.names[joint], settings,
-                  "the bone to it changes its length", report);
+                  "the bone that leads to it changes its length", report);
   }
 }
 
@@ -133,8 +133,8 @@ void check_lengths(const MarkerClip& clip, const std::vector<std::size_t>& marke
     const std::vector<RigidNeighbour> neighbours = rigid_neighbours(clip, markers, m);
     if (neighbours.size() < 2) continue;
     report_length(departures(clip, m, neighbours), clip.names[m], settings,
-                  fmt::format("leaves its place by {} and {}", clip.names[neighbours[0].marker],
-                              clip.names[neighbours[1].marker]),
+                  fmt::format("moves away from its place between {} and {}",
+                              clip.names[neighbours[0].marker], clip.names[neighbours[1].marker]),
                   report);
   }
 }

@@ -23,23 +23,29 @@ void add_noise(TrackHealth& track, double noise, double limit, std::size_t frame
                              noise, report.noise_unit, "jitters from frame to frame"});
 }
 
-void add_spike(TrackHealth& track, std::string name, std::size_t frame, double size,
-               std::string unit, CheckReport& report) {
-  ++track.spikes;
-  ++report.figures.spikes;
-  report.findings.push_back({FindingKind::spike, Severity::warning, std::move(name), frame, frame,
-                             size, std::move(unit), "stands off the frames about it"});
+// One finding for each run of frames, as `clean` repairs and counts them.
+void add_spikes(TrackHealth& track, const std::string& name,
+                const std::map<std::size_t, double>& sizes, const std::string& unit,
+                CheckReport& report) {
+  for (auto next = sizes.begin(); next != sizes.end();) {
+    const std::size_t first = next->first;
+    std::size_t last = first;
+    double largest = 0;
+    for (; next != sizes.end() && next->first <= last + 1; ++next) {
+      last = next->first;
+      largest = std::max(largest, next->second);
+    }
+    ++track.spikes;
+    ++report.figures.spikes;
+    report.findings.push_back({FindingKind::spike, Severity::warning, name, first, last, largest,
+                               unit, "deviates from the neighbouring frames"});
+  }
 }
 
 // What `auto` says of a take.
 struct Verdict {
   CleanTrace trace;                                        // no noise: too short to tell
   std::vector<std::map<std::size_t, double>> spike_sizes;  // of each track, by frame
-
-  const double* spike(std::size_t track, std::size_t frame) const {
-    const auto found = spike_sizes[track].find(frame);
-    return found == spike_sizes[track].end() ? nullptr : &found->second;
-  }
 };
 
 Verdict verdict_of(const TakeView& take) {
@@ -69,16 +75,11 @@ void check_noise_and_spikes(const Clip& clip, const CheckSettings& settings, Che
   report.noise = verdict.trace.characters;
   for (std::size_t j = 0; j < joints && !noise.empty(); ++j)
     add_noise(report.tracks[j], noise[j], settings.noise_deg, frames, report);
-  // By frame, then joint.
-  for (std::size_t f = 0; f < frames; ++f) {
-    for (std::size_t j = 0; j < joints; ++j) {
-      if (const double* size = verdict.spike(j, f))
-        add_spike(report.tracks[j], report.tracks[j].name, f, *size, "deg", report);
-    }
-  }
-  for (std::size_t f = 0; f < frames; ++f) {
-    if (const double* size = verdict.spike(joints, f))
-      add_spike(report.tracks[0], report.tracks[0].name + " position", f, *size, "", report);
+  for (std::size_t j = 0; j < joints; ++j)
+    add_spikes(report.tracks[j], report.tracks[j].name, verdict.spike_sizes[j], "deg", report);
+  if (joints > 0) {
+    add_spikes(report.tracks[0], report.tracks[0].name + " position", verdict.spike_sizes[joints],
+               "", report);
   }
 }
 
@@ -96,10 +97,8 @@ void check_noise_and_spikes(const MarkerClip& clip, const std::vector<std::size_
   for (std::size_t n = 0; n < markers.size(); ++n) {
     const std::size_t m = markers[n];
     if (!noise.empty()) add_noise(report.tracks[n], noise[m], limit, frames, report);
-    for (std::size_t f = 0; f < frames; ++f) {
-      if (const double* size = verdict.spike(m, f))
-        add_spike(report.tracks[n], report.tracks[n].name, f, *size, report.noise_unit, report);
-    }
+    add_spikes(report.tracks[n], report.tracks[n].name, verdict.spike_sizes[m], report.noise_unit,
+               report);
   }
 }
 

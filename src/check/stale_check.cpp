@@ -208,8 +208,8 @@ void report_stale(const StaleSpans& spans, const std::vector<std::size_t>& track
       report.findings.push_back({stale.kind, seconds >= 0.5 ? Severity::serious : Severity::warning,
                                  track.name, stale.span.first, stale.span.last, seconds, "s",
                                  stale.kind == FindingKind::frozen
-                                     ? "holds still to the last digit while others move"
-                                     : "runs dead straight, as a bridged gap does"});
+                                     ? "repeats its last value exactly while others move"
+                                     : "moves in a straight line, as a bridged gap does"});
     }
   }
 }

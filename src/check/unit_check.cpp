@@ -72,7 +72,8 @@ void check_unit(const Clip& clip, const CheckSettings& settings, CheckReport& re
   } else if (!guess) {
     report.findings.push_back(finding_of(
         Severity::note, 0, report,
-        fmt::format("the body measures {:.3g}: no usual unit makes it a person", height)));
+        fmt::format("the body measures {:.3g}, which is a person's size in no usual unit",
+                    height)));
   }
 }
 
@@ -93,8 +94,8 @@ void check_unit(const MarkerClip& clip, const std::vector<std::size_t>& markers,
   } else if (!markers.empty()) {
     report.findings.push_back(finding_of(
         Severity::note, 0, report,
-        guess != nullptr ? fmt::format("the file names no unit; it is taken to be {}", guess->name)
-                         : std::string("the file names no unit that is known")));
+        guess != nullptr ? fmt::format("the file states no unit; {} is assumed", guess->name)
+                         : std::string("the file states no known unit")));
   }
 }
 

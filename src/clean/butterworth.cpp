@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "clean/causal.hpp"
+#include "clean/cutoff.hpp"
 #include "clean/filter_channels.hpp"
 #include "clean/method_list.hpp"
 #include "kinemend/experimental/representation.hpp"
@@ -91,10 +92,9 @@ class Butterworth final : public Cleaner {
 
  private:
   std::string nothing_to_do(double rate_hz) const {
-    return fmt::format("a cutoff of {} Hz is not below half the frame rate of {} Hz: nothing to do",
-                       options_.cutoff_hz, rate_hz);
+    return cutoff_warning("cutoff_hz", options_.cutoff_hz, rate_hz) + "; nothing is filtered";
   }
-  bool acts(double rate_hz) const { return options_.cutoff_hz < rate_hz / 2; }
+  bool acts(double rate_hz) const { return is_below_nyquist(options_.cutoff_hz, rate_hz); }
   std::vector<Biquad> design(double rate_hz) const {
     return butterworth_lowpass(static_cast<int>(options_.order), options_.cutoff_hz, rate_hz);
   }

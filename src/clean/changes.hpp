@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -73,17 +74,34 @@ ReportScale joint_scale();
 /// Of positions of markers, in their unit (empty: unknown).
 ReportScale marker_scale(const std::string& unit, double body_height);
 
+/// A peak speed that cleaning lowered by more than the limit, as shown.
+struct PeakLoss {
+  double before = 0, after = 0;
+  double share = 0;  ///< of `before`
+};
+/// A sample that smoothing changed by far more than the noise explains, as shown.
+struct LargeChange {
+  double size = 0, noise = 0;
+  double time_s = 0;      ///< of the largest
+  std::size_t count = 0;  ///< of such frames
+};
+
 /// What the report says of one joint or marker. `noise`: where it is coloured; white noise is
 /// measured.
 struct TrackReport {
   TrackSummary summary;
   std::vector<ReportSpan> spans;
-  std::vector<std::string> warnings;  ///< of a lost peak, and of what smoothing should not do
+  std::optional<PeakLoss> lost_peak;
+  std::optional<LargeChange> large_change;
 };
 template <class Sample>
 TrackReport report_track(std::string name, std::size_t owner, const TrackEdit<Sample>& track,
                          const TrackChanges& changes, const ColouredNoise& noise,
                          const ReportScale& scale);
+
+/// One line for all lost peaks and one for all large changes, with the worst few by name.
+std::vector<std::string> warnings_of(const std::vector<TrackReport>& tracks, TakeKind kind,
+                                     const ReportScale& scale);
 
 /// The spans of one track, `kept` left out.
 std::vector<ReportSpan> spans_of(std::int32_t owner, const TrackChanges& changes,

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
-#include <iterator>
 #include <mutex>
 #include <string_view>
 #include <utility>
@@ -93,12 +92,20 @@ class Finisher {
 
   void report(const CleanTrace& trace, CleanReport& report) {
     if (take_.joints) report_root(report);
+    const std::vector<std::string> warnings = warnings_of(reports_, report.kind, work_.scale);
+    report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
     for (std::size_t n = 0; n < take_.owners; ++n) {
       TrackReport& own = reports_[n];
-      if (!trace.noise.empty()) own.summary.noise = trace.noise[n];
-      report.tracks.push_back(std::move(own.summary));
+      TrackSummary& summary = own.summary;
+      // A method that finds out what the noise is knows more than the measure of white noise.
+      if (!trace.noise.empty()) summary.noise = trace.noise[n];
+      if (take_.markers && !take_.markers->holds_positions(n)) {
+        summary.is_position = false;
+        summary.noise = 0;
+        summary.gaps_left = summary.frames_missing = 0;
+      }
       report.spans.insert(report.spans.end(), own.spans.begin(), own.spans.end());
-      std::move(own.warnings.begin(), own.warnings.end(), std::back_inserter(report.warnings));
+      report.tracks.push_back(summary);
     }
   }
 

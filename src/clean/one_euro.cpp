@@ -1,4 +1,5 @@
 #include "clean/causal.hpp"
+#include "clean/cutoff.hpp"
 #include "clean/method_list.hpp"
 #include "kinemend/methods.hpp"
 #include "tracks/track_kalman.hpp"
@@ -61,7 +62,13 @@ class OneEuro final : public Cleaner {
 
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
-    return clean_causally(*this, take, sink, progress);
+    CleanTrace trace = clean_causally(*this, take, sink, progress);
+    if (!is_below_nyquist(options_.min_cutoff_hz, take.frame_rate_hz)) {
+      trace.warnings.push_back(
+          cutoff_warning("min_cutoff_hz", options_.min_cutoff_hz, take.frame_rate_hz) +
+          "; a pose that is held is hardly smoothed");
+    }
+    return trace;
   }
   LiveSupport live_support(double) const override { return {LiveSupport::Kind::causal, 0}; }
   std::unique_ptr<FrameFilter> make_frame_filter(const TakeView& like) const override {

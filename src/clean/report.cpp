@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/measure.hpp"
 #include "clean/changes.hpp"
 #include "metrics/peaks.hpp"
 #include "metrics/track_noise.hpp"
@@ -21,21 +22,19 @@ constexpr double small_change_deg = 10, small_change_heights = 0.04;
 // A foot that is held is moved, not repaired: how fast it goes counts.
 bool repaired(Action action) { return action == Action::despiked || action == Action::filled; }
 
-// `scale` and `unit`: of speeds as they are shown. Peaks below `slow` are no events.
-std::string peak_warning(const std::string& name, const Peaks& peaks, double scale,
-                         std::string_view unit, double slow, double limit) {
-  const double sure = (peaks.before - peaks.noise) * scale;
-  if (sure < slow || peaks.after * scale >= (1 - limit) * sure) return {};
-  const double loss = 1 - peaks.after / peaks.before;
-  return fmt::format("{}: peak speed falls from {:.4g} to {:.4g} {} ({:.0f} %, limit {:.0f} %)",
-                     name, peaks.before * scale, peaks.after * scale, unit, 100 * loss,
-                     100 * limit);
+// Peaks below `scale.slow` are no events.
+std::optional<PeakLoss> lost_peak(const Peaks& peaks, const ReportScale& scale) {
+  const double before = peaks.before * scale.per_sample_unit;
+  const double after = peaks.after * scale.per_sample_unit;
+  const double sure = before - peaks.noise * scale.per_sample_unit;
+  if (sure < scale.slow || after >= (1 - scale.peak_loss_limit) * sure) return std::nullopt;
+  return PeakLoss{before, after, 1 - peaks.after / peaks.before};
 }
 
 // Smoothing takes noise away; what it changes by far more than the largest noise there may be was a
 // spike to everybody but the method, or motion.
-std::string change_warning(const std::string& name, const TrackChanges& changes, double noise,
-                           const ReportScale& scale) {
+std::optional<LargeChange> large_change(const TrackChanges& changes, double noise,
+                                        const ReportScale& scale) {
   constexpr double clearly = 2;
   const double limit =
       std::max(scale.small_change, clearly * longest_of_noise(changes.amounts.size()) * noise);
@@ -44,17 +43,73 @@ std::string change_warning(const std::string& name, const TrackChanges& changes,
     if (changes.actions[f] != Action::denoised || changes.amounts[f] <= limit) continue;
     if (count++ == 0 || changes.amounts[f] > changes.amounts[largest]) largest = f;
   }
-  if (count == 0) return {};
-  const double begin_s = static_cast<double>(scale.first_frame) / scale.frame_rate_hz;
-  return fmt::format(
-      "{}: smoothing changes it by {:.3g} {} at {:.2f} s, where its noise is {:.2g}{}", name,
-      changes.amounts[largest], scale.unit,
-      begin_s + static_cast<double>(largest) / scale.frame_rate_hz, noise,
-      count > 1 ? fmt::format(" ({} such frames)", count) : "");
+  if (count == 0) return std::nullopt;
+  const auto frame = static_cast<double>(scale.first_frame + largest);
+  return LargeChange{changes.amounts[largest], noise, frame / scale.frame_rate_hz, count};
 }
 
-void add(std::string warning, std::vector<std::string>& warnings) {
-  if (!warning.empty()) warnings.push_back(std::move(warning));
+std::string text_of(const PeakLoss& loss, const ReportScale& scale) {
+  return fmt::format("from {:.4g} to {:.4g} {}", loss.before, loss.after, scale.speed_unit);
+}
+
+std::string text_of(const LargeChange& change, const ReportScale& scale) {
+  return fmt::format("{} at {:.2f} s", measure_text(change.size, scale.unit), change.time_s);
+}
+
+// The tracks that have a `member`, worst first by `size`.
+template <class Event, class Size>
+std::vector<const TrackReport*> worst_first(const std::vector<TrackReport>& tracks,
+                                            std::optional<Event> TrackReport::*member,
+                                            const Size& size) {
+  std::vector<const TrackReport*> found;
+  for (const TrackReport& track : tracks) {
+    if (track.*member) found.push_back(&track);
+  }
+  std::stable_sort(found.begin(), found.end(), [&](const auto* a, const auto* b) {
+    return size(*(a->*member)) > size(*(b->*member));
+  });
+  return found;
+}
+
+// "A (x), B (y), C (z)" of the first three.
+template <class Text>
+std::string worst_text(const std::vector<const TrackReport*>& found, const Text& text) {
+  constexpr std::size_t most_named = 3;
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < std::min(found.size(), most_named); ++i)
+    parts.push_back(fmt::format("{} ({})", found[i]->summary.name, text(*found[i])));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string peak_warning(const std::vector<const TrackReport*>& found, const char* noun,
+                         const ReportScale& scale) {
+  const double limit = 100 * scale.peak_loss_limit;
+  if (found.size() == 1) {
+    const PeakLoss& loss = *found[0]->lost_peak;
+    return fmt::format("{}: peak speed falls {} ({:.0f} %, limit {:.0f} %)", found[0]->summary.name,
+                       text_of(loss, scale), 100 * loss.share, limit);
+  }
+  return fmt::format("peak speed falls by more than {:.0f} % on {} {}s, most on {}", limit,
+                     found.size(), noun, worst_text(found, [&](const TrackReport& track) {
+                       return fmt::format("{}, {:.0f} %", text_of(*track.lost_peak, scale),
+                                          100 * track.lost_peak->share);
+                     }));
+}
+
+std::string change_warning(const std::vector<const TrackReport*>& found, const char* noun,
+                           const ReportScale& scale) {
+  if (found.size() == 1) {
+    const LargeChange& change = *found[0]->large_change;
+    return fmt::format("{}: smoothing changes it by {}, where its noise is {}{}",
+                       found[0]->summary.name, text_of(change, scale),
+                       measure_text(change.noise, scale.unit),
+                       change.count > 1 ? fmt::format(" ({} such frames)", change.count) : "");
+  }
+  return fmt::format("smoothing changes {} {}s by far more than their noise, most {}", found.size(),
+                     noun, worst_text(found, [&](const TrackReport& track) {
+                       return fmt::format("{}, noise {}", text_of(*track.large_change, scale),
+                                          measure_text(track.large_change->noise, scale.unit));
+                     }));
 }
 
 }  // namespace
@@ -136,12 +191,23 @@ TrackReport report_track(std::string name, std::size_t owner, const TrackEdit<Sa
   summary.peak_speed_before = peaks.before * scale.per_sample_unit;
   summary.peak_speed_after = peaks.after * scale.per_sample_unit;
   summary.peak_frames = peaks.frames;
-  add(peak_warning(summary.name, peaks, scale.per_sample_unit, scale.speed_unit, scale.slow,
-                   scale.peak_loss_limit),
-      report.warnings);
-  add(change_warning(summary.name, changes, strength * scale.per_sample_unit, scale),
-      report.warnings);
+  summary.noise = strength * scale.per_sample_unit;
+  report.lost_peak = lost_peak(peaks, scale);
+  report.large_change = large_change(changes, summary.noise, scale);
   return report;
+}
+
+std::vector<std::string> warnings_of(const std::vector<TrackReport>& tracks, TakeKind kind,
+                                     const ReportScale& scale) {
+  const char* const noun = kind == TakeKind::markers ? "marker" : "joint";
+  std::vector<std::string> warnings;
+  const auto losses =
+      worst_first(tracks, &TrackReport::lost_peak, [](const PeakLoss& loss) { return loss.share; });
+  if (!losses.empty()) warnings.push_back(peak_warning(losses, noun, scale));
+  const auto changes = worst_first(tracks, &TrackReport::large_change,
+                                   [](const LargeChange& change) { return change.size; });
+  if (!changes.empty()) warnings.push_back(change_warning(changes, noun, scale));
+  return warnings;
 }
 
 template TrackReport report_track(std::string, std::size_t, const TrackEdit<Quat>&,

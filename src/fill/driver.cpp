@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/measure.hpp"
 #include "fill/doubt.hpp"
 #include "kinemend/experimental/text.hpp"
 
@@ -55,6 +56,27 @@ Filling fill_gap(const GappedTake& take, const OpenGap& gap) {
     doubt = spikes;
   }
   return take.fill(gap, span);
+}
+
+// What the limit of the request leaves of a filling. What it refuses is tried again in a later
+// round, in which others are filled.
+Filling within_limit(const GappedTake& take, const OpenGap& gap, Filling filling) {
+  const std::string unit = take.unit_of(gap);
+  const double limit = unit == "deg" ? gap.request->max_error_deg : gap.request->max_error;
+  if (!filling.made() || limit == 0) return filling;
+  const bool is_known = filling.expected_error > 0;
+  if (is_known && filling.expected_error <= limit) return filling;
+  const std::string allowed = measure_text(limit, unit);
+  Filling refused = Filling::refused(
+      filling.method,
+      is_known
+          ? fmt::format("the expected error of {}, {}, is above the limit of {}", filling.method,
+                        measure_text(filling.expected_error, unit), allowed)
+          : fmt::format("{} cannot tell its error, and the limit is {}", filling.method, allowed),
+      true);
+  refused.expected_error = filling.expected_error;
+  refused.left_to_auto = std::move(filling.left_to_auto);
+  return refused;
 }
 
 class Rounds {
@@ -107,7 +129,8 @@ class Rounds {
     std::vector<Filling> found(chosen.size());
     tbb::parallel_for(std::size_t{0}, chosen.size(), [&](std::size_t i) {
       if (check_) check_();
-      found[i] = fill_gap(take_, gaps_[chosen[i]]);
+      const OpenGap& gap = gaps_[chosen[i]];
+      found[i] = within_limit(take_, gap, fill_gap(take_, gap));
     });
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       Filling& before = fillings_[chosen[i]];

@@ -36,6 +36,8 @@ class GappedTake {
   /// A gap is filled from doubted samples beside it where no method fills it without them.
   bool rests_on_doubted = false;
 
+  /// Of its expected error.
+  virtual std::string unit_of(const OpenGap& gap) const = 0;
   /// The samples around a gap, `doubt_reach` of them at least.
   virtual Track around(const OpenGap& gap) const = 0;
   /// A sample beside a gap is a spike where it is farther than this from a filling without it.

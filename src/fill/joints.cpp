@@ -5,10 +5,12 @@
 #include <optional>
 #include <tuple>
 
+#include "base/measure.hpp"
 #include "fill/doubt.hpp"
 #include "fill/driver.hpp"
 #include "fill/joint_choice.hpp"
 #include "motion/calibration.hpp"
+#include "motion/unit_name.hpp"
 
 // Gaps of joints: rotations, and the positions that joints have.
 namespace kinemend::fill {
@@ -95,6 +97,10 @@ class JointTake : public GappedTake {
   Track around(const OpenGap& gap) const override {
     const Track& track = tracks_[gap.track];
     return part_of(track, surroundings(gap.span(), {}, doubt_reach(frame_rate_hz), frames));
+  }
+
+  std::string unit_of(const OpenGap& gap) const override {
+    return gap.is_position ? unit_name(clip_.metres_per_unit) : "deg";
   }
 
   double spike_size(const OpenGap& gap) const override {
@@ -207,8 +213,9 @@ class JointTake : public GappedTake {
     const Method& asked = *gap.request->method;
     const bool is_auto = asked.about.name == "auto" || asked.about.learned;
     if (is_auto && proposal.expected_error > largest) {
-      return fmt::format("the expected error of {}, {:.3g}, is above {:.3g}",
-                         proposal.method->about.name, proposal.expected_error, largest);
+      const std::string unit = unit_of(gap);
+      return fmt::format("the expected error of {}, {}, is above {}", proposal.method->about.name,
+                         measure_text(proposal.expected_error, unit), measure_text(largest, unit));
     }
     return "";
   }

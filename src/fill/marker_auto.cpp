@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/measure.hpp"
 #include "fill/local_regression.hpp"
 #include "fill/marker_methods.hpp"
 #include "fill/trials.hpp"
@@ -180,9 +181,11 @@ Filling fill_by_auto(const Samples& samples, const MarkerGap& gap, const MarkerR
     return filling;
   }
   Filling refused = Filling::refused(
-      filling.method, fmt::format("expected to be off by {:.3g}, more than an eighth of the "
-                                  "body's radius of {:.3g}",
-                                  filling.expected_error, radius));
+      filling.method,
+      fmt::format("the expected error of {} is above {}, an eighth of the radius of "
+                  "the marker set",
+                  measure_text(filling.expected_error, samples.unit),
+                  measure_text(largest_error * radius, samples.unit)));
   refused.expected_error = filling.expected_error;
   return refused;
 }

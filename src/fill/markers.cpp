@@ -7,6 +7,7 @@
 #include "fill/methods.hpp"
 #include "kinemend/error.hpp"
 #include "motion/name_pattern.hpp"
+#include "motion/unlabelled.hpp"
 
 // Gaps of markers.
 namespace kinemend::fill {
@@ -19,7 +20,8 @@ constexpr double spike_share = 0.1;
 // A gap gains from a second look where one so steady was missing too. Not swept.
 constexpr std::size_t steadiest = 8;
 
-Samples samples_of(const MarkerClip& clip, const std::vector<std::uint8_t>& seen) {
+// `unlabelled`: such markers are evidence.
+Samples samples_of(const MarkerClip& clip, const std::vector<std::uint8_t>& seen, bool unlabelled) {
   Samples samples;
   samples.frames = clip.frame_count();
   samples.markers = clip.marker_count();
@@ -29,8 +31,10 @@ Samples samples_of(const MarkerClip& clip, const std::vector<std::uint8_t>& seen
   samples.measured = clip.observed;
   samples.seen = seen;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
-    if (clip.is_position.empty() || clip.is_position[m] != 0) samples.bodies.push_back(m);
+    if (clip.holds_positions(m) && (unlabelled || !is_unlabelled(clip.names[m])))
+      samples.bodies.push_back(m);
   }
+  samples.unit = clip.unit;
   samples.radius = body_radius(samples);
   return samples;
 }
@@ -43,11 +47,16 @@ class MarkerTake : public GappedTake {
     frames = clip.frame_count();
     frame_rate_hz = clip.frame_rate_hz;
     never_seen = "the marker is never seen";
+    unlabelled_ = std::any_of(gaps.begin(), gaps.end(), [&](const OpenGap& gap) {
+      return gap.request->unlabelled || is_unlabelled(clip.names[gap.track]);
+    });
   }
 
   Track around(const OpenGap& gap) const override {
     return track_around(samples_, {gap.track, gap.span()});
   }
+
+  std::string unit_of(const OpenGap&) const override { return clip_.unit; }
 
   double spike_size(const OpenGap&) const override { return spike_share * samples_.radius; }
 
@@ -67,7 +76,7 @@ class MarkerTake : public GappedTake {
     return fill_by_auto(samples_, asked, request);
   }
 
-  void begin_round() override { samples_ = samples_of(clip_, seen_); }
+  void begin_round() override { samples_ = samples_of(clip_, seen_, unlabelled_); }
 
   void learn(const OpenGap& gap, const Filling& filling) override {
     for (std::size_t i = 0; i < filling.values.size(); ++i) {
@@ -108,6 +117,7 @@ class MarkerTake : public GappedTake {
   const std::vector<OpenGap>& gaps_;
   std::vector<std::uint8_t> seen_;  // F x M: observed, or filled in an earlier round
   Samples samples_;
+  bool unlabelled_ = false;
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/gap_plan.hpp"
 #include "motion/name_pattern.hpp"
+#include "motion/unlabelled.hpp"
 
 // What is asked for each gap of a take: by settings, or by the rows of a plan.
 namespace kinemend {
@@ -28,23 +29,63 @@ std::size_t donor_for(const MarkerClip& clip, const FillSettings& settings) {
   return fill::donor_of(clip, settings.donor);
 }
 
+void leave_unlabelled(const Clip& /*clip*/, std::vector<std::uint8_t>& /*chosen*/) {}
+void leave_unlabelled(const MarkerClip& clip, std::vector<std::uint8_t>& chosen) {
+  for (std::size_t m = 0; m < chosen.size(); ++m) {
+    if (is_unlabelled(clip.names[m])) chosen[m] = 0;
+  }
+}
+
+void check_limits(const FillSettings& settings) {
+  if (settings.max_error < 0 || settings.max_error_deg < 0)
+    throw Error(ErrorKind::usage, "fill: a limit of the expected error is negative");
+  if (settings.fill_all && settings.max_error + settings.max_error_deg > 0)
+    throw Error(ErrorKind::usage,
+                "fill: a limit of the expected error cannot be combined with filling all gaps");
+}
+
+// What became of each gap that is filled or refused, and how many were left alone.
+struct FilledBySettings {
+  std::vector<FilledGap> gaps;
+  std::size_t unlabelled = 0;
+};
+
 template <class AnyClip>
-std::vector<FilledGap> fill_by_settings(AnyClip& clip, const FillSettings& settings,
-                                        const FillCheck& check) {
+FilledBySettings fill_by_settings(AnyClip& clip, const FillSettings& settings,
+                                  const FillCheck& check) {
   clip.validate();
+  check_limits(settings);
   GapRequest request;
   request.method = &fill::find_method(settings.method, fill::is_joints(clip));
   fill::check_model(*request.method, settings.learned);
   request.learned = &settings.learned;
-  const std::vector<std::uint8_t> chosen =
+  const std::vector<std::uint8_t> named =
       names_meant(names_of(clip), settings.names, fill::is_joints(clip) ? "joint" : "marker");
+  std::vector<std::uint8_t> chosen = named;
+  if (!settings.unlabelled) leave_unlabelled(clip, chosen);
   request.donor = donor_for(clip, settings);
   request.longest_gap_s = settings.longest_gap_s;
   request.fill_all = settings.fill_all;
-  const auto request_of = [&](const Gap& gap, bool) {
-    return chosen[gap.track] != 0 && fill::lies_within(gap, settings) ? &request : nullptr;
+  request.max_error = settings.max_error;
+  request.max_error_deg = settings.max_error_deg;
+  request.unlabelled = settings.unlabelled;
+  FilledBySettings filled;
+  const auto request_of = [&](const Gap& gap, bool) -> const GapRequest* {
+    if (named[gap.track] == 0 || !fill::lies_within(gap, settings)) return nullptr;
+    if (chosen[gap.track] != 0) return &request;
+    ++filled.unlabelled;
+    return nullptr;
   };
-  return fill::fill_asked(clip, request_of, check);
+  filled.gaps = fill::fill_asked(clip, request_of, check);
+  return filled;
+}
+
+template <class AnyClip>
+FillReport report_by_settings(AnyClip& clip, const FillSettings& settings) {
+  const FilledBySettings filled = fill_by_settings(clip, settings, {});
+  FillReport report = fill::report_of(filled.gaps, names_of(clip));
+  report.unlabelled = filled.unlabelled;
+  return report;
 }
 
 // What a run found of the gap that the row asks for.
@@ -58,8 +99,9 @@ void tell_found(const FilledGap& filled, const std::vector<std::string>& names, 
 
 template <class AnyClip>
 PlannedFill plan_by_settings(AnyClip& clip, const FillSettings& settings, const FillCheck& check) {
-  const std::vector<FilledGap> gaps = fill_by_settings(clip, settings, check);
+  const auto [gaps, unlabelled] = fill_by_settings(clip, settings, check);
   PlannedFill made{fill::report_of(gaps, names_of(clip)), {}};
+  made.report.unlabelled = unlabelled;
   for (const FilledGap& filled : gaps) {
     PlannedGap row;
     row.gap = filled.outcome.gap;
@@ -112,10 +154,10 @@ std::string_view to_string(GapVerdict verdict) {
 }
 
 FillReport fill_gaps(MarkerClip& clip, const FillSettings& settings) {
-  return fill::report_of(fill_by_settings(clip, settings, {}), names_of(clip));
+  return report_by_settings(clip, settings);
 }
 FillReport fill_gaps(Clip& clip, const FillSettings& settings) {
-  return fill::report_of(fill_by_settings(clip, settings, {}), names_of(clip));
+  return report_by_settings(clip, settings);
 }
 
 PlannedFill fill_with_plan(Clip& clip, const FillSettings& settings, const FillCheck& check) {

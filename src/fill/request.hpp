@@ -15,6 +15,8 @@ struct GapRequest {
   std::size_t donor = MarkerRequest::no_marker;  ///< of `pattern`
   double longest_gap_s = 0;                      ///< 0: what the method's rules say
   bool fill_all = false;                         ///< also what the rules refuse
+  double max_error = 0, max_error_deg = 0;       ///< as `FillSettings`; 0: no limit
+  bool unlabelled = false;                       ///< such markers are evidence
   std::optional<Filling> refusal = {};           ///< where the gap is to stay, whatever fills it
   const LearnedFill* learned = nullptr;          ///< of a learned method
 

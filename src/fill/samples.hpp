@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "fill/track.hpp"
@@ -20,8 +21,9 @@ struct Samples {
   std::span<const Vec3> positions;
   std::span<const std::uint8_t> measured;  ///< 1 where the take has a position
   std::span<const std::uint8_t> seen;      ///< 1 there, and where one was filled on good grounds
-  std::vector<std::size_t> bodies;         ///< the markers that are positions at all
+  std::vector<std::size_t> bodies;         ///< the markers that are evidence
   std::int64_t first_frame = 1;            ///< the number of frame 0, for messages
+  std::string unit{};                      ///< of lengths, for messages
   double radius = 0;  ///< of the body, by which errors are judged (`body_radius`)
 
   bool measures(std::size_t frame, std::size_t marker) const {

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "base/measure.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "report/figures.hpp"
@@ -15,6 +16,7 @@
 namespace kinemend {
 
 std::string with_unit(double value, std::string_view unit) {
+  if (unit == "m") return measure_text(value, unit);
   const std::string text = value == std::floor(value) && value < 1e15
                                ? grouped(static_cast<std::size_t>(value))
                                : figure(value);
@@ -82,16 +84,18 @@ std::string findings_text(const TakeFacts& take, const CheckReport& report, bool
 }
 
 std::string tracks_text(const CheckReport& report) {
+  const ShownUnit shown = shown_unit(report.noise_unit);
   Table table({Align::left, Align::right, Align::right, Align::right, Align::right, Align::right,
                Align::right, Align::right});
   table.add({report.is_markers ? "marker" : "joint", "gaps", "frames missing", "longest", "spikes",
              "frozen or bridged", report.is_markers ? "swaps" : "flips",
-             report.noise_unit.empty() ? "noise" : "noise " + report.noise_unit});
+             report.noise_unit.empty() ? "noise" : "noise " + shown.name});
   for (const TrackHealth& track : report.tracks) {
     table.add({printable_name(track.name), grouped(track.gaps), grouped(track.missing_frames),
                grouped(track.longest_gap), grouped(track.spikes),
                grouped(track.frozen + track.bridged),
-               grouped(report.is_markers ? track.swaps : track.flips), figure(track.noise)});
+               grouped(report.is_markers ? track.swaps : track.flips),
+               figure(shown.factor * track.noise)});
   }
   return "\n" + table.text();
 }

@@ -20,6 +20,12 @@ std::size_t count_bursts(const CleanReport& report) {
       }));
 }
 
+std::size_t tracks_counted(const CleanReport& report) {
+  return static_cast<std::size_t>(
+      std::count_if(report.tracks.begin(), report.tracks.end(),
+                    [](const TrackSummary& track) { return track.is_position; }));
+}
+
 std::size_t tracks_changed(const CleanReport& report) {
   return static_cast<std::size_t>(
       std::count_if(report.tracks.begin(), report.tracks.end(),

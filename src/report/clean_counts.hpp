@@ -12,6 +12,8 @@ namespace kinemend {
 std::size_t count_spans(const CleanReport& report, Action action);
 /// Spikes of three frames or more.
 std::size_t count_bursts(const CleanReport& report);
+/// Joints, or markers without points that are angles or forces.
+std::size_t tracks_counted(const CleanReport& report);
 std::size_t tracks_changed(const CleanReport& report);
 /// Frames in which at least one joint or marker was repaired.
 std::size_t frames_repaired(const CleanReport& report);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/measure.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "report/clean_counts.hpp"
@@ -15,10 +16,6 @@ namespace kinemend {
 namespace {
 
 constexpr std::size_t short_list = 8;
-
-std::string shown_unit(const CleanReport& report) {
-  return report.unit.empty() ? "units" : report.unit;
-}
 
 // Below this much jitter a take is not called noisy.
 double noticeable_noise(const CleanReport& report) {
@@ -57,15 +54,17 @@ std::string change_table(const CleanReport& report, bool all_rows) {
   if (rows.empty()) return "";
   Table table({Align::left, Align::right, Align::right, Align::right, Align::right, Align::right,
                Align::right});
-  const std::string unit = shown_unit(report);
+  const ShownUnit shown_in = shown_unit(report.unit);
+  const std::string unit = shown_in.name;
+  const std::string speed_unit = report.unit.empty() ? unit : report.unit;
+  const auto length = [&](double value) { return figure(shown_in.factor * value); };
   table.add({noun_of(report.kind), "noise " + unit, "change rms " + unit, "max " + unit,
-             "frames repaired", "peak " + unit + "/s before", "after"});
+             "frames repaired", "peak " + speed_unit + "/s before", "after"});
   const std::size_t shown = all_rows ? rows.size() : std::min(rows.size(), short_list);
   for (std::size_t i = 0; i < shown; ++i) {
     const TrackSummary& row = *rows[i];
-    table.add({printable_name(row.name), row.noise > 0 ? figure(row.noise) : "-",
-               figure(row.rms_change), figure(row.max_change),
-               row.frames_repaired > 0 ? grouped(row.frames_repaired) : "-",
+    table.add({printable_name(row.name), row.noise > 0 ? length(row.noise) : "-", length(row.rms_change),
+               length(row.max_change), row.frames_repaired > 0 ? grouped(row.frames_repaired) : "-",
                figure(row.peak_speed_before), figure(row.peak_speed_after)});
   }
   std::string text = table.text();
@@ -77,7 +76,12 @@ std::string change_table(const CleanReport& report, bool all_rows) {
 
 // Gaps that were filled, by method, and those that were refused, one a line.
 std::string gaps_text(const CleanReport& report, std::int64_t first_frame, bool all_rows) {
-  if (report.fill.gaps.empty()) return "";
+  const std::string unlabelled =
+      report.fill.unlabelled == 0
+          ? ""
+          : fmt::format("  {} of unlabelled points left alone (--unlabelled fills them)\n",
+                        counted(report.fill.unlabelled, "gap"));
+  if (report.fill.gaps.empty()) return unlabelled;
   std::map<std::string, std::size_t> filled;
   std::string refused;
   std::size_t listed = 0;
@@ -103,7 +107,7 @@ std::string gaps_text(const CleanReport& report, std::int64_t first_frame, bool 
   if (listed > 0) text += fmt::format("  {} refused:\n{}", listed, refused);
   if (listed > short_list && !all_rows)
     text += fmt::format("    and {} more (--verbose lists them)\n", listed - short_list);
-  return text;
+  return text + unlabelled;
 }
 
 std::string swap_text(const CleanOutcome& outcome, std::int64_t first_frame) {
@@ -179,7 +183,8 @@ std::string clean_verdict(const TakeFacts& take, const CleanOutcome& outcome) {
       outcome.swaps.empty() ? "" : counted(outcome.swaps.size(), "swap") + " of markers undone";
   if (changed == 0 && report.root_max_change == 0) {
     if (!swaps.empty()) left_over.insert(left_over.begin(), swaps);
-    if (left_over.empty()) return "clean: nothing changed";
+    if (left_over.empty() && report.warnings.empty()) return "clean: nothing changed";
+    if (left_over.empty()) left_over.push_back(counted(report.warnings.size(), "warning"));
     const char* result = swaps.empty() ? "nothing changed" : "mended";
     return fmt::format("{}: {}", result, fmt::join(left_over, ", "));
   }
@@ -187,7 +192,7 @@ std::string clean_verdict(const TakeFacts& take, const CleanOutcome& outcome) {
   const double noise = typical_noise(report, noisy);
   std::vector<std::string> findings;
   if (noise > 0) {
-    findings.push_back(fmt::format("{} {} jitter on {}", figure(noise), shown_unit(report),
+    findings.push_back(fmt::format("{} jitter on {}", measure_text(noise, report.unit),
                                    counted(noisy, noun_of(report.kind))));
   } else if (changed > 0) {
     findings.push_back(counted(changed, noun_of(report.kind)) + " changed");
@@ -243,7 +248,7 @@ std::string details(const TakeFacts& take, const CleanOutcome& outcome, bool all
           gaps_text(report, take.first_frame, all_rows) + leftovers_text(outcome);
   if (report.feet) text += feet_text(*report.feet, take.first_frame, all_rows);
   text += fmt::format("  {} of {} changed, {} repaired", tracks_changed(report),
-                      counted(report.tracks.size(), noun_of(report.kind)),
+                      counted(tracks_counted(report), noun_of(report.kind)),
                       counted(frames_repaired(report), "frame"));
   if (report.seconds > 0)
     text +=

@@ -56,10 +56,10 @@ std::string pairing_text(const CompareOutcome& outcome) {
   const MarkerComparison& comparison = *outcome.markers;
   std::string text = fmt::format("  {} and {} compared", counted(comparison.frames, "frame"),
                                  counted(comparison.names.size(), "marker"));
-  if (outcome.fit == MarkerFit::rigid) text += ", the reference turned and shifted as a whole";
+  if (outcome.fit == MarkerFit::rigid) text += ", the reference fitted by one turn and one shift";
   if (outcome.fit == MarkerFit::gain_offset) text += ", each channel with its own gain and offset";
   if (!comparison.unmatched.empty())
-    text += fmt::format("; without a counterpart: {}", fmt::join(comparison.unmatched, ", "));
+    text += fmt::format("; unmatched: {}", fmt::join(comparison.unmatched, ", "));
   return text;
 }
 

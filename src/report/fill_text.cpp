@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/measure.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "report/findings.hpp"
@@ -20,8 +21,7 @@ double seconds_of(const TakeFacts& take, const Gap& gap) {
 
 std::string expected_text(const TakeFacts& take, const GapOutcome& gap) {
   if (!(gap.expected_error > 0)) return "";
-  const std::string unit = unit_of(take, gap);
-  return figure(gap.expected_error) + (unit.empty() ? "" : " " + unit);
+  return measure_text(gap.expected_error, unit_of(take, gap));
 }
 
 constexpr std::size_t most_filled = 10, most_refused = 8;
@@ -98,7 +98,9 @@ std::string refused_table(const TakeFacts& take, const FillReport& report, bool 
 
 std::string fill_verdict(const FillOutcome& outcome) {
   const FillReport& report = outcome.report;
-  if (report.gaps.empty()) return "no gaps";
+  if (report.gaps.empty()) {
+    return report.unlabelled > 0 ? "no gaps of labelled markers" : "no gaps";
+  }
   return fmt::format("{}: {} filled, {} refused", counted(report.gaps.size(), "gap"),
                      report.filled(), report.refused());
 }
@@ -115,6 +117,9 @@ std::string fill_text(const TakeFacts& take, const FillOutcome& outcome,
   std::string text = painted(Paint::bold, shown_name(take), options.colours) + ": ";
   if (!take.contents.empty()) return text + take.contents + ": nothing to fill" + written + "\n";
   text += fill_verdict(outcome) + beyond + written + "\n";
+  if (report.unlabelled > 0)
+    text += fmt::format("  {} of unlabelled points left alone (--unlabelled fills them)\n",
+                        counted(report.unlabelled, "gap"));
   if (report.gaps.empty()) return text;
   text += fmt::format("  {}", length_text(take.frames, take.frame_rate_hz));
   if (report.filled() > 0) text += "; " + methods_text(report);

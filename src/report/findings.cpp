@@ -1,5 +1,7 @@
 #include "report/findings.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -63,6 +65,34 @@ ReportFinding finding_of(const TakeFacts& take, const ReportSpan& span) {
   return finding;
 }
 
+// A track is noisy as a whole, as in `check`: what was smoothed of it is one span, from the first
+// such frame to the last, however many repairs lie between.
+std::vector<ReportSpan> with_noise_merged(const std::vector<ReportSpan>& spans) {
+  struct Noise {
+    std::size_t place = 0;
+    double squares = 0, frames = 0;
+  };
+  std::vector<ReportSpan> merged;
+  std::map<std::int32_t, Noise> noises;
+  for (const ReportSpan& span : spans) {
+    if (span.action != Action::denoised) {
+      merged.push_back(span);
+      continue;
+    }
+    const auto [found, is_new] = noises.emplace(span.joint, Noise{merged.size()});
+    if (is_new) merged.push_back(span);
+    Noise& noise = found->second;
+    ReportSpan& whole = merged[noise.place];
+    const auto frames = static_cast<double>(span.last_frame - span.first_frame + 1);
+    noise.squares += frames * span.rms_change * span.rms_change;
+    noise.frames += frames;
+    whole.last_frame = span.last_frame;
+    whole.max_change = std::max(whole.max_change, span.max_change);
+    whole.rms_change = std::sqrt(noise.squares / noise.frames);
+  }
+  return merged;
+}
+
 std::vector<ReportFinding> findings_of(const TakeFacts& take, const CleanOutcome& outcome,
                                        bool with_spans) {
   const CleanReport& report = outcome.report;
@@ -85,7 +115,7 @@ std::vector<ReportFinding> findings_of(const TakeFacts& take, const CleanOutcome
     }
   }
   if (!with_spans) return findings;
-  for (const ReportSpan& span : report.spans) {
+  for (const ReportSpan& span : with_noise_merged(report.spans)) {
     ReportFinding finding = finding_of(take, span);
     const auto found = span.action != Action::filled
                            ? filled.end()

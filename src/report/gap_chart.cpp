@@ -53,6 +53,14 @@ void draw_row(Svg& svg, const Row& row, std::size_t frames, bool two, double y) 
            fmt::format("{:.1f} %", share));
 }
 
+std::size_t count_tracks(const Clip& clip) { return clip.joint_count(); }
+// Points that are angles or forces have no gaps.
+std::size_t count_tracks(const MarkerClip& clip) {
+  std::size_t count = 0;
+  for (std::size_t m = 0; m < clip.marker_count(); ++m) count += clip.holds_positions(m) ? 1 : 0;
+  return count;
+}
+
 template <class Take>
 std::string gap_chart(const Take& before, const Take* after) {
   const TakeFacts facts = take_facts(before);
@@ -64,7 +72,7 @@ std::string gap_chart(const Take& before, const Take* after) {
     }
   }
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].name = facts.tracks[i];
-  const std::size_t all = rows.size();
+  const std::size_t all = count_tracks(before);
   rows.erase(std::remove_if(rows.begin(), rows.end(),
                             [](const Row& row) { return row.before.empty() && row.after.empty(); }),
              rows.end());

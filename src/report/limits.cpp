@@ -48,8 +48,8 @@ std::vector<std::string> passed(const TakeFacts& take, const CheckReport& report
 // Why a figure of a comparison is not known.
 std::string_view unknown_for(const FigureRule& rule, const CompareOutcome& outcome) {
   if (outcome.markers) return "the take is too short, or its rate too low";
-  return rule.name.starts_with("foot_slide") ? "no foot was found to stand"
-                                             : "the unit of length is";
+  return rule.name.starts_with("foot_slide") ? "no foot has ground contact"
+                                             : "the unit of length is unknown";
 }
 
 std::vector<std::string> passed(const TakeFacts& /*take*/, const CompareOutcome& outcome,
@@ -61,7 +61,7 @@ std::vector<std::string> passed(const TakeFacts& /*take*/, const CompareOutcome&
     if (limit == nullptr) return;
     ++known;
     if (!value) {
-      lines.push_back(fmt::format("{} is unknown, for {}: {} cannot hold", rule.name,
+      lines.push_back(fmt::format("{} is unknown because {}: {} cannot be checked", rule.name,
                                   unknown_for(rule, outcome), option_of(rule)));
     } else if (rule.more_is_better ? !(*value >= limit->value) : !(*value <= limit->value)) {
       lines.push_back(fmt::format("{} {:.4g} is {} the limit {:.4g}", rule.name, *value,
@@ -73,7 +73,7 @@ std::vector<std::string> passed(const TakeFacts& /*take*/, const CompareOutcome&
   const std::span<const FigureRule> all = comparison_figures();
   for (const FigureRule& rule : outcome.markers ? all.first(of_joints) : all.subspan(of_joints)) {
     if (limit_of(rule.name, limits) != nullptr)
-      lines.push_back(fmt::format("{} is a figure of {}: {} cannot hold", rule.name,
+      lines.push_back(fmt::format("{} is a figure of {}: {} cannot be checked", rule.name,
                                   outcome.markers ? "joints" : "markers", option_of(rule)));
   }
   return lines;

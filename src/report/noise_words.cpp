@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "base/measure.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "report/words.hpp"
 
@@ -22,9 +23,8 @@ std::string noise_words(const NoiseCharacter& noise, TakeKind kind, std::string_
                         double frame_rate_hz) {
   const bool is_of_tracks = (kind == TakeKind::joints) == (noise.space == Space::rotation);
   const std::string lead = is_of_tracks ? "" : "positions: ";
-  const std::string shown_unit =
-      is_of_tracks && !unit.empty() ? std::string(unit) : std::string("units");
-  std::string words = fmt::format("{}{} {} per axis, {}", lead, figure(noise.strength), shown_unit,
+  const std::string_view shown = is_of_tracks ? unit : std::string_view();
+  std::string words = fmt::format("{}{} per axis, {}", lead, measure_text(noise.strength, shown),
                                   colour_words(noise, frame_rate_hz));
   if (noise.frames_per_sample == 1) return words;
   const double rate_hz = frame_rate_hz / noise.frames_per_sample;

@@ -8,20 +8,12 @@
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/report.hpp"
+#include "motion/unit_name.hpp"
 #include "report/words.hpp"
 
 namespace kinemend {
 
 namespace {
-
-// The usual name of a unit of length; empty for lengths that have none.
-std::string unit_name(double metres) {
-  for (const char* const name : {"m", "cm", "mm", "in"}) {
-    const double known = metres_per_unit(name);
-    if (std::fabs(metres - known) <= 1e-9 * known) return name;
-  }
-  return "";
-}
 
 std::string counted_message(const Diagnostic& diagnostic) {
   const std::string times =

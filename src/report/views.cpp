@@ -59,6 +59,7 @@ std::vector<ReportFigure> figures(const TakeFacts& /*take*/, const FillOutcome& 
   return {count_figure("gaps", "gaps", outcome.report.gaps.size()),
           count_figure("filled", "filled", outcome.report.filled()),
           count_figure("refused", "refused", outcome.report.refused()),
+          count_figure("unlabelled", "of unlabelled points", outcome.report.unlabelled),
           count_figure("not_within_range", "not within the range", outcome.not_within_range)};
 }
 
@@ -99,7 +100,8 @@ std::vector<std::string> names_of(const std::vector<Row>& rows) {
 
 ReportTracks tracks(const TakeFacts& take, const CleanOutcome& outcome) {
   using Row = TrackSummary;
-  const std::vector<Row>& rows = outcome.report.tracks;
+  std::vector<Row> rows = outcome.report.tracks;
+  std::erase_if(rows, [](const Row& row) { return !row.is_position; });
   ReportTracks result{
       outcome.report.unit,
       names_of(rows),

@@ -122,6 +122,17 @@ TEST(MarkerPipeline, LeavesMissingSamplesAndResidualsAsTheyAre) {
   EXPECT_EQ(result.report.tracks[1].gaps_left, 0U);
 }
 
+TEST(MarkerPipeline, CountsNoGapOfAPointThatIsAnAngle) {
+  MarkerClip clip = small_take();
+  ASSERT_FALSE(clip.holds_positions(2));
+  lose(clip, 2, 10, 14);
+  const CleanReport report = clean_markers(clip, Mover({8, 0, 0})).report;
+  EXPECT_TRUE(report.tracks[0].is_position);
+  EXPECT_FALSE(report.tracks[2].is_position);
+  EXPECT_EQ(report.tracks[2].gaps_left, 0U);
+  EXPECT_EQ(report.tracks[2].frames_missing, 0U);
+}
+
 TEST(MarkerPipeline, ReportsInFileUnits) {
   const MarkerResult result =
       clean_markers(small_take(), Mover({3, 4, 0}, Action::despiked), {}, "mover");

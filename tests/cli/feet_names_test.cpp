@@ -58,7 +58,7 @@ TEST_F(FeetNames, AMapServesContactsAsNamesDo) {
   EXPECT_THAT(named, HasSubstr("\nleft heel "));
   const Ran unnamed = run({"contacts", "unnamed.bvh"});
   EXPECT_THAT(unnamed.out, Not(HasSubstr("\nleft ")));
-  EXPECT_THAT(unnamed.err, HasSubstr("no legs are found by their names (--map FILE says"));
+  EXPECT_THAT(unnamed.err, HasSubstr("no legs found; --map FILE gives"));
   const Ran mapped = run({"contacts", "unnamed.bvh", "--map", "names.csv", "-o", "walk.contacts"});
   EXPECT_EQ(mapped.code, 0) << mapped.err;
   EXPECT_EQ(mapped.err, "");
@@ -240,7 +240,7 @@ TEST_F(People, FeetThatNeverStandHaveNoFigure) {
   EXPECT_TRUE(compared["foot_slide_reference"].is_null());
   const Ran limit = run({"compare", "air.bvh", "air.bvh", "--max-foot-slide", "1"});
   EXPECT_EQ(limit.code, 1);
-  EXPECT_THAT(limit.err, HasSubstr("foot_slide is unknown, for no foot was found to stand"));
+  EXPECT_THAT(limit.err, HasSubstr("foot_slide is unknown because no foot has ground contact"));
 }
 
 }  // namespace

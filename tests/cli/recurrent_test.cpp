@@ -79,7 +79,7 @@ TEST_F(RecurrentCommands, SayWhichModelFillsGaps) {
   EXPECT_THAT(filter.err, HasSubstr("cleans and fills no gaps"));
   const Ran idle = run({"fill", "walk.bvh", "-o", "no.bvh", "--model", "ebd.kmodel"});
   EXPECT_EQ(idle.code, 2);
-  EXPECT_THAT(idle.err, HasSubstr("--model is of --method recurrent"));
+  EXPECT_THAT(idle.err, HasSubstr("--model is used by --method recurrent"));
   EXPECT_FALSE(fs::exists(folder / "no.bvh"));
 }
 

@@ -1,0 +1,32 @@
+#include "motion/unlabelled.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+namespace kinemend {
+
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// Lower case, without the number at the end.
+std::string stem_of(std::string_view name) {
+  while (!name.empty() && is_digit(name.back())) name.remove_suffix(1);
+  std::string stem(name);
+  std::transform(stem.begin(), stem.end(), stem.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return stem;
+}
+
+}  // namespace
+
+bool is_unlabelled(std::string_view name) {
+  if (const std::size_t colon = name.rfind(':'); colon != name.npos) name.remove_prefix(colon + 1);
+  if (name.find_first_not_of(' ') == name.npos) return true;
+  const std::string stem = stem_of(name);
+  if (stem.starts_with("unlabel") || stem == "*" || stem == "uname*") return true;
+  return stem == "u_" && stem.size() < name.size();
+}
+
+}  // namespace kinemend

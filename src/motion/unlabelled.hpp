@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string_view>
+
+namespace kinemend {
+
+/// Whether a marker bears no label but a number that the capture system gave it, with or without a
+/// subject: `*52`, `U_12`, `uname*3`, `Unlabeled 1234`, or no name at all. Such a point changes
+/// from one marker to another within a take.
+bool is_unlabelled(std::string_view name);
+
+}  // namespace kinemend
