@@ -18,7 +18,7 @@ namespace kinemend::cli {
 
 namespace {
 
-// Where a signal writes a byte: all that may be done while it is handled.
+// A signal handler may do little: it writes a byte here.
 std::atomic<int> signalled{-1};
 
 void hear(int signal) {

@@ -32,7 +32,7 @@ Settings settings_of(const Preset& preset) {
   return parse_settings(*find_command("clean"), preset.text, fmt::format("preset {}", preset.name));
 }
 
-/// Flags that the page may set; what reads or writes a file is not among them.
+/// Flags that the page may set: none that reads or writes a file.
 constexpr std::array cleaning_flags = {
     "method",   "strength",      "max_change_deg", "max_change",      "fill",
     "fill_all", "feet",          "fix_swaps",      "peak_loss_limit", "joints",
@@ -383,9 +383,9 @@ ViewReply ViewSession::save(const ViewAsked& asked) {
   const std::string output = output_of(asked);
   const std::optional<std::string>& plan = fills ? asked.plan : asked.contacts;
   const std::string side = fills ? files_.plan : files_.contacts;
-  // Whatever is confirmed, what is read stays.
+  // An input is never replaced, whatever the person confirms.
   check_is_no_input("--output", output, inputs());
-  // All of them before any is made.
+  // All files are looked at before the first is written.
   Json existing = Json::array();
   const auto look_at = [&](const std::string& path) {
     std::error_code ignored;
@@ -444,7 +444,7 @@ ViewReply ViewSession::contacts() {
     return {200, plain, read_file(files_.contacts)};
   TakeResult read = read_take(std::filesystem::path(files_.input), read_options(parsed(words)));
   Clip* clip = std::get_if<Clip>(&read.take);
-  if (clip == nullptr) throw Error(ErrorKind::usage, "contacts are of takes of joints");
+  if (clip == nullptr) throw Error(ErrorKind::usage, "contacts exist only in takes of joints");
   Clip copy = *clip;
   const FeetReport report = clean_feet(copy);
   return {200, plain, contacts_text(*clip, report)};

@@ -13,8 +13,8 @@
 #include "view_asked.hpp"
 #include "view_turns.hpp"
 
-// What the page of `view` asks for: runs of other commands on one take, by the code that the
-// command line runs.
+// Answers the page of `view`: runs other commands on one take, with the code that the command line
+// uses.
 namespace kinemend::cli {
 
 /// The files that a session reads and writes. A take is saved in the folder of `cleaned` or

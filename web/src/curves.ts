@@ -26,6 +26,12 @@ const superscript = '\u00b2';
 /** The plotting library hides the points of a line that is switched off, so that there must be some; the style sheet hides them all. */
 const hiddenPoints: uPlot.Cursor.Points = { show: () => element('i') };
 
+/** Power that is only rounding error is left out: the logarithmic axis would span thirty decades for it, and never finish its ticks. */
+function aboveRounding(density: number[]): Values {
+  const least = Math.max(1e-15, 1e-12 * Math.max(...density));
+  return density.map((value) => (value > least ? value : null));
+}
+
 /** Ticks are at whole frames. */
 export const frameSteps = [1, 2, 5].flatMap((digit) => Array.from({ length: 9 }, (_, power) => digit * 10 ** power)).sort((a, b) => a - b);
 
@@ -178,7 +184,7 @@ export class Curves {
       this.holder.append(panel);
       if (kind === 'spectrum') this.addSpectrum(panel, signal);
       else this.addPanel(panel, this.lines(signal, kind));
-      describeCanvas(panel.querySelector('canvas'), `${name}, ${what} in ${unit}: ${this.take.takes.map((which) => (this.take.data.two ? this.label(which) : 'one take')).join(' and ')}`);
+      describeCanvas(panel.querySelector('canvas'), `${name}, ${what} in ${unit}${this.take.data.two ? `: ${this.take.data.labels.join(' and ')}` : ''}`);
     }
   }
 
@@ -285,7 +291,7 @@ export class Curves {
       cursor: { y: false, points: hiddenPoints },
       series: [{ label: 'Hz' }, ...series],
       axes: [{ ...axis, size: 30, values: (_plot, ticks) => ticks.map((tick) => `${tick} Hz`) }, { ...axis, size: 68, values: (_plot, ticks) => ticks.map((tick) => (tick === null || Math.log10(tick) % 1 ? '' : tick.toExponential(0))) }],
-    }, [hertz, ...spectra.map((spectrum) => spectrum.density.map((value) => (value > 0 ? value : null)))] as uPlot.AlignedData, panel);
+    }, [hertz, ...spectra.map(({ density }) => aboveRounding(density))] as uPlot.AlignedData, panel);
     panel.dataset.spectrum = 'true';
     this.spectra.push(plot);
   }

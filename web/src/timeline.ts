@@ -107,12 +107,20 @@ export class Timeline {
     this.draw();
   }
 
+  /** Warnings and stretches that were only smoothed are drawn here, too, but are not findings. */
+  private counts(): string {
+    const count = (kind: string): number => this.all.filter((one) => one.kind === kind).length;
+    const warnings = count('warning');
+    const smoothed = count('noise');
+    return [counted(this.all.length - warnings - smoothed, 'finding'), ...(warnings > 0 ? [counted(warnings, 'warning')] : []), ...(smoothed > 0 ? [counted(smoothed, 'smoothed stretch')] : [])].join(', ').replace(/stretchs/, 'stretches');
+  }
+
   private describe(): void {
     const finding = this.shown[this.selected];
     this.canvas.setAttribute('aria-valuemax', String(this.shown.length));
     this.canvas.setAttribute('aria-valuenow', String(this.selected + 1));
     this.canvas.setAttribute('aria-valuetext', finding ? textOf(finding) : `${counted(this.shown.length, 'finding')}, none is chosen`);
-    this.words.textContent = finding ? textOf(finding) : `${counted(this.all.length, 'finding')}. Click one to go to its frame.`;
+    this.words.textContent = finding ? textOf(finding) : `${this.counts()}. Click one to go to its frame.`;
   }
 
   go(by: number): void {

@@ -241,6 +241,13 @@ step('markers that keep their distance are linked, and named where the mouse is'
   assert.equal(await strangeOne.textContent('.tip'), '<b>A</b>');
 });
 
+step('the spectrum of a marker on a straight line is drawn', async () => {
+  const page = await open('rod.html');
+  await page.evaluate(() => window.kinemend.player.choose([3]));
+  await page.click('.curves button:has-text("Spectrum")', { timeout: 5000 });
+  assert.equal(await page.locator('[data-spectrum] canvas').count(), 1);
+});
+
 step('each canvas says what it shows', async () => {
   for (const name of ['clean.html', 'fill.html']) {
     const page = await open(name);
