@@ -37,13 +37,17 @@ class ViewSession {
  public:
   explicit ViewSession(ViewFiles files) : files_(std::move(files)) {}
 
-  /// Of the page's address. `action`: "" for the page before there is anything in it; "run" for the
-  /// data of a run, "curves" of what every method makes of a gap, "save", "contacts" and "gaps" for
-  /// side files, "progress" for how far a run is, "leave" of a tab that is closed. Never throws:
-  /// what goes wrong is a reply with the status 4xx or 5xx and {"error": words}. A run that is
-  /// overtaken by another of its tab is given up: 409. May be called from several threads.
+  /// Answers one request. `action` is the end of its address:
+  /// - "": the page, still without a take;
+  /// - "run": report and motion of a run;
+  /// - "curves": what each method makes of one gap;
+  /// - "save", "contacts", "gaps": writes the take, reads a side file;
+  /// - "progress": what the run is doing;
+  /// - "leave": the tab was closed.
+  /// Never throws: an error is a reply with the status 4xx or 5xx and {"error": words}. A run that
+  /// a newer one of its tab has replaced ends with 409. May be called from several threads.
   ViewReply answer(std::string_view method, std::string_view action, const std::string& body);
-  /// Gives up what is running.
+  /// Stops the run that is under way.
   void stop() { turns_.stop(); }
 
  private:
@@ -60,11 +64,11 @@ class ViewSession {
   std::string clean_page(const ViewAsked& asked, const Turn& turn);
   std::string fill_page(const ViewAsked& asked, const Turn& turn);
   std::string comparison() const;
-  /// As asked, with plans and gaps of the page in place of those in files.
+  /// With the plan and the gaps of the page instead of those in files.
   FillRun fill_run(const ViewAsked& asked) const;
-  /// "kinemend clean walk.bvh ...": what the same run is on a command line.
+  /// The command line of the same run: "clean", "walk.bvh", ...
   std::vector<std::string> words_of(const ViewAsked& asked) const;
-  /// Says how far the run is, and ends it where another has overtaken it.
+  /// Records how far the run is. Throws where a newer run has replaced it.
   void tell(const Turn& turn, std::string_view stage, double done);
   /// Where the take is saved: beside the default, which is an option of the command.
   std::string output_of(const ViewAsked& asked) const;

@@ -19,7 +19,7 @@ constexpr double least_together = 0.2;
 // Limits: the longest line, of the body's height, and how much a distance may vary, of itself.
 constexpr double longest_line = 0.4, largest_change = 0.35;
 // How much more distance counts as one unit of change: neighbours first where all is rigid.
-constexpr double weight_of_length = 0.12;
+constexpr double weight_of_length = 0.25;
 
 struct Candidate {
   double cost;

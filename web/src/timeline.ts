@@ -107,12 +107,12 @@ export class Timeline {
     this.draw();
   }
 
-  /** Warnings and stretches that were only smoothed are drawn here, too, but are not findings. */
+  /** Warnings and spans that were only smoothed are drawn here, too, but are not findings. */
   private counts(): string {
     const count = (kind: string): number => this.all.filter((one) => one.kind === kind).length;
     const warnings = count('warning');
     const smoothed = count('noise');
-    return [counted(this.all.length - warnings - smoothed, 'finding'), ...(warnings > 0 ? [counted(warnings, 'warning')] : []), ...(smoothed > 0 ? [counted(smoothed, 'smoothed stretch')] : [])].join(', ').replace(/stretchs/, 'stretches');
+    return [counted(this.all.length - warnings - smoothed, 'finding'), ...(warnings > 0 ? [counted(warnings, 'warning')] : []), ...(smoothed > 0 ? [counted(smoothed, 'smoothed span')] : [])].join(', ');
   }
 
   private describe(): void {
