@@ -32,7 +32,7 @@ std::string lowered(std::string_view text) {
   return result;
 }
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t");
   if (begin == text.npos) return {};
   return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
@@ -87,7 +87,7 @@ class HeadReader {
     if (colon == line.npos || !is_token(line.substr(0, colon)) || !is_line_of_text(line))
       return refuse(http::bad_request);
     const std::string name = lowered(line.substr(0, colon));
-    const std::string_view value = trimmed(line.substr(colon + 1));
+    const std::string_view value = without_blanks(line.substr(colon + 1));
     HttpHead& head = parsed_.head;
     if (name == "host") return put(host_, head.host, value);
     if (name == "origin") return put(origin_, head.origin, value);

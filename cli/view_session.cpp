@@ -28,7 +28,7 @@ namespace kinemend::cli {
 
 namespace {
 
-Settings settings_of(const Preset& preset) {
+Settings preset_settings(const Preset& preset) {
   return parse_settings(*find_command("clean"), preset.text, fmt::format("preset {}", preset.name));
 }
 
@@ -50,7 +50,7 @@ const Method* method_of(const std::vector<AskedFlag>& flags) {
   };
   std::string method = text("method");
   if (const std::string preset = text("preset"); method.empty() && !preset.empty()) {
-    const Settings settings = settings_of(find_preset(preset));
+    const Settings settings = preset_settings(find_preset(preset));
     if (const auto set = settings.values.find("method"); set != settings.values.end())
       method = std::get<std::string>(set->second);
   }
@@ -130,7 +130,7 @@ Json methods_json() {
 Json presets_json() {
   Json list = Json::array();
   for (const Preset& preset : presets()) {
-    const Settings settings = settings_of(preset);
+    const Settings settings = preset_settings(preset);
     Json options = Json::object();
     for (const auto& [method, values] : settings.methods) options[method] = json_of(values);
     list.push_back({{"name", preset.name},
