@@ -36,16 +36,22 @@ export function rangeOf({ minimum, maximum, unit, kind }: Option): string {
   return `${kind === 'whole' ? 'whole numbers, ' : ''}${range}${unit ? ` ${unit}` : ''}`;
 }
 
+/** "cutoff (Hz)" for `cutoff_hz`. */
+export function labelOf({ name, unit }: Option): string {
+  const words = (unit ? name.replace(/_(hz|s|deg)$/, '') : name).replace(/_/g, ' ');
+  return unit ? `${words} (${unit})` : words;
+}
+
 export interface OptionActs {
   /** The value; undefined where it is the default. */
   change: (value: Value | undefined) => void;
-  /** Why what is typed is not used; null: it is used. */
-  refuse: (why: string | null) => void;
+  /** The label of a control whose value is not allowed; null: it is allowed now. */
+  refuse: (label: string | null) => void;
 }
 
 /** `given`: the value that it has now. */
 export function optionControl(option: Option, given: Value | undefined, { change, refuse }: OptionActs, label = ''): HTMLElement {
-  const told = label || option.name.replace(/_/g, ' ') + (option.unit ? ` (${option.unit})` : '');
+  const told = label || labelOf(option);
   const now = given ?? option.default;
   if (option.kind === 'switch') {
     const made = toggle(told, option.help, now === true, (on) => change(on === option.default ? undefined : on));
@@ -61,9 +67,8 @@ export function optionControl(option: Option, given: Value | undefined, { change
   made.dataset.flag = option.name;
   made.addEventListener('input', () => {
     if (!made.checkValidity()) {
-      const why = `${made.validity.badInput ? 'This is not a number' : made.value} \u2013 not used. Allowed: ${rangeOf(option)}.`;
-      showProblem(made, why);
-      return refuse(why);
+      showProblem(made, `${made.validity.badInput ? 'This is not a number' : made.value} \u2013 not used. Allowed: ${rangeOf(option)}.`);
+      return refuse(told);
     }
     showProblem(made, '');
     refuse(null);

@@ -92,7 +92,7 @@ class Controls {
   private readonly general: Record<'clean' | 'fill', Record<string, Value>> = { clean: {}, fill: {} };
   private preset: Session['presets'][number] | null = null;
   private method = 'auto';
-  /** Values that are typed and not used, by "clean.strength": why. */
+  /** Labels of controls whose values are not allowed, by "clean.strength". */
   private readonly refused = new Map<string, string>();
   private readonly options: Record<string, Record<string, Value>> = {};
   private readonly status = element('p', { class: 'status', role: 'status' }, 'reading\u2026');
@@ -168,18 +168,18 @@ class Controls {
     const set = command === 'clean' ? this.preset?.values[option.name] : undefined;
     return optionControl(set === undefined ? option : { ...option, default: set }, this.general[command][option.name], {
       change: (value) => this.set(command, option.name, value),
-      refuse: (why) => this.refuse(`${command}.${option.name}`, why),
+      refuse: (told) => this.refuse(`${command}.${option.name}`, told),
     }, label);
   }
   /** Nothing is run for a value that is not allowed, and nothing says that it was. */
-  private refuse(name: string, why: string | null): void {
-    if (why === null) this.refused.delete(name);
-    else this.refused.set(name, why);
+  private refuse(name: string, label: string | null): void {
+    if (label === null) this.refused.delete(name);
+    else this.refused.set(name, label);
     this.sayRefused();
   }
   /** Whether a value of the controls that are shown is not used. */
   private sayRefused(): boolean {
-    const names = [...this.refused.keys()].filter((name) => name.startsWith(`${this.command}.`)).map((name) => name.slice(this.command.length + 1).replace(/_/g, ' '));
+    const names = [...this.refused].filter(([name]) => name.startsWith(`${this.command}.`)).map(([, label]) => label);
     if (names.length === 0) return false;
     window.clearTimeout(this.timer);
     ++this.turn;
@@ -249,7 +249,7 @@ class Controls {
           else own[option.name] = value;
           this.later();
         },
-        refuse: (why) => this.refuse(`clean.${option.name}`, why),
+        refuse: (told) => this.refuse(`clean.${option.name}`, told),
       })));
   }
 
