@@ -129,7 +129,7 @@ step('a method is changed, and what is saved has the bytes of the command line',
   await save(page, 'walk.clean.bvh');
   await save(page, 'other name.bvh', 'other name.bvh');
   assert.deepEqual(bytes('other name.bvh'), bytes('cli.bvh'));
-  runShown(await page.textContent('.line'), 'other name.bvh', 'shown.bvh');
+  runShown(await page.textContent('.line'), 'other name.bvh', 'shown2.bvh');
 });
 
 step('Save as asks for a name, and before it replaces a file', async () => {
