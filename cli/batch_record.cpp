@@ -16,6 +16,7 @@
 #include "json.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/content_hash.hpp"
+#include "kinemend/experimental/json_depth.hpp"
 #include "kinemend/io.hpp"
 
 namespace kinemend::cli {
@@ -63,7 +64,7 @@ std::optional<BatchRecord> read_record(const std::string& folder, const std::str
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored)) return std::nullopt;
   try {
-    const Json json = Json::parse(read_file(path));
+    const Json json = parse_json<Json>(read_file(path));
     BatchRecord record;
     record.key = {json.at("input_hash").get<std::string>(),
                   json.at("options_hash").get<std::string>(),
@@ -162,7 +163,7 @@ void write_record(const std::string& folder, const std::string& name, const Batc
                         {"input_hash", record.key.input},
                         {"options_hash", record.key.options},
                         {"output_hash", record.output},
-                        {"row", Json::parse(record.row.json)}}),
+                        {"row", parse_json<Json>(record.row.json)}}),
              true);
 }
 

@@ -8,6 +8,7 @@
 #include "json.hpp"
 #include "kinemend/clean.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
+#include "kinemend/experimental/json_depth.hpp"
 #include "kinemend/experimental/subjects.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/experimental/version.hpp"
@@ -365,7 +366,7 @@ int run_info(const Arguments& arguments) {
     return 0;
   };
   const int code = for_each_input(arguments.positionals, look_at, [&](const std::string& entry) {
-    takes.push_back(Json::parse(entry));
+    takes.push_back(parse_json<Json>(entry));
   });
   if (json) write_out(json_text({{"kinemend", version()}, {"takes", std::move(takes)}}));
   return code;

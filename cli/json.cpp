@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "kinemend/experimental/json_depth.hpp"
 #include "kinemend/report.hpp"
 
 namespace kinemend::cli {
@@ -32,7 +33,7 @@ Json json_of(const OptionSpec& spec) {
 }
 
 Json json_of(const Diagnostics& diagnostics, std::string_view format) {
-  return Json::parse(diagnostics_json(diagnostics, format));
+  return parse_json<Json>(diagnostics_json(diagnostics, format));
 }
 
 }  // namespace kinemend::cli

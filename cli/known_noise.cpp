@@ -4,6 +4,7 @@
 
 #include "json.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/json_depth.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"
 
@@ -47,7 +48,7 @@ std::optional<KnownNoise> known_noise(const std::string& choice) {
   if (choice == "white") return KnownNoise{};
   const std::string text = read_file(choice);
   try {
-    return noise_of_report(Json::parse(text), choice);
+    return noise_of_report(parse_json<Json>(text), choice);
   } catch (const Json::exception&) {
     fail(choice, "expected white, auto, or a JSON report of clean or check");
   }

@@ -31,14 +31,18 @@ std::string beside(const std::string& input, std::string_view ending) {
   return path.string();
 }
 
+/// The page runs other commands on the file, whose words begin with its name: one that begins with
+/// a dash must not be read as an option.
+std::string named_as_file(const std::string& input) {
+  if (is_stream(input))
+    throw Error(ErrorKind::usage, "view: the take is read several times, so it must be a file");
+  return input.starts_with('-') ? "./" + input : input;
+}
+
 ViewFiles files_of(const Arguments& arguments) {
   ViewFiles files;
-  files.input = arguments.positionals[0];
-  if (arguments.positionals.size() > 1) files.other = arguments.positionals[1];
-  for (const std::string& input : arguments.positionals) {
-    if (is_stream(input))
-      throw Error(ErrorKind::usage, "view: a take is read several times, and must be a file");
-  }
+  files.input = named_as_file(arguments.positionals[0]);
+  if (arguments.positionals.size() > 1) files.other = named_as_file(arguments.positionals[1]);
   check_take_ending(arguments.text("output"));
   const auto given = [&](const char* flag, const std::string& otherwise) {
     const std::string text = arguments.text(flag);
@@ -69,7 +73,7 @@ ViewFiles files_of(const Arguments& arguments) {
   return files;
 }
 
-/// What the desktop opens addresses with; whether it could be started.
+/// Opens an address with the desktop's own program; false where it could not be started.
 bool open_in_browser(const std::string& address) {
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
@@ -77,7 +81,7 @@ bool open_in_browser(const std::string& address) {
     posix_spawn_file_actions_addopen(&files, stream, "/dev/null", O_RDWR, 0);
   posix_spawnattr_t settings;
   posix_spawnattr_init(&settings);
-  // A browser that is started now goes on when this program ends.
+  // The browser stays open when this program ends.
   posix_spawnattr_setflags(&settings, POSIX_SPAWN_SETSID);
   std::string program = "xdg-open", word = address;
   char* words[] = {program.data(), word.data(), nullptr};
@@ -93,27 +97,26 @@ int run_view(const Arguments& arguments) {
   if (!has_report_page())
     throw Error(ErrorKind::usage,
                 "view: this kinemend was built without its page (KINEMEND_WEB=OFF)");
-  if (!has_view_server()) serve_view(0, {}, {}, {});
-  for (const std::string& input : arguments.positionals) {
+  for (const std::string& input : {files.input, files.other}) {
+    if (input.empty()) continue;
     const TakeResult read = read_take(std::filesystem::path(input), read_options(arguments));
     warn_of_repairs(source_of(read.take), read.diagnostics);
     if (input == files.input) files.of_joints = std::holds_alternative<Clip>(read.take);
   }
-  // A file of gaps that is named is there; the page would only say so later.
+  // A missing file of gaps is an error now, not only once the page is open.
   if (files.with_gaps) read_file(files.gaps);
-  // The children that open the browser are nobody's business.
+  // Nothing waits for the child that opens the browser.
   std::signal(SIGCHLD, SIG_IGN);
   ViewSession session(files);
   serve_view(
       static_cast<int>(arguments.whole("port")),
       [&](const std::string& method, std::string_view action, const std::string& body) {
-        ViewReply reply = session.answer(method, action, body);
-        return ServedReply{reply.status, std::move(reply.type), std::move(reply.body)};
+        return session.answer(method, action, body);
       },
       [&](const std::string& address) {
-        write_out(fmt::format("{}\nCtrl-C ends\n", address));
+        write_out(fmt::format("{}\nPress Ctrl-C to end.\n", address));
         if (arguments.flag("open") && !open_in_browser(address))
-          say_warning("there is no xdg-open: open the address in a browser");
+          say_warning("xdg-open was not found: open the address above in a browser");
       },
       [&] { session.stop(); });
   return 0;
@@ -127,8 +130,8 @@ Flag view_file_flag(std::string name, std::string help) {
 
 Flag view_gaps_flag() {
   Flag flag = view_file_flag("gaps",
-                             "samples that count as missing: lines name,first,last (default: none; "
-                             "those that are marked in the page are saved as walk.gaps.csv)");
+                             "samples to treat as missing: lines name,first,last (default: none; "
+                             "samples marked on the page are saved as walk.gaps.csv)");
   flag.group = "Input";
   return flag;
 }
@@ -138,34 +141,37 @@ Flag view_gaps_flag() {
 Command view_command() {
   Command command;
   command.name = "view";
-  command.summary = "look at a take in a browser, and clean it there";
+  command.summary = "view and clean a take in a browser";
   command.description =
-      "Serves the page of --report FILE.html on this machine, 127.0.0.1, and opens it in the "
-      "browser. Method, options, joints, range and feet are controls there; the result follows at "
-      "once, and a run that is overtaken by the next is given up. Contacts and gaps can be edited. "
-      "What is saved is written by the same code as kinemend clean and fill, into files that are "
-      "named here or beside the take, and the page shows the command line that does the same.\n\n"
-      "The address holds a random token; requests of other pages, hosts and machines are refused, "
-      "and no other file is read or written. With OTHER the two takes are compared, as by kinemend "
-      "compare. Ctrl-C ends.";
+      "Serves the page of --report FILE.html on this machine (127.0.0.1) and opens it in the "
+      "browser. The page has controls for preset, method, options, joints, range and feet. Each "
+      "change runs the cleaning again and shows the result; a new change stops the run before it. "
+      "Contacts and gaps can be edited. Save as asks for a file name and writes the take as "
+      "kinemend clean or fill would; the page shows that command line.\n\n"
+      "With OTHER the page compares the two takes, as kinemend compare does. Press Ctrl-C to "
+      "end.\n\n"
+      "The address holds a random token. Requests from other pages, hosts and machines are "
+      "refused. Takes are saved only in the folder of --output; apart from the files named here, "
+      "no other file is read or written.";
   command.positionals = {{"TAKE", "take to look at", 1, 1, {}},
                          {"OTHER", "take to compare it with", 0, 1, {}}};
   Flag open = switch_flag("open", "Page", "open the address in the browser");
   open.spec.default_value = true;
   command.flags = {
-      output_flag("where to save the take (default walk.clean.bvh or walk.filled.bvh)"),
+      output_flag("file that Save as proposes (default walk.clean.bvh or walk.filled.bvh)"),
       view_gaps_flag(),
       view_file_flag("contacts",
-                     "where to save contacts (default walk.contacts); read where it exists"),
+                     "where to save contacts (default walk.contacts); read if it exists"),
       view_file_flag("plan", "where to save the gap plan (default walk.plan.csv)"),
       force_flag(),
-      whole_flag("port", 0, 0, 65535, "Page", "port of 127.0.0.1; 0: one that is free"),
+      whole_flag("port", 0, 0, 65535, "Page", "port of 127.0.0.1; 0: a free one"),
       open};
-  append(command.flags, reading_flags("what needs a repair or a warning becomes an error"));
-  command.examples = {{"kinemend view walk.bvh", "opens the browser"},
-                      {"kinemend view walk.bvh walk.clean.bvh", "two takes on one time cursor"},
-                      {"kinemend view trial.c3d --no-open --port 8080 -o trial.filled.c3d",
-                       "prints the address only"}};
+  append(command.flags, reading_flags("make every repair and every warning an error"));
+  command.examples = {
+      {"kinemend view walk.bvh", "opens the browser"},
+      {"kinemend view walk.bvh walk.clean.bvh", "compare two takes at the same time"},
+      {"kinemend view trial.c3d --no-open --port 8080 -o trial.filled.c3d",
+       "prints the address only"}};
   command.run = run_view;
   return command;
 }

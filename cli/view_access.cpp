@@ -8,7 +8,7 @@ namespace kinemend::cli {
 
 namespace {
 
-// Takes as long whether they differ early or late.
+// The time does not depend on where they differ, so that it reveals nothing of the token.
 bool are_equal(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned difference = 0;
@@ -21,14 +21,14 @@ bool are_equal(std::string_view a, std::string_view b) {
 
 int ViewAccess::refusal(const ViewRequest& request) const {
   constexpr int forbidden = 403, wrong_type = 415;
-  // A name that leads to this machine, by which another page may try to come in, is no host here.
+  // Another page may use a host name that resolves to this machine: only the number is accepted.
   if (request.host != fmt::format("127.0.0.1:{}", port_)) return forbidden;
   if (!request.origin.empty() && request.origin != fmt::format("http://127.0.0.1:{}", port_))
     return forbidden;
   if (!request.site.empty() && request.site != "same-origin" && request.site != "none")
     return forbidden;
   if (action(request.path).data() == nullptr) return forbidden;
-  // A form of another page cannot send this type without asking first.
+  // A form of another page cannot send this type without the browser asking first.
   if (request.method == "POST" && request.type != "application/json") return wrong_type;
   return 0;
 }

@@ -3,10 +3,10 @@
 #include <string>
 #include <string_view>
 
-// Who may ask the server of `view`: whoever has the address that it printed, from its own page.
+// Decides which requests `view` answers: those of its own page, which has the printed address.
 namespace kinemend::cli {
 
-/// What the server must know of a request before it looks at it.
+/// The parts of a request's head that the decision needs.
 struct ViewRequest {
   std::string method;  ///< "GET", "POST"
   std::string path;    ///< "/TOKEN/run", without a query
@@ -18,11 +18,11 @@ struct ViewRequest {
 
 class ViewAccess {
  public:
-  /// `token`: what the address must hold; `port`: that of the server on 127.0.0.1.
+  /// `token`: must be part of the path; `port`: of the server on 127.0.0.1.
   ViewAccess(std::string token, int port) : token_(std::move(token)), port_(port) {}
 
-  /// 0 for a request that may go on, else the status that refuses it: 403 for another host or
-  /// origin and for a missing token, 415 for a body that is no JSON.
+  /// 0 for a request that is answered, else the status that refuses it: 403 for another host or
+  /// origin and for a missing token, 415 for a body of another type than JSON.
   int refusal(const ViewRequest& request) const;
   /// What the path asks for: "" for the page, "run"; null data for a path without the token.
   std::string_view action(std::string_view path) const;

@@ -15,7 +15,9 @@
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "compare_page.hpp"
+#include "config.hpp"
 #include "fill_take.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "kinemend/feet.hpp"
 #include "kinemend/fill.hpp"
 #include "method_options.hpp"
@@ -26,7 +28,11 @@ namespace kinemend::cli {
 
 namespace {
 
-/// Flags that the page may set; what reads or writes a file is not among them.
+Settings preset_settings(const Preset& preset) {
+  return parse_settings(*find_command("clean"), preset.text, fmt::format("preset {}", preset.name));
+}
+
+/// Flags that the page may set: none that reads or writes a file.
 constexpr std::array cleaning_flags = {
     "method",   "strength",      "max_change_deg", "max_change",      "fill",
     "fill_all", "feet",          "fix_swaps",      "peak_loss_limit", "joints",
@@ -34,9 +40,21 @@ constexpr std::array cleaning_flags = {
 constexpr std::array filling_flags = {"method", "names",       "range",
                                       "donor",  "longest_gap", "fill_all"};
 
-const Method* method_of(const Json& flags) {
-  const auto named = flags.find("method");
-  return method_called(named == flags.end() ? "auto" : named->get<std::string>());
+/// The method that these flags choose: named, of the preset, or the default.
+const Method* method_of(const std::vector<AskedFlag>& flags) {
+  const auto text = [&](std::string_view name) {
+    const auto found = std::find_if(flags.begin(), flags.end(),
+                                    [&](const AskedFlag& flag) { return flag.name == name; });
+    const auto* value = found == flags.end() ? nullptr : std::get_if<std::string>(&found->value);
+    return value == nullptr ? std::string() : *value;
+  };
+  std::string method = text("method");
+  if (const std::string preset = text("preset"); method.empty() && !preset.empty()) {
+    const Settings settings = preset_settings(find_preset(preset));
+    if (const auto set = settings.values.find("method"); set != settings.values.end())
+      method = std::get<std::string>(set->second);
+  }
+  return method_called(method.empty() ? "auto" : method);
 }
 
 bool is_option(const Method* method, std::string_view name) {
@@ -46,28 +64,22 @@ bool is_option(const Method* method, std::string_view name) {
          });
 }
 
-void check_flag(bool is_fill, const Json& flags, const std::string& name) {
+void check_flag(const ViewAsked& asked, const std::string& name) {
   const auto among = [&](const auto& list) {
     return std::find(list.begin(), list.end(), name) != list.end();
   };
-  const bool known =
-      is_fill ? among(filling_flags) : among(cleaning_flags) || is_option(method_of(flags), name);
-  if (!known) throw Error(ErrorKind::usage, fmt::format("view: the page may not set \"{}\"", name));
+  const bool known = asked.is_fill
+                         ? among(filling_flags)
+                         : among(cleaning_flags) || is_option(method_of(asked.flags), name);
+  if (!known)
+    throw Error(ErrorKind::usage, fmt::format("view: the page may not set {}", printable(name)));
 }
 
 /// "--cutoff-hz=6", "--no-root-position".
-std::string word_of(const std::string& name, const Json& value) {
-  if (value.is_boolean()) return (value.get<bool>() ? "--" : "--no-") + dashed(name);
-  return fmt::format("--{}={}", dashed(name),
-                     value.is_string() ? value.get<std::string>() : value.dump());
-}
-
-bool is_fill(const Json& asked) { return asked.value("command", "clean") == "fill"; }
-
-std::optional<std::string> text_in(const Json& asked, const char* name) {
-  const auto found = asked.find(name);
-  if (found == asked.end() || !found->is_string()) return std::nullopt;
-  return found->get<std::string>();
+std::string word_of(const AskedFlag& flag) {
+  if (const bool* is_on = std::get_if<bool>(&flag.value))
+    return (*is_on ? "--" : "--no-") + dashed(flag.name);
+  return fmt::format("--{}={}", dashed(flag.name), std::get<std::string>(flag.value));
 }
 
 Arguments parsed(const std::vector<std::string>& words) {
@@ -96,11 +108,6 @@ std::vector<std::string> without(std::vector<std::string> words,
   return words;
 }
 
-std::string tab_of(const Json& asked) {
-  constexpr std::size_t longest = 64;
-  return text_in(asked, "tab").value_or("").substr(0, longest);
-}
-
 Json methods_json() {
   Json list = Json::array();
   for (const Method& method : methods()) {
@@ -115,6 +122,21 @@ Json methods_json() {
       entry["options"].push_back(std::move(option));
     }
     list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+// What each preset sets, so that the page can show it in its controls.
+Json presets_json() {
+  Json list = Json::array();
+  for (const Preset& preset : presets()) {
+    const Settings settings = preset_settings(preset);
+    Json options = Json::object();
+    for (const auto& [method, values] : settings.methods) options[method] = json_of(values);
+    list.push_back({{"name", preset.name},
+                    {"summary", preset_summary(preset)},
+                    {"values", json_of(settings.values)},
+                    {"options", std::move(options)}});
   }
   return list;
 }
@@ -142,6 +164,7 @@ Json session_json(const ViewFiles& files) {
           {"gaps", files.gaps},
           {"with_gaps", files.with_gaps},
           {"methods", methods_json()},
+          {"presets", presets_json()},
           {"fill_methods", fill_methods_json()}};
 }
 
@@ -192,14 +215,10 @@ ViewReply ViewSession::answer(std::string_view method, std::string_view action,
   try {
     if (method == "GET" && action.empty()) return first_page();
     if (method != "POST" || (!files_.other.empty() && action != "run" && action != "leave"))
-      return failure(not_found, "there is nothing here");
-    const Json asked = Json::parse(body);
-    if (!asked.is_object()) return failure(bad_request, "expected an object");
-    ViewReply reply = act(action, asked);
-    return reply.body.empty() && reply.type.empty() ? failure(not_found, "there is nothing here")
+      return failure(not_found, "this page does not exist");
+    ViewReply reply = act(action, parse_view_asked(body));
+    return reply.body.empty() && reply.type.empty() ? failure(not_found, "this page does not exist")
                                                     : reply;
-  } catch (const Json::exception&) {
-    return failure(bad_request, "this is no request of the page");
   } catch (const Error& error) {
     return failure(std::string_view(error.what()) == overtaken ? gone : bad_request, error.what());
   } catch (const std::bad_alloc&) {
@@ -209,16 +228,15 @@ ViewReply ViewSession::answer(std::string_view method, std::string_view action,
   }
 }
 
-ViewReply ViewSession::act(std::string_view action, const Json& asked) {
-  const std::string tab = tab_of(asked);
-  if (action == "run") return run(asked, turns_.begin(tab, ViewTurn::run));
-  if (action == "curves") return curves(asked, turns_.begin(tab, ViewTurn::curves));
+ViewReply ViewSession::act(std::string_view action, const ViewAsked& asked) {
+  if (action == "run") return run(asked, turns_.begin(asked.tab, ViewTurn::run));
+  if (action == "curves") return curves(asked, turns_.begin(asked.tab, ViewTurn::curves));
   if (action == "save") return save(asked);
   if (action == "contacts") return contacts();
   if (action == "gaps") return gaps();
   if (action == "progress") return progress();
   if (action != "leave") return {404, "", ""};
-  turns_.leave(tab);
+  turns_.leave(asked.tab);
   return {200, "application/json", json_text(Json::object())};
 }
 
@@ -241,28 +259,44 @@ ViewReply ViewSession::progress() {
   return {200, "application/json", json_text({{"stage", stage_}, {"done", done_}})};
 }
 
-std::vector<std::string> ViewSession::words_of(const Json& asked) const {
-  const bool fills = is_fill(asked);
-  std::vector<std::string> words = {fills ? "fill" : "clean", files_.input};
+std::string ViewSession::output_of(const ViewAsked& asked) const {
+  const std::string& standard = asked.is_fill ? files_.filled : files_.cleaned;
+  if (asked.file.empty()) return standard;
+  const bool is_plain =
+      asked.file != "." && asked.file != ".." &&
+      std::none_of(asked.file.begin(), asked.file.end(), [](char c) {
+        return c == '/' || c == '\\' || static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
+      });
+  if (!is_plain)
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: expected a file name without a folder", printable(asked.file)));
+  std::filesystem::path output = standard;
+  output.replace_filename(asked.file);
+  // A name that begins with a dash would be read as an option.
+  const std::string text = output.string();
+  return text.starts_with('-') ? "./" + text : text;
+}
+
+std::vector<std::string> ViewSession::words_of(const ViewAsked& asked) const {
+  std::vector<std::string> words = {asked.is_fill ? "fill" : "clean", files_.input};
   words.insert(words.end(), files_.reading.begin(), files_.reading.end());
-  if (files_.with_gaps || text_in(asked, "gaps")) words.push_back("--gaps=" + files_.gaps);
-  const Json flags = asked.value("flags", Json::object());
-  for (const auto& [name, value] : flags.items()) {
-    check_flag(fills, flags, name);
-    words.push_back(word_of(name, value));
+  if (files_.with_gaps || asked.gaps) words.push_back("--gaps=" + files_.gaps);
+  for (const AskedFlag& flag : asked.flags) {
+    check_flag(asked, flag.name);
+    words.push_back(word_of(flag));
   }
-  words.push_back("--output=" + (fills ? files_.filled : files_.cleaned));
-  if (!fills && text_in(asked, "contacts")) words.push_back("--contacts=" + files_.contacts);
-  if (fills && text_in(asked, "plan")) words.push_back("--plan=" + files_.plan);
+  words.push_back("--output=" + output_of(asked));
+  if (!asked.is_fill && asked.contacts) words.push_back("--contacts=" + files_.contacts);
+  if (asked.is_fill && asked.plan) words.push_back("--plan=" + files_.plan);
   return words;
 }
 
-ViewReply ViewSession::run(const Json& asked, const Turn& turn) {
+ViewReply ViewSession::run(const ViewAsked& asked, const Turn& turn) {
   tell(turn, "waiting", 0);
   const std::lock_guard lock(work_);
   tell(turn, "reading", 0);
   if (!files_.other.empty()) return {200, html, comparison()};
-  return {200, html, is_fill(asked) ? fill_page(asked, turn) : clean_page(asked, turn)};
+  return {200, html, asked.is_fill ? fill_page(asked, turn) : clean_page(asked, turn)};
 }
 
 std::string ViewSession::comparison() const {
@@ -271,15 +305,15 @@ std::string ViewSession::comparison() const {
   return comparison_page(parsed(words), true);
 }
 
-std::string ViewSession::clean_page(const Json& asked, const Turn& turn) {
+std::string ViewSession::clean_page(const ViewAsked& asked, const Turn& turn) {
   const std::vector<std::string> words = words_of(asked);
-  const auto gaps = text_in(asked, "gaps");
+  const auto& gaps = asked.gaps;
   CleanPlan plan = make_clean_plan(
       parsed(gaps ? without(words, {"--contacts=", "--gaps="}) : without(words, {"--contacts="})));
   if (gaps) plan.gaps.emplace(*gaps, "gaps");
-  if (const auto text = text_in(asked, "contacts")) {
+  if (asked.contacts) {
     if (!plan.settings.feet) plan.settings.feet.emplace();
-    plan.contacts.emplace(*text, "contacts");
+    plan.contacts.emplace(*asked.contacts, "contacts");
   }
   plan.dry_run = plan.quiet = true;
   plan.page.emplace();
@@ -294,21 +328,20 @@ std::string ViewSession::clean_page(const Json& asked, const Turn& turn) {
   return std::move(outcome.page);
 }
 
-FillRun ViewSession::fill_run(const Json& asked) const {
-  const auto plan = text_in(asked, "plan"), gaps = text_in(asked, "gaps");
+FillRun ViewSession::fill_run(const ViewAsked& asked) const {
   std::vector<std::string> words = without(words_of(asked), {"--plan="});
-  if (gaps) words = without(std::move(words), {"--gaps="});
+  if (asked.gaps) words = without(std::move(words), {"--gaps="});
   words.emplace_back("--dry-run");
   FillRun run = fill_run_of(parsed(words));
-  if (plan) run.plan.emplace(*plan, "plan");
-  if (gaps) run.gaps.emplace(*gaps, "gaps");
+  if (asked.plan) run.plan.emplace(*asked.plan, "plan");
+  if (asked.gaps) run.gaps.emplace(*asked.gaps, "gaps");
   return run;
 }
 
-std::string ViewSession::fill_page(const Json& asked, const Turn& turn) {
+std::string ViewSession::fill_page(const ViewAsked& asked, const Turn& turn) {
   FillRun run = fill_run(asked);
   run.plan_out_path = "plan.json";
-  run.preview = asked.value("preview", false);
+  run.preview = asked.preview;
   run.reading.progress = [&](double done) { tell(turn, "reading", done); };
   const FilledTake filled = fill_take(run, true, [&] { tell(turn, "filling", 0); });
   PageSettings settings;
@@ -320,48 +353,61 @@ std::string ViewSession::fill_page(const Json& asked, const Turn& turn) {
   return page_of(filled.report, filled.before, &filled.after, settings);
 }
 
-ViewReply ViewSession::curves(const Json& asked, const Turn& turn) {
+ViewReply ViewSession::curves(const ViewAsked& asked, const Turn& turn) {
   const std::lock_guard lock(work_);
   turn.check();
   FillRun run = fill_run(asked);
   run.reading.progress = [&](double) { turn.check(); };
-  const GapCurves found =
-      gap_curves(run, asked.at("row").get<std::size_t>(), [&] { tell(turn, "filling", 0); });
+  const GapCurves found = gap_curves(run, asked.row, [&] { tell(turn, "filling", 0); });
   return {200, "application/json", json_of(found).dump()};
 }
 
-bool ViewSession::may_replace(const std::string& path) const {
-  return files_.force || written_.count(path) > 0;
+bool ViewSession::may_replace(const std::string& path, const ViewAsked& asked) const {
+  return files_.force || asked.replace || written_.count(path) > 0;
 }
 
-void ViewSession::write_side(const std::string& path, std::string_view bytes, Json& written) {
-  write_output(path, bytes, may_replace(path));
+void ViewSession::write_side(const std::string& path, std::string_view bytes,
+                             const ViewAsked& asked, Json& written) {
+  write_output(path, bytes, may_replace(path, asked));
   written_.insert(path);
   written.push_back(path);
 }
 
-ViewReply ViewSession::save(const Json& asked) {
+ViewReply ViewSession::save(const ViewAsked& asked) {
   const std::lock_guard lock(work_);
   Json written = Json::array();
   std::vector<std::string> words = words_of(asked);
   const std::string line = line_of(words);
-  const bool fills = is_fill(asked);
-  const std::string output = fills ? files_.filled : files_.cleaned;
-  const auto gaps = text_in(asked, "gaps"), plan = text_in(asked, fills ? "plan" : "contacts");
+  const bool fills = asked.is_fill;
+  const std::string output = output_of(asked);
+  const std::optional<std::string>& plan = fills ? asked.plan : asked.contacts;
   const std::string side = fills ? files_.plan : files_.contacts;
-  // All of them before any is made.
-  check_free(output, may_replace(output));
-  if (plan) check_free(side, may_replace(side));
-  if (gaps) check_free(files_.gaps, may_replace(files_.gaps));
-  if (gaps) write_side(files_.gaps, *gaps, written);
-  if (plan && !fills) write_side(side, *plan, written);
+  // An input is never replaced, whatever the person confirms.
+  check_is_no_input("--output", output, inputs());
+  // All files are looked at before the first is written.
+  Json existing = Json::array();
+  const auto look_at = [&](const std::string& path) {
+    std::error_code ignored;
+    if (!may_replace(path, asked) && std::filesystem::exists(path, ignored))
+      existing.push_back(path);
+  };
+  if (asked.gaps) look_at(files_.gaps);
+  if (plan) look_at(side);
+  look_at(output);
+  if (!existing.empty()) {
+    constexpr int conflict = 409;
+    return {conflict, "application/json",
+            json_text({{"error", existing.front().get<std::string>() + ": exists already"},
+                       {"existing", existing}})};
+  }
+  if (asked.gaps) write_side(files_.gaps, *asked.gaps, asked, written);
+  if (plan && !fills) write_side(side, *plan, asked, written);
   if (plan && fills) {
     FillRun run = fill_run(asked);
     run.plan_out_path = side;
-    write_side(side, fill_take(run, false).plan_text, written);
+    write_side(side, fill_take(run, false).plan_text, asked, written);
   }
-  const bool force = may_replace(output);
-  if (force) words.emplace_back("--force");
+  if (may_replace(output, asked)) words.emplace_back("--force");
   const Arguments arguments = parsed(words);
   if (fills) {
     const FillRun run = fill_run_of(arguments);
@@ -378,6 +424,16 @@ ViewReply ViewSession::save(const Json& asked) {
   return {200, "application/json", json_text({{"written", written}, {"command_line", line}})};
 }
 
+std::vector<std::string> ViewSession::inputs() const {
+  std::vector<std::string> paths = {files_.input, files_.other, files_.contacts, files_.plan,
+                                    files_.gaps};
+  constexpr std::string_view skeleton = "--asf=";
+  for (const std::string& word : files_.reading) {
+    if (word.starts_with(skeleton)) paths.push_back(word.substr(skeleton.size()));
+  }
+  return paths;
+}
+
 ViewReply ViewSession::contacts() {
   const std::lock_guard lock(work_);
   std::vector<std::string> words = {"contacts", files_.input};
@@ -387,7 +443,7 @@ ViewReply ViewSession::contacts() {
     return {200, plain, read_file(files_.contacts)};
   TakeResult read = read_take(std::filesystem::path(files_.input), read_options(parsed(words)));
   Clip* clip = std::get_if<Clip>(&read.take);
-  if (clip == nullptr) throw Error(ErrorKind::usage, "contacts are of takes of joints");
+  if (clip == nullptr) throw Error(ErrorKind::usage, "contacts exist only in takes of joints");
   Clip copy = *clip;
   const FeetReport report = clean_feet(copy);
   return {200, plain, contacts_text(*clip, report)};

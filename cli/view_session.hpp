@@ -8,14 +8,18 @@
 #include <vector>
 
 #include "fill_take.hpp"
+#include "http_server.hpp"
 #include "json.hpp"
+#include "view_asked.hpp"
 #include "view_turns.hpp"
 
-// What the page of `view` asks for: runs of other commands on one take, by the code that the
-// command line runs.
+// Answers the page of `view`: runs other commands on one take, with the code that the command line
+// uses.
 namespace kinemend::cli {
 
-/// The files that a session reads and writes; no others are touched, whatever is asked.
+/// The files that a session reads and writes. A take is saved in the folder of `cleaned` or
+/// `filled` only, under a name that the page may choose; no other file is touched, whatever is
+/// asked.
 struct ViewFiles {
   std::string input;
   std::string other;                 ///< compared with it, and nothing else; empty: none
@@ -27,48 +31,54 @@ struct ViewFiles {
   bool force = false;                ///< replace files that another run has made
 };
 
-struct ViewReply {
-  int status = 200;
-  std::string type = "application/json";
-  std::string body;
-};
+using ViewReply = HttpReply;
 
 class ViewSession {
  public:
   explicit ViewSession(ViewFiles files) : files_(std::move(files)) {}
 
-  /// Of the page's address. `action`: "" for the page before there is anything in it; "run" for the
-  /// data of a run, "curves" of what every method makes of a gap, "save", "contacts" and "gaps" for
-  /// side files, "progress" for how far a run is, "leave" of a tab that is closed. Never throws:
-  /// what goes wrong is a reply with the status 4xx or 5xx and {"error": words}. A run that is
-  /// overtaken by another of its tab is given up: 409. May be called from several threads.
+  /// Answers one request. `action` is the end of its address:
+  /// - "": the page, still without a take;
+  /// - "run": report and motion of a run;
+  /// - "curves": what each method makes of one gap;
+  /// - "save", "contacts", "gaps": writes the take, reads a side file;
+  /// - "progress": what the run is doing;
+  /// - "leave": the tab was closed.
+  /// Never throws: an error is a reply with the status 4xx or 5xx and {"error": words}. A run that
+  /// a newer one of its tab has replaced ends with 409. May be called from several threads.
   ViewReply answer(std::string_view method, std::string_view action, const std::string& body);
-  /// Gives up what is running.
+  /// Stops the run that is under way.
   void stop() { turns_.stop(); }
 
  private:
   using Turn = ViewTurns::Turn;
 
   ViewReply first_page() const;
-  ViewReply act(std::string_view action, const Json& asked);
-  ViewReply run(const Json& asked, const Turn& turn);
-  ViewReply curves(const Json& asked, const Turn& turn);
-  ViewReply save(const Json& asked);
+  ViewReply act(std::string_view action, const ViewAsked& asked);
+  ViewReply run(const ViewAsked& asked, const Turn& turn);
+  ViewReply curves(const ViewAsked& asked, const Turn& turn);
+  ViewReply save(const ViewAsked& asked);
   ViewReply contacts();
   ViewReply gaps();
   ViewReply progress();
-  std::string clean_page(const Json& asked, const Turn& turn);
-  std::string fill_page(const Json& asked, const Turn& turn);
+  std::string clean_page(const ViewAsked& asked, const Turn& turn);
+  std::string fill_page(const ViewAsked& asked, const Turn& turn);
   std::string comparison() const;
-  /// As asked, with plans and gaps of the page in place of those in files.
-  FillRun fill_run(const Json& asked) const;
-  /// "kinemend clean walk.bvh ...": what the same run is on a command line.
-  std::vector<std::string> words_of(const Json& asked) const;
-  /// Says how far the run is, and ends it where another has overtaken it.
+  /// With the plan and the gaps of the page instead of those in files.
+  FillRun fill_run(const ViewAsked& asked) const;
+  /// The command line of the same run: "clean", "walk.bvh", ...
+  std::vector<std::string> words_of(const ViewAsked& asked) const;
+  /// Records how far the run is. Throws where a newer run has replaced it.
   void tell(const Turn& turn, std::string_view stage, double done);
-  /// Whether the page may replace a file.
-  bool may_replace(const std::string& path) const;
-  void write_side(const std::string& path, std::string_view bytes, Json& written);
+  /// Where the take is saved: beside the default, which is an option of the command.
+  std::string output_of(const ViewAsked& asked) const;
+  /// Files that are read, and side files, which no take may replace.
+  std::vector<std::string> inputs() const;
+  /// Whether an existing file is replaced: by `--force`, once the person has confirmed it, or since
+  /// this session has written it.
+  bool may_replace(const std::string& path, const ViewAsked& asked) const;
+  void write_side(const std::string& path, std::string_view bytes, const ViewAsked& asked,
+                  Json& written);
 
   ViewFiles files_;
   ViewTurns turns_;

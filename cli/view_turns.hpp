@@ -8,10 +8,10 @@
 #include <mutex>
 #include <string>
 
-// Which of the things that pages ask for is the last: all others are given up.
+// Keeps track of the latest run of each browser tab: a newer run stops the one before it.
 namespace kinemend::cli {
 
-/// What is asked for: the take cleaned or filled, or the curves of one gap beside it.
+/// A run cleans or fills the take; curves compare the methods over one gap of it.
 enum class ViewTurn { run, curves };
 
 class ViewTurns {
@@ -19,10 +19,10 @@ class ViewTurns {
   using Count = std::atomic<std::uint64_t>;
 
  public:
-  /// One thing that a tab has asked for.
+  /// One run, or one request for curves, of a tab.
   class Turn {
    public:
-    /// Whether the same tab has asked for another since, was closed, or the program ends.
+    /// True once the same tab has asked again or was closed, or the program ends.
     bool is_overtaken() const { return *latest_ != own_ || *ended_; }
     /// Errors: an `Error` that says `overtaken`.
     void check() const;
@@ -34,8 +34,8 @@ class ViewTurns {
     std::uint64_t own_ = 0;
   };
 
-  /// `tab` is what the page calls itself. A run overtakes what the tab has asked for before, curves
-  /// overtake curves; another tab's are left alone.
+  /// `tab`: the name that the page gives itself. A run replaces the run and the curves before it,
+  /// curves replace curves. Other tabs are not affected.
   Turn begin(const std::string& tab, ViewTurn kind);
   /// The tab was closed.
   void leave(const std::string& tab);
@@ -53,6 +53,6 @@ class ViewTurns {
   std::shared_ptr<std::atomic<bool>> ended_ = std::make_shared<std::atomic<bool>>(false);
 };
 
-inline constexpr const char* overtaken = "another run was asked for";
+inline constexpr const char* overtaken = "a newer run has replaced this one";
 
 }  // namespace kinemend::cli

@@ -35,7 +35,7 @@ USES = {
 # The room of every public header.
 PUBLIC = {
     "error": "base", "diagnostics": "base", "random": "base", "options": "base", "pose_matrix": "base",
-    "version": "base", "content_hash": "base", "frame_rate": "base", "rotation": "rotation", "skeleton": "motion", "clip": "motion", "take_view": "motion", "kinematics": "motion",
+    "version": "base", "json_depth": "base", "content_hash": "base", "frame_rate": "base", "rotation": "rotation", "skeleton": "motion", "clip": "motion", "take_view": "motion", "kinematics": "motion",
     "marker_clip": "motion", "convert": "motion", "gaps": "motion", "fill": "fill", "gap_plan": "fill", "check": "check",
     "io": "io", "representation": "representation", "metrics": "metrics", "corrupt": "corrupt",
     "synth": "synth", "signal": "signal", "cleaner": "clean", "methods": "clean", "clean": "clean",

@@ -14,6 +14,7 @@
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/gap_plan.hpp"
+#include "kinemend/experimental/json_depth.hpp"
 
 // The gap plan as a file.
 namespace kinemend {
@@ -186,11 +187,13 @@ std::vector<Row> rows_of_table(std::string_view text, std::string_view name) {
 std::vector<Row> rows_of_json(std::string_view text, std::string_view name) {
   Json document;
   try {
-    document = Json::parse(text);
+    document = parse_json<Json>(text);
   } catch (const Json::parse_error& error) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
     throw Error::at_line(name, 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n')),
-                         "this is no JSON from here on");
+                         json_within_depth(text).size() < text.size()
+                             ? fmt::format("JSON is nested more than {} levels deep", deepest_json)
+                             : "this is not valid JSON from here on");
   }
   if (!document.is_object() || document.value("schema", Json()) != schema ||
       !document.value("gaps", Json()).is_array()) {

@@ -5,6 +5,7 @@
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/gaps.hpp"
 #include "kinemend/report.hpp"
+#include "page/links.hpp"
 
 namespace kinemend::page {
 
@@ -98,6 +99,7 @@ Json take_json(const MarkerClip& before, const MarkerClip* after, const Channels
   json["shown"] = Json::array();
   for (std::size_t m = 0; m < before.marker_count(); ++m)
     json["shown"].push_back(before.holds_positions(m));
+  json["links"] = marker_links(before, stage.height);
   return json;
 }
 

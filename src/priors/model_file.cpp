@@ -13,6 +13,7 @@
 #include "base/quote.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/content_hash.hpp"
+#include "kinemend/experimental/json_depth.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/experimental/train.hpp"
 
@@ -29,7 +30,6 @@ constexpr std::string_view format_key = "kinemend.model";
 constexpr std::string_view checksum_key = "kinemend.checksum";
 // Tensors of the body, not of the method.
 constexpr std::string_view layout_prefix = "layout.";
-constexpr int most_json_depth = 3;
 
 // Position of the checksum's digits in a file. A text of the metadata that contains the same
 // characters has escaped quotes.
@@ -150,11 +150,7 @@ class ModelReader {
 
   Json object(std::string_view key) const {
     const std::string& source = text(key);
-    const auto limit = [&](int depth, Json::parse_event_t, Json&) {
-      if (depth > most_json_depth) refuse(key, "a JSON object", source);
-      return true;
-    };
-    Json json = Json::parse(source, limit, false);
+    Json json = parse_json<Json>(source, false);
     if (!json.is_object()) refuse(key, "a JSON object", source);
     return json;
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "kinemend/experimental/json_depth.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/experimental/version.hpp"
 #include "report/json.hpp"
@@ -86,7 +87,7 @@ BatchRow failed_row(std::string_view name, std::string_view input, std::string_v
 }
 
 std::optional<BatchRow> parse_row(std::string_view json) {
-  const Json parsed = Json::parse(json, nullptr, false);
+  const Json parsed = parse_json<Json>(json, false);
   return parsed.is_object() ? std::optional(row_of(parsed)) : std::nullopt;
 }
 

@@ -162,6 +162,7 @@ class Running {
     out_ = -1;
   }
   void tell(int signal) const { ::kill(child_, signal); }
+  pid_t process() const { return child_; }
   /// The port that it says it listens at.
   int port() {
     const std::string& text = err.until(" (");

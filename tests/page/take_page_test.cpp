@@ -116,6 +116,7 @@ TEST_F(Page, HoldsMarkersWithTheirGaps) {
   EXPECT_EQ(take["gaps"]["before"]["own"], Json::parse("[[1, 20, 29]]"));
   EXPECT_EQ(take["gaps"]["after"], nullptr);
   EXPECT_EQ(take["shown"], Json::parse("[true, true, false]"));
+  EXPECT_EQ(take["links"], Json::parse("[[0, 1]]"));
   const auto channels = channels_in(page).before;
   ASSERT_EQ(channels.size(), 9u);
   const double bound = take["quanta"][0].get<double>() / 2 + 1e-9;

@@ -1,6 +1,7 @@
-// The index of a batch: what failed and what most should be looked at first.
+// The index of a batch: failed takes first, then those that most need review.
 
 import { choice, counted, element, figure, grouped, words } from './dom';
+import { oneTabStop } from './roving';
 import { themeButton } from './theme';
 
 interface Row {
@@ -35,7 +36,7 @@ const filters: [string, string, (row: Row) => boolean][] = [
   ['warnings', 'with warnings', (row) => (row.warnings?.length ?? 0) > 0],
   ['repaired', 'with repairs', (row) => repaired(row) > 0],
   ['refused', 'with gaps left', (row) => (row.figures?.gaps_refused ?? 0) + (row.figures?.gaps_left ?? 0) > 0],
-  ['clean', 'nothing to look at', (row) => badness(row) === 0],
+  ['clean', 'nothing to review', (row) => badness(row) === 0],
 ];
 
 function line({ row, page, picture }: Batch['rows'][number]): HTMLTableRowElement {
@@ -66,8 +67,8 @@ export function showBatch(page: HTMLElement, batch: Batch): void {
     const text = search.value.toLowerCase();
     const shown = takes.filter(({ row }) => fits(row) && `${row.name} ${row.verdict ?? ''} ${row.error ?? ''}`.toLowerCase().includes(text));
     body.replaceChildren(...shown.map(line));
-    count.textContent = `${grouped(shown.length)} of ${counted(takes.length, 'take')}, worst first`;
-    if (shown.length === 0) body.append(element('tr', {}, element('td', { colspan: '6', class: 'words empty' }, 'No take is like that.')));
+    count.textContent = `${grouped(shown.length)} of ${counted(takes.length, 'take')}; needs review, worst first`;
+    if (shown.length === 0) body.append(element('tr', {}, element('td', { colspan: '6', class: 'words empty' }, 'No take matches.')));
   };
   search.addEventListener('input', update);
   const select = choice('which takes', filters.map(([name, label, fits]) => [name, `${label} (${grouped(takes.filter(({ row }) => fits(row)).length)})`]), kind, (value) => {
@@ -77,11 +78,13 @@ export function showBatch(page: HTMLElement, batch: Batch): void {
   const head = element('tr', {}, ...['take', 'what was found', 'frames repaired', 'spikes', 'gaps', 'length'].map((text) => element('th', { scope: 'col' }, text)));
   const sums = element('dl');
   for (const [name, value] of Object.entries(batch.summary.figures)) sums.append(element('div', {}, element('dt', {}, words(name)), element('dd', {}, figure(value))));
+  const table = element('table', {}, element('thead', {}, head), body);
+  oneTabStop(table, 'tr');
   page.replaceChildren(
     element('header', {}, element('div', {}, element('h1', {}, 'Batch'), count), themeButton(() => undefined)),
     element('section', { class: 'batch' }, element('div', { class: 'head' }, select, search),
-      element('div', { class: 'scroll', tabindex: '0' }, element('table', {}, element('thead', {}, head), body))),
-    element('div', { class: 'facts' }, element('section', { class: 'box' }, element('h2', {}, 'All parts'), sums),
+      element('div', { class: 'scroll', tabindex: takes.some(({ page: link }) => link !== '') ? undefined : '0' }, table)),
+    element('div', { class: 'facts' }, element('section', { class: 'box' }, element('h2', {}, 'All takes'), sums),
       element('section', { class: 'box' }, element('h2', {}, 'Made by'), element('p', {}, `kinemend ${batch.summary.kinemend}`), element('code', { tabindex: '0' }, batch.command_line))));
   update();
   page.dataset.ready = 'true';

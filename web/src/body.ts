@@ -2,7 +2,7 @@
 
 import * as three from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import { colour, element } from './dom';
+import { colour, describeCanvas, element } from './dom';
 import type { Player } from './player';
 import type { Take, Which } from './take';
 
@@ -21,7 +21,7 @@ const axes: Record<string, three.Vector3> = {
 };
 const trail_s = 0.5;
 
-/** Balls and, of joints, bones of one take. */
+/** Balls and, between them, bones of one take. */
 class Figure {
   readonly group = new three.Group();
   readonly pose: Float32Array;
@@ -43,9 +43,14 @@ class Figure {
     if (skeleton) {
       skeleton.parents.forEach((parent, joint) => { if (parent >= 0) this.links.push([parent, joint]); });
       skeleton.ends.forEach((end, i) => this.links.push([end.parent, skeleton.parents.length + i]));
-      const shape = new three.CylinderGeometry(size * 0.004, size * 0.01, 1, 8);
+    } else {
+      this.links.push(...(take.data.links ?? []));
+    }
+    if (this.links.length > 0) {
+      // The bone of a joint points to its child; a line between markers has no direction.
+      const shape = skeleton ? new three.CylinderGeometry(size * 0.004, size * 0.01, 1, 8) : new three.CylinderGeometry(size * 0.003, size * 0.003, 1, 6);
       shape.translate(0, 0.5, 0);
-      this.bones = new three.InstancedMesh(shape, this.material, Math.max(1, this.links.length));
+      this.bones = new three.InstancedMesh(shape, this.material, this.links.length);
       this.bones.frustumCulled = false;
       this.group.add(this.bones);
     }
@@ -98,10 +103,10 @@ class Figure {
   }
 }
 
-/** A browser has few of these, and making one takes long: the page has one, which each body in turn draws with. */
+/** Making one takes long and a browser allows few: all bodies of the page share this one. */
 let renderer: three.WebGLRenderer | null = null;
 
-/** What draws; null where the browser has no WebGL. */
+/** The renderer; null where the browser has no WebGL. */
 export function makeRenderer(): three.WebGLRenderer | null {
   try {
     return renderer ??= new three.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
@@ -126,7 +131,9 @@ export class Body {
   private readonly trails = new three.Group();
   private readonly gizmo: SVGSVGElement;
   private centre = new three.Vector3();
-  private readonly unseen = element('p', { class: 'unseen', hidden: true }, 'Nothing is seen in this frame.');
+  private readonly unseen = element('p', { class: 'unseen', hidden: true }, 'Every marker is missing in this frame.');
+  /** The name of what the mouse points at. */
+  private readonly tip = element('p', { class: 'tip', hidden: true });
   private waiting = false;
   private ended = false;
 
@@ -134,7 +141,7 @@ export class Body {
     const { stage } = take.data;
     this.size = stage.height;
     this.up = axes[stage.up].clone().multiplyScalar(stage.sign);
-    // Seen from the front the first of the other axes points to the right.
+    // Seen from the front, the first of the other axes points to the right.
     this.across = axes[stage.up === 'x' ? 'y' : 'x'].clone();
     this.ahead = this.across.clone().cross(this.up);
     this.renderer = renderer;
@@ -146,7 +153,11 @@ export class Body {
     this.gizmo.setAttribute('class', 'axes');
     this.gizmo.setAttribute('viewBox', '-30 -30 60 60');
     this.gizmo.setAttribute('aria-hidden', 'true');
-    holder.append(this.gizmo, this.unseen);
+    holder.append(this.gizmo, this.unseen, this.tip);
+    const shown = `${take.data.names.length} ${take.isJoints ? 'joints' : 'markers'}`;
+    describeCanvas(this.renderer.domElement, `The body in 3D, ${shown}${take.data.two ? `: ${take.data.labels.join(' and ')}` : ''}`);
+    holder.addEventListener('pointermove', (event) => this.point(event));
+    holder.addEventListener('pointerleave', () => { this.tip.hidden = true; });
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.controls.addEventListener('change', () => this.draw());
 
@@ -170,13 +181,48 @@ export class Body {
     this.resize();
   }
 
+  /** The name of a joint, a marker or an end site. */
+  private nameOf(point: number): string {
+    const { names, skeleton } = this.take.data;
+    if (point < names.length) return names[point] || `(no name, ${point + 1})`;
+    const parent = skeleton?.ends[point - names.length]?.parent ?? 0;
+    return `end of ${names[parent]}`;
+  }
+
+  /** Names what is nearest to the mouse. */
+  private point(event: PointerEvent): void {
+    const reach = 14;
+    const { left, top, width, height } = this.holder.getBoundingClientRect();
+    const [x, y] = [event.clientX - left, event.clientY - top];
+    this.camera.updateMatrixWorld();
+    let nearest = reach;
+    let named = '';
+    for (const figure of this.figures) {
+      if (!this.isOn(figure)) continue;
+      for (let p = 0; p < this.take.points; ++p) {
+        const place = this.take.isShown(p) ? figure.at(p) : null;
+        if (place === null) continue;
+        place.add(figure.group.position).project(this.camera);
+        const distance = Math.hypot(((place.x + 1) / 2) * width - x, ((1 - place.y) / 2) * height - y);
+        if (place.z > 1 || distance >= nearest) continue;
+        nearest = distance;
+        named = this.nameOf(p);
+      }
+    }
+    this.tip.hidden = named === '';
+    if (named === '') return;
+    this.tip.textContent = named;
+    // Beside the mouse, on the side with more space.
+    this.tip.style.transform = `translate(${x}px, ${y}px) translate(${x > width / 2 ? 'calc(-100% - 12px)' : '12px'}, ${y > height / 2 ? '-100%' : '0'})`;
+  }
+
   private get main(): Figure { return this.figures[this.figures.length - 1]; }
 
   private isOn(figure: Figure): boolean {
     return !this.take.data.two || this.options[figure.which];
   }
 
-  /** Where the body is in all of the take: lowest and highest corner. */
+  /** The box that the body moves in during the whole take. */
   private extent(): three.Box3 {
     const box = new three.Box3();
     const frames = Math.min(60, this.take.told);
@@ -190,7 +236,7 @@ export class Body {
     return box;
   }
 
-  /** A ball around the body as it is now; a marker far away from all others does not count. */
+  /** A sphere around the body as it is now; ignores a marker far away from all others. */
   private ball(): three.Sphere {
     const box = new three.Box3();
     const middle = this.main.centre() ?? new three.Vector3();
@@ -240,7 +286,7 @@ export class Body {
       orbit: this.ahead.clone().multiplyScalar(0.8).addScaledVector(this.across, 0.6).addScaledVector(this.up, 0.22),
       front: this.ahead.clone(),
       side: this.across.clone(),
-      // A little off, as a camera that looks straight down has no up.
+      // A little off: for a camera that looks straight down, up is undefined.
       top: this.up.clone().addScaledVector(this.ahead, 0.001),
     }[view].normalize();
     this.controls.target.copy(target);
@@ -283,7 +329,7 @@ export class Body {
     this.draw();
   }
 
-  /** A disc below each foot that stands. */
+  /** A disc below each foot in ground contact. */
   private stand(): void {
     const frame = this.player.shown * this.take.data.step;
     const turn = new three.Quaternion().setFromUnitVectors(axes.y, this.up);
@@ -302,7 +348,7 @@ export class Body {
     this.soles.instanceMatrix.needsUpdate = true;
   }
 
-  /** The ways of chosen tracks, half a second to either side. */
+  /** Paths of the chosen tracks, half a second to either side. */
   private trace(): void {
     for (const line of this.trails.children) (line as three.Line).geometry.dispose();
     this.trails.clear();
@@ -356,14 +402,14 @@ export class Body {
       };
       add('line', { x1: 0, y1: 0, x2: 17 * seen.x, y2: -17 * seen.y });
       const [x, y] = [23 * seen.x, -23 * seen.y];
-      // An axis that points at the viewer has no room for its name, nor has one that lies on another.
+      // The name is left out where it would cover the centre or another name.
       if (Math.hypot(seen.x, seen.y) < 0.15 || named.some((at) => Math.hypot(at[0] - x, at[1] - y) < 10)) continue;
       named.push([x, y]);
       add('text', { x, y }, name.toUpperCase());
     }
   }
 
-  /** Where it is seen from, to be taken up by the next body; the middle it goes with is not part of it. */
+  /** Position and target of the camera, and the centre that it follows, for the next body. */
   viewpoint(): three.Vector3[] {
     return [this.camera.position.clone(), this.controls.target.clone(), this.centre.clone()];
   }

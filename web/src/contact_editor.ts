@@ -1,4 +1,4 @@
-// When feet stand: the lines of a contacts file.
+// The lines of a contacts file: when each foot is in ground contact.
 
 import { button } from './dom';
 import { LineEditor, type Sight } from './line_editor';
@@ -7,7 +7,7 @@ import { LineEditor, type Sight } from './line_editor';
 const form = {
   line: /^\s*(\S+)\s+(\S+)\s+(-?\d+)\s+(-?\d+)\s*(?:#.*)?$/,
   expected: 'SIDE PART FIRST LAST',
-  label: 'contacts: side, part, first and last frame, one a line',
+  label: 'contacts, one per line: side, part, first and last frame',
   first: 3,
   last: 4,
   joined: (parts: string[]) => parts.slice(0, 4).join(' '),
@@ -16,12 +16,12 @@ const form = {
 export class ContactEditor extends LineEditor {
   constructor(sight: () => Sight | null, find: () => Promise<Response>, again: () => void) {
     super(form, sight, again);
-    const found = button('Find contacts', 'those that the file holds, or that are found in the take', () => void this.load(find()));
+    const found = button('Find contacts', 'load the contacts file, or find contacts in the take', () => void this.load(find()));
     found.dataset.action = 'contacts';
     this.area.disabled = true;
     this.head.append(found,
-      button('Begins here', 'the contact of the line that the cursor is in begins at the frame that is shown', () => this.put(form.first)),
-      this.endButton('the contact of the line that the cursor is in ends at the frame that is shown'),
-      this.dropButton('feet are held no longer by these contacts'), this.words);
+      button('Begin here', 'set the first frame of the line with the text cursor to the current frame', () => this.put(form.first)),
+      this.endButton('set the last frame of the line with the text cursor to the current frame'),
+      this.dropButton('remove all lines; feet are no longer held by them'), this.words);
   }
 }

@@ -1,7 +1,7 @@
 // Curves of the chosen tracks: values, difference, speed, acceleration, spectrum.
 
 import uPlot from 'uplot';
-import { colour, element, isolated } from './dom';
+import { colour, describeCanvas, element, isolated } from './dom';
 import type { Player } from './player';
 import { accelerationOf, accelerationOfSteps, speedOf, spectrumOf, turningSpeed } from './signal';
 import { turnBetween, type Take, type Which } from './take';
@@ -18,12 +18,21 @@ interface Line {
   dash?: number[];
 }
 
-/** Nobody reads numbers that change faster. */
+/** Numbers that change faster cannot be read. */
 const restOfLegend_ms = 100;
 const axisColours = ['axis-1', 'axis-2', 'axis-3'];
 const superscript = '\u00b2';
 
-/** Ticks stand at frames. */
+/** The plotting library hides the points of a line that is switched off, so that there must be some; the style sheet hides them all. */
+const hiddenPoints: uPlot.Cursor.Points = { show: () => element('i') };
+
+/** Power that is only rounding error is left out: the logarithmic axis would span thirty decades for it, and never finish its ticks. */
+function aboveRounding(density: number[]): Values {
+  const least = Math.max(1e-15, 1e-12 * Math.max(...density));
+  return density.map((value) => (value > least ? value : null));
+}
+
+/** Ticks are at whole frames. */
 export const frameSteps = [1, 2, 5].flatMap((digit) => Array.from({ length: 9 }, (_, power) => digit * 10 ** power)).sort((a, b) => a - b);
 
 /** Short enough for its place beside the panel. */
@@ -88,7 +97,7 @@ export class Curves {
     new ResizeObserver(() => this.resize()).observe(holder);
   }
 
-  /** After the rest of a long take has come. */
+  /** After the rest of a long take is loaded. */
   forget(): void {
     this.signals.clear();
     this.rebuild();
@@ -147,7 +156,7 @@ export class Curves {
     }
     if (this.player.chosen.length === 0) {
       const noun = this.take.isJoints ? 'joint' : 'marker';
-      this.holder.append(element('p', { class: 'empty' }, `Choose a ${noun} in the table to see its curves.`));
+      this.holder.append(element('p', { class: 'empty' }, `Choose a ${noun} in the table to show its curves.`));
       return;
     }
     for (const track of this.player.chosen) this.addTrack(track);
@@ -163,7 +172,7 @@ export class Curves {
       return;
     }
     if (this.take.takes.every((which) => signal.of(which).every((values) => values.every((value) => value === null)))) {
-      this.holder.append(element('p', { class: 'empty' }, `${isolated(name)} is missing throughout.`));
+      this.holder.append(element('p', { class: 'empty' }, `${isolated(name)} is missing in every frame.`));
       return;
     }
     const order: Kind[] = ['values', 'difference', 'speed', 'acceleration', 'spectrum'];
@@ -175,6 +184,7 @@ export class Curves {
       this.holder.append(panel);
       if (kind === 'spectrum') this.addSpectrum(panel, signal);
       else this.addPanel(panel, this.lines(signal, kind));
+      describeCanvas(panel.querySelector('canvas'), `${name}, ${what} in ${unit}${this.take.data.two ? `: ${this.take.data.labels.join(' and ')}` : ''}`);
     }
   }
 
@@ -195,7 +205,7 @@ export class Curves {
       ...size,
       padding: [6, 22, 0, 0],
       scales: { x: { time: false } },
-      cursor: { y: false, sync: { key: 'kinemend' }, drag: { x: true, y: false, setScale: true }, points: { show: false } },
+      cursor: { y: false, sync: { key: 'kinemend' }, drag: { x: true, y: false, setScale: true }, points: hiddenPoints },
       series: [{ label: 'frame' }, ...lines.map((line) => ({ label: line.label, stroke: colour(line.colour), width: line.width, points: { show: this.take.told < 3 } }))],
       axes: [{ ...axis, size: 30, incrs: frameSteps }, { ...axis, size: 68, values: (_plot, ticks) => ticks.map(tickText) }],
       hooks: {
@@ -207,7 +217,7 @@ export class Curves {
     this.plots.push(new uPlot(options, [x, ...lines.map((line) => line.values)] as uPlot.AlignedData, panel));
   }
 
-  /** A click sets the time, the wheel zooms, a double click shows all. */
+  /** A click sets the time, the wheel zooms, a double click shows the whole take. */
   private listen(plot: uPlot): void {
     plot.over.append(element('i', { class: 'time-cursor' }));
     this.cursorIn(plot);
@@ -241,7 +251,7 @@ export class Curves {
     queueMicrotask(() => queueMicrotask(() => { this.isZooming = false; }));
   }
 
-  /** Puts the line of the time where it belongs: to draw all curves anew for each frame would take too long. */
+  /** Moves the time line over the curves: drawing all curves again for each frame would take too long. */
   private cursorIn(plot: uPlot): void {
     const line = plot.over.querySelector<HTMLElement>('.time-cursor');
     if (line === null) return;
@@ -255,7 +265,7 @@ export class Curves {
     if (this.player.playing && now - this.told < restOfLegend_ms) return;
     this.told = now;
     for (const plot of this.plots) {
-      // The legend tells values where the time is, or where the mouse is.
+      // The legend shows the values at the mouse, else at the current time.
       queueMicrotask(() => { if ((plot.cursor.left ?? -1) < 0) plot.setLegend({ idx: this.player.shown }, false); });
     }
   }
@@ -265,7 +275,7 @@ export class Curves {
     const { axis, ...size } = this.common(this.width);
     const spectra = this.take.takes.map((which) => spectrumOf(signal.of(which), this.take.rate));
     if (spectra.every((spectrum) => spectrum.hertz.length === 0)) {
-      panel.append(element('p', { class: 'empty' }, 'Too few samples without a gap for a spectrum.'));
+      panel.append(element('p', { class: 'empty' }, 'A spectrum needs more samples without a gap.'));
       return;
     }
     const hertz = spectra.find((spectrum) => spectrum.hertz.length > 0)?.hertz ?? [];
@@ -278,10 +288,10 @@ export class Curves {
       ...size,
       padding: [6, 22, 0, 0],
       scales: { x: { time: false }, y: { distr: 3 } },
-      cursor: { y: false, points: { show: false } },
+      cursor: { y: false, points: hiddenPoints },
       series: [{ label: 'Hz' }, ...series],
       axes: [{ ...axis, size: 30, values: (_plot, ticks) => ticks.map((tick) => `${tick} Hz`) }, { ...axis, size: 68, values: (_plot, ticks) => ticks.map((tick) => (tick === null || Math.log10(tick) % 1 ? '' : tick.toExponential(0))) }],
-    }, [hertz, ...spectra.map((spectrum) => spectrum.density.map((value) => (value > 0 ? value : null)))] as uPlot.AlignedData, panel);
+    }, [hertz, ...spectra.map(({ density }) => aboveRounding(density))] as uPlot.AlignedData, panel);
     panel.dataset.spectrum = 'true';
     this.spectra.push(plot);
   }

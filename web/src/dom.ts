@@ -1,8 +1,8 @@
-// Elements. Whatever comes from a file is put in as text, never as markup.
+// Makes elements. Text from a file is inserted as text, never as markup.
 
 type Attributes = Record<string, string | number | boolean | undefined>;
 
-/** A name among other words: its direction of writing ends where it ends. */
+/** A name among other words: a name that is written from right to left does not turn them around. */
 export function isolated(name: string): string {
   return `\u2068${name}\u2069`;
 }
@@ -42,6 +42,12 @@ export function choice(label: string, options: [string, string][], value: string
   for (const [key, text] of options) made.append(element('option', { value: key, selected: key === value }, text));
   made.addEventListener('change', () => act(made.value));
   return made;
+}
+
+/** Says what a canvas shows to those who do not see it. */
+export function describeCanvas(canvas: HTMLCanvasElement | null, text: string): void {
+  canvas?.setAttribute('role', 'img');
+  canvas?.setAttribute('aria-label', text);
 }
 
 /** A colour of the style sheet, as it is in the present theme. */

@@ -1,4 +1,4 @@
-// What the report says in words and figures, the take's facts, and how it was made.
+// The report's figures and warnings, facts of the take, and how the report was made.
 
 import { element, figure, grouped, words } from './dom';
 import type { ReportDocument, TakeEntry } from './report';
@@ -29,11 +29,11 @@ function takeFacts(take: Take, entry: TakeEntry): [string, string][] {
   rows.push([data.kind, grouped(data.names.length)]);
   const seconds = entry.frame_rate_hz > 0 ? entry.frames / entry.frame_rate_hz : 0;
   rows.push(['frames', `${grouped(entry.frames)} at ${figure(entry.frame_rate_hz)} Hz, ${figure(seconds)} s`]);
-  if (entry.frames > 0) rows.push(['counted', `from ${entry.first_frame} to ${entry.first_frame + entry.frames - 1}`]);
+  if (entry.frames > 0) rows.push(['frame numbers', ` ${entry.first_frame} to ${entry.first_frame + entry.frames - 1}`]);
   if (entry.calibration_frames) rows.push(['calibration frames', grouped(entry.calibration_frames)]);
-  rows.push(['unit', entry.unit ?? (entry.metres_per_unit ? `${figure(entry.metres_per_unit)} m` : 'not stated')]);
-  rows.push(['up', `${data.stage.sign < 0 ? '\u2212' : ''}${data.stage.up.toUpperCase()}`]);
-  if (data.step > 1) rows.push(['shown here', `1 frame in ${data.step}`]);
+  rows.push(['length unit', entry.unit ?? (entry.metres_per_unit ? `${figure(entry.metres_per_unit)} m` : 'not stated')]);
+  rows.push(['up axis', `${data.stage.sign < 0 ? '\u2212' : ''}${data.stage.up.toUpperCase()}`]);
+  if (data.step > 1) rows.push(['on this page', `1 frame in ${data.step}`]);
   return rows;
 }
 
@@ -49,9 +49,9 @@ export function addFacts(holder: HTMLElement, take: Take, document: ReportDocume
   const warnings = [
     ...entry.warnings,
     ...entry.diagnostics.map((one) => (one.count > 1 ? `${one.message} (${grouped(one.count)} times)` : one.message)),
-    ...(entry.fall_backs ?? []).map((one) => `by ${one.method}, as ${one.reason}: ${one.tracks.map((track) => track.name).join(', ')}`),
+    ...(entry.fall_backs ?? []).map((one) => `cleaned by ${one.method} instead, because ${one.reason}: ${one.tracks.map((track) => track.name).join(', ')}`),
   ];
   if (warnings.length > 0) holder.append(box('Warnings', lines(warnings)));
   const left = entry.leftovers ?? [];
-  if (left.length > 0) holder.append(box('Left as it is', lines(left.map((one) => `${one.what}: ${one.mend}`))));
+  if (left.length > 0) holder.append(box('Not changed', lines(left.map((one) => `${one.what}: ${one.mend}`))));
 }

@@ -1,7 +1,8 @@
-// The gap plan as a table: a row a gap, with its method and verdict to choose.
+// The gap plan as a table: a row for each gap, with its method and verdict to choose.
 
 import { button, choice, element, figure, grouped, toggle } from './dom';
 import { GapPreview, type GapCurves } from './gap_preview';
+import { oneTabStop } from './roving';
 import type { Take } from './take';
 import type { Session } from './view';
 
@@ -45,22 +46,24 @@ export class GapEditor {
   private from = 0;
   private readonly pages = element('span', { class: 'controls', hidden: true });
 
-  /** `curves`: asks the server what every method makes of a row of the plan; null where another was asked for since. */
+  /** `curves`: asks the server for the curves of every method over a gap; null where a later request replaced this one. */
   constructor(private readonly session: Session, private readonly isJoints: boolean, private readonly goTo: (track: string, frame: number) => void,
     private readonly again: () => void, private readonly curves: (plan: string, row: number) => Promise<GapCurves | null>) {
     this.looked = new GapPreview((gap, method, isForced) => this.setMethod(gap, method, isForced), () => this.body.querySelector<HTMLElement>('[data-gap=curves]')?.focus());
     const columns = [isJoints ? 'joint' : 'marker', 'frames', 'length', 'verdict', 'method', 'curves', 'filled by', 'expected error', 'why refused'];
-    const tried = toggle('Try every method', 'how far each method would be from what fills the gap', false, (on) => {
+    const tried = toggle('Try every method', 'show how far the fill of each method is from the one in use', false, (on) => {
       this.preview = on;
       again();
     });
     tried.dataset.action = 'preview';
-    this.pages.append(button('\u2039', 'the gaps before these', () => this.turn(-mostRows)), button('\u203a', 'the gaps behind these', () => this.turn(mostRows)));
-    this.element.append(element('div', { class: 'head' }, tried, button('Forget edits', 'back to what the controls above ask for', () => {
+    this.pages.append(button('\u2039', 'previous gaps', () => this.turn(-mostRows)), button('\u203a', 'next gaps', () => this.turn(mostRows)));
+    const table = element('table', {}, element('thead', {}, element('tr', {}, ...columns.map((text, i) => element('th', { scope: 'col', class: i === columns.length - 1 ? 'words' : '' }, text)))), this.body);
+    this.element.append(element('div', { class: 'head' }, tried, button('Discard edits', 'fill by the controls above again', () => {
       this.edited = false;
       again();
-    }), this.words, this.pages), element('div', { class: 'scroll', tabindex: '0' },
-      element('table', {}, element('thead', {}, element('tr', {}, ...columns.map((text, i) => element('th', { scope: 'col', class: i === columns.length - 1 ? 'words' : '' }, text)))), this.body)), this.looked.element);
+    }), this.words, this.pages), element('p', { class: 'empty' }, 'Arrow keys move in the table. In a list of choices the up and down arrows change the choice; hold Ctrl to move.'),
+      element('div', { class: 'scroll' }, table), this.looked.element);
+    oneTabStop(table, 'tr');
   }
 
   text(): string { return JSON.stringify(this.plan); }
@@ -76,7 +79,7 @@ export class GapEditor {
     else void this.look(row);
   }
 
-  /** As many rows on. */
+  /** Shows rows further on. */
   private turn(by: number): void {
     this.from += by;
     this.list();
@@ -89,7 +92,7 @@ export class GapEditor {
     const end = Math.min(gaps.length, this.from + mostRows);
     this.pages.hidden = gaps.length <= mostRows;
     this.words.textContent = gaps.length === 0 ? 'The take has no gaps.' : this.pages.hidden ? '' : `gaps ${grouped(this.from + 1)} to ${grouped(end)} of ${grouped(gaps.length)}`;
-    // Who works by keyboard goes on where they were.
+    // The control with the focus keeps it.
     const focused = (document.activeElement as HTMLElement | null)?.dataset;
     this.body.replaceChildren(...gaps.slice(this.from, end).map((gap, i) => this.row(gap, this.from + i)));
     if (focused?.gap !== undefined) this.body.querySelector<HTMLElement>(`[data-gap="${focused.gap}"][data-row="${focused.row}"]`)?.focus();
@@ -123,10 +126,10 @@ export class GapEditor {
   }
 
   private row(gap: PlannedGap, row: number): HTMLTableRowElement {
-    const where = button(gap.name, 'go there', () => this.goTo(gap.name, gap.first_frame));
+    const where = button(gap.name, 'go to this gap', () => this.goTo(gap.name, gap.first_frame));
     const verdict = choice(`verdict of ${gap.name}, frames ${gap.first_frame} to ${gap.last_frame}`, [['fill', 'fill'], ['force', 'force'], ['refuse', 'refuse']], gap.verdict, (value) => {
       gap.verdict = value;
-      // Why the rules refused it is not why it is refused now.
+      // The person refuses it now, not the rules.
       if (value === 'refuse') gap.reason = '';
       this.change();
     });
@@ -134,7 +137,7 @@ export class GapEditor {
     const methods = this.session.fill_methods.filter((one) => (this.isJoints ? one.joints : one.markers)).map(({ name }): [string, string] => [name, this.told(gap, name)]);
     const method = choice(`method of ${gap.name}, frames ${gap.first_frame} to ${gap.last_frame}`, methods, gap.method, (value) => this.setMethod(gap, value));
     method.dataset.gap = 'method';
-    const curves = button('Compare', `the curves of every method over ${gap.name}, frames ${gap.first_frame} to ${gap.last_frame}`, () => void this.look(row));
+    const curves = button('Compare', `compare the curves of every method over ${gap.name}, frames ${gap.first_frame} to ${gap.last_frame}`, () => void this.look(row));
     curves.dataset.gap = 'curves';
     for (const control of [where, verdict, method, curves]) control.dataset.row = String(row);
     where.dataset.gap = 'name';
@@ -146,11 +149,11 @@ export class GapEditor {
     return made;
   }
 
-  /** "spline (0.4 mm off)" where it was tried. */
+  /** "spline (differs by 0.4 mm)" where it was tried. */
   private told(gap: PlannedGap, method: string): string {
     const shown = gap.previews?.find((one) => one.method === method);
     if (!shown || (method === gap.method && shown.filled)) return method;
     if (!shown.filled) return `${method} (refused)`;
-    return shown.distance === null ? method : `${method} (${figure(shown.distance)} ${gap.unit} off)`.replace('  ', ' ');
+    return shown.distance === null ? method : `${method} (differs by ${`${figure(shown.distance)} ${gap.unit}`.trim()})`;
   }
 }

@@ -1,8 +1,8 @@
-// What every method would make of one gap: their curves over it, and a button each that chooses.
+// Compares the methods over one gap: a curve and a button for each method.
 
 import uPlot from 'uplot';
 import { frameSteps } from './curves';
-import { button, colour, element, figure, isolated } from './dom';
+import { button, colour, describeCanvas, element, figure, isolated } from './dom';
 import type { PlannedGap } from './gap_editor';
 import type { Take } from './take';
 
@@ -29,9 +29,9 @@ export class GapPreview {
   private gap: PlannedGap | null = null;
   private take: Take | null = null;
 
-  /** `choose`: makes a method the gap's, by force where its rules refuse. */
+  /** `choose`: fills the gap by a method, with the verdict `force` where its rules refuse. */
   constructor(private readonly choose: (gap: PlannedGap, method: string, isForced: boolean) => void, close: () => void) {
-    const closing = button('Close', 'the curves of this gap are looked at no longer', () => {
+    const closing = button('Close', 'close the comparison', () => {
       this.hide();
       close();
     });
@@ -39,7 +39,7 @@ export class GapPreview {
     new ResizeObserver(() => this.resize()).observe(this.plots);
   }
 
-  /** The gap whose curves are shown or waited for. */
+  /** The gap whose curves are shown or being computed. */
   get open(): PlannedGap | null { return this.element.hidden ? null : this.gap; }
 
   hide(): void {
@@ -48,14 +48,14 @@ export class GapPreview {
     this.clear();
   }
 
-  /** Until the curves are here; those of the same gap stay. */
+  /** Until the curves arrive; those of the same gap stay. */
   wait(gap: PlannedGap): void {
     const isSame = this.gap !== null && this.gap.name === gap.name && this.gap.quantity === gap.quantity && this.gap.first_frame === gap.first_frame;
     if (!isSame) this.clear();
     this.gap = gap;
     this.element.hidden = false;
     this.head.textContent = `${isolated(gap.name)}, frames ${gap.first_frame} to ${gap.last_frame}`;
-    this.say('every method is tried\u2026');
+    this.say('trying every method\u2026');
     if (this.curves !== null) this.mark();
   }
 
@@ -64,7 +64,7 @@ export class GapPreview {
   show(curves: GapCurves, take: Take): void {
     this.curves = curves;
     this.take = take;
-    this.say('A click on a curve or a name makes that method the gap\u2019s. Dotted: what its rules refuse.');
+    this.say('Click a curve or a name to fill the gap by that method. Dotted: the method refuses this gap.');
     this.mark();
     this.redraw();
   }
@@ -86,7 +86,7 @@ export class GapPreview {
     const focused = (document.activeElement as HTMLElement | null)?.dataset.method;
     this.methods.replaceChildren(...curves.curves.map((curve, place) => {
       const chosen = curve.method === gap.method && gap.verdict !== 'refuse';
-      const made = button('', curve.filled ? `fill it by ${curve.method}` : `fill it by ${curve.method} although its rules refuse`, () => this.choose(gap, curve.method, !curve.filled), chosen);
+      const made = button('', curve.filled ? `fill the gap by ${curve.method}` : `fill the gap by ${curve.method}, although the method refuses it`, () => this.choose(gap, curve.method, !curve.filled), chosen);
       made.dataset.method = curve.method;
       made.dataset.filled = String(curve.filled);
       const sample = element('i', { class: 'swatch' });
@@ -113,7 +113,7 @@ export class GapPreview {
     if (!curve.filled) return `refused: ${curve.reason}`;
     const parts: string[] = [];
     if (curve.expected_error !== null) parts.push(`expected error ${figure(curve.expected_error)} ${gap.unit}`.trim());
-    if (curve.distance !== null && curve.distance > 0) parts.push(`${figure(curve.distance)} ${gap.unit} off`.replace('  ', ' '));
+    if (curve.distance !== null && curve.distance > 0) parts.push(`${figure(curve.distance)} ${gap.unit}`.trim() + ' from the fill of the plan');
     return parts.join(', ');
   }
 
@@ -146,7 +146,7 @@ export class GapPreview {
     const first = curves.first + take.data.first_frame;
     const x = Array.from({ length: curves.last - curves.first + 1 }, (_, i) => first + i);
     const inGap = (frame: number): boolean => frame >= gap.first_frame && frame <= gap.last_frame;
-    // A method's curve meets the samples beside the gap.
+    // Each curve includes the samples beside the gap, so that it joins them.
     const own = curves.curves.map((curve) => curve.values[axis].map((value, i) => (inGap(x[i] + 1) || inGap(x[i] - 1) || inGap(x[i]) ? value : null)));
     const measured = (curves.curves[0]?.values[axis] ?? []).map((value, i) => (inGap(x[i]) ? null : value));
     const line = { stroke: colour('quiet'), grid: { stroke: colour('grid'), width: 1 }, ticks: { stroke: colour('grid'), width: 1 }, font: '11px system-ui, sans-serif' };
@@ -172,10 +172,11 @@ export class GapPreview {
       const curve = curves.curves[near];
       if (curve) this.choose(this.gap ?? gap, curve.method, !curve.filled);
     });
+    describeCanvas(holder.querySelector('canvas'), `${gap.name}, ${curves.axes[axis]}${gap.unit ? ` in ${gap.unit}` : ''}: curves of ${curves.curves.map(({ method }) => method).join(', ')} over frames ${gap.first_frame} to ${gap.last_frame}`);
     this.shown.push(plot);
   }
 
-  /** Behind the curves, where the gap is. */
+  /** Shades the gap behind the curves. */
   private shade(plot: uPlot, gap: PlannedGap): void {
     const from = plot.valToPos(gap.first_frame - 0.5, 'x', true);
     const to = plot.valToPos(gap.last_frame + 0.5, 'x', true);

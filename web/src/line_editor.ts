@@ -1,4 +1,4 @@
-// The lines of a side file, to be edited: what the editors of contacts and of gaps share.
+// An editor of the lines of a side file: contacts, or missing samples.
 
 import { button, element } from './dom';
 import type { Player } from './player';
@@ -13,7 +13,7 @@ export interface Sight {
 export interface LineForm {
   /** Of the whole of a line that is no comment. */
   line: RegExp;
-  /** In words, for a line that is not like that. */
+  /** In words, for a line of another form. */
   expected: string;
   /** Of the text field. */
   label: string;
@@ -26,7 +26,7 @@ export interface LineForm {
 
 export class LineEditor {
   readonly element = element('div');
-  /** Whether runs go by these lines. */
+  /** Whether runs use these lines. */
   edited = false;
   protected readonly area: HTMLTextAreaElement;
   protected readonly words = element('p', { class: 'status', role: 'status' });
@@ -53,7 +53,7 @@ export class LineEditor {
     this.again();
   }
 
-  /** Lines that were fetched take the place of what is there. */
+  /** Replaces the text by lines that are fetched. */
   protected async load(fetched: Promise<Response>): Promise<void> {
     try {
       const reply = await fetched;
@@ -70,7 +70,7 @@ export class LineEditor {
   }
 
   protected dropButton(title: string): HTMLButtonElement {
-    return button('Leave out', title, () => {
+    return button('Clear', title, () => {
       this.edited = false;
       this.area.value = '';
       this.words.textContent = '';
@@ -78,10 +78,10 @@ export class LineEditor {
     });
   }
   protected endButton(title: string): HTMLButtonElement {
-    return button('Ends here', title, () => this.put(this.form.last));
+    return button('End here', title, () => this.put(this.form.last));
   }
 
-  /** The frame that is shown, into a place of the line with the cursor. */
+  /** Writes the current frame into the line with the cursor. */
   protected put(place: number): void {
     const sight = this.sight();
     if (sight === null) return;
@@ -89,7 +89,7 @@ export class LineEditor {
     const lines = this.area.value.split('\n');
     const parts = this.form.line.exec(lines[before] ?? '');
     if (parts === null) {
-      this.words.textContent = 'put the cursor into the line that is meant';
+      this.words.textContent = 'place the text cursor in the line to change';
       return;
     }
     parts[place] = String(sight.take.number(sight.player.shown));

@@ -1,4 +1,4 @@
-// Samples that count as missing: the lines of a side file of gaps.
+// Samples to treat as missing: the lines of a side file of gaps.
 
 import { button } from './dom';
 import { LineEditor, type Sight } from './line_editor';
@@ -7,7 +7,7 @@ import { LineEditor, type Sight } from './line_editor';
 const form = {
   line: /^\s*("(?:[^"]|"")*"|[^",]+)\s*,\s*(-?\d+)\s*,\s*(-?\d+)\s*(?:#.*)?$/,
   expected: 'NAME,FIRST,LAST',
-  label: 'missing samples: name, first and last frame, one a line',
+  label: 'missing samples, one per line: name, first and last frame',
   first: 2,
   last: 3,
   joined: (parts: string[]) => `${parts[0]},${parts[1]},${parts[2]}`,
@@ -20,24 +20,24 @@ function quoted(name: string): string {
 export class MissingEditor extends LineEditor {
   constructor(sight: () => Sight | null, read: () => Promise<Response>, again: () => void, noun: string) {
     super(form, sight, again);
-    const found = button('Read the file', 'the gaps that are saved already', () => void this.load(read()));
-    const begin = button('Begins here', `what is chosen of the ${noun}s is missing from the frame that is shown on`, () => this.begin(noun));
+    const found = button('Load the file', 'load the gaps that were saved before', () => void this.load(read()));
+    const begin = button('Begin here', `add a line for each chosen ${noun}: missing from the current frame on`, () => this.begin(noun));
     begin.dataset.action = 'missing';
-    this.head.append(begin, this.endButton('the gap of the line that the cursor is in ends at the frame that is shown'), found,
-      this.dropButton('what is marked here is missing no longer'), this.words);
+    this.head.append(begin, this.endButton('set the last frame of the line with the text cursor to the current frame'), found,
+      this.dropButton('remove all lines; these samples are used again'), this.words);
   }
 
-  /** The lines that runs go by already. */
+  /** Loads the lines that runs use from the start. */
   async start(fetched: Promise<Response>): Promise<void> {
     try {
       const reply = await fetched;
       if (reply.ok && this.area.value === '') this.area.value = await reply.text();
     } catch {
-      // The run that is under way says it.
+      // The run reports it.
     }
   }
 
-  /** A line more for each track that is chosen. */
+  /** Adds a line for each chosen track. */
   private begin(noun: string): void {
     const sight = this.sight();
     const chosen = sight?.player.chosen ?? [];

@@ -1,4 +1,4 @@
-// What the page shows depends on what it holds.
+// Starts the page: a batch, a take with controls, or a report, as the data in it says.
 
 import 'uplot/dist/uPlot.min.css';
 import './style.css';
@@ -18,11 +18,11 @@ async function start(): Promise<void> {
     if (view !== null) return startView(page, view);
     const report = await jsonOf<ReportDocument>('report');
     const take = await jsonOf<TakeData>('take');
-    if (report === null || take === null) throw new Error('the page holds no report');
+    if (report === null || take === null) throw new Error('the page contains no report');
     await showTake(page, report, take);
   } catch (error) {
     page.replaceChildren(element('h1', {}, 'This report cannot be shown'), element('p', {}, String(error)),
-      element('p', {}, 'A browser of 2023 or later is needed; and the file must be whole.'));
+      element('p', {}, 'The page needs a browser of 2023 or later, and the file must be complete.'));
     page.dataset.ready = 'failed';
   }
 }

@@ -85,6 +85,8 @@ export interface TakeData {
   gaps: { before: Gaps; after: Gaps | null };
   skeleton?: Skeleton;
   shown?: boolean[];
+  /** Pairs of markers between which a line is drawn. */
+  links?: [number, number][];
   command_line: string;
   labels: [string, string];
 }

@@ -1,13 +1,14 @@
-// The table of joints or markers, sorted by any of its figures.
+// The table of joints or markers, sorted by any of its columns.
 
 import { button, element, figure, words } from './dom';
 import type { Player } from './player';
 import type { Finding, TakeEntry, TrackRow } from './report';
+import { oneTabStop } from './roving';
 import type { Take } from './take';
 
 const withoutUnit = /filled|refused|count|frames|gap|spikes|frozen|bridged|swaps|flips|percent|_s$|_hz$|_deg$|_cm$|missing/;
 
-/** What findings say of each track, for reports that have no figures of tracks. */
+/** Counts the findings of each track, for reports without a table of tracks. */
 function countedRows(names: string[], findings: Finding[]): TrackRow[] {
   return names.map((name) => {
     const own = findings.filter((finding) => finding.track === name);
@@ -28,7 +29,7 @@ export class TrackTable {
   constructor(holder: HTMLElement, private readonly take: Take, private readonly player: Player, entry: TakeEntry) {
     const tracks = entry.tracks.length > 0 || entry.findings.length === 0 ? entry.tracks : countedRows(take.data.names, entry.findings);
     const given = new Map(tracks.map((row) => [String(row.name), row]));
-    // Two markers may bear one name: those are told apart by their place.
+    // Two markers may have the same name: their place tells them apart.
     const inOrder = tracks.length === take.data.names.length;
     const columns = tracks.length > 0 ? Object.keys(tracks[0]).filter((key) => key !== 'name') : [];
     const noun = take.isJoints ? 'joint' : 'marker';
@@ -38,22 +39,24 @@ export class TrackTable {
     for (const column of columns) head.append(this.head(column, words(column) + (withoutUnit.test(column) || !entry.track_unit ? '' : `, ${this.unit(column, entry)}`)));
     take.data.names.forEach((name, track) => {
       const figures = (inOrder ? tracks[track] : given.get(name)) ?? {};
-      const row = element('tr', {}, element('th', { scope: 'row' }, button(name || `(no name, ${track + 1})`, 'show its curves and trail', () => player.toggleTrack(track))));
+      const row = element('tr', {}, element('th', { scope: 'row' }, button(name || `(no name, ${track + 1})`, 'show its curves and its path', () => player.toggleTrack(track))));
       for (const column of columns) row.append(element('td', {}, figure(figures[column] as number | null)));
       this.rows.push({ track, figures: { ...figures, name }, row });
     });
     if (take.data.names.length === 0) {
-      holder.append(element('p', { class: 'empty' }, `The take holds no ${noun}s.`));
+      holder.append(element('p', { class: 'empty' }, `The take has no ${noun}s.`));
       return;
     }
-    holder.append(search, element('div', { class: 'scroll', tabindex: '0' }, element('table', {}, element('thead', {}, head), this.body)));
+    const table = element('table', {}, element('thead', {}, head), this.body);
+    holder.append(search, element('div', { class: 'scroll' }, table));
     const first = ['rms_change', 'geodesic_rms_deg', 'noise', 'gaps', 'filled frames'].find((name) => columns.includes(name));
     this.sort(first ?? null);
     player.onChoice(() => this.mark());
     this.mark();
+    oneTabStop(table, 'tr');
   }
 
-  /** The track that the table begins with. */
+  /** The track in the first row. */
   get worst(): number { return this.rows[0]?.track ?? 0; }
 
   private unit(column: string, entry: TakeEntry): string {
@@ -61,7 +64,7 @@ export class TrackTable {
   }
 
   private head(column: string, text: string): HTMLElement {
-    const cell = element('th', { scope: 'col' }, button(text, 'sort by this', () => this.sort(column)));
+    const cell = element('th', { scope: 'col' }, button(text, 'sort by this column', () => this.sort(column)));
     this.heads.set(column, cell);
     return cell;
   }

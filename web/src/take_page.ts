@@ -12,7 +12,7 @@ import { themeButton } from './theme';
 import { Timeline } from './timeline';
 import { addTransport } from './transport';
 
-const help = 'space: play \u00b7 arrows: a frame, with shift ten \u00b7 Home, End \u00b7 comma, full stop: previous, next finding \u00b7 plus, minus, 0: zoom \u00b7 1 front, 2 side, 3 top, 4 orbit \u00b7 F: follow \u00b7 L: loop';
+const help = 'Keys: Space plays and pauses \u00b7 left and right arrow step one frame, with Shift ten \u00b7 Home and End go to the first and last frame \u00b7 comma and full stop go to the previous and next finding \u00b7 + and \u2212 zoom, 0 shows the whole take \u00b7 1 front, 2 side, 3 top, 4 orbit \u00b7 F follows the body \u00b7 L loops \u00b7 in a table the arrow keys move between its controls';
 
 function nameOf(path: string): string {
   return path === '-' ? 'standard input' : path.split(/[\\/]/).pop() || path;
@@ -29,20 +29,20 @@ function addBody(take: Take, player: Player): [HTMLElement, Body | null] {
   const view = element('div', { class: 'view' });
   made.append(view);
   if (!take.isEverSeen) {
-    view.append(element('p', { class: 'empty' }, take.told === 0 ? 'The take has no frames.' : take.points === 0 ? 'The take holds no positions.' : 'No marker is seen in any frame.'));
+    view.append(element('p', { class: 'empty' }, take.told === 0 ? 'The take has no frames.' : take.points === 0 ? 'The take has no positions.' : 'Every marker is missing in every frame.'));
     return [made, null];
   }
   const renderer = makeRenderer();
   if (renderer === null) {
-    view.replaceChildren(element('p', { class: 'empty' }, 'This browser shows no 3D (WebGL is off); everything else is here.'));
+    view.replaceChildren(element('p', { class: 'empty' }, 'This browser cannot show the body in 3D, because WebGL is off. The rest of the page works.'));
     return [made, null];
   }
   const body = new Body(view, take, player, renderer);
   const views: [View, string, string][] = [['front', 'Front', '1'], ['side', 'Side', '2'], ['top', 'Top', '3'], ['orbit', 'Orbit', '4']];
-  for (const [key, label, letter] of views) head.append(button(label, `${label.toLowerCase()} (${letter})`, () => body.look(key)));
-  const options: [keyof Body['options'], string, string][] = [['follow', 'Follow', 'the camera goes with the body (F)']];
+  for (const [key, label, letter] of views) head.append(button(label, `view from ${{ front: 'the front', side: 'the side', top: 'the top', orbit: 'a corner' }[key]} (${letter})`, () => body.look(key)));
+  const options: [keyof Body['options'], string, string][] = [['follow', 'Follow', 'move the camera with the body (F)']];
   if (take.data.two) {
-    options.push(['apart', 'Apart', 'the two side by side']);
+    options.push(['apart', 'Apart', 'show the two side by side']);
     options.push(['before', take.data.labels[0], `show ${take.data.labels[0]}`], ['after', take.data.labels[1], `show ${take.data.labels[1]}`]);
   }
   for (const [key, label, title] of options) {
@@ -64,7 +64,7 @@ function addCurves(take: Take, player: Player): [HTMLElement, Curves] {
   const curves = new Curves(holder, take, player);
   if (take.isJoints) {
     const quantities: [Quantity, string][] = [['rotation', 'angles'], ['position', 'position']];
-    head.append(choice('what to draw', quantities, 'rotation', (value) => {
+    head.append(choice('curves of', quantities, 'rotation', (value) => {
       curves.quantity = value as Quantity;
       curves.rebuild();
     }));
@@ -72,7 +72,7 @@ function addCurves(take: Take, player: Player): [HTMLElement, Curves] {
   const kinds: [Kind, string][] = [['values', 'Values'], ['difference', 'Difference'], ['speed', 'Speed'], ['acceleration', 'Acceleration'], ['spectrum', 'Spectrum']];
   for (const [kind, label] of kinds) {
     if (kind === 'difference' && !take.data.two) continue;
-    head.append(toggle(label, `${label.toLowerCase()} of the chosen`, curves.kinds.has(kind), (on) => {
+    head.append(toggle(label, `show the ${label.toLowerCase()} of the chosen ${take.isJoints ? 'joints' : 'markers'}`, curves.kinds.has(kind), (on) => {
       if (on) curves.kinds.add(kind);
       else curves.kinds.delete(kind);
       curves.rebuild();
@@ -80,9 +80,9 @@ function addCurves(take: Take, player: Player): [HTMLElement, Curves] {
   }
   head.append(element('span', { class: 'gap' }),
     button('\u2212', 'zoom out (-)', () => player.zoomBy(1.6)), button('+', 'zoom in (+)', () => player.zoomBy(0.625)),
-    button('\u2039', 'pan to the left', () => player.zoom(player.from - (player.to - player.from) / 2, (player.from + player.to) / 2)),
-    button('\u203a', 'pan to the right', () => player.zoom((player.from + player.to) / 2, player.to + (player.to - player.from) / 2)),
-    button('All', 'show all of the take (0)', () => player.zoom(0, take.told - 1)));
+    button('\u2039', 'earlier', () => player.zoom(player.from - (player.to - player.from) / 2, (player.from + player.to) / 2)),
+    button('\u203a', 'later', () => player.zoom((player.from + player.to) / 2, player.to + (player.to - player.from) / 2)),
+    button('All', 'show the whole take (0)', () => player.zoom(0, take.told - 1)));
   made.append(holder);
   return [made, curves];
 }
@@ -111,7 +111,7 @@ function listenToKeys(player: Player, take: Take, timeline: Timeline, body: Body
   document.addEventListener('keydown', (event) => {
     const target = event.target as HTMLElement;
     if (event.ctrlKey || event.altKey || event.metaKey || /^(INPUT|SELECT|TEXTAREA)$/.test(target.tagName)) return;
-    // A button that has the focus is pressed by the space bar.
+    // The space bar presses a button with the focus.
     if (event.key === ' ' && /^(BUTTON|SUMMARY)$/.test(target.tagName)) return;
     const act = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!act) return;
@@ -127,11 +127,11 @@ export interface Shown {
   body: Body | null;
   timeline: Timeline;
   curves: Curves;
-  /** Before another takes its place. */
+  /** Called before another page replaces this one. */
   dispose(): void;
 }
 
-/** What is looked at stays as it is when the same take is shown again. */
+/** Time, zoom, choice and camera stay when the same take is shown again. */
 function lookAsBefore(now: Shown, before: Shown): void {
   if (before.take.told !== now.take.told || before.take.data.names.length !== now.take.data.names.length) return;
   now.player.speed = before.player.speed;
@@ -146,7 +146,7 @@ function lookAsBefore(now: Shown, before: Shown): void {
   }
 }
 
-/** Warnings as findings, in the frames that their words name, else in all. */
+/** Warnings as findings, at the frames that their words name, else over the whole take. */
 function warningsOf(entry: TakeEntry, names: string[]): Finding[] {
   const last = entry.first_frame + Math.max(0, entry.frames - 1);
   return entry.frames === 0 ? [] : entry.warnings.map((reason) => {
@@ -161,11 +161,11 @@ function warningsOf(entry: TakeEntry, names: string[]): Finding[] {
 }
 
 export interface Around {
-  /** What stands below the title, of a page with controls. */
+  /** Controls below the title. */
   panel?: HTMLElement[];
-  /** What was shown until now. */
+  /** The page that this one replaces. */
   before?: Shown | null;
-  /** Also draws anew when light and dark change. */
+  /** Called when light and dark change. */
   onTheme?: () => void;
 }
 
@@ -174,7 +174,7 @@ export async function showTake(page: HTMLElement, document_: ReportDocument, dat
   const entry = document_.takes[0];
   const take = await Take.load(data);
   const player = new Player(take.told, take.rate || 1);
-  const loading = element('span', { class: 'loading' }, take.whole ? '' : 'loading the frames between\u2026');
+  const loading = element('span', { class: 'loading' }, take.whole ? '' : 'loading the remaining frames\u2026');
   const title = element('h1', {}, nameOf(entry.input));
   const verdict = element('p', { class: 'verdict' }, entry.verdict ?? '');
   const [bodySection, body] = addBody(take, player);
@@ -183,7 +183,7 @@ export async function showTake(page: HTMLElement, document_: ReportDocument, dat
   bodySection.append(transport);
   const [tableSection] = section(take.isJoints ? 'Joints' : 'Markers', 'tracks');
   const table = new TrackTable(tableSection, take, player, entry);
-  const [timelineSection] = section('Found and done', 'found');
+  const [timelineSection] = section('Findings and changes', 'found');
   const timeline = new Timeline(timelineSection, take, player, [...entry.findings, ...warningsOf(entry, data.names)], (finding) => {
     const tracks = (finding.track ?? '').split(', ').map((name) => data.names.indexOf(name)).filter((track) => track >= 0);
     const whole = data.names.indexOf(finding.track ?? '');
@@ -205,11 +205,11 @@ export async function showTake(page: HTMLElement, document_: ReportDocument, dat
     timelineSection, curvesSection, facts,
     element('footer', {}, element('p', {}, help)),
   ];
-  // What is taken out and put in again loses the focus.
+  // An element that is removed and inserted again would lose the focus.
   for (const child of [...page.children]) if (!panel.includes(child as HTMLElement)) child.remove();
   page.prepend(header);
   page.append(...panel.filter((one) => one.parentNode !== page), ...parts);
-  if (data.step > 1) page.querySelector('header')?.after(element('p', { class: 'note' }, `A long take: 1 frame in ${data.step} is shown here. What was found is told of all ${counted(data.frames, 'frame')}.`));
+  if (data.step > 1) page.querySelector('header')?.after(element('p', { class: 'note' }, `This take is long: the page shows 1 frame in ${data.step}. The findings cover all ${counted(data.frames, 'frame')}.`));
   if (take.told > 0 && data.names.length > 0) player.choose([table.worst]);
   else player.choose([]);
   player.seek(take.firstSeen());

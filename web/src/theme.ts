@@ -1,4 +1,4 @@
-// Light and dark: as the system has it, until somebody chooses.
+// Light and dark: the system's setting, until the person chooses.
 
 import { button } from './dom';
 
@@ -11,7 +11,7 @@ export function isDark(): boolean {
 
 /** `signal` ends it. */
 export function themeButton(onChange: () => void, signal?: AbortSignal): HTMLButtonElement {
-  const made: HTMLButtonElement = button('', 'light or dark', () => {
+  const made: HTMLButtonElement = button('', 'switch between light and dark', () => {
     document.documentElement.dataset.theme = isDark() ? 'light' : 'dark';
     update();
     onChange();

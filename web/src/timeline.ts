@@ -1,12 +1,13 @@
-// Everything found and done over time, a lane a kind; and the same as a list.
+// Everything found and changed over time, with a lane for each kind, and the same as a list.
 
 import { button, colour, counted, element, figure, isolated, words } from './dom';
 import type { Player } from './player';
 import type { Finding } from './report';
+import { oneTabStop } from './roving';
 import type { Take } from './take';
 
 const laneHeight = 18;
-/** What is drawn first and listed first; other kinds follow. */
+/** The order of the lanes; other kinds follow. */
 const order = ['warning', 'gap', 'spike', 'swap', 'frozen', 'bridged', 'slide', 'sink', 'length', 'euler_flip', 'repeated_frames', 'zero_frames', 'noise'];
 const mostListed = 200;
 
@@ -28,12 +29,12 @@ export function textOf(finding: Finding): string {
 
 export class Timeline {
   selected = -1;
-  /** Of the canvas: to ask for it is slow. */
+  /** Of the canvas: asking the browser for it is slow. */
   private width = 1;
   readonly shown: Finding[];
   private readonly kinds: string[];
   private readonly hidden = new Set<string>();
-  private readonly canvas = element('canvas', { tabindex: '0', role: 'slider', 'aria-label': 'Timeline: arrow keys go from finding to finding' });
+  private readonly canvas = element('canvas', { tabindex: '0', role: 'slider', 'aria-valuemin': '0', 'aria-label': 'Findings over time: arrow keys step from one to the next' });
   private readonly lanes = element('div', { class: 'lanes' });
   private readonly cursor = element('i', { class: 'time-cursor' });
   private readonly words = element('p', { class: 'selected', role: 'status' });
@@ -45,10 +46,10 @@ export class Timeline {
     this.all = findings.map((finding, i) => ({ finding, i })).sort((a, b) => a.finding.first_frame - b.finding.first_frame || a.i - b.i).map(({ finding }) => finding);
     this.shown = [...this.all];
     this.kinds = [...new Set(findings.map((finding) => finding.kind))].sort((a, b) => rank(a) - rank(b) || a.localeCompare(b));
-    // What was smoothed is nearly everywhere: it is drawn, but one does not step through it.
+    // Smoothing is nearly everywhere: it is drawn, but the arrows skip it.
     if (this.kinds.length > 1 && this.kinds.includes('noise')) this.hidden.add('noise');
     if (findings.length === 0) {
-      holder.append(element('p', { class: 'empty' }, 'Nothing was found and nothing was done.'));
+      holder.append(element('p', { class: 'empty' }, 'Nothing was found, and nothing was changed.'));
       return;
     }
     const previous = button('\u2039', 'previous finding (,)', () => this.go(-1));
@@ -56,6 +57,7 @@ export class Timeline {
     holder.append(element('div', { class: 'timeline' }, this.lanes, element('div', { class: 'lane-field' }, this.canvas, this.cursor)), element('div', { class: 'finding' }, previous, next, this.words),
       element('details', {}, element('summary', {}, 'List of findings'), this.list));
     this.addLanes();
+    oneTabStop(this.list, 'li');
     this.filter();
     this.canvas.addEventListener('click', (event) => this.click(event));
     this.canvas.addEventListener('mousemove', (event) => {
@@ -78,7 +80,7 @@ export class Timeline {
   private addLanes(): void {
     for (const kind of this.kinds) {
       const count = this.all.filter((finding) => finding.kind === kind).length;
-      const row = button('', `step through ${words(kind)} with the arrows and list it`, () => {
+      const row = button('', `show ${words(kind)} in the list, and stop at it with the arrows`, () => {
         if (!this.hidden.delete(kind)) this.hidden.add(kind);
         row.setAttribute('aria-pressed', String(!this.hidden.has(kind)));
         this.filter();
@@ -105,9 +107,20 @@ export class Timeline {
     this.draw();
   }
 
+  /** Warnings and spans that were only smoothed are drawn here, too, but are not findings. */
+  private counts(): string {
+    const count = (kind: string): number => this.all.filter((one) => one.kind === kind).length;
+    const warnings = count('warning');
+    const smoothed = count('noise');
+    return [counted(this.all.length - warnings - smoothed, 'finding'), ...(warnings > 0 ? [counted(warnings, 'warning')] : []), ...(smoothed > 0 ? [counted(smoothed, 'smoothed span')] : [])].join(', ');
+  }
+
   private describe(): void {
     const finding = this.shown[this.selected];
-    this.words.textContent = finding ? textOf(finding) : `${counted(this.all.length, 'finding')}; click one to go there`;
+    this.canvas.setAttribute('aria-valuemax', String(this.shown.length));
+    this.canvas.setAttribute('aria-valuenow', String(this.selected + 1));
+    this.canvas.setAttribute('aria-valuetext', finding ? textOf(finding) : `${counted(this.shown.length, 'finding')}, none is chosen`);
+    this.words.textContent = finding ? textOf(finding) : `${this.counts()}. Click one to go to its frame.`;
   }
 
   go(by: number): void {
@@ -129,7 +142,6 @@ export class Timeline {
     this.player.jump(this.take.frameOf(finding.first_frame));
     this.onSelect(finding);
     this.describe();
-    this.canvas.setAttribute('aria-valuetext', textOf(finding));
     this.draw();
   }
 
@@ -200,14 +212,14 @@ export class Timeline {
     this.drawCursor();
   }
 
-  /** Alone: there may be thousands of bars. */
+  /** Drawn apart from the bars, of which there may be thousands. */
   private drawCursor(): void {
     const x = this.x(this.player.shown);
     this.cursor.hidden = !(x >= 0 && x <= this.width);
     if (!this.cursor.hidden) this.cursor.style.transform = `translateX(${x}px)`;
   }
 
-  /** What was refused is an outline. */
+  /** A refused finding is drawn as an outline. */
   private bar(context: CanvasRenderingContext2D, x: number, y: number, width: number, paint: string, hollow: boolean, chosen: boolean): void {
     const height = laneHeight - 7;
     context.globalAlpha = chosen || hollow ? 1 : 0.75;

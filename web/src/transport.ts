@@ -1,4 +1,4 @@
-// Play, speed, loop, and where the cursor is.
+// Play, speed, loop, and the current frame.
 
 import { button, choice, element, grouped, toggle } from './dom';
 import type { Player } from './player';
@@ -9,7 +9,7 @@ export function addTransport(holder: HTMLElement, take: Take, player: Player): v
   play.className = 'play';
   const slider = element('input', { type: 'range', min: '0', max: String(Math.max(0, take.told - 1)), step: '1', value: '0', 'aria-label': 'frame' });
   slider.addEventListener('input', () => {
-    // Pausing puts the slider where the time is.
+    // Pausing moves the slider to the current time.
     const wanted = Number(slider.value);
     player.pause();
     player.seek(wanted);
@@ -19,10 +19,10 @@ export function addTransport(holder: HTMLElement, take: Take, player: Player): v
   const time = element('span', { class: 'time' });
   const speeds: [string, string][] = ['0.1', '0.25', '0.5', '1', '2', '4'].map((speed) => [speed, `${speed}\u00d7`]);
   const controls = element('div', { class: 'controls' }, play,
-    button('\u2039', 'one frame back (left arrow)', () => player.step(-1)),
-    button('\u203a', 'one frame on (right arrow)', () => player.step(1)),
+    button('\u2039', 'previous frame (left arrow)', () => player.step(-1)),
+    button('\u203a', 'next frame (right arrow)', () => player.step(1)),
     choice('speed', speeds, '1', (speed) => { player.speed = Number(speed); }),
-    toggle('Loop', 'begin again at the end (L)', true, (on) => { player.loop = on; }),
+    toggle('Loop', 'start again at the end (L)', true, (on) => { player.loop = on; }),
     element('label', {}, 'frame ', number), time);
   holder.append(controls, slider);
   const total = take.rate > 0 ? (take.told / take.rate).toFixed(2) : '0';

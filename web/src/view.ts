@@ -1,26 +1,18 @@
 // The page that `kinemend view` serves: the page of a take, with controls that run it anew.
 
 import { jsonOf } from './codec';
-import { button, choice, element, toggle } from './dom';
+import { button, choice, element } from './dom';
 import { ContactEditor } from './contact_editor';
 import { GapEditor, type GapPlan } from './gap_editor';
 import type { GapCurves } from './gap_preview';
 import type { Sight } from './line_editor';
 import { MissingEditor } from './missing_editor';
+import { field, optionControl, showProblem, type Option, type Value } from './option_control';
 import type { ReportDocument, TakeData } from './report';
+import { SaveDialog, type Saved } from './save_dialog';
 import { showTake, type Shown } from './take_page';
 import { themeButton } from './theme';
 
-export interface Option {
-  name: string;
-  kind: 'switch' | 'choice' | 'whole' | 'number';
-  help: string;
-  default: string | number | boolean;
-  unit?: string;
-  choices?: string[];
-  minimum?: number;
-  maximum?: number;
-}
 /** What the page of `kinemend view` holds before there is a take: cli/view_session.cpp writes it. */
 export interface Session {
   input: string;
@@ -34,9 +26,9 @@ export interface Session {
   with_gaps: boolean;
   methods: { name: string; summary: string; options: Option[] }[];
   fill_methods: { name: string; summary: string; joints: boolean; markers: boolean }[];
+  /** `values`: what a preset sets of the controls; `options`: of the options of methods. */
+  presets: { name: string; summary: string; values: Record<string, Value>; options: Record<string, Record<string, Value>> }[];
 }
-export type Value = string | number | boolean;
-
 /** What a run is asked for, as the server reads it. */
 interface Asked {
   command: 'clean' | 'fill';
@@ -48,17 +40,17 @@ interface Asked {
 }
 
 const restMs = 150;
-/** After so long a run says how far it is, and again and again. */
+/** How often a run that takes long says how far it is. */
 const tellMs = 600;
 
-/** What this tab calls itself: a run overtakes those of its own tab. */
+/** What this tab calls itself: a run stops the one before it of the same tab. */
 const tab = Array.from(crypto.getRandomValues(new Uint32Array(4)), (word) => word.toString(16)).join('-');
 
 function ask(action: string, asked: object = {}): Promise<Response> {
   return fetch(action, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ tab, ...asked }) });
 }
 
-/** Says what the server is at until it is told to stop. */
+/** Says what the server is doing, until the function that it returns is called. */
 function tellProgress(say: (words: string) => void): () => void {
   const timer = window.setInterval(() => {
     void ask('progress').then((reply) => reply.json()).then(({ stage, done }: { stage: string; done: number }) => {
@@ -76,63 +68,45 @@ function inWords(error: unknown): string {
   return error instanceof TypeError ? 'kinemend view has ended' : error instanceof Error ? error.message : String(error);
 }
 
-/** Takes the data of a run out of the server's reply. */
+/** The report and the motion in the server's answer. */
 async function dataOf(html: string): Promise<[ReportDocument, TakeData]> {
   const made = new DOMParser().parseFromString(html, 'text/html');
   for (const old of document.querySelectorAll('[id^="data-"]')) old.remove();
   for (const part of made.querySelectorAll('[id^="data-"]')) document.body.append(document.adoptNode(part));
   const report = await jsonOf<ReportDocument>('report');
   const take = await jsonOf<TakeData>('take');
-  if (report === null || take === null) throw new Error('the reply holds no report');
+  if (report === null || take === null) throw new Error('the answer contains no report');
   return [report, take];
 }
 
-/** Before anything is there: the take's name, and what the server is at. */
+/** Before there is a result: the take's name, and what the server is doing. */
 function emptyPage(page: HTMLElement, session: Session, ...parts: HTMLElement[]): void {
   const name = session.input.split(/[\\/]/).pop() ?? session.input;
   page.replaceChildren(element('header', {}, element('div', {}, element('h1', {}, name)), themeButton(() => undefined)), ...parts);
   page.dataset.ready = 'running';
 }
 
-function field(label: string, title: string, control: HTMLElement): HTMLElement {
-  return element('label', { class: 'field', title }, element('span', {}, label), control);
-}
-
-/** A control of one option; `act` gets its value, undefined where it is the default. */
-function optionControl(option: Option, act: (value: Value | undefined) => void, label = ''): HTMLElement {
-  const told = label || option.name.replace(/_/g, ' ') + (option.unit ? ` (${option.unit})` : '');
-  if (option.kind === 'switch') {
-    const made = toggle(told, option.help, option.default === true, (on) => act(on === option.default ? undefined : on));
-    made.dataset.flag = option.name;
-    return made;
-  }
-  if (option.choices) {
-    const made = choice(told, option.choices.map((one) => [one, one]), String(option.default), (value) => act(value === option.default ? undefined : value));
-    made.dataset.flag = option.name;
-    return field(told, option.help, made);
-  }
-  const made = element('input', { type: 'number', class: 'number', value: String(option.default), min: option.minimum, max: option.maximum, step: option.kind === 'whole' ? 1 : 'any', 'aria-label': told });
-  made.dataset.flag = option.name;
-  made.addEventListener('input', () => {
-    if (made.value === '' || !made.checkValidity()) return;
-    act(Number(made.value) === option.default ? undefined : Number(made.value));
-  });
-  return field(told, option.help, made);
-}
-
 class Controls {
   readonly element = element('section', { class: 'view-controls', 'aria-label': 'Controls' });
   private command: 'clean' | 'fill' = 'clean';
   private readonly general: Record<'clean' | 'fill', Record<string, Value>> = { clean: {}, fill: {} };
+  private preset: Session['presets'][number] | null = null;
   private method = 'auto';
+  /** Labels of controls whose values are not allowed, by "clean.strength". */
+  private readonly refused = new Map<string, string>();
   private readonly options: Record<string, Record<string, Value>> = {};
   private readonly status = element('p', { class: 'status', role: 'status' }, 'reading\u2026');
   /** The same where the page is empty still. */
-  private readonly first = element('section', {}, element('p', { class: 'empty' }, 'The take is read and cleaned; what comes of it is shown here.'));
+  private readonly first = element('section', {}, element('p', { class: 'empty' }, 'The take is being read and cleaned. The result appears here.'));
   private readonly line = element('code', { class: 'line', tabindex: '0' });
   private readonly rows = { clean: element('div', { class: 'fields' }), fill: element('div', { class: 'fields' }) };
   private readonly optionRow = element('div', { class: 'fields own' });
-  private readonly byPlan = element('p', { class: 'empty' }, 'The gap plan says how each gap is filled.');
+  private readonly presets = choice('preset', [['', 'no preset']], '', (name) => this.choosePreset(name));
+  private readonly about = element('p', { class: 'empty' });
+  private readonly byPlan = element('p', { class: 'empty' }, 'The gap plan below says how each gap is filled.');
+  private readonly dialog = new SaveDialog((file, replace) => this.save(file, replace), (saved) => this.afterSaving(saved));
+  /** Where the take was last saved, by command. */
+  private readonly names = { clean: '', fill: '' };
   private readonly saved = element('p', { class: 'saved', role: 'status' });
   private readonly contacts: ContactEditor | null;
   private readonly gaps: GapEditor;
@@ -160,10 +134,13 @@ class Controls {
     commands.dataset.flag = 'command';
     this.contactBox = element('details', { class: 'editor' }, element('summary', {}, 'Contacts'), this.contacts?.element ?? '');
     this.gapBox = element('details', { class: 'editor' }, element('summary', {}, 'Gap plan'), this.gaps.element);
-    const save = button('Save as', `write ${session.cleaned} or ${session.filled}`, () => void this.save());
+    this.presets.dataset.flag = 'preset';
+    this.presets.title = 'settings for a kind of motion';
+    this.presets.append(...session.presets.map(({ name, summary }) => element('option', { value: name, title: summary }, name)));
+    const save = button('Save as\u2026', 'choose a file name and save the take', () => this.dialog.open(this.names[this.command] || (this.command === 'clean' ? session.cleaned : session.filled)));
     save.dataset.action = 'save';
-    this.element.append(element('div', { class: 'head' }, element('h2', {}, 'Controls'), commands, save, element('span', { class: 'gap' }), this.status),
-      this.rows.clean, this.rows.fill, this.contactBox, element('details', { class: 'editor' }, element('summary', {}, 'Missing samples'), this.missing.element), this.gapBox, this.line, this.saved);
+    this.element.append(element('div', { class: 'head' }, element('h2', {}, 'Controls'), commands, this.presets, save, element('span', { class: 'gap' }), this.status), this.about,
+      this.rows.clean, this.rows.fill, this.contactBox, element('details', { class: 'editor' }, element('summary', {}, 'Missing samples'), this.missing.element), this.gapBox, this.line, this.saved, this.dialog.element);
     this.addClean();
     this.addFill();
     this.draw();
@@ -178,19 +155,59 @@ class Controls {
     this.later();
   }
 
-  private text(command: 'clean' | 'fill', name: string, label: string, hint: string): HTMLElement {
-    const made = element('input', { type: 'text', placeholder: hint, 'aria-label': label });
+  private text(command: 'clean' | 'fill', name: string, label: string, hint: string, title: string): HTMLElement {
+    const made = element('input', { type: 'text', placeholder: hint, value: String(this.general[command][name] ?? ''), 'aria-label': label });
     made.dataset.flag = name;
-    made.addEventListener('input', () => this.set(command, name, made.value.trim()));
-    return field(label, hint, made);
+    made.addEventListener('input', () => {
+      showProblem(made, '');
+      this.set(command, name, made.value.trim());
+    });
+    return field(label, title, made);
   }
   private option(command: 'clean' | 'fill', label: string, option: Option): HTMLElement {
-    return optionControl(option, (value) => this.set(command, option.name, value), label);
+    const set = command === 'clean' ? this.preset?.values[option.name] : undefined;
+    return optionControl(set === undefined ? option : { ...option, default: set }, this.general[command][option.name], {
+      change: (value) => this.set(command, option.name, value),
+      refuse: (told) => this.refuse(`${command}.${option.name}`, told),
+    }, label);
   }
+  /** Nothing is run for a value that is not allowed, and nothing says that it was. */
+  private refuse(name: string, label: string | null): void {
+    if (label === null) this.refused.delete(name);
+    else this.refused.set(name, label);
+    this.sayRefused();
+  }
+  /** Whether a value of the controls that are shown is not used. */
+  private sayRefused(): boolean {
+    const names = [...this.refused].filter(([name]) => name.startsWith(`${this.command}.`)).map(([, label]) => label);
+    if (names.length === 0) return false;
+    window.clearTimeout(this.timer);
+    ++this.turn;
+    this.status.textContent = `not used: ${names.join(', ')}. The page shows the last result with valid values.`;
+    this.status.classList.add('error');
+    this.page.dataset.ready = 'error';
+    return true;
+  }
+
+  private choosePreset(name: string): void {
+    const own = this.general.clean;
+    for (const set of Object.keys(this.preset?.values ?? {})) delete own[set];
+    this.preset = this.session.presets.find((one) => one.name === name) ?? null;
+    for (const set of Object.keys(this.preset?.values ?? {})) delete own[set];
+    for (const set of Object.keys(this.preset?.options ?? {})) delete this.options[set];
+    this.method = this.presetMethod;
+    this.addClean();
+    this.draw();
+    this.later();
+  }
+  /** The method that is used where none is chosen. */
+  private get presetMethod(): string { return String(this.preset?.values.method ?? 'auto'); }
+
   private fillMethods(): string[] {
     return this.session.fill_methods.filter((one) => (this.isJoints ? one.joints : one.markers)).map(({ name }) => name);
   }
 
+  /** Also after another preset is chosen: its values are the defaults of the controls. */
   private addClean(): void {
     const method = choice('method', this.session.methods.map(({ name }) => [name, name]), this.method, (value) => {
       this.method = value;
@@ -198,17 +215,21 @@ class Controls {
       this.later();
     });
     method.dataset.flag = 'method';
-    const patterns = `${this.isJoints ? 'Left*' : 'L*'} (all)`;
-    this.rows.clean.append(field('method', 'how to clean', method),
-      this.option('clean', 'strength', { name: 'strength', kind: 'number', help: 'how far to go from the input (0) to the cleaned motion (1)', default: 1, minimum: 0, maximum: 1 }),
-      this.text('clean', 'joints', this.isJoints ? 'joints' : 'markers', patterns), this.text('clean', 'exclude', 'not', 'none'), this.text('clean', 'range', 'frames', '121:240 or 1s:2.5s'),
-      this.option('clean', 'fill gaps', { name: 'fill', kind: 'choice', help: 'fill gaps before anything is smoothed', default: 'off', choices: ['off', ...this.fillMethods()] }));
+    const nouns = this.isJoints ? 'joints' : 'markers';
+    const pattern = this.isJoints ? 'Left*' : 'L*';
+    for (const name of this.refused.keys()) if (name.startsWith('clean.')) this.refused.delete(name);
+    this.rows.clean.replaceChildren(field('method', 'how to clean', method),
+      this.option('clean', 'strength', { name: 'strength', kind: 'number', help: 'how much of the cleaning is applied: 0 keeps the input, 1 is the full result', default: 1, minimum: 0, maximum: 1 }),
+      this.text('clean', 'joints', `${nouns} to clean`, `${pattern} (all)`, `names or patterns, separated by commas; empty: all ${nouns}`),
+      this.text('clean', 'exclude', `${nouns} to leave out`, 'none', `names or patterns of ${nouns} that are not changed`),
+      this.text('clean', 'range', 'frames', '121:240 or 1s:2.5s', 'clean only these frames, by their numbers or in seconds; empty: all frames'),
+      this.option('clean', 'fill gaps', { name: 'fill', kind: 'choice', help: 'fill gaps with this method, before smoothing', default: 'off', choices: ['off', ...this.fillMethods()] }));
     if (this.isJoints) {
-      this.rows.clean.append(this.option('clean', 'feet', { name: 'feet', kind: 'choice', help: 'stop feet that stand from sliding', default: 'off', choices: ['off', 'auto', 'force'] }),
-        this.option('clean', 'largest change (deg)', { name: 'max_change_deg', kind: 'number', help: 'no rotation goes further than this from its input', default: 180, minimum: 0, maximum: 180 }),
-        this.option('clean', 'root\u2019s path', { name: 'root_position', kind: 'switch', help: 'also clean the root\u2019s path', default: true }));
+      this.rows.clean.append(this.option('clean', 'hold feet', { name: 'feet', kind: 'choice', help: 'stop sliding of feet in ground contact; auto keeps intentional slides, force holds every contact', default: 'off', choices: ['off', 'auto', 'force'] }),
+        this.option('clean', 'largest change (deg)', { name: 'max_change_deg', kind: 'number', help: 'limit on how far a rotation may move from its input', default: 180, minimum: 0, maximum: 180, unit: 'deg' }),
+        this.option('clean', 'clean the root\u2019s position', { name: 'root_position', kind: 'switch', help: 'also clean where the root joint is, not only how it turns', default: true }));
     } else {
-      this.rows.clean.append(this.option('clean', 'undo swaps', { name: 'fix_swaps', kind: 'switch', help: 'undo swapped labels of markers first', default: false }));
+      this.rows.clean.append(this.option('clean', 'undo label swaps', { name: 'fix_swaps', kind: 'switch', help: 'first give swapped markers their own labels again', default: false }));
     }
     this.rows.clean.append(this.optionRow);
     this.drawOptions();
@@ -218,25 +239,27 @@ class Controls {
   private drawOptions(): void {
     const chosen = this.session.methods.find(({ name }) => name === this.method);
     const own = (this.options[this.method] ??= {});
-    this.optionRow.replaceChildren(element('p', { class: 'empty' }, chosen?.summary ?? ''), ...(chosen?.options ?? []).map((option) => {
-      const made = optionControl(option, (value) => {
-        if (value === undefined) delete own[option.name];
-        else own[option.name] = value;
-        this.later();
-      });
-      const given = own[option.name];
-      const control = made.querySelector<HTMLInputElement | HTMLSelectElement>('input, select');
-      if (control && given !== undefined) control.value = String(given);
-      if (option.kind === 'switch') made.setAttribute('aria-pressed', String(given ?? option.default));
-      return made;
-    }));
+    const set = this.preset?.options[this.method] ?? {};
+    // The controls of the method before are gone, with what was typed in them.
+    for (const method of this.session.methods) for (const { name } of method.options) this.refused.delete(`clean.${name}`);
+    this.optionRow.replaceChildren(element('p', { class: 'empty' }, chosen?.summary ?? ''), ...(chosen?.options ?? []).map((option) => optionControl(
+      { ...option, default: set[option.name] ?? option.default }, own[option.name], {
+        change: (value) => {
+          if (value === undefined) delete own[option.name];
+          else own[option.name] = value;
+          this.later();
+        },
+        refuse: (told) => this.refuse(`clean.${option.name}`, told),
+      })));
   }
 
   private addFill(): void {
-    this.rows.fill.append(this.option('fill', 'method', { name: 'method', kind: 'choice', help: 'how to fill', default: 'auto', choices: this.fillMethods() }),
-      this.text('fill', 'names', this.isJoints ? 'joints' : 'markers', `${this.isJoints ? 'Left*' : 'L*'} (all)`), this.text('fill', 'range', 'frames', '121:240 or 1s:2.5s'),
-      this.option('fill', 'fill all', { name: 'fill_all', kind: 'switch', help: 'also what the rules refuse', default: false }));
-    if (!this.isJoints) this.rows.fill.append(this.text('fill', 'donor', 'donor', 'marker of pattern'));
+    const nouns = this.isJoints ? 'joints' : 'markers';
+    this.rows.fill.append(this.option('fill', 'method', { name: 'method', kind: 'choice', help: 'how to fill gaps', default: 'auto', choices: this.fillMethods() }),
+      this.text('fill', 'names', `${nouns} to fill`, `${this.isJoints ? 'Left*' : 'L*'} (all)`, `names or patterns, separated by commas; empty: all ${nouns}`),
+      this.text('fill', 'range', 'frames', '121:240 or 1s:2.5s', 'fill only gaps in these frames, by their numbers or in seconds; empty: all frames'),
+      this.option('fill', 'fill every gap', { name: 'fill_all', kind: 'switch', help: 'also fill gaps that the method would leave open as unreliable', default: false }));
+    if (!this.isJoints) this.rows.fill.append(this.text('fill', 'donor', 'donor marker', 'LASI', 'the marker whose motion the method pattern copies'));
     this.rows.fill.append(this.byPlan);
   }
 
@@ -244,6 +267,9 @@ class Controls {
     for (const command of ['clean', 'fill'] as const) this.rows[command].hidden = command !== this.command;
     for (const control of this.rows.fill.querySelectorAll<HTMLInputElement>('input, select, button')) control.disabled = this.gaps.edited;
     this.byPlan.hidden = !this.gaps.edited;
+    this.presets.hidden = this.command !== 'clean';
+    this.about.hidden = this.command !== 'clean' || this.preset === null;
+    this.about.textContent = this.preset === null ? '' : `Preset ${this.preset.name}: ${this.preset.summary}.`;
     this.contactBox.hidden = this.contacts === null || this.command !== 'clean';
     this.gapBox.hidden = this.command !== 'fill';
   }
@@ -255,7 +281,8 @@ class Controls {
       return { command: 'fill', flags: plan === undefined ? this.general.fill : {}, plan, gaps, preview: this.gaps.preview };
     }
     const flags: Record<string, Value> = { ...this.general.clean, ...this.options[this.method] };
-    if (this.method !== 'auto') flags.method = this.method;
+    if (this.preset !== null) flags.preset = this.preset.name;
+    if (this.method !== this.presetMethod) flags.method = this.method;
     return { command: 'clean', flags, gaps, contacts: this.contacts?.edited ? this.contacts.text() : undefined };
   }
 
@@ -268,14 +295,15 @@ class Controls {
     return told as GapCurves;
   }
 
-  /** Other gaps: a plan of those that were there is none of these. */
+  /** A plan of the gaps before does not fit the gaps there are now. */
   private afterMarking(): void {
     this.gaps.edited = false;
     this.later();
   }
 
-  /** Runs when nothing has been changed for a moment; a run that is under way is overtaken. */
+  /** Runs when nothing has been changed for a moment; a run that is under way is stopped. */
   later(): void {
+    if (this.sayRefused()) return;
     window.clearTimeout(this.timer);
     this.status.textContent = 'running\u2026';
     this.page.dataset.ready = 'running';
@@ -287,7 +315,11 @@ class Controls {
     this.status.classList.add('error');
     this.page.dataset.ready = 'error';
     this.page.dataset.runs = String(this.turn);
-    if (this.shown === null) this.first.replaceChildren(element('p', { class: 'empty' }, 'There is nothing to show: the controls say why.'));
+    // Where the message names an option, it is also said beside its control.
+    const flag = /--([a-z][a-z-]*)/.exec(text)?.[1].replace(/-/g, '_');
+    const control = flag === undefined ? null : this.rows[this.command].querySelector<HTMLElement>(`[data-flag="${flag}"]`);
+    if (control !== null) showProblem(control, text);
+    if (this.shown === null) this.first.replaceChildren(element('p', { class: 'empty' }, 'There is nothing to show. The message above says why.'));
   }
 
   private async run(): Promise<void> {
@@ -305,10 +337,11 @@ class Controls {
       ended();
       const [report, take] = await dataOf(html);
       await this.take(report, take);
+      for (const control of this.rows[this.command].querySelectorAll<HTMLElement>('[aria-invalid]')) showProblem(control, '');
       this.status.classList.remove('error');
       this.status.textContent = 'done';
       this.page.dataset.runs = String(turn);
-      this.status.title = `in ${since(begun)} s, ${answered} s until the answer was here`;
+      this.status.title = `shown after ${since(begun)} s, ${answered} s of them in the program`;
     } catch (error) {
       if (turn === this.turn) this.fail(inWords(error));
     } finally {
@@ -335,23 +368,28 @@ class Controls {
     this.shown.player.jump(this.shown.take.frameOf(frame));
   }
 
-  private async save(): Promise<void> {
+  private async save(file: string, replace: boolean): Promise<Saved> {
+    if (this.refused.size > 0 && this.sayRefused()) return { error: 'A value of the controls is not allowed: correct it first.' };
     this.saved.textContent = 'saving\u2026';
-    this.saved.classList.remove('error');
     try {
-      const reply = await ask('save', this.asked());
-      const told = await reply.json();
-      this.saved.classList.toggle('error', !reply.ok);
-      this.saved.textContent = reply.ok ? `saved ${told.written.join(', ')}` : told.error;
-      if (reply.ok) this.line.textContent = told.command_line;
+      const saved = await (await ask('save', { ...this.asked(), file, replace })).json() as Saved;
+      if (saved.written === undefined) this.saved.textContent = '';
+      return saved;
     } catch (error) {
-      this.saved.classList.add('error');
-      this.saved.textContent = inWords(error);
+      this.saved.textContent = '';
+      throw error;
     }
+  }
+
+  private afterSaving(saved: Saved): void {
+    const written = saved.written ?? [];
+    this.names[this.command] = written[written.length - 1] ?? '';
+    this.saved.textContent = `saved ${written.join(', ')}`;
+    this.line.textContent = saved.command_line ?? '';
   }
 }
 
-/** Two takes beside each other, without controls. */
+/** Two takes compared, without controls. */
 async function showComparison(page: HTMLElement, session: Session): Promise<void> {
   const status = element('p', { class: 'empty', role: 'status' }, 'reading\u2026');
   emptyPage(page, session, element('section', {}, status));
@@ -371,7 +409,7 @@ async function showComparison(page: HTMLElement, session: Session): Promise<void
 }
 
 export function startView(page: HTMLElement, session: Session): void {
-  // A run that nobody waits for any more is given up.
+  // The program stops the run of a page that is closed.
   window.addEventListener('pagehide', () => navigator.sendBeacon('leave', new Blob([JSON.stringify({ tab })], { type: 'application/json' })));
   if (session.other !== '') void showComparison(page, session);
   else new Controls(page, session);

@@ -49,6 +49,9 @@ function makePages() {
   kinemend('fill', 'markers.trc', '-o', 'filled.trc', '--report', 'fill.html', '--force');
   markers(join(output, 'unseen.trc'), ['A', 'B'], 20, () => null);
   kinemend('check', 'unseen.trc', '--report', 'unseen.html', '--force');
+  // A rod of three markers that turns, and a fourth marker that comes and goes.
+  markers(join(output, 'rod.trc'), ['Hip', 'Knee', 'Ankle', 'Far'], 120, (f, m) => (m === 3 ? [5 * f, 900, 3000 - 20 * f] : [300 * m * Math.cos(f / 20), 900 + 300 * m * Math.sin(f / 20), 0]));
+  kinemend('check', 'rod.trc', '--report', 'rod.html', '--force');
   manyJoints(join(output, 'many.bvh'), 400, 120);
   kinemend('clean', 'many.bvh', '-o', 'many.clean.bvh', '--report', 'many.html', '--force');
   // An hour, of which every eighth frame comes first.
@@ -200,6 +203,99 @@ step('strange names are text', async () => {
   assert.equal(await markers.locator('tbody b').count(), 0);
 });
 
+step('a click on the legend after choosing a joint hides a curve', async () => {
+  const page = await open('clean.html');
+  await page.click('.tracks tbody tr:nth-child(3) button');
+  const label = page.locator('.u-legend .u-series th').nth(1);
+  const shown = () => page.evaluate(() => window.kinemend.curves.plots[0].series[1].show);
+  assert.equal(await shown(), true);
+  await label.click();
+  assert.equal(await shown(), false);
+  await page.click('.tracks tbody tr:nth-child(5) button');
+  await page.locator('.u-legend .u-series th').nth(2).click();
+  await page.click('.curves button:has-text("Spectrum")');
+  await page.locator('[data-spectrum] .u-legend .u-series th').nth(1).click();
+  await page.mouse.move(400, 500);
+  await page.waitForTimeout(100);
+});
+
+step('markers that keep their distance are linked, and named where the mouse is', async () => {
+  const page = await open('rod.html');
+  assert.deepEqual(await page.evaluate(() => window.kinemend.take.data.links.map((link) => [...link].sort().join()).sort()), ['0,1', '1,2']);
+  await page.keyboard.press('1');
+  for (const [point, name] of [[0, 'Hip'], [2, 'Ankle']]) {
+    const [x, y] = await page.evaluate((p) => window.kinemend.body.seen(p), point);
+    const box = await page.locator('.view').boundingBox();
+    await page.mouse.move(box.x + ((x + 1) / 2) * box.width + 3, box.y + ((1 - y) / 2) * box.height);
+    assert.equal(await page.isVisible('.tip'), true, name);
+    assert.equal(await page.textContent('.tip'), name);
+  }
+  await shot(page, 'linked');
+  await page.mouse.move(2, 2);
+  assert.equal(await page.isVisible('.tip'), false);
+  // A joint, and what a name holds is text.
+  const strangeOne = await open('fill.html');
+  const at = await strangeOne.evaluate(() => window.kinemend.body.seen(0));
+  const view = await strangeOne.locator('.view').boundingBox();
+  await strangeOne.mouse.move(view.x + ((at[0] + 1) / 2) * view.width, view.y + ((1 - at[1]) / 2) * view.height);
+  assert.equal(await strangeOne.textContent('.tip'), '<b>A</b>');
+});
+
+step('the spectrum of a marker on a straight line is drawn', async () => {
+  const page = await open('rod.html');
+  await page.evaluate(() => window.kinemend.player.choose([3]));
+  await page.click('.curves button:has-text("Spectrum")', { timeout: 5000 });
+  assert.equal(await page.locator('[data-spectrum] canvas').count(), 1);
+});
+
+step('each canvas says what it shows', async () => {
+  for (const name of ['clean.html', 'fill.html']) {
+    const page = await open(name);
+    await page.click('.curves button:has-text("Spectrum")');
+    const canvases = await page.$$eval('canvas', (all) => all.map((one) => [one.getAttribute('role'), one.getAttribute('aria-label')]));
+    assert.ok(canvases.length >= 4);
+    for (const [role, label] of canvases) assert.ok(/^(img|slider)$/.test(role ?? '') && (label ?? '').length > 10, `${role}: ${label}`);
+    const labels = canvases.map(([, label]) => label).join('\n');
+    assert.match(labels, /The body in 3D, \d+ (joints|markers): before and after/);
+    assert.match(labels, /spectrum in/);
+  }
+});
+
+step('a table is one stop of the tabulator, and arrow keys lead through it', async () => {
+  const page = await open('clean.html');
+  const stops = (where) => page.$$eval(`${where} button, ${where} a, ${where} [tabindex]`, (all) => all.filter((one) => one.tabIndex >= 0).length);
+  assert.equal(await stops('.tracks table'), 1);
+  assert.equal(await page.getAttribute('.tracks .scroll', 'tabindex'), null);
+  await page.focus('.tracks tbody tr:first-child button');
+  const focused = () => page.evaluate(() => document.activeElement.textContent);
+  const names = await page.$$eval('.tracks tbody th', (cells) => cells.map((cell) => cell.textContent));
+  await page.keyboard.press('ArrowDown');
+  assert.equal(await focused(), names[1]);
+  await page.keyboard.press('Control+End');
+  assert.equal(await focused(), names[names.length - 1]);
+  await page.keyboard.press('Control+Home');
+  assert.equal(await focused(), 'joint');
+  await page.keyboard.press('ArrowRight');
+  assert.notEqual(await focused(), 'joint');
+  // Enter sorts, the focus stays, and the rows are still one stop.
+  await page.keyboard.press('Enter');
+  assert.equal(await stops('.tracks table'), 1);
+  await page.keyboard.press('ArrowDown');
+  const chosen = await focused();
+  await page.keyboard.press('Enter');
+  assert.ok((await page.$$eval('tr.chosen th', (cells) => cells.map((cell) => cell.textContent))).includes(chosen));
+  // Where the table has nothing beside it the arrows step through frames.
+  const before = await frame(page);
+  await page.keyboard.press('ArrowRight');
+  assert.equal(await frame(page), before + 1);
+  await page.fill('input[type=search]', 'thumb');
+  assert.equal(await stops('.tracks table'), 1);
+  await page.click('summary');
+  assert.equal(await stops('.findings'), 1);
+  const index = await open('index.html');
+  assert.equal(await index.$$eval('table a', (all) => all.filter((one) => one.tabIndex >= 0).length), 1);
+});
+
 step('filled and refused gaps are told apart', async () => {
   const page = await open('fill.html');
   await page.click('summary');
@@ -242,8 +338,8 @@ step('empty takes say so', async () => {
   assert.ok((await inView(one)) > 0.99);
   await shot(one, 'one_frame');
   const unseen = await open('unseen.html');
-  assert.match(await unseen.textContent('.view'), /No marker is seen/);
-  assert.match(await unseen.textContent('.curves'), /missing throughout/);
+  assert.match(await unseen.textContent('.view'), /Every marker is missing/);
+  assert.match(await unseen.textContent('.curves'), /missing in every frame/);
   await shot(unseen, 'unseen');
 });
 

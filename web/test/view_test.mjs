@@ -36,7 +36,7 @@ async function serve(...words) {
     child.stdout.on('data', (text) => {
       told += text;
       const address = /http:\S+/.exec(told);
-      if (address && told.includes('\nCtrl-C')) resolve({ address: address[0], child });
+      if (address && told.includes('\nPress Ctrl-C')) resolve({ address: address[0], child });
     });
     child.on('exit', (code) => reject(new Error(`view ended with ${code}: ${errors}`)));
   });
@@ -77,6 +77,15 @@ async function after(page, change) {
   await page.waitForSelector(`#page[data-runs]:not([data-runs="${before}"]):not([data-ready="running"])`, { timeout: 60000 });
   assert.equal(await page.getAttribute('#page', 'data-ready'), 'true', await page.textContent('.view-controls .status'));
 }
+/** Saves under the name that is proposed, or another. */
+async function save(page, written, name) {
+  await page.click('[data-action=save]');
+  await page.waitForSelector('dialog[open]');
+  if (name !== undefined) await page.fill('dialog input', name);
+  await page.click('[data-action=accept]');
+  await page.waitForSelector(`.saved:has-text("saved ${written}")`);
+  assert.equal(await page.locator('dialog[open]').count(), 0);
+}
 const shot = async (page, name) => {
   await page.waitForTimeout(200);
   await page.screenshot({ path: join(screenshots, `view_${name}.png`), fullPage: true });
@@ -110,25 +119,105 @@ step('a method is changed, and what is saved has the bytes of the command line',
   await after(page, () => page.fill('[data-flag=range]:visible', '100:400'));
   const told = `${await page.textContent('.view-controls .status')}, ${await page.getAttribute('.view-controls .status', 'title')}`;
   console.log(`  a run of ${await page.evaluate(() => window.kinemend.take.told / window.kinemend.take.rate)} s of motion: ${told}`);
-  await page.click('[data-action=save]');
-  await page.waitForSelector('.saved:has-text("saved walk.clean.bvh")');
+  await save(page, 'walk.clean.bvh');
   kinemend('clean', 'walk.bvh', '--method', 'butterworth', '--cutoff-hz', '7', '--strength', '0.8', '--joints', 'Left*', '--range', '100:400', '-o', 'cli.bvh');
   assert.deepEqual(bytes('walk.clean.bvh'), bytes('cli.bvh'));
   runShown(await page.textContent('.line'), 'walk.clean.bvh', 'shown.bvh');
   assert.deepEqual(bytes('shown.bvh'), bytes('cli.bvh'));
   await shot(page, 'butterworth');
   // What this page has saved it may replace.
-  await page.click('[data-action=save]');
-  await page.waitForSelector('.saved:has-text("saved walk.clean.bvh")');
+  await save(page, 'walk.clean.bvh');
+  await save(page, 'other name.bvh', 'other name.bvh');
+  assert.deepEqual(bytes('other name.bvh'), bytes('cli.bvh'));
+  runShown(await page.textContent('.line'), 'other name.bvh', 'shown2.bvh');
 });
 
-step('a file that was there before is not replaced', async () => {
+step('Save as asks for a name, and before it replaces a file', async () => {
   const { address } = await serve('walk.bvh');
   const page = await open(address);
   const before = bytes('walk.clean.bvh');
+  await after(page, () => page.selectOption('[data-flag=method]:visible', 'gaussian'));
   await page.click('[data-action=save]');
-  await page.waitForSelector('.saved.error:has-text("exists already")');
+  assert.equal(await page.inputValue('dialog input'), 'walk.clean.bvh');
+  await page.keyboard.press('Enter');
+  await page.waitForSelector('.save .problem:has-text("walk.clean.bvh: exists already")');
+  assert.equal(await page.textContent('[data-action=accept]'), 'Replace');
+  await shot(page, 'save');
+  // Another name was not confirmed.
+  await page.fill('dialog input', 'walk.bvh');
+  assert.equal(await page.textContent('[data-action=accept]'), 'Save');
+  await page.click('[data-action=accept]');
+  await page.waitForSelector('.save .problem:has-text("would be lost")');
+  await page.keyboard.press('Escape');
+  assert.equal(await page.locator('dialog[open]').count(), 0);
   assert.deepEqual(bytes('walk.clean.bvh'), before);
+  await page.click('[data-action=save]');
+  await page.click('[data-action=accept]');
+  await page.waitForSelector('.save .problem:has-text("exists already")');
+  await page.click('[data-action=accept]');
+  await page.waitForSelector('.saved:has-text("saved walk.clean.bvh")');
+  assert.notDeepEqual(bytes('walk.clean.bvh'), before);
+});
+
+step('a value out of range is refused beside its field, with the range, and nothing says that it was used', async () => {
+  const { address } = await serve('walk.bvh', '-o', 'refused.bvh');
+  const page = await open(address);
+  await after(page, () => page.selectOption('[data-flag=method]:visible', 'butterworth'));
+  const line = await page.textContent('.line');
+  for (const [flag, label, value, range] of [['strength', 'strength', '5', /^5 . not used\. Allowed: 0 to 1\.$/], ['cutoff_hz', 'cutoff (Hz)', '9999', /^9999 . not used\. Allowed: .* to .* Hz\.$/]]) {
+    const control = page.locator(`[data-flag=${flag}]:visible`);
+    const old = await control.inputValue();
+    await control.fill(value);
+    assert.match(await page.textContent(`.field:has([data-flag=${flag}]) .problem`), range);
+    assert.equal(await control.getAttribute('aria-invalid'), 'true');
+    await page.waitForTimeout(600);
+    assert.ok((await page.textContent('.view-controls .status')).startsWith(`not used: ${label}.`));
+    assert.equal(await page.getAttribute('#page', 'data-ready'), 'error');
+    assert.equal(await page.textContent('.line'), line);
+    // Nothing is saved with another value than the one that is seen.
+    await page.click('[data-action=save]');
+    await page.click('[data-action=accept]');
+    await page.waitForSelector('.save .problem:has-text("not allowed")');
+    await page.keyboard.press('Escape');
+    await shot(page, `refused_${flag}`);
+    await after(page, () => control.fill(old));
+    assert.equal(await page.textContent(`.field:has([data-flag=${flag}]) .problem`), '');
+    assert.equal(await page.textContent('.view-controls .status'), 'done');
+  }
+  assert.equal(existsSync(join(output, 'refused.bvh')), false);
+});
+
+step('a preset sets the controls, and what is saved has the bytes of --preset', async () => {
+  const { address } = await serve('walk.bvh', '-o', 'preset.bvh');
+  const page = await open(address);
+  const presets = await page.$$eval('[data-flag=preset] option', (all) => all.map((one) => one.value).filter((name) => name !== ''));
+  assert.deepEqual(presets.sort(), ['biomech', 'dance', 'hands', 'live', 'sport', 'walk']);
+  await after(page, () => page.selectOption('[data-flag=preset]', 'biomech'));
+  assert.equal(await page.inputValue('[data-flag=method]:visible'), 'butterworth');
+  assert.equal(await page.inputValue('[data-flag=cutoff_hz]:visible'), '7.48');
+  await shot(page, 'preset');
+  await save(page, 'preset.bvh');
+  kinemend('clean', 'walk.bvh', '--preset', 'biomech', '-o', 'cli_preset.bvh');
+  assert.deepEqual(bytes('preset.bvh'), bytes('cli_preset.bvh'));
+  // What is changed goes over the preset.
+  await after(page, () => page.fill('[data-flag=cutoff_hz]:visible', '10'));
+  await save(page, 'preset.bvh');
+  kinemend('clean', 'walk.bvh', '--preset', 'biomech', '--cutoff-hz', '10', '-o', 'cli_preset10.bvh');
+  assert.deepEqual(bytes('preset.bvh'), bytes('cli_preset10.bvh'));
+  await after(page, () => page.selectOption('[data-flag=preset]', 'hands'));
+  assert.equal(await page.getAttribute('[data-flag=root_position]', 'aria-pressed'), 'false');
+  await after(page, () => page.selectOption('[data-flag=preset]', ''));
+  assert.equal(await page.inputValue('[data-flag=method]:visible'), 'auto');
+  assert.doesNotMatch(await page.textContent('.line'), /preset=|butterworth/);
+});
+
+step('each control has a label that says what it does', async () => {
+  const { address } = await serve('walk.bvh', '-o', 'labels.bvh');
+  const page = await open(address);
+  const label = (flag) => page.textContent(`.field:has([data-flag=${flag}]:visible) span`);
+  assert.equal(await label('joints'), 'joints to clean');
+  assert.equal(await label('exclude'), 'joints to leave out');
+  assert.match(await page.textContent('[data-flag=root_position]'), /clean the root.s position/);
 });
 
 step('an hour is there, coarse at first, then to the last frame, and a change of method follows', async () => {
@@ -160,6 +249,7 @@ step('an option out of range is said, and the page goes on', async () => {
   await page.fill('[data-flag=range]:visible', '9999:');
   await page.waitForSelector('#page[data-ready="error"]');
   assert.match(await page.textContent('.view-controls .status'), /walk\.bvh: .*9999/);
+  assert.match(await page.textContent('.field:has([data-flag=range]:visible) .problem'), /9999/);
   await shot(page, 'error');
   await after(page, () => page.fill('[data-flag=range]:visible', ''));
 });
@@ -185,8 +275,7 @@ step('contacts are edited, used and saved as the file that clean reads', async (
   const lines = found.split('\n').filter((line) => /^(left|right)/.test(line));
   await after(page, () => page.fill('textarea', `${lines.slice(1).join('\n')}\n`));
   await shot(page, 'contacts');
-  await page.click('[data-action=save]');
-  await page.waitForSelector('.saved:has-text("walk.contacts")');
+  await save(page, 'walk.contacts, held.bvh');
   assert.equal(bytes('walk.contacts').toString(), `${lines.slice(1).join('\n')}\n`);
   kinemend('clean', 'walk.bvh', '--contacts', 'walk.contacts', '-o', 'cli_held.bvh');
   assert.deepEqual(bytes('held.bvh'), bytes('cli_held.bvh'));
@@ -198,9 +287,9 @@ step('gaps are looked at, refused and given another method, and the plan is save
   await after(page, () => page.selectOption('[data-flag=command]:visible', 'fill'));
   await page.click('summary:has-text("Gap plan")');
   assert.equal(await page.locator('.editor tbody tr').count(), 2);
-  assert.equal(await page.isVisible('[title="the gaps behind these"]'), false, 'there are no more');
+  assert.equal(await page.isVisible('[title="next gaps"]'), false, 'there are no more');
   await after(page, () => page.click('[data-action=preview]'));
-  assert.match(await page.textContent('[data-gap=method]'), /off\)/);
+  assert.match(await page.textContent('[data-gap=method]'), /differs by/);
   await shot(page, 'gaps');
   // The curves of all methods over the gap; a click on one makes it the gap's method.
   await page.locator('[data-gap=curves]').nth(0).click();
@@ -210,6 +299,15 @@ step('gaps are looked at, refused and given another method, and the plan is save
   assert.equal(await page.locator('.gap-plots canvas').count(), 3);
   assert.equal(await page.getAttribute('.gap-methods [data-method=auto]', 'aria-pressed'), 'true');
   await shot(page, 'curves');
+  const unnamed = await page.$$eval('canvas', (all) => all.filter((one) => !one.getAttribute('aria-label') || !one.getAttribute('role')).length);
+  assert.equal(unnamed, 0, 'a canvas without a name');
+  // The table is one stop of the tabulator; arrow keys lead through it.
+  assert.equal(await page.$$eval('.editor tbody button, .editor tbody select', (all) => all.filter((one) => one.tabIndex >= 0).length), 1);
+  await page.locator('[data-gap=name]').nth(0).focus();
+  for (const [key, gap, row] of [['ArrowRight', 'verdict', '0'], ['ArrowRight', 'method', '0'], ['ArrowRight', 'curves', '0'], ['ArrowDown', 'curves', '1'], ['ArrowLeft', 'method', '1'], ['Control+ArrowUp', 'method', '0'], ['Home', 'name', '0']]) {
+    await page.keyboard.press(key);
+    assert.deepEqual(await page.evaluate(() => [document.activeElement?.dataset.gap, document.activeElement?.dataset.row]), [gap, row], key);
+  }
   await after(page, () => page.click('.gap-methods [data-method=cyclic]'));
   assert.equal(await page.locator('[data-gap=method]').nth(0).inputValue(), 'cyclic');
   await page.waitForSelector('.gap-methods [data-method=cyclic][aria-pressed=true]');
@@ -221,8 +319,7 @@ step('gaps are looked at, refused and given another method, and the plan is save
   assert.equal(await page.locator('[data-gap=verdict]').nth(0).inputValue(), 'fill');
   await after(page, () => page.locator('[data-gap=verdict]').nth(1).selectOption('force'));
   assert.match(await page.textContent('.verdict'), /2 filled, 0 refused/);
-  await page.click('[data-action=save]');
-  await page.waitForSelector('.saved:has-text("saved plan.csv, filled.trc")');
+  await save(page, 'plan.csv, filled.trc');
   kinemend('fill', 'markers.trc', '--plan', 'plan.csv', '-o', 'cli_filled.trc');
   assert.deepEqual(bytes('filled.trc'), bytes('cli_filled.trc'));
   assert.match(bytes('plan.csv').toString(), /\nB,position,101,108,8,0.08,fill,pchip,/);
@@ -276,17 +373,16 @@ step('samples are marked as missing, filled and saved as the file that clean and
   assert.match(await page.inputValue('textarea:visible'), /^LeftForeArm,200,200\n$/m);
   await page.fill('.transport .number', '220');
   await page.keyboard.press('Tab');
-  await after(page, () => page.click('button:has-text("Ends here"):visible'));
+  await after(page, () => page.click('button:has-text("End here"):visible'));
   assert.match(await page.inputValue('textarea:visible'), /^LeftForeArm,200,220$/m);
   assert.match(await page.textContent('.verdict'), /1 filled/);
   await shot(page, 'missing');
-  await page.click('[data-action=save]');
-  await page.waitForSelector('.saved:has-text("saved walk.gaps.csv, marked.bvh")');
+  await save(page, 'walk.gaps.csv, marked.bvh');
   kinemend('fill', 'walk.bvh', '--gaps', 'walk.gaps.csv', '-o', 'cli_marked.bvh');
   assert.deepEqual(bytes('marked.bvh'), bytes('cli_marked.bvh'));
   // A side file that somebody else has made stays.
   const other = await serve('walk.bvh', '-o', 'marked2.bvh');
-  assert.equal(await status(other.address, { path: `${new URL(other.address).pathname}save`, method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ command: 'fill', flags: {}, gaps: 'Head,1,2\n' }) }), 400);
+  assert.equal(await status(other.address, { path: `${new URL(other.address).pathname}save`, method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ command: 'fill', flags: {}, gaps: 'Head,1,2\n' }) }), 409);
   assert.equal(existsSync(join(output, 'marked2.bvh')), false);
   assert.match(bytes('walk.gaps.csv').toString(), /LeftForeArm/);
 });
@@ -333,14 +429,14 @@ step('of hundreds of gaps those behind the first are reached', async () => {
   assert.equal(await page.locator('.editor tbody tr').count(), 300);
   const behind = Number(told[1]) - 300;
   assert.ok(behind > 0 && behind < 300, told[0]);
-  await page.click('.editor button[title="the gaps behind these"]');
+  await page.click('.editor button[title="next gaps"]');
   assert.equal(await page.locator('.editor tbody tr').count(), behind);
   await after(page, () => page.locator('[data-gap=verdict]').last().selectOption('refuse'));
   assert.equal(await page.locator('.editor tbody tr').count(), behind, 'the rows that were looked at are gone');
   assert.equal(await page.locator('[data-gap=verdict]').last().inputValue(), 'refuse');
-  await page.click('.editor button[title="the gaps behind these"]');
+  await page.click('.editor button[title="next gaps"]');
   assert.equal(await page.locator('.editor tbody tr').count(), behind);
-  await page.click('.editor button[title="the gaps before these"]');
+  await page.click('.editor button[title="previous gaps"]');
   assert.equal(await page.locator('.editor tbody tr').count(), 300);
 });
 
@@ -359,7 +455,7 @@ step('odd takes are shown, or said to have nothing', async () => {
   arm(join(output, 'none.bvh'), 0);
   markers(join(output, 'unseen.trc'), ['A', 'B'], 20, () => null);
   manyJoints(join(output, 'many.bvh'), 400, 120);
-  for (const [name, words] of [['one.bvh', null], ['none.bvh', /no frames/], ['unseen.trc', /No marker is seen/], ['many.bvh', null]]) {
+  for (const [name, words] of [['one.bvh', null], ['none.bvh', /no frames/], ['unseen.trc', /Every marker is missing/], ['many.bvh', null]]) {
     const { address } = await serve(name);
     const page = await open(address);
     assert.equal(await page.getAttribute('#page', 'data-ready'), 'true', name);
@@ -437,7 +533,7 @@ step('a port that is taken is said to be', async () => {
   let words = '';
   told.stderr.on('data', (text) => { words += text; });
   assert.equal(await new Promise((resolve) => told.on('exit', resolve)), 4);
-  assert.match(words, /^kinemend: view: port \d+ cannot be had: another program has it[^\n]*\n$/);
+  assert.match(words, /^kinemend: port \d+ cannot be used: another program is using it[^\n]*\n$/);
 });
 
 step('requests of others are refused', async () => {
@@ -491,6 +587,8 @@ step('the keyboard alone, dark, narrow', async () => {
   await after(page, () => page.keyboard.type('median'));
   assert.equal(await page.evaluate(() => document.activeElement?.dataset.flag), 'method', 'the focus is lost');
   while ((await page.evaluate(() => document.activeElement?.dataset.action)) !== 'save') await page.keyboard.press('Shift+Tab');
+  await page.keyboard.press('Enter');
+  await page.waitForSelector('dialog[open]');
   await page.keyboard.press('Enter');
   await page.waitForSelector('.saved:has-text("saved keys.bvh")');
 });

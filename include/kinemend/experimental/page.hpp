@@ -12,51 +12,51 @@
 #include "kinemend/marker_clip.hpp"
 #include "kinemend/report.hpp"
 
-// A report as one page for a browser: the body in 3D, curves, and all that was found and done.
+// A report as one page for a browser: the body in 3D, curves, findings and changes.
 namespace kinemend {
 
-/// Whether this build holds the page's program; one that was made with KINEMEND_WEB=OFF does not.
+/// Whether this build contains the page's program. A build with KINEMEND_WEB=OFF does not.
 bool has_report_page();
 
 struct PageSettings {
-  std::string command{};                ///< "clean": of the report's document
-  std::string command_line{};           ///< as it was given, to be shown
-  std::string before_label = "before";  ///< what the two takes are called
+  std::string command{};                ///< that made the report: "clean"
+  std::string command_line{};           ///< as it was typed; the page shows it
+  std::string before_label = "before";  ///< names of the two takes
   std::string after_label = "after";
-  /// Further data of the page's program: name and JSON, as `kinemend view` has them.
+  /// Further data for the page's program, such as the gap plan in `kinemend view`: name and JSON.
   std::vector<std::pair<std::string, std::string>> parts{};
-  /// For a page that is there already (`served_page`): the data alone, without the program.
+  /// Makes the data alone, without the program, for a page that is open already (`served_page`).
   bool is_served = false;
-  /// Called now and then while the page is made; what it throws ends the work.
+  /// Called between steps while the page is made. An exception that it throws ends the work.
   std::function<void()> check{};
 };
 
-/// The page: HTML in one file that needs nothing beside it, no network and no server. It holds the
-/// report as `kinemend.report/1`, and the motion: angles of joints to 0.02 degrees, positions to a
-/// 34,000th of the body's height (0.05 mm of a person), up to 64 times finer where the page stays
-/// below two megabytes. `before` and `after` have the same joints
-/// and frames; `after` is null where there is one take. Of takes of more than 10 million channel
-/// values (fifteen minutes of 96 channels at 120 Hz) every second frame is told, or every third,
-/// and so on, and the page says so. Whatever characters names have, they are text there. Errors:
-/// `ErrorKind::usage` for a build without the page, and for takes of different length or width.
+/// The page: one HTML file that needs no other file, no network and no server. It contains the
+/// report as `kinemend.report/1`, and the motion: joint angles to 0.02 degrees, positions to a
+/// 34,000th of the body's height (0.05 mm for a person), and up to 64 times finer where the page
+/// stays below two megabytes. `before` and `after` have the same joints and frames; `after` is null
+/// for a single take. Takes of more than 10 million channel values (fifteen minutes of 96 channels
+/// at 120 Hz) are stored with every second frame, every third, and so on, and the page says so.
+/// Names are inserted as text, whatever characters they contain. Errors: `ErrorKind::usage` for a
+/// build without the page, and for takes of different size.
 std::string report_page(const Report& report, const Clip& before, const Clip* after,
                         const PageSettings& settings);
 std::string report_page(const Report& report, const MarkerClip& before, const MarkerClip* after,
                         const PageSettings& settings);
 
-/// The page of `kinemend view` before there is anything to show: the program, which may ask the
-/// server that it came from, and `parts` (name and JSON). Errors: as of `report_page`.
+/// The page of `kinemend view` before there is a result: the program, which may send requests to
+/// the server that it came from, and `parts` (name and JSON). Errors: those of `report_page`.
 std::string served_page(std::string_view title, std::string_view summary,
                         std::span<const std::pair<std::string, std::string>> parts);
 
 /// A take of a batch and its own page.
 struct BatchPageRow {
   BatchRow row;
-  std::string page;  ///< path from the index, with / between its parts; empty where there is none
-  std::string picture{};  ///< SVG of a few poses, of the takes that most should be looked at
+  std::string page;       ///< relative path from the index, with /; empty where there is none
+  std::string picture{};  ///< SVG of a few poses, for the takes that most need review
 };
-/// The index of a batch: a row a take, what failed and what most should be looked at first, with
-/// filters and links to the pages of takes. Errors: as of `report_page`.
+/// The index of a batch: a row for each take, failed takes first, then those that most need review,
+/// with filters and links to the pages of the takes. Errors: those of `report_page`.
 std::string batch_page(std::span<const BatchPageRow> rows, const BatchSums& sums,
                        const PageSettings& settings);
 

@@ -1,0 +1,345 @@
+#include "http_server.hpp"
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <condition_variable>
+#include <list>
+#include <mutex>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "kinemend/error.hpp"
+
+namespace kinemend::cli {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int ok = 200;
+
+std::string_view reason_of(int status) {
+  static constexpr std::pair<int, std::string_view> reasons[] = {
+      {ok, "OK"},
+      {http::bad_request, "Bad Request"},
+      {http::forbidden, "Forbidden"},
+      {http::not_found, "Not Found"},
+      {http::not_allowed, "Method Not Allowed"},
+      {http::timed_out, "Request Timeout"},
+      {http::length_required, "Length Required"},
+      {http::too_large, "Content Too Large"},
+      {http::wrong_type, "Unsupported Media Type"},
+      {http::head_too_large, "Request Header Fields Too Large"},
+      {http::wrong_version, "HTTP Version Not Supported"}};
+  const auto* found = std::find_if(std::begin(reasons), std::end(reasons),
+                                   [&](const auto& entry) { return entry.first == status; });
+  return found != std::end(reasons) ? found->second : status < 500 ? "Refused" : "Failed";
+}
+
+std::string head_of(const HttpReply& reply, bool keeps_alive) {
+  return fmt::format(
+      "HTTP/1.1 {} {}\r\nContent-Type: {}\r\nContent-Length: {}\r\nConnection: {}\r\n"
+      "Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\nX-Frame-Options: DENY\r\n"
+      "Referrer-Policy: no-referrer\r\nCross-Origin-Resource-Policy: same-origin\r\n\r\n",
+      reply.status, reason_of(reply.status), reply.type, reply.body.size(),
+      keeps_alive ? "keep-alive" : "close");
+}
+
+// Waits until the socket can be read or written; false: not before the deadline, or it has failed.
+bool wait_for(int socket, short events, Clock::time_point deadline) {
+  while (true) {
+    const auto left =
+        std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
+    if (left <= 0) return false;
+    pollfd waited{socket, events, 0};
+    const int ready = poll(&waited, 1, static_cast<int>(left));
+    if (ready > 0) return true;
+    if (ready < 0 && errno != EINTR) return false;
+  }
+}
+
+int made_listener(int port) {
+  const int listener = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (listener < 0) return -1;
+  const int yes = 1;
+  setsockopt(listener, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  place.sin_port = htons(static_cast<std::uint16_t>(port));
+  if (bind(listener, reinterpret_cast<const sockaddr*>(&place), sizeof place) == 0 &&
+      listen(listener, SOMAXCONN) == 0)
+    return listener;
+  const int reason = errno;
+  close(listener);
+  errno = reason;
+  return -1;
+}
+
+}  // namespace
+
+/// Which connections there are, and which of them may be closed for another.
+class HttpServer::Connections {
+ public:
+  /// What a thread is at. Only one that is answering is left alone when the server stops or is
+  /// full.
+  enum class At { waiting, reading, answering };
+  struct Entry {
+    int socket;
+    At at;
+    Clock::time_point since;
+  };
+  using Place = std::list<Entry>::iterator;
+
+  explicit Connections(std::size_t most) : most_(most) {}
+
+  /// Takes up a socket; where there are too many, closes the one that has been waiting longest
+  /// first. Nothing: all of them are being answered, or the server stops.
+  std::optional<Place> add(int socket) {
+    std::unique_lock lock(mutex_);
+    if (entries_.size() >= most_ && !close_oldest()) return std::nullopt;
+    constexpr std::chrono::seconds soon(1);
+    if (!changed_.wait_for(lock, soon, [&] { return entries_.size() < most_; }) || is_stopping_)
+      return std::nullopt;
+    return entries_.insert(entries_.end(), {socket, At::waiting, Clock::now()});
+  }
+
+  void remove(Place place) {
+    const std::lock_guard lock(mutex_);
+    ::close(place->socket);
+    entries_.erase(place);
+    changed_.notify_all();
+  }
+
+  void set(Place place, At at) {
+    const std::lock_guard lock(mutex_);
+    place->at = at;
+    place->since = Clock::now();
+  }
+
+  bool is_stopping() const {
+    const std::lock_guard lock(mutex_);
+    return is_stopping_;
+  }
+
+  /// Ends what waits for a client.
+  void stop() {
+    const std::lock_guard lock(mutex_);
+    is_stopping_ = true;
+    for (const Entry& entry : entries_) {
+      if (entry.at != At::answering) shutdown(entry.socket, SHUT_RDWR);
+    }
+  }
+
+  void wait_until_none() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return entries_.empty(); });
+  }
+
+ private:
+  bool close_oldest() {
+    auto oldest = entries_.end();
+    for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
+      if (entry->at == At::waiting && (oldest == entries_.end() || entry->since < oldest->since))
+        oldest = entry;
+    }
+    if (oldest == entries_.end()) return false;
+    shutdown(oldest->socket, SHUT_RDWR);
+    return true;
+  }
+
+  std::size_t most_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::list<Entry> entries_;
+  bool is_stopping_ = false;
+};
+
+/// One connection, in a thread of its own.
+class HttpServer::Connection {
+ public:
+  Connection(const HttpLimits& limits, Connections& all, Connections::Place place,
+             const Admit& admit, const Answer& answer)
+      : limits_(limits),
+        all_(all),
+        place_(place),
+        socket_(place->socket),
+        admit_(admit),
+        answer_(answer) {}
+
+  void run() {
+    try {
+      while (!all_.is_stopping() && serve_one()) all_.set(place_, Connections::At::waiting);
+    } catch (const std::exception&) {
+      // Memory has run out: this connection ends, and the others go on.
+    }
+  }
+
+ private:
+  // Whether the connection stays open for another request.
+  bool serve_one() {
+    const auto deadline = Clock::now() + limits_.head_time;
+    std::size_t size = 0;
+    while ((size = cli::head_bytes(received_)) == received_.npos) {
+      if (received_.size() >= limits_.head_bytes) return refuse(http::head_too_large);
+      if (receive(limits_.head_bytes - received_.size(), deadline)) continue;
+      // A connection on which nothing was asked is closed without a word.
+      return !received_.empty() && Clock::now() >= deadline && refuse(http::timed_out);
+    }
+    const ParsedHead parsed = parse_head(received_.substr(0, size), limits_.body_bytes);
+    received_.erase(0, size);
+    if (parsed.refusal != 0) return refuse(parsed.refusal);
+    const HttpHead& head = parsed.head;
+    if (const int refusal = admit_(head); refusal != 0) return refuse(refusal);
+    if (head.method != "GET" && head.method != "POST") return refuse(http::not_allowed);
+    all_.set(place_, Connections::At::reading);
+    if (!read_body(head)) return false;
+    std::string body = std::move(received_);
+    // What came behind the body belongs to the next request.
+    received_ = body.substr(head.body_bytes);
+    body.resize(head.body_bytes);
+    all_.set(place_, Connections::At::answering);
+    const HttpReply reply = answer_(head, body);
+    const bool keeps_alive = head.keeps_alive && !all_.is_stopping();
+    return send(head_of(reply, keeps_alive)) && send(reply.body) && keeps_alive;
+  }
+
+  bool read_body(const HttpHead& head) {
+    const auto deadline = Clock::now() + limits_.body_time;
+    if (head.expects_continue && received_.size() < head.body_bytes &&
+        !send("HTTP/1.1 100 Continue\r\n\r\n"))
+      return false;
+    while (received_.size() < head.body_bytes) {
+      if (!receive(head.body_bytes - received_.size(), deadline))
+        return Clock::now() >= deadline && refuse(http::timed_out);
+    }
+    return true;
+  }
+
+  // Appends at most `most` bytes; false: none before the deadline, or the client is gone.
+  bool receive(std::size_t most, Clock::time_point deadline) {
+    char bytes[16384];
+    while (wait_for(socket_, POLLIN, deadline)) {
+      const ssize_t got = recv(socket_, bytes, std::min(most, sizeof bytes), 0);
+      if (got > 0) {
+        received_.append(bytes, static_cast<std::size_t>(got));
+        return true;
+      }
+      if (got == 0 || (errno != EINTR && errno != EAGAIN)) return false;
+    }
+    return false;
+  }
+
+  bool send(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+      if (sent > 0) {
+        bytes.remove_prefix(static_cast<std::size_t>(sent));
+      } else if (errno == EAGAIN) {
+        if (!wait_for(socket_, POLLOUT, Clock::now() + limits_.write_time)) return false;
+      } else if (errno != EINTR) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  // Says why and ends the connection. A client that is still sending would not see the answer if
+  // the socket were closed at once; so what it sends is thrown away for a moment. Returns false.
+  bool refuse(int status) {
+    constexpr std::chrono::seconds moment(1);
+    const auto deadline = Clock::now() + moment;
+    const HttpReply reply{status, "text/plain", "refused\n"};
+    if (!send(head_of(reply, false)) || !send(reply.body)) return false;
+    shutdown(socket_, SHUT_WR);
+    received_.clear();
+    while (receive(sizeof(char[16384]), deadline)) received_.clear();
+    return false;
+  }
+
+  const HttpLimits& limits_;
+  Connections& all_;
+  Connections::Place place_;
+  int socket_;
+  const Admit& admit_;
+  const Answer& answer_;
+  std::string received_;
+};
+
+HttpServer::HttpServer(int port, HttpLimits limits)
+    : limits_(limits),
+      listener_(made_listener(port)),
+      connections_(std::make_shared<Connections>(limits.connections)) {
+  if (listener_ < 0) {
+    throw Error(ErrorKind::cannot_write,
+                fmt::format("port {} cannot be used: {}; leave --port out to get a free port", port,
+                            errno == EACCES ? "it is reserved for the system"
+                                            : "another program is using it"));
+  }
+  if (pipe2(stop_ends_, O_CLOEXEC) == 0) return;
+  close(listener_);
+  throw Error(ErrorKind::cannot_write, "the system has no pipe left");
+}
+
+HttpServer::~HttpServer() {
+  for (const int end : {listener_, stop_ends_[0], stop_ends_[1]}) close(end);
+}
+
+int HttpServer::port() const {
+  sockaddr_in place{};
+  socklen_t size = sizeof place;
+  getsockname(listener_, reinterpret_cast<sockaddr*>(&place), &size);
+  return ntohs(place.sin_port);
+}
+
+void HttpServer::serve(const Admit& admit, const Answer& answer) {
+  while (true) {
+    pollfd waited[2] = {{listener_, POLLIN, 0}, {stop_ends_[0], POLLIN, 0}};
+    if (poll(waited, 2, -1) < 0 && errno != EINTR) break;
+    if (waited[1].revents != 0) break;
+    const int socket = accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+    if (socket < 0) {
+      // Without a descriptor to spare the same connection would be offered again and again.
+      if (errno == EMFILE || errno == ENFILE) poll(waited + 1, 1, 100);
+      continue;
+    }
+    // Answers leave at once; they are written whole.
+    const int yes = 1;
+    setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+    const auto place = connections_->add(socket);
+    if (!place) {
+      close(socket);
+      continue;
+    }
+    try {
+      // The thread's last use of the list may come after the wait for its end.
+      std::thread([this, all = connections_, at = *place, &admit, &answer] {
+        Connection(limits_, *all, at, admit, answer).run();
+        all->remove(at);
+      }).detach();
+    } catch (const std::system_error&) {
+      connections_->remove(*place);
+    }
+  }
+  connections_->stop();
+  connections_->wait_until_none();
+}
+
+void HttpServer::stop() {
+  const char byte = 0;
+  [[maybe_unused]] const ssize_t ignored = write(stop_ends_[1], &byte, 1);
+}
+
+}  // namespace kinemend::cli

@@ -1,0 +1,73 @@
+// Asks where to save, and before an existing file is replaced.
+
+import { button, element } from './dom';
+
+/** What the server says of a request to save. */
+export interface Saved {
+  written?: string[];
+  command_line?: string;
+  error?: string;
+  /** Files that exist already: they are replaced only when that is confirmed. */
+  existing?: string[];
+}
+
+export class SaveDialog {
+  readonly element = element('dialog', { class: 'save', 'aria-labelledby': 'save-title' });
+  private readonly name = element('input', { type: 'text', name: 'file', required: true, spellcheck: 'false', autocomplete: 'off', 'aria-label': 'file name' });
+  private readonly place = element('p', { class: 'empty' });
+  private readonly words = element('p', { class: 'problem', role: 'alert' });
+  private readonly accept = element('button', { type: 'submit', 'data-action': 'accept' }, 'Save');
+  private mayReplace = false;
+
+  /** `ask` sends the request and tells what came of it; `done` is told of success. */
+  constructor(private readonly ask: (file: string, replace: boolean) => Promise<Saved>, private readonly done: (saved: Saved) => void) {
+    const form = element('form', {}, element('h2', { id: 'save-title' }, 'Save as'),
+      element('label', { class: 'field' }, element('span', {}, 'file name'), this.name), this.place, this.words,
+      element('div', { class: 'controls' }, this.accept, button('Cancel', 'save nothing', () => this.element.close())));
+    form.addEventListener('submit', (event) => {
+      event.preventDefault();
+      void this.save();
+    });
+    this.name.addEventListener('input', () => this.forget());
+    this.element.append(form);
+  }
+
+  /** `proposed`: a path; its folder is kept. */
+  open(proposed: string): void {
+    const [, folder, file] = /^(.*[\\/])?([^\\/]*)$/.exec(proposed) ?? [];
+    this.place.textContent = folder === undefined || folder === './' ? 'In the folder in which kinemend view was started.' : `In the folder ${folder}`;
+    this.name.value = file ?? '';
+    this.forget();
+    this.element.showModal();
+    // Typing replaces the name and leaves its ending.
+    this.name.setSelectionRange(0, Math.max(0, this.name.value.lastIndexOf('.')));
+  }
+
+  /** Another name: what was confirmed was of the one before. */
+  private forget(): void {
+    this.mayReplace = false;
+    this.words.textContent = '';
+    this.accept.textContent = 'Save';
+  }
+
+  private async save(): Promise<void> {
+    this.accept.disabled = true;
+    try {
+      const saved = await this.ask(this.name.value.trim(), this.mayReplace);
+      if (saved.existing !== undefined) {
+        this.mayReplace = true;
+        this.words.textContent = `${saved.existing.join(', ')}: exists already. Replace ${saved.existing.length > 1 ? 'these files' : 'it'}, or choose another name.`;
+        this.accept.textContent = 'Replace';
+      } else if (saved.error !== undefined) {
+        this.words.textContent = saved.error;
+      } else {
+        this.element.close();
+        this.done(saved);
+      }
+    } catch (error) {
+      this.words.textContent = error instanceof TypeError ? 'kinemend view has ended' : String(error);
+    } finally {
+      this.accept.disabled = false;
+    }
+  }
+}
