@@ -24,8 +24,8 @@ const OptionTable<AutoOptions>& auto_table() {
   static const auto options =
       OptionTable<AutoOptions>()
           .number(&AutoOptions::sensitivity, "sensitivity", "", 0, 4,
-                  "scales the estimated noise: above 1 smooths more, below 1 less, 0 not at all")
-          .flag(&AutoOptions::despike, "despike", "finds and repairs spikes");
+                  "factor on the estimated noise: above 1 smooths more, below 1 less, 0 not at all")
+          .flag(&AutoOptions::despike, "despike", "find and repair spikes");
   return options;
 }
 
@@ -212,8 +212,8 @@ std::unique_ptr<Cleaner> make_auto(const AutoOptions& options) {
 
 Method auto_method() {
   return {"auto",
-          "measures each joint's noise, repairs spikes, smooths as much as the noise asks and "
-          "leaves clean takes alone",
+          "measures the noise of each joint or marker, repairs spikes, smooths by the measured "
+          "noise, and leaves clean takes unchanged",
           "Kinemend; smoothing by evidence after Eilers 2003 and Wahba 1985", auto_table().specs(),
           [](const OptionValues& values) { return make_auto(auto_table().parse(values)); }};
 }

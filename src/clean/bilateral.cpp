@@ -18,12 +18,15 @@ namespace {
 const OptionTable<BilateralOptions>& bilateral_table() {
   static const OptionTable<BilateralOptions> result =
       OptionTable<BilateralOptions>()
-          .number(&BilateralOptions::sigma_t_s, "sigma_t_s", "s", 0.001, 1, "temporal width")
+          .number(&BilateralOptions::sigma_t_s, "sigma_t_s", "s", 0.001, 1,
+                  "standard deviation of the weights in time")
           .number(&BilateralOptions::sigma_g_deg, "sigma_g_deg", "deg", 0.01, 1000,
-                  "width in rotation angle: turns much larger than this are kept as edges")
-          .integer(&BilateralOptions::passes, "passes", "", 1, 100, "how many times it is applied")
+                  "standard deviation of the weights in rotation angle; much larger turns are kept")
+          .integer(&BilateralOptions::passes, "passes", "", 1, 100,
+                   "how many times the filter runs")
           .choice(&BilateralOptions::ends, "ends", {"reflect", "mirror"},
-                  "how the signal goes on beyond its ends: straight on, or back in time");
+                  "padding at the ends of the take: reflect continues a steady turn, mirror runs "
+                  "back in time");
   return result;
 }
 
@@ -163,7 +166,8 @@ std::unique_ptr<Cleaner> make_bilateral(const BilateralOptions& options) {
 
 Method bilateral_method() {
   return {
-      "bilateral", "edge-preserving filter on the rotations themselves",
+      "bilateral",
+      "edge-preserving average of rotations: smooths slow motion and keeps quick moves",
       "Courty 2008, Bilateral Human Motion Filtering", bilateral_table().specs(),
       [](const OptionValues& values) { return make_bilateral(bilateral_table().parse(values)); }};
 }

@@ -18,11 +18,12 @@ namespace {
 const OptionTable<ButterworthOptions>& butterworth_table() {
   static const auto options =
       OptionTable<ButterworthOptions>()
-          .integer(&ButterworthOptions::order, "order", "", 1, 12, "order of one direction")
+          .integer(&ButterworthOptions::order, "order", "", 1, 12,
+                   "filter order of each of the two passes")
           .number(&ButterworthOptions::cutoff_hz, "cutoff_hz", "Hz", 0.05, 500,
-                  "frequency at which one direction lets half the power pass")
+                  "cutoff of one pass (half power); must be below half of the frame rate")
           .flag(&ButterworthOptions::causal, "causal",
-                "forward only: delays the motion, and runs live");
+                "forward pass only: delays the motion, and can run live");
   return options;
 }
 
@@ -110,11 +111,13 @@ std::unique_ptr<Cleaner> make_butterworth(const ButterworthOptions& options) {
 }
 
 Method butterworth_method() {
-  return {"butterworth", "low-pass filter without delay: fixed cutoff, flat below it",
-          "Butterworth 1930; the usual filter of biomechanics (Winter 1974)",
-          butterworth_table().specs(), [](const OptionValues& values) {
-            return make_butterworth(butterworth_table().parse(values));
-          }};
+  return {
+      "butterworth",
+      "low-pass filter with a fixed cutoff, run forward and backward so that nothing is delayed",
+      "Butterworth 1930; the usual filter of biomechanics (Winter 1974)",
+      butterworth_table().specs(), [](const OptionValues& values) {
+        return make_butterworth(butterworth_table().parse(values));
+      }};
 }
 
 }  // namespace kinemend

@@ -30,21 +30,27 @@ const OptionTable<ExampleOptions>& example_table() {
   static const auto options =
       OptionTable<ExampleOptions>()
           .text(&ExampleOptions::model, "model",
-                "model file, made by kinemend train example; none: the one that ships")
-          .text(&ExampleOptions::map, "map", "file of names in the take for the model's")
+                "model file made by kinemend train example; empty: the model that ships")
+          .text(&ExampleOptions::map, "map",
+                "file that maps names in the take to names in the model")
           .choice(&ExampleOptions::solver, "solver", {"quick", "paper"},
-                  "paper: alternation from what was measured, p = 3 and lambda = 0.1")
-          .flag(&ExampleOptions::robust, "robust", "off: the linear filter, every sample counts")
+                  "paper: the algorithm of the paper, with welsch_deg 3 and lambda 0.1 unless set")
+          .flag(&ExampleOptions::robust, "robust",
+                "give outliers less weight; off: linear filter, all samples count alike")
           .number(&ExampleOptions::welsch_deg, "welsch_deg", "deg", 0, 180,
-                  "p: how far off a sample counts less; 0: from the noise")
-          .number(&ExampleOptions::lambda, "lambda", "", 0, 1e6,
-                  "weight of the patterns against the measurements; 0: from noise and model")
+                  "distance from the estimate at which a sample loses weight; 0: from the noise")
+          .number(
+              &ExampleOptions::lambda, "lambda", "", 0, 1e6,
+              "weight of the learned patterns against the measurements; 0: from noise and model")
           .integer(&ExampleOptions::bases, "bases", "", 0, 1e5,
-                   "filter bases; 0: all that the model has")
-          .integer(&ExampleOptions::iterations, "iterations", "", 1, 10000, "at most")
-          .number(&ExampleOptions::tolerance, "tolerance", "", 0, 1,
-                  "stops where an iteration gains less than this share; a thousandth with gaps")
-          .flag(&ExampleOptions::fill, "fill_gaps", "fills gaps of what the model knows");
+                   "number of filter bases; 0: all of the model")
+          .integer(&ExampleOptions::iterations, "iterations", "", 1, 10000,
+                   "largest number of iterations")
+          .number(
+              &ExampleOptions::tolerance, "tolerance", "", 0, 1,
+              "stop when an iteration improves less than this share; a thousandth of it with gaps")
+          .flag(&ExampleOptions::fill, "fill_gaps",
+                "fill gaps of joints or markers that the model knows");
   return options;
 }
 
@@ -214,7 +220,7 @@ std::unique_ptr<Cleaner> make_tuned_example(const ExampleOptions& options,
 
 Method example_method() {
   return {"example",
-          "keeps what patterns learned from clean clips can express",
+          "keeps the motion that patterns learned from clean clips can express",
           "Lou & Chai 2010, Example-based Human Motion Denoising",
           example_table().specs(),
           [](const OptionValues& values) { return make_example(example_table().parse(values)); },

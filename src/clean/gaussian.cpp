@@ -17,8 +17,9 @@ namespace {
 constexpr double mask_reach = 4;
 
 const OptionTable<GaussianOptions>& gaussian_table() {
-  static const OptionTable<GaussianOptions> result = OptionTable<GaussianOptions>().number(
-      &GaussianOptions::width_s, "width_s", "s", 0, 1, "standard deviation of the mask");
+  static const OptionTable<GaussianOptions> result =
+      OptionTable<GaussianOptions>().number(&GaussianOptions::width_s, "width_s", "s", 0, 1,
+                                            "standard deviation of the Gaussian weights");
   return result;
 }
 
@@ -195,7 +196,7 @@ std::unique_ptr<Cleaner> make_gaussian(const GaussianOptions& options) {
 }
 
 Method gaussian_method() {
-  return {"gaussian", "orientation filter with a Gaussian mask",
+  return {"gaussian", "smoothing with Gaussian weights in time, made for rotations",
           "Lee & Shin 2002; Courty 2008, eq. 2-3", gaussian_table().specs(),
           [](const OptionValues& values) { return make_gaussian(gaussian_table().parse(values)); }};
 }

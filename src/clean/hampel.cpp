@@ -19,9 +19,9 @@ const OptionTable<HampelOptions>& hampel_table() {
       OptionTable<HampelOptions>()
           .number(&HampelOptions::window_s, "window_s", "s", 0.01, 5, "length of the whole window")
           .number(&HampelOptions::threshold, "threshold", "", 0, 100,
-                  "robust standard deviations per axis beyond which a sample is a spike")
+                  "a sample farther from the median than this many robust deviations is a spike")
           .number(&HampelOptions::minimum_deg, "minimum_deg", "deg", 0, 180,
-                  "smaller deviations are no spikes");
+                  "smallest distance from the median that counts as a spike");
   return options;
 }
 
@@ -176,7 +176,8 @@ std::unique_ptr<Cleaner> make_hampel(const HampelOptions& options) {
 }
 
 Method hampel_method() {
-  return {"hampel", "finds spikes, replaces them, and leaves every other sample alone",
+  return {"hampel",
+          "replaces spikes by the median of their window; all other samples stay unchanged",
           "Hampel 1974; Davies & Gather 1993", hampel_table().specs(),
           [](const OptionValues& values) { return make_hampel(hampel_table().parse(values)); }};
 }

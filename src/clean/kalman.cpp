@@ -15,13 +15,14 @@ const OptionTable<KalmanOptions>& kalman_table() {
   static const auto options =
       OptionTable<KalmanOptions>()
           .choice(&KalmanOptions::model, "model", {"position", "velocity"},
-                  "what stays about constant from frame to frame")
+                  "the quantity that is assumed to change little from frame to frame")
           .flag(&KalmanOptions::smoother, "smoother",
-                "uses the whole take; off: the past only, which also runs live")
+                "use the whole take; off: past frames only, which can run live")
           .number(&KalmanOptions::noise_deg, "noise_deg", "deg", 0, 45,
-                  "noise of a sample per axis; 0: estimated")
-          .number(&KalmanOptions::agility, "agility", "", 0.01, 100,
-                  "process noise relative to that of everyday motion: larger follows more closely");
+                  "standard deviation of the noise per axis; 0: estimated from the take")
+          .number(
+              &KalmanOptions::agility, "agility", "", 0.01, 100,
+              "how quickly the motion may change, 1: everyday motion; larger follows more closely");
   return options;
 }
 
@@ -168,7 +169,7 @@ std::unique_ptr<Cleaner> make_kalman(const KalmanOptions& options) {
 }
 
 Method kalman_method() {
-  return {"kalman", "model of steady motion, as smoother or as live filter",
+  return {"kalman", "Kalman smoother or live filter that assumes steady motion",
           "Kalman 1960; Rauch, Tung & Striebel 1965; baseline of Lou & Chai 2010",
           kalman_table().specs(),
           [](const OptionValues& values) { return make_kalman(kalman_table().parse(values)); }};

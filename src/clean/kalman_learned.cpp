@@ -18,13 +18,15 @@ const OptionTable<KalmanLearnedOptions>& kalman_learned_table() {
   static const auto options =
       OptionTable<KalmanLearnedOptions>()
           .text(&KalmanLearnedOptions::model, "model",
-                "model file, made by kinemend train kalman-learned")
-          .text(&KalmanLearnedOptions::map, "map", "file of names in the take for the model's")
+                "model file made by kinemend train kalman-learned (required; none ships)")
+          .text(&KalmanLearnedOptions::map, "map",
+                "file that maps names in the take to names in the model")
           .flag(&KalmanLearnedOptions::smoother, "smoother",
-                "uses the whole take; off: the past only")
+                "use the whole take; off: past frames only")
           .number(&KalmanLearnedOptions::noise_deg, "noise_deg", "deg", 0, 45,
-                  "noise of a sample per channel; 0: estimated")
-          .flag(&KalmanLearnedOptions::fill, "fill_gaps", "fills gaps of what the model knows");
+                  "standard deviation of the noise per channel; 0: estimated from the take")
+          .flag(&KalmanLearnedOptions::fill, "fill_gaps",
+                "fill gaps of joints or markers that the model knows");
   return options;
 }
 
@@ -74,7 +76,7 @@ std::unique_ptr<Cleaner> make_kalman_learned(const KalmanLearnedOptions& options
 
 Method kalman_learned_method() {
   return {"kalman-learned",
-          "how poses follow each other, learned from clips, as Kalman smoother",
+          "Kalman smoother with a model of motion that was learned from clean clips",
           "data-driven Kalman filter of Lou & Chai 2010, section 4.2",
           kalman_learned_table().specs(),
           [](const OptionValues& values) {

@@ -149,7 +149,7 @@ std::unique_ptr<Cleaner> make_median(const MedianOptions& options) {
 }
 
 Method median_method() {
-  return {"median", "running median: removes short spikes and keeps edges",
+  return {"median", "running median: removes short spikes and keeps sudden moves",
           "Tukey 1977; the median of rotations is Hartley et al.'s L1 mean (2011)",
           median_table().specs(),
           [](const OptionValues& values) { return make_median(median_table().parse(values)); }};

@@ -27,15 +27,17 @@ const OptionTable<NonlocalOptions>& nonlocal_table() {
   static const OptionTable<NonlocalOptions> result =
       OptionTable<NonlocalOptions>()
           .number(&NonlocalOptions::window_s, "window_s", "s", 0, 60,
-                  "whole learning window; 0: the whole take")
-          .number(&NonlocalOptions::patch_s, "patch_s", "s", 0, 10, "whole patch")
+                  "length of the window that is searched for similar poses; 0: the whole take")
+          .number(&NonlocalOptions::patch_s, "patch_s", "s", 0, 10,
+                  "length of the stretch of motion (patch) that is compared")
           .integer(&NonlocalOptions::neighbours, "neighbours", "", 0, 1e6,
-                   "average the k most similar poses only; 0: all of the window")
+                   "number of similar poses that are averaged; 0: all poses of the window")
           .number(&NonlocalOptions::bandwidth_deg, "bandwidth_deg", "deg", 0, 180,
-                  "difference per channel that makes poses dissimilar; 0: from the noise")
+                  "difference per channel beyond which poses count little; 0: from the noise")
           .choice(&NonlocalOptions::boundary, "boundary", {"neumann", "mirror", "dirichlet"},
-                  "beyond the ends: the gradient goes on, time turns back, or the pose is held")
-          .flag(&NonlocalOptions::causal, "causal", "past poses only, for live use");
+                  "padding at the ends: neumann continues the motion, mirror runs back in time, "
+                  "dirichlet holds the pose")
+          .flag(&NonlocalOptions::causal, "causal", "use past poses only, for live use");
   return result;
 }
 
@@ -215,7 +217,7 @@ std::unique_ptr<Cleaner> make_nonlocal(const NonlocalOptions& options) {
 }
 
 Method nonlocal_method() {
-  return {"nonlocal", "averages poses whose surroundings in time are alike",
+  return {"nonlocal", "averages poses that occur in similar stretches of motion",
           "Dean 2016, Non-local Pose Means for Denoising Motion Capture Data",
           nonlocal_table().specs(),
           [](const OptionValues& values) { return make_nonlocal(nonlocal_table().parse(values)); }};

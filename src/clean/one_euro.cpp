@@ -12,11 +12,12 @@ const OptionTable<OneEuroOptions>& one_euro_table() {
   static const auto options =
       OptionTable<OneEuroOptions>()
           .number(&OneEuroOptions::min_cutoff_hz, "min_cutoff_hz", "Hz", 0.01, 100,
-                  "cutoff at rest: lower steadies a pose that is held")
-          .number(&OneEuroOptions::speed_coefficient, "speed_coefficient", "", 0, 1000,
-                  "hertz of cutoff per radian per second: higher shortens the delay in motion")
+                  "cutoff at rest; a lower one steadies held poses more")
+          .number(
+              &OneEuroOptions::speed_coefficient, "speed_coefficient", "", 0, 1000,
+              "increase of the cutoff with speed, Hz per radian/s; a higher one delays motion less")
           .number(&OneEuroOptions::speed_cutoff_hz, "speed_cutoff_hz", "Hz", 0.01, 100,
-                  "low-pass on the measured speed");
+                  "cutoff of the low-pass filter on the measured speed");
   return options;
 }
 
@@ -89,7 +90,7 @@ std::unique_ptr<Cleaner> make_one_euro(const OneEuroOptions& options) {
 }
 
 Method one_euro_method() {
-  return {"one-euro", "live filter that smooths at rest and follows in motion",
+  return {"one-euro", "live filter that smooths much at rest and little in motion",
           "Casiez, Roussel & Vogel 2012", one_euro_table().specs(),
           [](const OptionValues& values) { return make_one_euro(one_euro_table().parse(values)); }};
 }

@@ -25,14 +25,14 @@ const OptionTable<RecurrentOptions>& recurrent_table() {
   static const auto options =
       OptionTable<RecurrentOptions>()
           .text(&RecurrentOptions::model, "model",
-                "model file, made by kinemend-train; empty: the one that ships")
-          .text(&RecurrentOptions::map, "map", "file of names in the take for the model's")
-          .flag(&RecurrentOptions::fill, "fill_gaps", "fills gaps of what the model knows")
-          .text(
-              &RecurrentOptions::gap_model, "gap_model",
-              "file of a network (EBD) that fills the gaps that a model of the paper then filters")
+                "model file made by kinemend-train; empty: the model that ships")
+          .text(&RecurrentOptions::map, "map",
+                "file that maps names in the take to names in the model")
+          .flag(&RecurrentOptions::fill, "fill_gaps", "fill gaps of joints that the model knows")
+          .text(&RecurrentOptions::gap_model, "gap_model",
+                "model file of a network (EBD) that fills gaps before a filter network (EBF) runs")
           .flag(&RecurrentOptions::live, "live",
-                "the form that runs live, of a filter network of the paper: 15 frames ahead");
+                "live form of a filter network (EBF): looks 15 frames ahead");
   return options;
 }
 
@@ -198,7 +198,7 @@ std::unique_ptr<Cleaner> make_recurrent(const RecurrentOptions& options,
 Method recurrent_method() {
   return {
       "recurrent",
-      "a network trained on damaged motion corrects what auto makes of the take",
+      "neural network, trained on damaged motion, that improves the result of auto",
       "after Mall et al. 2017",
       recurrent_table().specs(),
       [](const OptionValues& values) { return make_recurrent(recurrent_table().parse(values)); },

@@ -27,17 +27,20 @@ const OptionTable<SparseOptions>& sparse_table() {
   static const auto options =
       OptionTable<SparseOptions>()
           .text(&SparseOptions::model, "model",
-                "model file, made by kinemend train sparse; empty: the one that ships")
-          .text(&SparseOptions::map, "map", "file of names in the take for the model's")
+                "model file made by kinemend train sparse; empty: the model that ships")
+          .text(&SparseOptions::map, "map",
+                "file that maps names in the take to names in the model")
           .choice(&SparseOptions::loss, "loss", {"mixed", "l2", "l1"},
-                  "l2: eq. 4, for noise; l1: eq. 5, for outliers; mixed: l1 finds outliers, l2 "
-                  "does the rest")
+                  "l2: for noise; l1: for outliers; mixed: l1 finds outliers, then l2 removes the "
+                  "noise")
           .number(&SparseOptions::lambda, "lambda", "", 0, 1000,
-                  "weight of sparsity, in correlations of noise with the atoms")
-          .integer(&SparseOptions::hops, "hops", "", 1, 1000, "windows over a frame")
+                  "sparsity: a larger one uses fewer learned pieces and smooths more")
+          .integer(&SparseOptions::hops, "hops", "", 1, 1000,
+                   "number of overlapping windows that are averaged in each frame")
           .choice(&SparseOptions::solver, "solver", {"quick", "paper"},
-                  "paper: the dual augmented Lagrangian method, and nothing after it")
-          .flag(&SparseOptions::fill, "fill_gaps", "fills gaps of what the model knows");
+                  "paper: the algorithm of the paper alone, without later corrections")
+          .flag(&SparseOptions::fill, "fill_gaps",
+                "fill gaps of joints or markers that the model knows");
   return options;
 }
 
@@ -109,6 +112,18 @@ std::vector<std::uint8_t> wanted_points(const SparsePoints& points,
   return marks;
 }
 
+// F x D. A root that is left to `auto` counts as measured: all points turn with it, so that it does
+// not matter in the local coordinates that they are compared in. Else a body that turns about a
+// level axis would have no point that was measured.
+std::vector<std::uint8_t> observed_with_root(const PriorWork& work) {
+  std::vector<std::uint8_t> observed = work.channels.observed;
+  if (work.left_out.empty() || work.left_out.front() == 0) return observed;
+  const std::size_t width = work.channels.poses.channels;
+  for (std::size_t first = 0; first < observed.size(); first += width)
+    std::fill_n(observed.begin() + static_cast<std::ptrdiff_t>(first), 3, std::uint8_t{1});
+  return observed;
+}
+
 // What the dictionaries make of the points. Where many are outliers, what `auto` makes of them is
 // no good guide, and the result is the guide of another turn.
 PoseMatrix filtered_points(const PriorWork& work, const PoseMatrix& positions,
@@ -117,7 +132,7 @@ PoseMatrix filtered_points(const PriorWork& work, const PoseMatrix& positions,
                            const SparseSettings& settings) {
   PoseMatrix guide = points_of(prior.points, layout, work.fallback);
   const std::vector<std::uint8_t> observed =
-      observed_points(prior.points, layout, work.channels.observed);
+      observed_points(prior.points, layout, observed_with_root(work));
   const double rate_hz = work.channels.frame_rate_hz;
   const std::size_t turns = settings.loss == SparseLoss::squares ? 1 : 2;
   for (std::size_t turn = 0; turn < turns; ++turn) {
@@ -200,7 +215,7 @@ std::unique_ptr<Cleaner> make_sparse(const SparseOptions& options,
 
 Method sparse_method() {
   return {"sparse",
-          "parts of the body as sums of few learned pieces of motion",
+          "rebuilds each part of the body from a few learned pieces of motion",
           "Xiao et al. 2015, Sparse motion bases selection for human motion denoising",
           sparse_table().specs(),
           [](const OptionValues& values) { return make_sparse(sparse_table().parse(values)); },

@@ -18,11 +18,12 @@ const OptionTable<WaveletCleanerOptions>& wavelet_table() {
   static const auto options =
       OptionTable<WaveletCleanerOptions>()
           .choice(&WaveletCleanerOptions::family, "family", families(),
-                  "wavelet: Daubechies or symlet and its vanishing moments")
-          .choice(&WaveletCleanerOptions::threshold, "threshold", {"universal", "sure"},
-                  "universal removes most noise and small detail; sure adapts to each level")
+                  "wavelet: db (Daubechies) or sym (symlet) with its number of vanishing moments")
+          .choice(
+              &WaveletCleanerOptions::threshold, "threshold", {"universal", "sure"},
+              "universal removes more noise, and small detail with it; sure adapts to each scale")
           .choice(&WaveletCleanerOptions::shrinkage, "shrinkage", {"soft", "hard"},
-                  "soft shrinks what it keeps, hard keeps it whole");
+                  "soft also shrinks the coefficients that stay; hard keeps them unchanged");
   return options;
 }
 
@@ -60,7 +61,7 @@ std::unique_ptr<Cleaner> make_wavelet(const WaveletCleanerOptions& options) {
 }
 
 Method wavelet_method() {
-  return {"wavelet", "wavelet shrinkage: adapts to the noise and to sudden motion",
+  return {"wavelet", "wavelet shrinkage: adapts to the noise and keeps sudden motion",
           "Donoho & Johnstone 1994, 1995", wavelet_table().specs(),
           [](const OptionValues& values) { return make_wavelet(wavelet_table().parse(values)); }};
 }

@@ -12,7 +12,7 @@ namespace {
 const OptionTable<WeightedMeanOptions>& weighted_mean_table() {
   static const auto options =
       OptionTable<WeightedMeanOptions>().integer(&WeightedMeanOptions::passes, "passes", "", 1, 100,
-                                                 "how many times the five-frame mean is taken");
+                                                 "how many times the five-frame mean is applied");
   return options;
 }
 
@@ -90,7 +90,7 @@ std::unique_ptr<Cleaner> make_weighted_mean(const WeightedMeanOptions& options) 
 }
 
 Method weighted_mean_method() {
-  return {"weighted-mean", "weighted moving mean of five frames, as animators smooth keys",
+  return {"weighted-mean", "weighted moving mean of five frames, like Smooth Keys in Blender",
           "Smooth Keys of Blender's graph editor", weighted_mean_table().specs(),
           [](const OptionValues& values) {
             return make_weighted_mean(weighted_mean_table().parse(values));

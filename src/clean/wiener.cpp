@@ -23,14 +23,16 @@ const OptionTable<WienerOptions>& wiener_table() {
   static const auto options =
       OptionTable<WienerOptions>()
           .text(&WienerOptions::model, "model",
-                "model file, made by kinemend train wiener; empty: the one that ships")
-          .text(&WienerOptions::map, "map", "file of names in the take for the model's")
+                "model file made by kinemend train wiener; empty: the model that ships")
+          .text(&WienerOptions::map, "map",
+                "file that maps names in the take to names in the model")
           .number(&WienerOptions::noise_deg, "noise_deg", "deg", 0, 45,
-                  "noise of a sample per channel; 0: estimated")
+                  "standard deviation of the noise per channel; 0: estimated from the take")
           .number(&WienerOptions::sensitivity, "sensitivity", "", 0, 4,
-                  "scales the noise: above 1 smooths more, below 1 less, 0 not at all")
-          .flag(&WienerOptions::despike, "despike", "finds and repairs spikes")
-          .flag(&WienerOptions::fill, "fill_gaps", "fills gaps of what the model knows");
+                  "factor on the noise: above 1 smooths more, below 1 less, 0 not at all")
+          .flag(&WienerOptions::despike, "despike", "find and repair spikes")
+          .flag(&WienerOptions::fill, "fill_gaps",
+                "fill gaps of joints or markers that the model knows");
   return options;
 }
 
@@ -151,7 +153,7 @@ std::unique_ptr<Cleaner> make_wiener(const WienerOptions& options,
 
 Method wiener_method() {
   return {"wiener",
-          "posterior mean of short windows under learned covariances, by their evidence",
+          "estimates short stretches of motion from what was learned of motion and noise",
           "a stronger linear prior than Lou & Chai 2010",
           wiener_table().specs(),
           [](const OptionValues& values) { return make_wiener(wiener_table().parse(values)); },

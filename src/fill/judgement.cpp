@@ -9,13 +9,13 @@ namespace kinemend::fill {
 
 namespace {
 
-// Exponents of the ratios of mean square differences, for the choice and for the expected error.
-// They and `caution` are regressed from gaps made in the takes that docs/methods/fill.md names; the
-// bounds of the ratio are not swept.
+// Exponents of the ratios of mean square differences, for the choice and for the expected error: of
+// candidates from each other, and from the straight line. They and `caution` are regressed from
+// gaps made in the takes that docs/methods/fill.md names; the bounds of the ratio are not swept.
 constexpr double choice_exponent = 0.5;
-constexpr double error_exponent = 0.7;
+constexpr double error_exponent = 0.5, line_exponent = 0.3;
 // Few trials do not show the worst: the error is stated above their root mean square.
-constexpr double caution = 1.3, caution_at_end = 2;
+constexpr double caution = 1.45, caution_at_end = 2;
 constexpr double least_ratio = 1.0 / 16, most_ratio = 1e4;
 // Shares of the square of the grain that are added to a spline's square, and to differences that
 // tell of the error. Not swept.
@@ -152,15 +152,25 @@ double Judgement::expected_error(std::span<const double> weights) const {
   Indices others =
       indices_of(kinds_, [](CandidateKind kind) { return kind != CandidateKind::line; });
   if (others.size() < 2) others = lines_among(kinds_);
-  double ratio = 1;
+  double harder = 1;
   if (!others.empty()) {
-    ratio = ratio_of(gap_, trials_.products, error_floor * floor_,
-                     [&](const Matrix& products) { return spread_about(products, others, w); });
+    const double ratio =
+        ratio_of(gap_, trials_.products, error_floor * floor_,
+                 [&](const Matrix& products) { return spread_about(products, others, w); });
+    harder = std::pow(ratio, error_exponent);
+  }
+  // A gap in which the track turns farther than in the trials is harder; one that is straighter may
+  // look so because what fills it has missed the turn.
+  if (const Indices lines = lines_among(kinds_); !lines.empty()) {
+    const double ratio =
+        ratio_of(gap_, trials_.products, error_floor * floor_,
+                 [&](const Matrix& products) { return spread_about(products, lines, w); });
+    harder *= std::pow(std::max(1.0, ratio), line_exponent);
   }
   const double square = mean_over(
       trials_.products, [&](const Matrix& trial) { return std::max(0.0, w.dot(trial * w)); });
   return (trials_.at_end ? caution_at_end : caution) *
-         std::sqrt(trials_.longer * square * std::pow(ratio, error_exponent) + floor_);
+         std::sqrt(trials_.longer * square * harder + floor_);
 }
 
 }  // namespace kinemend::fill

@@ -55,7 +55,7 @@ class Judgement {
   /// square is divided by `favour` first.
   std::vector<double> weights(double favour) const;
   /// Root mean square distance to the truth of the average with these weights, by how much all
-  /// differ from it.
+  /// differ from it and by how far it is from the straight line.
   double expected_error(std::span<const double> weights) const;
 
  private:

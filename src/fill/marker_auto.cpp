@@ -41,13 +41,18 @@ class Candidates {
       for (const double stiffness : stiffness_)
         add(CandidateKind::model, std::isfinite(stiffness) ? "local-regression" : "rigid-body");
     }
-    if (gap.span.length() > samples.frames_in(short_gap_s, 1)) return;
-    add(CandidateKind::spline, "spline");
+    is_short_ = gap.span.length() <= samples.frames_in(short_gap_s, 1);
+    if (!is_short_ && kinds_.empty()) return;
+    const bool is_inside = !gap.ends.any();
+    has_spline_ =
+        is_short_ || (is_inside && gap.span.length() <= samples.frames_in(longest_curve_s, 1));
+    if (has_spline_) add(is_short_ ? CandidateKind::spline : CandidateKind::curve, "spline");
     add(CandidateKind::line, "");
   }
 
   bool any() const { return !kinds_.empty(); }
-  bool has_curve() const { return any() && kinds_.back() == CandidateKind::line; }
+  /// Whether the gap is so short that a spline may fill it untried.
+  bool is_short() const { return is_short_; }
   /// Whether its segment alone vouches for the marker.
   bool on_a_segment() const {
     return !regressions_.empty() &&
@@ -60,7 +65,7 @@ class Candidates {
   }
   const std::vector<CandidateKind>& kinds() const { return kinds_; }
   std::string_view method(std::size_t candidate) const { return methods_[candidate]; }
-  std::size_t curve() const { return kinds_.size() - 2; }
+  std::size_t spline() const { return kinds_.size() - 2; }
 
   /// One for each candidate: positions in the frames that are asked for.
   Proposals proposals(const MarkerGap& gap, const std::vector<std::size_t>& wanted) const {
@@ -74,8 +79,9 @@ class Candidates {
           all.push_back(LocalRegression::meet_ends(scene, bridge, prediction));
       }
     }
-    if (!has_curve()) return all;
+    if (kinds_.empty()) return all;
     for (const Curve curve : {Curve::cubic, Curve::linear}) {
+      if (curve == Curve::cubic && !has_spline_) continue;
       const std::vector<Vec3> whole = curve_positions(samples_, gap, curve);
       all.emplace_back();
       for (const std::size_t f : wanted) all.back().push_back(whole[f - gap.span.first]);
@@ -95,6 +101,7 @@ class Candidates {
   std::vector<LocalRegression> regressions_;
   std::vector<CandidateKind> kinds_;
   std::vector<std::string_view> methods_;
+  bool is_short_ = false, has_spline_ = false;
 };
 
 Proposals offsets_from(Proposals proposals, const std::vector<Vec3>& origin) {
@@ -123,7 +130,6 @@ Filling average(const Samples& samples, const MarkerGap& gap, const Candidates& 
   const Judgement judgement(candidates.kinds(),
                             products_of(offsets_from(proposals, proposals.front())), trials,
                             least_error * samples.radius);
-  // Curves are candidates in short gaps alone.
   const std::vector<double> weights = judgement.weights(clearly_better);
   std::map<std::string_view, double> shares;
   Filling filling{std::vector<Vec3>(gap.span.length())};
@@ -164,11 +170,11 @@ Filling fill_by_auto(const Samples& samples, const MarkerGap& gap, const MarkerR
   const Proposals proposals = candidates.proposals(gap, frames_of(gap.span));
   const Trials trials = try_candidates(samples, gap, candidates);
   if (trials.products.empty()) {
-    if (!request.lenient && !candidates.has_curve() && !candidates.on_a_segment()) {
+    if (!request.lenient && !candidates.is_short() && !candidates.on_a_segment()) {
       return Filling::refused(name, "the marker is seen too little to try a method on it");
     }
     const std::size_t chosen =
-        candidates.on_a_segment() || !candidates.has_curve() ? 0 : candidates.curve();
+        candidates.on_a_segment() || !candidates.is_short() ? 0 : candidates.spline();
     Filling filling{proposals[chosen], std::string(candidates.method(chosen))};
     if (candidates.kinds()[chosen] == CandidateKind::model)
       filling.markers_used = candidates.markers_used();

@@ -34,6 +34,8 @@ Filling fill_by_local_regression(const Samples& samples, const MarkerGap& gap,
 Filling fill_marker_by_cycles(const Samples& samples, const MarkerGap& gap,
                               const MarkerRequest& request);
 Filling fill_by_auto(const Samples& samples, const MarkerGap& gap, const MarkerRequest& request);
+/// The longest gap that a curve fills by its own rule, and in which `auto` tries one. Not swept.
+inline constexpr double longest_curve_s = 0.25;
 /// By a curve through the marker's own samples, of the method `name`.
 Filling fill_by_curve(const Samples& samples, const MarkerGap& gap, const MarkerRequest& request,
                       Curve curve, std::string_view name);

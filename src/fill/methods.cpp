@@ -14,112 +14,118 @@ constexpr bool yes = true, no = false;
 
 // `about`: name, summary, paper, rules, markers, joints. `joint_rules`: place, kind, usual errors.
 constexpr std::array methods = {
-    Method{.about =
-               {"auto", "tries the others on gaps made in the take, and takes what does best", "",
-                "markers: what is expected to be off by less than an eighth of the body's radius; "
-                "joints: what a method's own rule lets it fill, with an expected error of at most "
-                "12.5 degrees "
-                "(positions: 6 % of the skeleton's height)",
-                yes, yes},
-           .fill_marker = fill_by_auto},
+    Method{
+        .about =
+            {"auto",
+             "tests the other methods on artificial gaps in the take and uses the best of them", "",
+             "markers: the expected error is at most an eighth of the body's radius; joints: the "
+             "chosen method accepts the gap and the expected error is at most 12.5 degrees "
+             "(positions: 6 % of the skeleton's height)",
+             yes, yes},
+        .fill_marker = fill_by_auto},
     Method{.about = {"spline", "natural cubic spline through the samples around the gap", "",
-                     "both ends are seen; at most 0.25 s", yes, yes},
+                     "both ends are observed; at most 0.25 s", yes, yes},
            .curve = Curve::cubic,
            .joint_rules = {3, CandidateKind::spline, {1.02, 1.02, 1.03, 1.5, 1.6, 1.9}}},
     Method{
         .about =
-            {"quintic", "quintic spline that smooths as cross-validation tells",
+            {"quintic", "quintic smoothing spline; cross-validation sets how much it smooths",
              "Woltring 1986, A FORTRAN package for generalized, cross-validatory spline smoothing "
              "and differentiation",
-             "both ends are seen; at most 0.25 s", yes, yes},
+             "both ends are observed; at most 0.25 s", yes, yes},
         .curve = Curve::quintic,
         .joint_rules = {4, CandidateKind::curve, {0.87, 0.86, 0.88, 1.6, 2.0, 2.8}}},
-    Method{.about = {"pchip", "shape-preserving cubic: no overshoot",
+    Method{.about = {"pchip", "shape-preserving cubic that does not overshoot",
                      "Fritsch & Carlson 1980, Monotone piecewise cubic interpolation",
-                     "both ends are seen; at most 0.25 s", yes, yes},
+                     "both ends are observed; at most 0.25 s", yes, yes},
            .curve = Curve::shape_preserving,
            .joint_rules = {5, CandidateKind::curve, {0.88, 0.8, 0.84, 0.91, 0.91, 0.95}}},
     Method{.about = {"hermite",
-                     "cubic between robust velocities at both ends, which fade in long gaps", "",
-                     "at most 0.25 s; joints: also 0.1 s at an end of the take", yes, yes},
+                     "cubic from the position and velocity at one end to those at the other; the "
+                     "velocities fade in long gaps",
+                     "", "at most 0.25 s; joints: at most 0.1 s at an end of the take", yes, yes},
            .curve = Curve::hermite,
            .joint_rules = {6, CandidateKind::curve, {0.95, 0.92, 0.77, 0.93, 0.97, 1.0}}},
-    Method{.about = {"slerp", "the shortest turn between the ends",
+    Method{.about = {"slerp", "shortest turn from one end to the other, at constant speed",
                      "Shoemake 1985, Animating rotation with quaternion curves",
-                     "both ends are seen; at most 0.25 s", no, yes},
+                     "both ends are observed; at most 0.25 s", no, yes},
            .curve = Curve::linear,
            .joint_rules = {1, CandidateKind::line, {1, 1, 1, 1, 1, 1}}},
     Method{.about = {"squad", "smooth turn through the samples around the gap",
                      "Shoemake 1987, Quaternion calculus and fast animation",
-                     "both ends are seen; at most 0.25 s", no, yes},
+                     "both ends are observed; at most 0.25 s", no, yes},
            .fill_joint = fill_by_squad,
            .joint_rules = {2, CandidateKind::curve, {0.95, 1.0, 0.8, 1.1, 1.15, 1.3}}},
     Method{
         .about =
-            {"pattern", "the movement of a named marker (the donor), moved to meet both ends", "",
-             "the donor is seen throughout the gap, and with the marker at both ends; any length",
+            {"pattern",
+             "copies the movement of a named marker (the donor) and moves it to meet both ends", "",
+             "the donor is observed throughout the gap, and the marker with it at both ends; any "
+             "length",
              yes, no},
         .fill_marker = fill_by_pattern},
     Method{
         .about =
-            {"rigid-body", "goes with three or more markers of the same segment",
+            {"rigid-body", "moves the marker with three or more markers of the same body segment",
              "Horn 1987, Closed-form solution of absolute orientation using unit quaternions",
-             "three markers, not on one line, are seen throughout the gap, whose distances to the "
-             "marker spread by at most 2 % of the body's radius; any length",
+             "three markers that are not on one line are observed throughout the gap, and their "
+             "distances to the marker vary by at most 2 % of the body's radius; any length",
              yes, no},
         .fill_marker = fill_by_rigid_body},
-    Method{.about =
-               {"pca", "regression on the principal components of the take",
-                "Gloersen & Federolf 2016, Predicting missing marker trajectories in human motion "
-                "data using marker intercorrelations",
-                "markers: three others are seen throughout the gap, and 30 frames show all of them "
-                "with it, any length; joints: four others are, and 0.5 s and as many frames as the "
-                "gap "
-                "has show all, at most 5 s",
-                yes, yes},
-           .fill_joint = fill_by_poses,
-           .fill_marker = fill_by_pca,
-           .joint_rules = {8,
-                           CandidateKind::model,
-                           {0.98, 0.93, 0.8, 0.72, 0.6, 0.55},
-                           5.0,
-                           1.0,
-                           false,
-                           "too few other joints or frames are observed to predict it from"}},
+    Method{
+        .about =
+            {"pca", "regression on the principal components of the take",
+             "Gloersen & Federolf 2016, Predicting missing marker trajectories in human motion "
+             "data using marker intercorrelations",
+             "markers: three others are observed throughout the gap, and 30 other frames show them "
+             "and the marker; any length. Joints: four others are observed throughout the gap, "
+             "and other frames show all of them for 0.5 s and as long as the gap; at most 5 s",
+             yes, yes},
+        .fill_joint = fill_by_poses,
+        .fill_marker = fill_by_pca,
+        .joint_rules = {8,
+                        CandidateKind::model,
+                        {0.98, 0.93, 0.8, 0.72, 0.6, 0.55},
+                        5.0,
+                        1.0,
+                        false,
+                        "too few other joints or frames are observed to predict the joint"}},
     Method{.about =
                {"local-regression",
-                "regressions among the markers that keep their distance, averaged by how likely "
-                "their distances are",
+                "predicts the marker from those that keep their distance to it, by several "
+                "regressions weighted by likelihood",
                 "Tits, Tilmanne & Dutoit 2018, Robust and automatic motion-capture data recovery "
                 "using soft skeleton constraints and model averaging",
-                "three other markers are seen throughout the gap, and 8 frames show them with the "
-                "marker; any length",
+                "three other markers are observed throughout the gap, and 8 other frames show them "
+                "and the marker; any length",
                 yes, no},
            .fill_marker = fill_by_local_regression},
-    Method{.about =
-               {"cyclic", "the same phase of other cycles", "",
-                "two other times of the take show the same movement beside the gap, to 35 % of its "
-                "size",
-                yes, yes},
-           .fill_joint = fill_joint_by_cycles,
-           .fill_marker = fill_marker_by_cycles,
-           .joint_rules = {7,
-                           CandidateKind::model,
-                           {0.88, 0.8, 0.8, 0.85, 0.85, 0.9},
-                           2.0,
-                           1.0,
-                           true,
-                           "no other part of the take is alike around it"}},
-    Method{.about = {"recurrent",
-                     "a network trained on takes with gaps, which sees all joints on either side; "
-                     "needs --model",
-                     "Mall et al. 2017, A deep recurrent framework for cleaning motion capture "
-                     "data (EBD)",
-                     "the model knows the joint, the take has its rate, and both ends are seen, at "
-                     "most 5 s, or 1 s at an end of the take; auto fills the rest: the root, "
-                     "positions, joints that the model does not know, takes at other rates",
-                     no, yes, yes},
-           .joint_rules = {.longest_s = 5.0, .longest_at_end_s = 1.0, .positions = false}},
+    Method{
+        .about = {"cyclic", "copies the same phase of other cycles of the movement", "",
+                  "at two other times of the take, the movement beside the gap is the same within "
+                  "35 % of its size",
+                  yes, yes},
+        .fill_joint = fill_joint_by_cycles,
+        .fill_marker = fill_marker_by_cycles,
+        .joint_rules = {7,
+                        CandidateKind::model,
+                        {0.88, 0.8, 0.8, 0.85, 0.85, 0.9},
+                        2.0,
+                        1.0,
+                        true,
+                        "no other part of the take moves like the frames around the gap"}},
+    Method{
+        .about =
+            {"recurrent",
+             "neural network, trained on takes with gaps, that reads all joints before and after "
+             "the gap; needs --model",
+             "Mall et al. 2017, A deep recurrent framework for cleaning motion capture "
+             "data (EBD)",
+             "the model knows the joint, and the take has the model's frame rate; at most 5 s, "
+             "or 1 s at an end of the take. auto fills the rest: the root, positions, joints "
+             "that the model does not know, takes at other rates",
+             no, yes, yes},
+        .joint_rules = {.longest_s = 5.0, .longest_at_end_s = 1.0, .positions = false}},
 };
 
 }  // namespace

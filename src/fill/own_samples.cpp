@@ -12,7 +12,6 @@ namespace kinemend::fill {
 namespace {
 
 // Not swept.
-constexpr double longest_curve_s = 0.25;  // of markers
 constexpr std::size_t least_cycles_of_joints = 1, least_cycles_of_markers = 2;
 constexpr std::size_t most_cycle_companions = 12,
                       most_cycle_shape_frames = 128;  // of the body of a cycle

@@ -1,6 +1,8 @@
 #include "priors/pattern_penalty.hpp"
 
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -21,9 +23,8 @@ constexpr double cost_of_preparing = 1.5;
 // Columns of the inverse of a triangle that are multiplied at once.
 constexpr std::size_t triangle_columns = 48;
 
-// E^T D^2 E + V
-RowMatrix penalty_gram(const WindowBases& bases, std::span<const double> weights,
-                       std::span<const double> ridge) {
+// E^T D^2 E of bases that are sampled at the clip's frames.
+RowMatrix sampled_gram(const WindowBases& bases, std::span<const double> weights) {
   const std::size_t rows = bases.frames * bases.channels, count = bases.count;
   const auto size = static_cast<Eigen::Index>(count);
   RowMatrix gram = RowMatrix::Zero(size, size);
@@ -40,6 +41,33 @@ RowMatrix penalty_gram(const WindowBases& bases, std::span<const double> weights
     nn::multiply(nn::MatrixView{weighted.data(), found, count, count}.transposed(),
                  {part, found, count, count}, {gram.data(), count, count, count}, nn::Product::add);
   }
+  return gram;
+}
+
+// The same of bases at the model's frames: with S the interpolation, E^T (S^T S x D^2) E.
+RowMatrix interpolated_gram(const WindowBases& bases, std::span<const double> weights) {
+  const std::size_t frames = bases.model_frames(), count = bases.count;
+  const std::size_t patterns = bases.channels * count, rows = frames * bases.channels;
+  const nn::MatrixView S{bases.interpolation.data(), bases.frames, frames, frames};
+  std::vector<double> shared(frames * frames), weighted(frames * patterns);
+  nn::multiply_symmetric(S.transposed(), S, {shared.data(), frames, frames, frames});
+  nn::multiply({shared.data(), frames, frames, frames},
+               {bases.values.data(), frames, patterns, patterns},
+               {weighted.data(), frames, patterns, patterns});
+  for (std::size_t i = 0; i < weighted.size(); ++i)
+    weighted[i] *= weights[i / count % bases.channels];
+  RowMatrix gram(count, count);
+  nn::multiply(nn::MatrixView{weighted.data(), rows, count, count}.transposed(),
+               {bases.values.data(), rows, count, count}, {gram.data(), count, count, count});
+  return gram;
+}
+
+// E^T D^2 E + V
+RowMatrix penalty_gram(const WindowBases& bases, std::span<const double> weights,
+                       std::span<const double> ridge) {
+  const std::size_t count = bases.count;
+  RowMatrix gram =
+      bases.is_interpolated() ? interpolated_gram(bases, weights) : sampled_gram(bases, weights);
   for (std::size_t k = 0; k < ridge.size() && k < count; ++k) {
     gram(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) += ridge[k];
   }
@@ -57,7 +85,7 @@ std::vector<double> penalty_factor(WindowBases& bases, std::span<const double> w
     bases.values.resize(whole_rows * bases.count);
     return std::move(bases.values);
   }
-  const std::size_t rows = bases.frames * bases.channels, count = bases.count;
+  const std::size_t count = bases.count, rows = bases.values.size() / count;
   const auto size = static_cast<Eigen::Index>(count);
   const Eigen::LLT<Eigen::MatrixXd> cholesky(penalty_gram(bases, weights, ridge));
   const RowMatrix inverse = cholesky.matrixU().solve(Eigen::MatrixXd::Identity(size, size));
@@ -98,6 +126,15 @@ PatternPenalty::PatternPenalty(WindowBases bases, std::span<const double> weight
       weights_(weights.begin(), weights.end()) {
   for (std::size_t s = 0; s < windows_; ++s) {
     for (std::size_t f = s * hop_; f < s * hop_ + bases.frames; ++f) windows_over_[f] += 1;
+  }
+  if (bases.is_interpolated()) {
+    model_frames_ = bases.model_frames();
+    factor_ = penalty_factor(bases, weights, ridge, model_frames_ * channels_);
+    interpolation_ = std::move(bases.interpolation);
+    interpolation_.resize(overlap_ * hop_ * model_frames_);
+    at_model_rate_.resize((windows_ + 2 * (overlap_ - 1)) * model_frames_ * channels_);
+    coefficients_.resize(windows_ * count_);
+    return;
   }
   std::vector<double> factor = penalty_factor(bases, weights, ridge, overlap_ * hop_ * channels_);
   if (product == Product::frequencies ||
@@ -141,6 +178,8 @@ void PatternPenalty::multiply(const PoseMatrix& z, PoseMatrix& image) {
         [&] { convolution_->multiply(z.values.data(), groups_, image.values.data()); },
         [&] { multiply_ends(z); });
     take_off_ends(image);
+  } else if (model_frames_ > 0) {
+    multiply_at_model_rate(z, image);
   } else {
     multiply_windows(z, image);
   }
@@ -152,6 +191,38 @@ void PatternPenalty::multiply_windows(const PoseMatrix& z, PoseMatrix& image) {
                {&coefficients_[(overlap_ - 1) * count_], windows_, count_, count_});
   nn::multiply({coefficients_.data(), groups_, overlap_ * count_, count_}, synthesis_,
                {image.values.data(), groups_, hop_values, hop_values});
+}
+
+void PatternPenalty::multiply_at_model_rate(const PoseMatrix& z, PoseMatrix& image) {
+  const std::size_t of_window = model_frames_ * channels_, of_hop = hop_ * channels_;
+  const std::size_t frames = row_values_ / channels_, before = overlap_ - 1;
+  double* windows = &at_model_rate_[before * of_window];
+  // A thread that waits for a product must not start another window.
+  const auto for_each = [](std::size_t count, const auto& action) {
+    tbb::parallel_for(std::size_t{0}, count,
+                      [&](std::size_t i) { tbb::this_task_arena::isolate([&] { action(i); }); });
+  };
+  const nn::MatrixView to_clip{interpolation_.data(), frames, model_frames_, model_frames_};
+  for_each(windows_, [&](std::size_t s) {
+    nn::multiply(to_clip.transposed(), {&z.values[s * of_hop], frames, channels_, channels_},
+                 {&windows[s * of_window], model_frames_, channels_, channels_});
+  });
+  const nn::MatrixView factor{factor_.data(), of_window, count_, count_};
+  nn::multiply({windows, windows_, of_window, of_window}, factor,
+               {coefficients_.data(), windows_, count_, count_});
+  nn::multiply({coefficients_.data(), windows_, count_, count_}, factor.transposed(),
+               {windows, windows_, of_window, of_window});
+  // A hop's frames are sums over the windows that contain it, the latest window last.
+  for_each(groups_, [&](std::size_t g) {
+    for (std::size_t b = 0; b < overlap_; ++b) {
+      const std::size_t hop_in_window = overlap_ - 1 - b;
+      nn::multiply({&interpolation_[hop_in_window * hop_ * model_frames_], hop_, model_frames_,
+                    model_frames_},
+                   {&at_model_rate_[(g + b) * of_window], model_frames_, channels_, channels_},
+                   {&image.values[g * of_hop], hop_, channels_, channels_},
+                   b == 0 ? nn::Product::overwrite : nn::Product::add);
+    }
+  });
 }
 
 void PatternPenalty::multiply_ends(const PoseMatrix& z) {

@@ -27,10 +27,12 @@ class PatternPenalty {
     windows,     ///< G^T, then G, of all windows: matrices that read overlapping windows in place
     frequencies  ///< PatternConvolution, less the windows that reach over the end
   };
+  // Interpolated bases have a way of their own: each window is brought to the model's frames, where
+  // G is small, and back.
 
   /// `weights`: d_l^2 of each channel, >= 0. `ridge`: v_k of each base, >= 0; empty: none.
   /// `frames`: of the sequence, at least `bases.frames`. `products`: expected number of products
-  /// with A, on which the quicker way depends.
+  /// with A, on which the quicker way depends. `product` is ignored for interpolated bases.
   PatternPenalty(WindowBases bases, std::span<const double> weights, std::span<const double> ridge,
                  std::size_t frames, std::size_t products = 1, Product product = Product::quicker);
 
@@ -50,6 +52,7 @@ class PatternPenalty {
   bool frequencies_are_quicker(std::size_t products) const;
   void prepare_windows(const std::vector<double>& factor);
   void multiply_windows(const PoseMatrix& z, PoseMatrix& image);
+  void multiply_at_model_rate(const PoseMatrix& z, PoseMatrix& image);
   void multiply_ends(const PoseMatrix& z);
   void take_off_ends(PoseMatrix& image) const;
 
@@ -66,6 +69,10 @@ class PatternPenalty {
   std::optional<PatternConvolution> convolution_;
   std::vector<double> factor_;
   std::vector<double> ends_, windows_over_end_;
+  // At the model's frames: the interpolation, M' x M, padded with zeros to whole hops; G is
+  // `factor_`, M L x K; and the windows, M x L each, between overlap - 1 windows of zeros.
+  std::vector<double> interpolation_, at_model_rate_;
+  std::size_t model_frames_ = 0;
   std::vector<double> windows_over_;  // each frame
   std::vector<double> weights_;       // d_l^2
 };

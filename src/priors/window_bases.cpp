@@ -57,7 +57,7 @@ std::vector<double> spline_weights(std::size_t values, double first, double step
 }  // namespace
 
 WindowBases bases_at_rate(const FilterBases& bases, double model_rate_hz, double clip_rate_hz,
-                          std::size_t clip_frames, std::size_t count) {
+                          std::size_t clip_frames, std::size_t count, std::size_t most_values) {
   const double ratio = clip_rate_hz / model_rate_hz;
   const double window = static_cast<double>(bases.window_frames - 1) * ratio;
   WindowBases result;
@@ -79,8 +79,14 @@ WindowBases bases_at_rate(const FilterBases& bases, double model_rate_hz, double
     return result;
   }
   const double spare = static_cast<double>(whole - result.frames) / 2;
-  const std::vector<double> weights =
+  std::vector<double> weights =
       spline_weights(bases.window_frames, spare / ratio, 1 / ratio, result.frames);
+  // A short clip at a low rate has fewer frames than the model's window.
+  if (result.frames > bases.window_frames && result.frames * patterns > most_values) {
+    result.values = std::move(kept);
+    result.interpolation = std::move(weights);
+    return result;
+  }
   // Padded to whole hops, for the products.
   result.values.reserve((result.frames + result.hop - 1) / result.hop * result.hop * patterns);
   result.values.resize(result.frames * patterns);

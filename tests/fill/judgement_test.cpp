@@ -55,12 +55,24 @@ TEST(Judgement, CandidatesThatDifferMoreThanInTheTrialsPromiseMore) {
   const std::vector<double> weights{1, 0, 0};
   const auto trial = errors({1, -1, 5});
   const auto expected = [&](double farther) {
-    const auto gap = errors({farther, -farther, 5 * farther});
+    const auto gap = errors({farther, -farther, farther + 4});  // as far from the line
     return Judgement({model, model, line}, gap, {{trial, trial, trial}, 1}, 0)
         .expected_error(weights);
   };
-  EXPECT_NEAR(expected(4) / expected(1), std::pow(4, 0.7), 1e-9);
-  EXPECT_NEAR(expected(1) / expected(0.5), std::pow(2, 0.7), 1e-9);
+  EXPECT_NEAR(expected(4) / expected(1), std::pow(4, 0.5), 1e-9);
+  EXPECT_NEAR(expected(1) / expected(0.5), std::pow(2, 0.5), 1e-9);
+}
+
+TEST(Judgement, AGapThatTurnsFartherThanTheTrialsPromisesMoreAndAStraightOneNoLess) {
+  const std::vector<double> weights{1, 0, 0};
+  const auto trial = errors({1, -1, 5});
+  const auto expected = [&](double from_the_line) {
+    const auto gap = errors({1, -1, 1 + from_the_line});
+    return Judgement({model, model, line}, gap, {{trial, trial, trial}, 1}, 0)
+        .expected_error(weights);
+  };
+  EXPECT_NEAR(expected(40) / expected(4), std::pow(10, 0.3), 1e-9);
+  EXPECT_NEAR(expected(1), expected(4), 1e-9);
 }
 
 TEST(Judgement, LongerGapsAndEndsOfTheTakePromiseMore) {

@@ -127,6 +127,25 @@ TEST(AutoFill, PrefersACurveWhereNoOtherMarkerIsSeen) {
   for (const GapOutcome& outcome : report.gaps) EXPECT_EQ(outcome.method, "spline");
 }
 
+// Its companions tell nothing of it, and the gaps are longer than those in which a spline goes
+// first.
+TEST(AutoFill, TriesASplineAlsoInGapsOfAFifthOfASecond) {
+  MarkerClip truth = marker_take("walk", 6);
+  const auto marker = static_cast<std::size_t>(truth.find("Head_b"));
+  for (std::size_t f = 0; f < truth.frame_count(); ++f) {
+    const double turn = 2 * pi * 0.9 * static_cast<double>(f) / truth.frame_rate_hz;
+    truth.position(f, marker) += Vec3{12 * std::sin(turn), 9 * std::cos(1.3 * turn), 0};
+  }
+  MarkerClip clip = truth, splined;
+  for (const std::size_t first : {150U, 330U, 520U}) hide(clip, "Head_b", first, first + 23);
+  splined = clip;
+  const FillReport report = fill_with(clip, "auto");
+  ASSERT_EQ(report.filled(), 3U);
+  const FillReport by_spline = fill_with(splined, "spline", true);
+  for (const GapOutcome& outcome : report.gaps) EXPECT_EQ(outcome.method, "spline");
+  EXPECT_LT(mean_error(truth, clip, report), 2 * mean_error(truth, splined, by_spline) + 0.01);
+}
+
 TEST(AutoFill, RefusesALongSpanWithoutAnyMarkerAndSaysSo) {
   MarkerClip clip = marker_take("punch");
   const MarkerClip before = [&] {

@@ -110,6 +110,18 @@ TEST(WindowBases, OfAShortClipAreTheMiddleOfTheWindow) {
   }
 }
 
+TEST(WindowBases, StayTheModelsWhereTheyWouldBeLargeAtTheRateOfTheClip) {
+  const FilterBases bases = swing_bases(10, 4);
+  const auto values_at = [&](double rate_hz, std::size_t frames) {
+    return bases_at_rate(bases, 30, rate_hz, frames, 0, 1000).values.size();
+  };
+  EXPECT_GT(values_at(120, 5000), bases.bases.size());
+  EXPECT_LE(values_at(120, 5000), 1000U);
+  EXPECT_EQ(values_at(1000, 5000), bases.bases.size());
+  EXPECT_EQ(values_at(1e5, 100000), bases.bases.size());
+  EXPECT_EQ(values_at(1000, 5), 5 * 4 * bases.count) << "fewer frames than the model's window";
+}
+
 TEST(LinearExampleFilter, AveragesTheProjectionsOfAllWindows) {
   const FilterBases bases = swing_bases(6, 3);
   const WindowBases windows = bases_at_rate(bases, 30, 30, 25);

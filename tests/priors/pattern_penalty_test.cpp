@@ -97,6 +97,35 @@ TEST(PatternPenalty, IsTheSameByWindowsAndByFrequencies) {
   }
 }
 
+TEST(PatternPenalty, IsTheSameWithBasesThatStayAtTheModelsRate) {
+  FilterBases bases;
+  bases.window_frames = 6, bases.channels = 3, bases.count = 4;
+  bases.bases = test::random_values(6 * 3 * 4, 2);
+  const std::vector<double> weights = {1.0, 0.3, 4.0};
+  for (const std::vector<double>& ridge : {std::vector<double>{}, {0.1, 1.0, 0.2, 0.5}}) {
+    for (const double rate_hz : {40.0, 170.0, 1000.0}) {
+      for (const std::size_t frames : {160UL, 250UL, 601UL}) {
+        const WindowBases sampled = bases_at_rate(bases, 30, rate_hz, frames);
+        const WindowBases kept = bases_at_rate(bases, 30, rate_hz, frames, 0, 0);
+        ASSERT_FALSE(sampled.is_interpolated());
+        ASSERT_TRUE(kept.is_interpolated());
+        EXPECT_EQ(kept.values, bases.bases);
+        PatternPenalty by_clip(sampled, weights, ridge, frames, 1, Product::windows);
+        PatternPenalty by_model(kept, weights, ridge, frames);
+        ASSERT_EQ(by_model.padded_frames(), by_clip.padded_frames());
+        const PoseMatrix z = random_poses(by_clip.padded_frames(), 3, 3);
+        PoseMatrix expected = z, found = z;
+        by_clip.multiply(z, expected);
+        by_model.multiply(z, found);
+        for (std::size_t i = 0; i < z.values.size(); ++i) {
+          ASSERT_NEAR(found.values[i], expected.values[i], 1e-9) << rate_hz << " Hz, " << frames;
+          ASSERT_EQ(by_model.diagonal(i / 3, i % 3), by_clip.diagonal(i / 3, i % 3));
+        }
+      }
+    }
+  }
+}
+
 // Matrices of 17 MB are kept in single precision.
 TEST(PatternPenalty, IsTheSameButForSinglePrecisionWhereMatricesAreLarge) {
   const std::size_t channels = 520, frames = 60;

@@ -133,9 +133,54 @@ TEST(FillRealTakes, PromisesOfMarkersHoldOnTakesOfOthers) {
   }
   const fill::Figures f = promises.figures("markers", 0.5);
   EXPECT_GT(f.gaps, 300U);
-  EXPECT_GE(f.share_within_twice(), 0.9);
+  EXPECT_GE(f.share_within_twice(), 0.975);
   EXPECT_EQ(f.above_ten, 0U);
-  EXPECT_LE(f.worse_than_spline, f.short_gaps / 200);
+  EXPECT_EQ(f.worse_than_spline, 0U);
+}
+
+// A heel in its swing, seen for three seconds at 60 Hz: what lies nearest in time is slower.
+TEST(FillRealTakes, PromisesHoldForAHeelInItsSwing) {
+  const MarkerClip truth = take_points("c3d/btk/c3d.org/sample06/MACsample.c3d", 0, body_markers);
+  const std::size_t heel = fill::track_of(truth, "LHEE"), length = 20;
+  std::size_t gaps = 0, within_twice = 0;
+  for (std::size_t first = 1; first + length < truth.frame_count(); ++first) {
+    MarkerClip clip = truth;
+    fill::hide(clip, "LHEE", first, first + length - 1);
+    const Gap hidden{heel, first, first + length - 1};
+    const FillReport report = fill_gaps(clip);
+    for (const GapOutcome& outcome : report.gaps) {
+      const bool is_hidden = outcome.gap.track == heel && outcome.gap.first_frame == first &&
+                             outcome.gap.last_frame == hidden.last_frame;
+      if (!is_hidden || !outcome.filled) continue;
+      gaps += 1;
+      within_twice += fill::rms_error(truth, clip, outcome.gap) <= 2 * outcome.expected_error;
+    }
+  }
+  printf("  heel: %zu gaps, %zu within twice\n", gaps, within_twice);
+  EXPECT_GT(gaps, 60U);
+  EXPECT_GE(static_cast<double>(within_twice), 0.87 * static_cast<double>(gaps));
+}
+
+// At 50 Hz six frames are longer than the gaps in which a spline goes first.
+TEST(FillRealTakes, GapsOfSixFramesAtFiftyHertzAreSeldomWorseThanTwiceTheSpline) {
+  const MarkerClip truth = take_points("c3d/btk/c3d.org/sample01/Eb015si.c3d", 0, body_markers);
+  std::size_t gaps = 0, worse = 0;
+  for (std::size_t first = 3; first + 9 < truth.frame_count(); first += 2) {
+    MarkerClip clip = truth;
+    fill::hide(clip, "LFT2", first, first + 5);
+    MarkerClip splined = clip;
+    const FillReport report = fill_gaps(clip);
+    fill::fill_with(splined, "spline", true);
+    for (const GapOutcome& outcome : report.gaps) {
+      if (outcome.gap.first_frame != first || !outcome.filled) continue;
+      gaps += 1;
+      worse += fill::rms_error(truth, clip, outcome.gap) >
+               std::max(2 * fill::rms_error(truth, splined, outcome.gap), 0.5);
+    }
+  }
+  printf("  six frames at 50 Hz: %zu gaps, %zu worse than twice the spline\n", gaps, worse);
+  EXPECT_GT(gaps, 200U);
+  EXPECT_LE(worse, gaps / 33);
 }
 
 TEST(FillRealTakes, PromisesOfJointsHoldOnTakesOfOthers) {
@@ -149,7 +194,7 @@ TEST(FillRealTakes, PromisesOfJointsHoldOnTakesOfOthers) {
   }
   const fill::Figures f = promises.figures("joints", 0.1);
   EXPECT_GT(f.gaps, 300U);
-  EXPECT_GE(f.share_within_twice(), 0.9);
+  EXPECT_GE(f.share_within_twice(), 0.96);
   EXPECT_EQ(f.above_ten, 0U);
   EXPECT_LE(f.worse_than_spline, f.short_gaps / 200);
 }
