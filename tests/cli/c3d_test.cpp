@@ -92,7 +92,7 @@ TEST_F(C3dFiles, NameTheByteOfWhatWasRepaired) {
   }
   for (const char* const command : {"info", "check"}) {
     EXPECT_THAT(run({command, take}).out,
-                AllOf(HasSubstr(" byte 12: the header's scale"), Not(HasSubstr("line"))))
+                AllOf(HasSubstr(" byte 12: the scale of the header"), Not(HasSubstr("line"))))
         << command;
     const Json json = Json::parse(run({command, take, "--json"}).out);
     const Json& repair = json["takes"][0]["diagnostics"][0];
