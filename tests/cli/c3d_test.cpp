@@ -34,7 +34,7 @@ TEST_F(C3dFiles, ARateThatAnalogChannelsCannotFollowIsNamed) {
   const Ran ran = run({"convert", take, "--fps", "60", "-o", "out.c3d"});
   EXPECT_EQ(ran.code, 0);
   EXPECT_THAT(ran.err, HasSubstr("laboratory.c3d: 3 analog channels at 200 Hz are left out: their "
-                                 "rate is no multiple of 60 Hz"));
+                                 "rate is not a multiple of 60 Hz"));
   EXPECT_THAT(ran.err, HasSubstr("2 force plates are left out with the analog channels"));
   const Ran strict = run({"convert", take, "--fps", "60", "-o", "strict.c3d", "--strict"});
   EXPECT_EQ(strict.code, 1);
@@ -92,7 +92,7 @@ TEST_F(C3dFiles, NameTheByteOfWhatWasRepaired) {
   }
   for (const char* const command : {"info", "check"}) {
     EXPECT_THAT(run({command, take}).out,
-                AllOf(HasSubstr(" byte 12: the header's scale"), Not(HasSubstr("line"))))
+                AllOf(HasSubstr(" byte 12: the scale of the header"), Not(HasSubstr("line"))))
         << command;
     const Json json = Json::parse(run({command, take, "--json"}).out);
     const Json& repair = json["takes"][0]["diagnostics"][0];
