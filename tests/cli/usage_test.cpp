@@ -103,7 +103,8 @@ INSTANTIATE_TEST_SUITE_P(
              "convert: c.xyz has the extension of no format; name one with --to"},
         Case{{"synth", "walk", "-o", "c.bvh", "--duration-s", "0"},
              "--duration-s: 0 is outside 0.1 to 600 s"},
-        Case{{"completion", "tcsh"}, "unknown shell tcsh; there are bash, zsh, fish"}));
+        Case{{"completion", "tcsh"},
+             "completion: unknown shell tcsh; known are bash, zsh and fish"}));
 
 TEST_F(Usage, AnUnknownMethodIsAnsweredWithTheOneMeant) {
   put(folder / "a.bvh", hand_take());
