@@ -168,10 +168,10 @@ std::string program_help(bool is_long) {
       "kinemend {}: cleans human motion capture\n\nUsage: kinemend COMMAND [OPTIONS] ...\n",
       version());
   text += heading("Commands");
-  for (const Command& command : commands()) text += entry(command.name, command.summary, 16);
+  for (const Command& command : commands()) text += entry(command.name, command.summary, 17);
   text += heading("Options");
-  text += entry("-h, --help", "-h prints this list, --help adds exit codes and topics", 16);
-  text += entry("-V, --version", "print the version", 16);
+  text += entry("-h, --help", "-h prints this list, --help adds exit codes and topics", 17);
+  text += entry("-V, --version", "print the version", 17);
   if (is_long) {
     text += heading("Exit codes");
     for (const ExitCode& code : exit_codes())
@@ -179,7 +179,7 @@ std::string program_help(bool is_long) {
   }
   if (is_long) {
     text += heading("Topics (kinemend help NAME)");
-    for (const Topic& topic : topics()) text += entry(topic.name, topic.summary, 16);
+    for (const Topic& topic : topics()) text += entry(topic.name, topic.summary, 17);
   }
   return text +
          "\nkinemend COMMAND -h explains a command, kinemend COMMAND --help in full; kinemend help "

@@ -7,9 +7,11 @@ namespace kinemend {
 
 namespace {
 
-bool has_option(const Method& method, std::string_view name) {
-  return std::any_of(method.options.begin(), method.options.end(),
-                     [&](const OptionSpec& spec) { return spec.name == name; });
+// Whether a method reads a model file. (A `model` with choices is a setting of a filter.)
+bool is_learned(const Method& method) {
+  return std::any_of(method.options.begin(), method.options.end(), [](const OptionSpec& spec) {
+    return spec.name == "model" && spec.choices.empty();
+  });
 }
 
 bool runs_live(const Method& method, const OptionValues& options) {
@@ -28,7 +30,7 @@ std::vector<LiveMethod> live_methods() {
   for (const Method& method : methods()) {
     // A learned method runs live with a model of the user's own only, by its option `live`. To make
     // one reads a model, which takes long.
-    if (has_option(method, "model")) continue;
+    if (is_learned(method)) continue;
     if (runs_live(method, {})) {
       list.push_back({method.name, {}});
       continue;

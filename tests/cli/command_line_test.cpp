@@ -87,8 +87,8 @@ TEST_F(CommandLine, NamesBehindAListAreToldFromInputs) {
   put(folder / "a.bvh", hand_take());
   put(folder / "LeftFinger1", hand_take());
   const auto message = [](const std::string& command, const std::string& flag) {
-    return "kinemend: " + command + ": LeftFinger2 behind " + flag +
-           " is neither a file nor part of the list: names are separated by commas, as in " + flag +
+    return "kinemend: " + command + ": LeftFinger2 after " + flag +
+           " is neither a file nor part of the list; separate names by commas, as in " + flag +
            " LeftArm,LeftFinger2 (see kinemend " + command + " -h)\n";
   };
   for (const auto& [command, flag] :

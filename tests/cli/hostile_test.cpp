@@ -146,7 +146,7 @@ TEST_F(Hostile, LongNamesInSideFilesAreCut) {
 
 TEST_F(Hostile, ANulInANameDoesNotEndTheMessage) {
   put(folder / "a.bvh", hand_take());
-  put(folder / "side", std::string("Le\0ft,1,2\n", 11));
+  put(folder / "side", std::string("Le\0ft,1,2\n", 10));
   const Ran ran = run({"clean", "a.bvh", "-o", "out.bvh", "--gaps", "side"});
   EXPECT_NE(ran.code, 0);
   EXPECT_THAT(ran.err, IsOneLine());

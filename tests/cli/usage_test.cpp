@@ -105,7 +105,8 @@ INSTANTIATE_TEST_SUITE_P(
              ".trc, .tsv, .csv, .glb. A name without an ending keeps the format of the input"},
         Case{{"synth", "walk", "-o", "c.bvh", "--duration-s", "0"},
              "--duration-s: 0 is outside 0.1 to 600 s"},
-        Case{{"completion", "tcsh"}, "unknown shell tcsh; there are bash, zsh, fish"}));
+        Case{{"completion", "tcsh"},
+             "completion: unknown shell tcsh; known are bash, zsh and fish"}));
 
 TEST_F(Usage, AnUnknownMethodIsAnsweredWithTheOneMeant) {
   put(folder / "a.bvh", hand_take());
