@@ -279,7 +279,8 @@ TEST(GapPlan, NamesTheLineOfWhatIsWrong) {
             "plan.csv:1: expected a heading with the column name");
   EXPECT_EQ(complaint("name,first_frame,last_frame,methd\n", clip),
             "plan.csv:1: no column of a gap plan is called \"methd\"");
-  EXPECT_EQ(complaint("{\n\"gaps\": [\n}", clip), "plan.csv:3: this is not valid JSON from here on");
+  EXPECT_EQ(complaint("{\n\"gaps\": [\n}", clip),
+            "plan.csv:3: this is not valid JSON from here on");
   const std::string nested(1'000'000, '[');
   EXPECT_EQ(complaint("{\n\"gaps\": " + nested, clip),
             "plan.csv:2: JSON is nested more than 64 levels deep");

@@ -188,7 +188,7 @@ step('the keyboard alone does it all', async () => {
   const reached = new Set();
   for (let i = 0; i < 25; ++i) {
     await page.keyboard.press('Tab');
-    reached.add(await page.evaluate(() => document.activeElement.textContent.trim() || document.activeElement.getAttribute('aria-label')));
+    reached.add(await page.evaluate(() => `${document.activeElement.getAttribute('aria-label') ?? ''} ${document.activeElement.textContent.trim()}`));
   }
   for (const name of ['Front', 'Follow', 'Play', 'frame', 'speed']) assert.ok([...reached].some((one) => one.includes(name)), `${name} is not reached`);
 });
