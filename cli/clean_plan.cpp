@@ -155,21 +155,6 @@ CleanSettings clean_settings(const Settings& settings) {
   return result;
 }
 
-RunFiles files_of(const CleanPlan& plan, const Arguments& arguments) {
-  RunFiles files = files_read(plan, arguments);
-  files.reads("--contacts", arguments.text("contacts"));
-  for (const CleanJob& job : plan.jobs) {
-    files.reads("IN", job.input);
-    const char* const option = plan.folder.empty() ? "--output" : "--output-dir";
-    if (plan.dry_run)
-      files.would_write(option, job.output);
-    else
-      files.writes(option, job.output, job.input);
-  }
-  plan.reports.add_to(files);
-  return files;
-}
-
 }  // namespace
 
 Settings merged_settings(const Arguments& arguments) {
