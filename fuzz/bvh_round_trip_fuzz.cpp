@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/io.hpp"
+#include "laws.hpp"
 
 namespace {
 
@@ -20,10 +20,6 @@ bool is_sensible(const Clip& clip) {
   const auto sensible = [](Vec3 v) { return norm(v) < 1e6; };
   return std::all_of(clip.root_positions.begin(), clip.root_positions.end(), sensible) &&
          std::all_of(clip.joint_translations.begin(), clip.joint_translations.end(), sensible);
-}
-
-void check(bool condition) {
-  if (!condition) std::abort();
 }
 
 // `source`: unless null, what keeps its exact value where the clip has it.
@@ -47,7 +43,7 @@ void check_round_trip(const Clip& clip, const Clip* source, const std::string& t
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string bytes(reinterpret_cast<const char*>(data), size);
+  const std::string bytes = text_of(data, size);
   std::uint64_t seed = 14695981039346656037u;
   for (const char byte : bytes) seed = (seed ^ static_cast<unsigned char>(byte)) * 1099511628211u;
   Clip clip;

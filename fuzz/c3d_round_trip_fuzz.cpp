@@ -9,14 +9,11 @@
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/io.hpp"
+#include "laws.hpp"
 
 namespace {
 
 using namespace kinemend;
-
-void check(bool condition) {
-  if (!condition) std::abort();
-}
 
 MarkerClip read(const std::string& bytes) {
   ReadOptions options;
@@ -69,7 +66,7 @@ void check_round_trip(const MarkerClip& clip, const MarkerClip* source, double s
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string bytes(reinterpret_cast<const char*>(data), size);
+  const std::string bytes = text_of(data, size);
   std::uint64_t seed = 14695981039346656037u;
   for (const char byte : bytes) seed = (seed ^ static_cast<unsigned char>(byte)) * 1099511628211u;
   MarkerClip clip;

@@ -1,14 +1,13 @@
+// Any bytes, in pieces of any size: frames that add up and the same text however the bytes arrive,
+// and never an error. The first byte chooses how lines are read and how large the pieces are. As
+// datagrams, which end at each zero byte: the same, however often the sender goes and frames wait.
 #include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <string>
 #include <string_view>
 
 #include "kinemend/experimental/live.hpp"
 #include "kinemend/methods.hpp"
+#include "laws.hpp"
 
-// Any bytes, in pieces of any size: frames that add up and the same text however the bytes arrive,
-// and never an error. The first byte chooses how lines are read and how large the pieces are.
 namespace {
 
 using namespace kinemend;
@@ -18,8 +17,7 @@ struct Result {
   LiveCounts counts;
 };
 
-Result feed(std::string_view bytes, std::uint8_t choice, std::size_t piece) {
-  static const auto cleaner = make_cleaner("median");
+LiveOptions options_of(std::uint8_t choice) {
   LiveOptions options;
   options.numbered = (choice & 1) != 0;
   options.format = (choice & 2) != 0 ? LiveFormat::jsonl : LiveFormat::bvh;
@@ -27,14 +25,44 @@ Result feed(std::string_view bytes, std::uint8_t choice, std::size_t piece) {
   options.strength = (choice & 8) != 0 ? 0.5 : 1;
   options.longest_gap_s = 0.1;
   options.most_line_bytes = 4096;
+  return options;
+}
+
+template <class Feed>
+Result result_of(const LiveOptions& options, const Feed& feed) {
+  static const auto cleaner = make_cleaner("median");
   Result result;
   LiveSession session(*cleaner, options, [&](const LivePiece& out) { result.text += out.text; });
-  for (; !bytes.empty(); bytes.remove_prefix(piece < bytes.size() ? piece : bytes.size()))
-    session.feed(bytes.substr(0, piece));
-  session.hold();
+  feed(session);
   session.finish();
   result.counts = session.counts();
+  const LiveCounts& c = result.counts;
+  check(c.frames_out == c.frames_in + c.made_up + c.held);
   return result;
+}
+
+Result in_pieces(std::string_view bytes, std::uint8_t choice, std::size_t piece) {
+  return result_of(options_of(choice), [&](LiveSession& session) {
+    for (; !bytes.empty(); bytes.remove_prefix(piece < bytes.size() ? piece : bytes.size()))
+      session.feed(bytes.substr(0, piece));
+    session.hold();
+  });
+}
+
+Result as_datagrams(std::string_view bytes, std::uint8_t choice) {
+  LiveOptions options = options_of(choice);
+  options.datagrams = true;
+  options.reorder_frames = choice / 32;
+  return result_of(options, [&](LiveSession& session) {
+    for (std::size_t sent = 0; !bytes.empty(); ++sent) {
+      const std::string_view datagram = bytes.substr(0, bytes.find('\0'));
+      bytes.remove_prefix(std::min(datagram.size() + 1, bytes.size()));
+      session.feed(datagram);
+      session.end_line();
+      if ((choice & 16) != 0 && sent % 5 == 4) session.settle();
+      if ((choice & 16) != 0 && sent % 7 == 6) session.drop_line();
+    }
+  });
 }
 
 }  // namespace
@@ -42,9 +70,11 @@ Result feed(std::string_view bytes, std::uint8_t choice, std::size_t piece) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::string_view bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
-  const Result whole = feed(bytes, data[0], bytes.size() + 1);
-  const LiveCounts& c = whole.counts;
-  if (c.frames_out != c.frames_in + c.made_up + c.held) std::abort();
-  if (feed(bytes, data[0], 1 + data[0] / 16).text != whole.text) std::abort();
+  const Result whole = in_pieces(bytes, data[0], bytes.size() + 1);
+  check(in_pieces(bytes, data[0], 1 + data[0] / 16).text == whole.text);
+  const Result datagrams = as_datagrams(bytes, data[0]);
+  // Garbage among datagrams is counted, and only a missing number is a lost frame.
+  if ((data[0] & 1) == 0) check(datagrams.counts.made_up == 0);
+  check(datagrams.counts.reordered <= datagrams.counts.frames_in);
   return 0;
 }

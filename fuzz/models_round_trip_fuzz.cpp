@@ -1,30 +1,20 @@
 // Any bytes: a model whose body keeps the rules and that is written back as the same model, or an
 // error of one line that names the file.
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/model.hpp"
-
-namespace {
-
-void check(bool condition) {
-  if (!condition) std::abort();
-}
-
-}  // namespace
+#include "laws.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace kinemend;
-  const std::string bytes(reinterpret_cast<const char*>(data), size);
+  const std::string bytes = text_of(data, size);
   Model model;
   try {
     model = parse_model(bytes, "fuzz");
   } catch (const Error& error) {
-    const std::string message = error.what();
-    check(error.kind() == ErrorKind::unreadable_input && message.rfind("fuzz: ", 0) == 0);
-    check(message.find_first_of("\r\n") == message.npos);
+    check_refusal(error, {ErrorKind::unreadable_input}, "fuzz: ");
     return 0;
   }
   model.layout.validate();

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -9,27 +8,25 @@
 #include "../tests/io/mended.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
+#include "laws.hpp"
 
 /// Any bytes give a take that keeps the rules and is written back to the byte, or an error of one
 /// line that names the file. A take that the reader mended may be written with other bytes, which
 /// are then written back to the byte.
 inline int check_read_law(const std::uint8_t* data, std::size_t size, std::string_view format) {
   using namespace kinemend;
-  const std::string bytes(reinterpret_cast<const char*>(data), size);
+  const std::string bytes = text_of(data, size);
   ReadOptions options;
   options.format = format;
   try {
     const TakeResult result = read_take(bytes, "fuzz", options);
     std::visit([](const auto& clip) { clip.validate(); }, result.take);
     const std::string written = write_take(result.take, format);
-    if (written != bytes && !test::was_mended(result.diagnostics)) std::abort();
-    if (written != bytes && write_take(read_take(written, "fuzz", options).take, format) != written)
-      std::abort();
+    check(written == bytes || test::was_mended(result.diagnostics));
+    check(written == bytes ||
+          write_take(read_take(written, "fuzz", options).take, format) == written);
   } catch (const Error& error) {
-    const std::string message = error.what();
-    const bool names_file = message.rfind("fuzz:", 0) == 0;
-    if (error.kind() != ErrorKind::unreadable_input || !names_file) std::abort();
-    if (message.find_first_of("\r\n") != message.npos) std::abort();
+    check_refusal(error, {ErrorKind::unreadable_input}, "fuzz:");
   }
   return 0;
 }

@@ -1,19 +1,15 @@
 // Any bytes: tensors that are written back as the same tensors, and then always as the same bytes,
 // or an error of one line that names the file.
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/tensor.hpp"
+#include "laws.hpp"
 
 namespace {
 
 using namespace kinemend;
-
-void check(bool condition) {
-  if (!condition) std::abort();
-}
 
 void check_same(const TensorFile& a, const TensorFile& b) {
   check(a.metadata == b.metadata && a.tensors.size() == b.tensors.size());
@@ -28,14 +24,12 @@ void check_same(const TensorFile& a, const TensorFile& b) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string bytes(reinterpret_cast<const char*>(data), size);
+  const std::string bytes = text_of(data, size);
   TensorFile file;
   try {
     file = parse_tensors(bytes, "fuzz");
   } catch (const Error& error) {
-    const std::string message = error.what();
-    check(error.kind() == ErrorKind::unreadable_input && message.rfind("fuzz: byte ", 0) == 0);
-    check(message.find_first_of("\r\n") == message.npos);
+    check_refusal(error, {ErrorKind::unreadable_input}, "fuzz: byte ");
     return 0;
   }
   const std::string written = write_tensors(file);

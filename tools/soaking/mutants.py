@@ -5,7 +5,7 @@ import shutil
 from . import outputs
 from .mutations import mutate
 from .program import odd_characters
-from .seeds import TAKE_FORMATS, fixtures
+from .seeds import FIXTURES, TAKE_FORMATS, fixtures
 
 # What is mutated, and how often among a hundred trials.
 CASES = {"take": 48, "gaps": 8, "contacts": 7, "plan": 9, "config": 8, "model": 7, "noise": 4, "list": 4, "words": 5}
@@ -25,7 +25,7 @@ def _take(rng, folder, seeds):
     data = source.read_bytes()
     (folder / name).write_bytes(mutate(rng, data, rng.choice(paths).read_bytes(), name))
     if source.suffix == ".amc":
-        asf = rng.choice(fixtures("asf")) if rng.random() < 0.2 else fixtures("asf")[-2]
+        asf = rng.choice(fixtures("asf")) if rng.random() < 0.2 else FIXTURES / "asf" / "good" / "figure.asf"
         text = asf.read_bytes()
         (folder / "take.asf").write_bytes(mutate(rng, text, data, "take.asf") if rng.random() < 0.4 else text)
     same = "out" + source.suffix
@@ -122,6 +122,8 @@ def _broken_files(program, folder, before, outs, result):
         path = folder / out
         if path.is_file() and result.code not in (0, 1):
             found.append(f"exit code {result.code}, and {out} was written")
+        elif path.is_dir() and result.code not in (0, 1) and not any(path.iterdir()):
+            found.append(f"exit code {result.code}, and the empty folder {out} was left")
         elif not path.exists() and result.code == 0:
             found.append(f"exit code 0, and {out} was not written")
         elif path.is_file():

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+#include "kinemend/error.hpp"
+
+// What every fuzz target asks for.
+
+/// Ends the program where a law is broken, so that libFuzzer keeps the input.
+inline void check(bool holds) {
+  if (!holds) std::abort();
+}
+
+inline std::string text_of(const std::uint8_t* data, std::size_t size) {
+  return {reinterpret_cast<const char*>(data), size};
+}
+
+/// A refusal has one of these kinds, names the file and is one line that a terminal can show.
+inline void check_refusal(const kinemend::Error& error,
+                          std::initializer_list<kinemend::ErrorKind> kinds,
+                          std::string_view begins = "fuzz") {
+  const std::string message = error.what();
+  bool is_known = false;
+  for (const kinemend::ErrorKind kind : kinds) is_known = is_known || error.kind() == kind;
+  check(is_known && message.starts_with(begins) && message.size() < 4096);
+  for (const char c : message) check(static_cast<unsigned char>(c) >= 0x20 && c != 0x7F);
+}

@@ -1,0 +1,57 @@
+// Any bytes as a model: a body that keeps the rules, and a method that cleans a take with finite
+// numbers, or errors of one line.
+#include <cmath>
+#include <memory>
+
+#include "kinemend/cleaner.hpp"
+#include "kinemend/experimental/model.hpp"
+#include "kinemend/methods.hpp"
+#include "laws.hpp"
+#include "small_takes.hpp"
+
+namespace {
+
+using namespace kinemend;
+
+std::unique_ptr<Cleaner> cleaner_of(const std::shared_ptr<const Model>& model) {
+  if (model->method == "wiener") return make_wiener({}, model);
+  if (model->method == "example") return make_example({}, model);
+  if (model->method == "sparse") return make_sparse({}, model);
+  if (model->method == "kalman-learned") return make_kalman_learned({}, model);
+  if (model->method == "recurrent") return make_recurrent({}, model);
+  return nullptr;
+}
+
+bool is_finite(const Clip& clip) {
+  for (const Quat& q : clip.local_rotations) {
+    if (!std::isfinite(q.w + q.x + q.y + q.z)) return false;
+  }
+  for (const Vec3& v : clip.root_positions) {
+    if (!std::isfinite(v.x + v.y + v.z)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const Clip joints = small_clip();
+  std::shared_ptr<const Model> model;
+  try {
+    model = std::make_shared<const Model>(parse_model(text_of(data, size), "fuzz"));
+  } catch (const Error& error) {
+    check_refusal(error, {ErrorKind::unreadable_input}, "fuzz: ");
+    return 0;
+  }
+  model->layout.validate();
+  try {
+    const auto cleaner = cleaner_of(model);
+    if (!cleaner) return 0;
+    Clip clip = joints;
+    clean_in_place(*cleaner, clip);
+    check(is_finite(clip));
+  } catch (const Error& error) {
+    check_refusal(error, {ErrorKind::unreadable_input, ErrorKind::usage}, "");
+  }
+  return 0;
+}
