@@ -16,14 +16,14 @@
 // Gap filling from the take itself and, where one is given, by a trained model.
 namespace kinemend {
 
-/// What a trained model makes of the gaps of a take of joints.
+/// How a trained model fills the gaps of a take of joints.
 struct LearnedFilling {
-  std::vector<Quat> rotations;  ///< F x J, local; of samples that are observed nothing is looked at
+  std::vector<Quat> rotations;  ///< F x J, local; entries for observed samples are ignored
   std::vector<std::string>
-      left_out;  ///< J: why the model fills no gap of the joint; empty: it does
+      left_out;  ///< J: why the model does not fill gaps of the joint; empty: it does
 };
-/// Such a model, of a take without its calibration pose. Called from several threads at once. The
-/// one there is: `make_recurrent_fill` (kinemend/methods.hpp).
+/// Such a model. It gets a take without its calibration pose and is called from several threads at
+/// once. `make_recurrent_fill` (kinemend/methods.hpp) makes one.
 using LearnedFill = std::function<LearnedFilling(const Clip& clip)>;
 
 struct FillSettings {
@@ -79,9 +79,9 @@ std::span<const FillMethod> fill_methods();
 
 /// Fills the missing samples in place: a filled sample is observed, and its residual is 0. A filled
 /// span meets its ends in value and velocity (in value only by `slerp`, `pchip` and `recurrent`).
-/// What the method's rules refuse stays missing and is listed. Errors: `ErrorKind::usage` for a
-/// method, a name or a donor that there is not, and for a learned method without its model. What a
-/// model does not know `auto` fills by its own rules, and a warning says so.
+/// Gaps that the method's rules refuse stay missing and are listed. Gaps that a model cannot fill
+/// are filled by `auto` under its own rules, with a warning. Errors: `ErrorKind::usage` for an
+/// unknown method, name or donor, and for a learned method without its model.
 FillReport fill_gaps(MarkerClip& clip, const FillSettings& settings = {});
 /// The same for rotations, and positions of joints, that are not observed. A joint with one or two
 /// rotation channels gets rotations that these can hold.

@@ -11,37 +11,38 @@ namespace kinemend {
 
 struct Model;
 
-// Every cleaning method as a plain options struct and the function that makes its cleaner. Times
-// are seconds and frequencies hertz, taken against the clip's own rate. The factories throw
-// `ErrorKind::usage` for a value out of range.
+// Every cleaning method: a struct of options and the function that makes its cleaner. Times are in
+// seconds and frequencies in hertz, so that options mean the same at every frame rate. The
+// functions throw `ErrorKind::usage` for a value out of range.
 
-/// Orientation filter of Lee & Shin's construction with a Gaussian mask (Courty 2008, eq. 2-3).
+/// Smoothing with Gaussian weights in time, by Lee & Shin's orientation filter (Courty 2008, eq.
+/// 2-3).
 struct GaussianOptions {
-  double width_s = 0.02;  ///< standard deviation of the mask
+  double width_s = 0.02;  ///< standard deviation of the weights
 };
 std::unique_ptr<Cleaner> make_gaussian(const GaussianOptions& options = {});
 
 /// Low-pass Butterworth on quaternions with continued signs, forward and backward (zero phase).
 struct ButterworthOptions {
-  std::int64_t order = 4;  ///< of one direction, 1 to 12
-  double cutoff_hz = 8;    ///< half power of one direction
-  bool causal = false;     ///< forward only: delays the motion, and runs live
+  std::int64_t order = 4;  ///< filter order of each pass, 1 to 12
+  double cutoff_hz = 8;    ///< half power of one pass; below half of the frame rate
+  bool causal = false;     ///< forward pass only: delays the motion, and can run live
 };
 std::unique_ptr<Cleaner> make_butterworth(const ButterworthOptions& options = {});
 
 /// Running median of rotations (the rotation with the least sum of chordal distances to the
 /// window's samples) and of positions.
 struct MedianOptions {
-  double window_s = 0.06;  ///< whole window
+  double window_s = 0.06;  ///< length of the whole window
 };
 std::unique_ptr<Cleaner> make_median(const MedianOptions& options = {});
 
-/// Hampel despiking: a sample further from its window's median than `threshold` times the spread is
-/// replaced by the median.
+/// Hampel despiking: a sample farther from the median of its window than `threshold` robust
+/// deviations is replaced by the median.
 struct HampelOptions {
-  double window_s = 0.10;    ///< whole window
+  double window_s = 0.10;    ///< length of the whole window
   double threshold = 5;      ///< in robust standard deviations per axis
-  double minimum_deg = 1.0;  ///< smaller deviations are no spikes
+  double minimum_deg = 1.0;  ///< smallest distance from the median that counts as a spike
 };
 std::unique_ptr<Cleaner> make_hampel(const HampelOptions& options = {});
 
@@ -53,7 +54,7 @@ struct WaveletCleanerOptions {
 };
 std::unique_ptr<Cleaner> make_wavelet(const WaveletCleanerOptions& options = {});
 
-/// Blender's weighted moving mean (its graph editor's Smooth Keys), `passes` times.
+/// The weighted moving mean of five frames of Blender's Smooth Keys, applied `passes` times.
 struct WeightedMeanOptions {
   std::int64_t passes = 4;
 };
@@ -62,9 +63,9 @@ std::unique_ptr<Cleaner> make_weighted_mean(const WeightedMeanOptions& options =
 /// Error-state Kalman filter or Rauch-Tung-Striebel smoother on SO(3).
 struct KalmanOptions {
   std::string model = "velocity";  ///< position (Lou & Chai's baseline) or velocity
-  bool smoother = true;            ///< off: the causal filter, which also runs live
+  bool smoother = true;            ///< off: past frames only, which can run live
   double noise_deg = 0;            ///< measurement noise per axis; 0: estimated from the take
-  double agility = 1;              ///< process noise, relative to the default for human motion
+  double agility = 1;              ///< how quickly the motion may change, 1: everyday motion
 };
 std::unique_ptr<Cleaner> make_kalman(const KalmanOptions& options = {});
 
@@ -73,27 +74,27 @@ std::unique_ptr<Cleaner> make_kalman(const KalmanOptions& options = {});
 struct OneEuroOptions {
   double min_cutoff_hz = 1.5;       ///< cutoff at rest
   double speed_coefficient = 10.0;  ///< hertz of cutoff per radian per second
-  double speed_cutoff_hz = 4.0;     ///< low-pass on the speed itself
+  double speed_cutoff_hz = 4.0;     ///< cutoff of the low-pass filter on the speed
 };
 std::unique_ptr<Cleaner> make_one_euro(const OneEuroOptions& options = {});
 
 /// Bilateral filter on SO(3) (Courty 2008): averages samples that are near in time and in angle, so
-/// that quick moves stay.
+/// that quick moves are kept.
 struct BilateralOptions {
-  double sigma_t_s = 0.01;  ///< temporal width of one pass
-  double sigma_g_deg = 8;   ///< width in rotation angle (geodesic distance |Log(a^-1 b)|)
+  double sigma_t_s = 0.01;  ///< standard deviation of the weights in time, of one pass
+  double sigma_g_deg = 8;   ///< the same in rotation angle (geodesic distance |Log(a^-1 b)|)
   std::int64_t passes = 5;
-  std::string ends = "reflect";  ///< reflect (a steady turn goes on) or mirror (the paper's)
+  std::string ends = "reflect";  ///< reflect (continues a steady turn) or mirror (the paper's)
 };
 std::unique_ptr<Cleaner> make_bilateral(const BilateralOptions& options = {});
 
-/// Non-local pose means (Dean 2016): a pose becomes the mean of the poses about it in time whose
-/// patches, the poses around them, are like its own. Causal, it leaves the root position alone.
+/// Non-local pose means (Dean 2016): replaces a pose by the mean of nearby poses that occur in
+/// similar stretches of motion (patches). With `causal` the root position is not changed.
 /// Errors, beside values out of range: `causal` with the whole take as window.
 struct NonlocalOptions {
-  double window_s = 0.175;      ///< whole learning window (21 poses at 120 Hz); 0: the whole take
+  double window_s = 0.175;      ///< whole window that is searched (21 poses at 120 Hz); 0: all
   double patch_s = 0.092;       ///< whole patch (11 poses at 120 Hz)
-  std::int64_t neighbours = 0;  ///< the k most similar patches; 0: all in the window
+  std::int64_t neighbours = 0;  ///< number of similar poses that are averaged; 0: all
   /// The paper's sigma, as the rotation angle of a channel: patches whose root mean square
   /// difference per channel is this weigh exp(-1/2). 0: from the estimated noise, which needs the
   /// take (or, causal, its past).
@@ -103,23 +104,23 @@ struct NonlocalOptions {
 };
 std::unique_ptr<Cleaner> make_nonlocal(const NonlocalOptions& options = {});
 
-/// The default: measures each joint's noise, repairs spikes, smooths as much as the noise asks,
-/// leaves clean takes alone.
+/// The default: measures the noise of each joint or marker, repairs spikes, smooths by the measured
+/// noise, and leaves clean takes unchanged.
 struct AutoOptions {
-  double sensitivity = 1;  ///< scales the estimated noise: above 1 cleans more, below 1 less
+  double sensitivity = 1;  ///< factor on the estimated noise: above 1 smooths more, below 1 less
   bool despike = true;
 };
 std::unique_ptr<Cleaner> make_auto(const AutoOptions& options = {});
 
 // Methods with a learned model. `model` is the path of a model file; empty: the model that ships.
-// `map` is the path of a file of names (`parse_name_map`); empty: names and topology only. A model
-// handed over takes the place of the path. Errors, beside values out of range: those of `model_for`
-// and `parse_name_map`; of `clean`: `ErrorKind::usage` for a body that the model does not know.
-// Parts that the model does not know are cleaned by `auto`. Gaps of parts that it knows are filled
-// with `fill`, those of markers that are never seen included.
+// `map` is the path of a file that maps names (`parse_name_map`); empty: joints are matched by name
+// and topology. A model that is passed to the function replaces the path. Errors, beside values out
+// of range: those of `model_for` and `parse_name_map`; of `clean`: `ErrorKind::usage` for a body
+// that the model does not know. Parts that the model does not know are cleaned by `auto`. Gaps of
+// parts that it knows are filled with `fill`, those of markers that are never seen included.
 
-/// Example-based denoising (Lou & Chai 2010): what the model's filter bases can express is kept
-/// (eq. 11 and 16).
+/// Example-based denoising (Lou & Chai 2010): keeps the motion that the model's filter bases can
+/// express (eq. 11 and 16).
 struct ExampleOptions {
   std::string model;
   std::string map;
@@ -129,7 +130,7 @@ struct ExampleOptions {
   bool robust = true;              ///< off: the linear filter of eq. 7
   double welsch_deg = 0;           ///< p of eq. 9 (the paper: 3); 0: from the estimated noise
   double lambda = 0;               ///< of eq. 10 (the paper: 0.1); 0: from the noise and the model
-  std::int64_t bases = 0;          ///< of those the model has; 0: from the noise, at most all
+  std::int64_t bases = 0;          ///< number of filter bases; 0: all of the model
   std::int64_t iterations = 1000;  ///< at most
   /// Stop where an iteration gains less than this share of the objective; with gaps, which weigh
   /// little in it and settle last, less than a thousandth of that.
@@ -161,18 +162,18 @@ struct SparseOptions {
   std::string loss = "mixed";  ///< mixed, l2 (eq. 4) or l1 (eq. 5)
   /// Of eq. 4 and 5, relative to the largest correlation that noise alone has with the atoms.
   double lambda = 0.1;
-  std::int64_t hops = 4;  ///< windows over a frame, whose results are averaged
-  /// quick: adds what the atoms do not express of markers, smoothed, and leaves to `auto` what they
-  /// are wrong about; or paper: its solver, and nothing after it.
+  std::int64_t hops = 4;  ///< number of overlapping windows that are averaged in each frame
+  /// quick: adds the motion of markers that the atoms cannot express, smoothed, and takes the
+  /// result of `auto` where the atoms are wrong; or paper: the algorithm of the paper alone.
   std::string solver = "quick";
   bool fill = true;
 };
 std::unique_ptr<Cleaner> make_sparse(const SparseOptions& options = {},
                                      std::shared_ptr<const Model> model = nullptr);
 
-/// A network corrects what `auto` makes of a take of joints: for each joint and frame which bands
-/// of motion to keep, and a residual (after Mall et al. 2017). It knows nothing of the noise
-/// beforehand. Errors of `clean`, beside those above: a take of markers. Errors: `ErrorKind::usage`
+/// A neural network improves the result of `auto` for a take of joints: it predicts for each joint
+/// and frame which bands of motion to keep, and a residual (after Mall et al. 2017). It is not told
+/// the noise. Errors of `clean`, beside those above: a take of markers. Errors: `ErrorKind::usage`
 /// for a gap model or `live` beside a model that is no filter network, for both together, and for a
 /// gap model of another body.
 struct RecurrentOptions {
@@ -210,7 +211,7 @@ LearnedFill make_recurrent_fill(const RecurrentFillOptions& options,
 struct KalmanLearnedOptions {
   std::string model;
   std::string map;
-  bool smoother = true;  ///< off: the causal filter
+  bool smoother = true;  ///< off: past frames only
   double noise_deg = 0;  ///< measurement noise per channel; 0: estimated from the take
   bool fill = true;
 };
