@@ -13,8 +13,8 @@ if(KINEMEND_DEVELOPER)
   if(CMAKE_UNITY_BUILD)
     target_compile_options(kinemend_settings INTERFACE -Wno-shadow)
   endif()
-  # GCC 12 raises a false alarm about "text" + std::string (its bug 105651).
-  target_compile_options(kinemend_settings INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+  # GCC 12 raises false alarms about "text" + std::string (its bug 105651).
+  target_compile_options(kinemend_settings INTERFACE "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-stringop-overflow>")
 endif()
 add_library(kinemend_light INTERFACE)
 target_compile_options(kinemend_light INTERFACE ${KINEMEND_LIGHT_LEVEL})
