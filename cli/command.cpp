@@ -121,7 +121,7 @@ std::string range_text(const OptionSpec& spec, bool has_default) {
       text = "in " + spec.unit;
     }
   }
-  const std::string value = to_string(spec.default_value);
+  const std::string value = kinemend::to_string(spec.default_value);
   if (!has_default || value.empty()) return text;
   return fmt::format("{}{}default {}", text, text.empty() ? "" : "; ", value);
 }

@@ -128,7 +128,7 @@ std::string toml_quoted(std::string_view text) {
 
 std::string toml_text(const OptionValue& value) {
   const auto* text = std::get_if<std::string>(&value);
-  return text ? toml_quoted(*text) : to_string(value);
+  return text ? toml_quoted(*text) : kinemend::to_string(value);
 }
 
 std::string comment(std::string_view text) {
@@ -217,7 +217,7 @@ std::string settings_text(const Command& clean, const Settings& settings,
     }
     const auto set = settings.values.find(name);
     const OptionValue& value = set == settings.values.end() ? flag.spec.default_value : set->second;
-    if (name == "method") chosen = to_string(value);
+    if (name == "method") chosen = kinemend::to_string(value);
     text += setting_text(flag.spec, flag.details, toml_text(value));
   }
   for (const Method& method : methods()) {

@@ -32,7 +32,7 @@ std::string text_of_method(const Method& method) {
     const bool is_switch = std::holds_alternative<bool>(spec.default_value);
     table.add({(is_switch ? "--[no-]" : "--") + dashed(spec.name),
                is_switch ? (std::get<bool>(spec.default_value) ? "on" : "off")
-                         : to_string(spec.default_value),
+                         : kinemend::to_string(spec.default_value),
                spec.unit, is_switch || !spec.choices.empty() ? "" : range_text(range, false),
                spec.help});
     if (!spec.choices.empty())

@@ -76,7 +76,7 @@ std::string csv_of(const AnyClip& clip, std::span<const PlannedGap> plan) {
                         row.longest_gap_s > 0 ? fmt::format("{}", row.longest_gap_s) : "",
                         cell(row.filled_by), cell(fmt::format("{}", fmt::join(row.evidence, ";"))),
                         number(row.expected_error), cell(unit_of(clip, row)), cell(row.reason));
-    for (const GapPreview& preview : row.previews) text += "," + preview_cell(preview);
+    for (const GapPreview& preview : row.previews) text.append(",").append(preview_cell(preview));
     text += "\n";
   }
   return text;
