@@ -182,7 +182,7 @@ std::vector<std::string> meaningless_flags(const Take& take, const CleanPlan& pl
   if (is_given("fix_swaps"))
     lines.emplace_back("--fix-swaps has no effect on joints; only marker labels can be swapped");
   if (is_given("unlabelled")) lines.emplace_back("--unlabelled has no effect on joints");
-  const bool has_gaps = !clip->observed.empty() || !clip->observed_positions.empty();
+  const bool has_gaps = plan.gaps || !clip->observed.empty() || !clip->observed_positions.empty();
   if (!has_gaps && (is_given("fill") || is_given("fill_all"))) {
     lines.push_back(
         fmt::format("--{} has no effect: the take states no gaps; --gaps FILE lists them",

@@ -110,7 +110,7 @@ TEST_F(Clean, NoStrengthChangesNothing) {
   noisy("walk.bvh");
   const Ran ran = run({"clean", "walk.bvh", "--strength", "0"});
   EXPECT_EQ(ran.code, 0);
-  EXPECT_THAT(ran.out, HasSubstr("walk.bvh: clean: nothing changed"));
+  EXPECT_THAT(ran.out, HasSubstr("walk.bvh: nothing changed: --strength 0 keeps the input"));
   EXPECT_EQ(contents(folder / "walk.bvh"), contents(folder / "walk.clean.bvh"));
 }
 

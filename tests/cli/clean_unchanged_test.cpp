@@ -155,7 +155,8 @@ TEST_F(Unchanged, CheckAndCleanCountTheSameSpikesAndNoisyJoints) {
   ASSERT_EQ(run({"clean", "walk.bvh", "--dry-run", "--report", "clean.json"}).code, 0);
   const auto count = [&](const char* name, const std::string& kind) {
     std::size_t found = 0;
-    for (const Json& finding : Json::parse(contents(folder / name))["takes"][0]["findings"])
+    const Json report = Json::parse(contents(folder / name));
+    for (const Json& finding : report["takes"][0]["findings"])
       found += finding["kind"] == kind ? 1 : 0;
     return found;
   };
