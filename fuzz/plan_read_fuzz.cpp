@@ -37,7 +37,9 @@ void check_plan(const std::string& text, const AnyClip& clip) {
     check_refusal(error, {ErrorKind::unreadable_input});
     return;
   }
-  check_same(plan, parse_plan(plan_json(clip, plan), "again", clip));
+  // JSON replaces bytes that are not UTF-8, once.
+  const std::string json = plan_json(clip, plan);
+  check(plan_json(clip, parse_plan(json, "again", clip)) == json);
   check_same(plan, parse_plan(plan_csv(clip, plan), "again", clip));
   try {
     AnyClip filled = clip;

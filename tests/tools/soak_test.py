@@ -72,6 +72,7 @@ class Soak(unittest.TestCase):
 
     def test_a_signal_is_found_and_the_command_that_is_kept_repeats_it(self):
         kept = self.fault_is_found("kill -SEGV $$", "ended by SIGSEGV")
+        self.assertRegex(kept[0].read_text(), r"\n  kinemend [a-z]+ ")
         files = {path.name: path.read_bytes() for path in (kept[0].parent / "files").iterdir()}
         command = next(line for line in kept[0].read_text().splitlines() if "tools/soak" in line).split()
         code, text = self.soak(self.folder / "kinemend", *command[2:])

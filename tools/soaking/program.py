@@ -66,7 +66,7 @@ class Program:
             time.sleep(pause)
             pause = min(pause * 1.3, 0.05)
         process.returncode = os.waitstatus_to_exitcode(status)
-        return Result([str(w) for w in words], process.returncode, hung, time.monotonic() - began, usage.ru_maxrss,
+        return Result([os.fsdecode(word) for word in words], process.returncode, hung, time.monotonic() - began, usage.ru_maxrss,
                       (self.logs / f"{label}.out").read_bytes(), (self.logs / f"{label}.err").read_bytes())
 
     def run(self, words, folder, *, cores=2, stdin=None, label="run"):
