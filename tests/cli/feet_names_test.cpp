@@ -10,13 +10,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos;
-       at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-  return text;
-}
-
 class FeetNames : public Program {
  protected:
   /// walk.bvh, the same with legs that bear numbers, and a map that tells what they are.

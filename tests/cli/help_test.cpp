@@ -26,13 +26,6 @@ std::set<std::string> options_in(const std::string& help) {
   return names;
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos;
-       at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-  return text;
-}
-
 TEST_F(Help, BothLevelsExistForEveryCommand) {
   for (const std::string& command : commands) {
     const Ran brief = run({command, "-h"}), full = run({command, "--help"});

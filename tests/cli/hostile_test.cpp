@@ -110,12 +110,6 @@ TEST_F(Hostile, EveryOddButUsableFixtureIsCleaned) {
   EXPECT_EQ(files().size(), words.size() - 2);
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != text.npos; at += to.size())
-    text.replace(at, from.size(), to);
-  return text;
-}
-
 TEST_F(Hostile, NamesInAFileCannotCommandTheTerminal) {
   put(folder / "a.bvh", replaced(hand_take(), "LeftArm", "Arm\x1b[2J\xE2\x80\xAE\xC3\xA4\xFF"));
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{

@@ -146,6 +146,14 @@ MATCHER(IsOneLine, "") {
   return std::count(arg.begin(), arg.end(), '\n') == 1 && arg.back() == '\n';
 }
 
+/// The text with `to` in every place of `from`.
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos;
+       at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
 inline std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   for (std::size_t begin = 0; begin < text.size();) {
