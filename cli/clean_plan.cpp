@@ -64,7 +64,6 @@ std::vector<CleanJob> make_jobs(const Arguments& arguments) {
     throw Error(ErrorKind::usage, "clean: --output and --output-dir cannot be combined");
   if (!output.empty() && inputs.size() > 1)
     throw Error(ErrorKind::usage, "clean: --output is for one take; use --output-dir for several");
-  check_take_ending(output);
   std::vector<CleanJob> jobs;
   std::map<std::string, std::string> taken;
   for (const std::string& input : inputs) {
@@ -259,6 +258,7 @@ CleanPlan make_clean_plan(const Arguments& arguments) {
   plan.verbose = arguments.flag("verbose");
   plan.quiet = arguments.flag("quiet");
   files_of(plan, arguments).check(plan.json);
+  check_take_ending(arguments.text("output"));
   return plan;
 }
 

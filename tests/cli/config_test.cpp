@@ -39,7 +39,7 @@ TEST_F(Config, APresetAndItsPrintedFileCleanAlike) {
 TEST_F(Config, EverySettingIsPrintedWithItsUnitAndRange) {
   const Ran ran = run({"clean", "--preset", "biomech", "--print-config"});
   EXPECT_THAT(ran.out, HasSubstr("method = \"butterworth\""));
-  EXPECT_THAT(ran.out, HasSubstr("(0.05 to 500 Hz; default 8)\ncutoff_hz = 7.48\n"));
+  EXPECT_THAT(ran.out, HasSubstr("frame rate (0.05 to 500 Hz; default\n# 8)\ncutoff_hz = 7.48\n"));
   EXPECT_THAT(ran.out, HasSubstr("Typical: "));
   for (const char* name : {"strength", "max_change_deg", "peak_loss_limit", "joints", "exclude",
                            "root_position", "strict"})
@@ -132,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"strength = 1.5\n", 2, "1: strength: 1.5 is outside 0 to 1"},
                     Fault{"strength = \"much\"\n", 2, "1: strength: much is not a number"},
                     Fault{"joints = \"Left*\"\n", 2, "1: joints: is not a list"},
-                    Fault{"joints = [\n\"a\",\n3]\n", 2, "3: joints: takes texts in quotes"},
+                    Fault{"joints = [\n\"a\",\n3]\n", 2, "3: joints: expected texts in quotes"},
                     Fault{"strength = 1979-05-27\n", 2, "1: strength: has the wrong type"},
                     Fault{"[butterwort]\norder = 2\n", 2,
                           "1: unknown method butterwort (did you mean butterworth?)"},

@@ -42,7 +42,7 @@ TEST_F(GapPlan, RefusesWhatItWouldReplaceOrContradict) {
   put(folder / "plan.csv", "name,first_frame,last_frame\n");
   const Ran both = run({"fill", "walk.bvh", "--plan", "plan.csv", "--method", "spline"});
   EXPECT_EQ(both.code, 2);
-  EXPECT_THAT(both.err, HasSubstr("--plan says for each gap how it is filled: --method goes"));
+  EXPECT_THAT(both.err, HasSubstr("--method cannot be combined with --plan"));
   const Ran same =
       run({"fill", "walk.bvh", "--plan", "plan.csv", "--plan-out", "plan.csv", "--force"});
   EXPECT_EQ(same.code, 2);

@@ -45,9 +45,9 @@ TEST_F(Help, BothLevelsExistForEveryCommand) {
 TEST_F(Help, TheVersionIsPrinted) {
   for (const char* word : {"--version", "-V"})
     EXPECT_THAT(run({word}).out, testing::MatchesRegex("kinemend [0-9]+\\.[0-9]+\\.[0-9]+\n"
-                                      "built with .*, running on .*\n"
-                                      "learned models: .*wiener.*\n"
-                                      "licence: Apache 2.0\n"));
+                                                       "built with .*, running on .*\n"
+                                                       "learned models: .*wiener.*\n"
+                                                       "licence: Apache 2.0\n"));
 }
 
 TEST_F(Help, TheLongHelpHoldsEveryOptionOfEveryMethod) {
@@ -62,7 +62,7 @@ TEST_F(Help, TheLongHelpHoldsEveryOptionOfEveryMethod) {
     }
   }
   EXPECT_THAT(std::regex_replace(help, std::regex("\\s+"), " "),
-              HasSubstr("half the power pass (0.05 to 500 Hz; default 8)"));
+              HasSubstr("half of the frame rate (0.05 to 500 Hz; default 8)"));
 }
 
 TEST_F(Help, NoOptionOfAMethodIsAnOptionOfCleanItself) {

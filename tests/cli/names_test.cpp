@@ -107,7 +107,7 @@ TEST_F(Names, OfMarkersAreKnownWithoutTheirSubjectEverywhere) {
   EXPECT_EQ(result(by_donor, "LA"), result(by_donor, "Ann:LA"));
 }
 
-TEST_F(Names, LengthsInMetresHaveTheDigitsOfLengthsInMillimetres) {
+TEST_F(Names, LengthsOfTakesInMetresArePrintedInMillimetres) {
   synth("walk.bvh", "walk", "2");
   ASSERT_EQ(run({"convert", "walk.bvh", "mm.trc"}).code, 0);
   ASSERT_EQ(run({"convert", "mm.trc", "m.trc", "--unit", "m"}).code, 0);
@@ -118,11 +118,12 @@ TEST_F(Names, LengthsInMetresHaveTheDigitsOfLengthsInMillimetres) {
     const std::string line = lines_of(ran.out).back();
     EXPECT_THAT(line, HasSubstr(" 40-60 "));
     const std::size_t unit = line.rfind(' ');
+    EXPECT_EQ(line.substr(unit), " mm");
     return std::atof(line.substr(line.rfind(' ', unit - 1)).c_str());
   };
   const double in_mm = expected_error("mm.trc"), in_m = expected_error("m.trc");
   ASSERT_GT(in_mm, 0.1);
-  EXPECT_NEAR(in_m * 1000, in_mm, 0.006 * in_mm) << "three digits";
+  EXPECT_NEAR(in_m, in_mm, 0.006 * in_mm) << "three digits";
 }
 
 }  // namespace

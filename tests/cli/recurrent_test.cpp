@@ -90,7 +90,7 @@ TEST_F(RecurrentCommands, StreamWhatTheLiveFormMakesOfTheFile) {
   fed.in = contents(folder / "noisy.bvh");
   const Ran live = run({"stream", "-m", "recurrent", "--model", "ebf.kmodel"}, fed);
   ASSERT_EQ(live.code, 0) << live.err;
-  EXPECT_THAT(live.err, HasSubstr("beside 125 ms of delay"));
+  EXPECT_THAT(live.err, HasSubstr("plus 125 ms of delay"));
   put(folder / "live.bvh", live.out);
   const Ran cleaned = run({"clean", "noisy.bvh", "-o", "clean.bvh", "-m", "recurrent", "--model",
                            "ebf.kmodel", "--live"});

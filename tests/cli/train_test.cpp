@@ -345,7 +345,7 @@ TEST_F(BrokenOffTraining, LeavesACheckpointFromWhichTheSameModelComes) {
   const Ran broken = broken_off();
   EXPECT_EQ(broken.code, 128 + SIGINT);
   EXPECT_EQ(broken.err,
-            "stopped; m.kmodel.checkpoint keeps what was done, and this goes on with it:\n"
+            "stopped; the work so far is in m.kmodel.checkpoint; to continue:\n"
             "  kinemend train sparse a.bvh b.bvh -o m.kmodel --iterations 100 -q --title "
             "'Two walks' --resume\n");
   EXPECT_THAT(files(), ElementsAre("a.bvh", "b.bvh", "m.kmodel.checkpoint"));
@@ -353,8 +353,8 @@ TEST_F(BrokenOffTraining, LeavesACheckpointFromWhichTheSameModelComes) {
   const Ran anew = run(words);
   EXPECT_EQ(anew.code, 4);
   EXPECT_EQ(anew.err,
-            "kinemend: m.kmodel.checkpoint: an unfinished training left this; --resume goes on "
-            "with it, --force begins anew\n");
+            "kinemend: m.kmodel.checkpoint: left by an unfinished training; --resume "
+            "continues it, --force starts anew\n");
 
   std::vector<std::string> others = words;
   others[7] = "101";
@@ -381,8 +381,8 @@ TEST_F(Train, SaysWhereThereIsNoCheckpointToGoOnFrom) {
   const Ran ran = run({"train", "sparse", "a.bvh", "-o", "m.kmodel", "--resume"});
   EXPECT_EQ(ran.code, 3);
   EXPECT_EQ(ran.err,
-            "kinemend: m.kmodel.checkpoint: there is no such checkpoint; without --resume the "
-            "training begins anew\n");
+            "kinemend: m.kmodel.checkpoint: no such checkpoint; leave out --resume to "
+            "start the training anew\n");
   EXPECT_EQ(run({"train", "sparse", "a.bvh", "-o", "-", "--resume"}).code, 2);
   put(folder / "m.kmodel.checkpoint", "nonsense");
   const Ran damaged = run({"train", "sparse", "a.bvh", "-o", "m.kmodel", "--resume"});

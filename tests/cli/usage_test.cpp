@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{{"clean", "-", "--output-dir", "d"},
              "clean: standard input has no name for --output-dir"},
         Case{{"clean", "-", "--json"},
-             "standard output can hold one of a take, a report and --json"},
+             "standard output holds one thing: a take, a report or --json, not several"},
         Case{{"clean", "a.bvh", "--config", "bad.toml"},
              "bad.toml:1: strength: 2 is outside 0 to 1"},
         Case{{"compare", "a.bvh"}, "compare: OTHER is missing (see kinemend compare -h)"},

@@ -209,7 +209,7 @@ TEST(PoseletFile, IsRefusedWithTheLineAndWhatIsWrongWithIt) {
       {"a:  # nothing", "own.txt:1: poselet \"a\" is empty"},
       {"a: Hips,,Spine", "own.txt:1: a name is missing between two commas"},
       {"a: Hips, Tail", "own.txt:1: no joint is named \"Tail\""},
-      {"a: *\n\na: *", "own.txt:3: poselet \"a\" stands in a line above already"},
+      {"a: *\n\na: *", "own.txt:3: poselet \"a\" is already in a line above"},
       {"# none", "own.txt: there are no poselets in it"},
       {"a: Hips, LeftArm", "own.txt: in no poselet: Spine, RightArm"}};
   for (const auto& [text, message] : cases) {

@@ -40,7 +40,7 @@ TEST(NameMap, SaysWhichLineIsWrong) {
   EXPECT_THAT(message_of("a,b\n\nLeftArm\n"),
               HasSubstr("m.csv:3: expected \"model name,name in the take\", found \"LeftArm\""));
   EXPECT_THAT(message_of(",b\n"), HasSubstr("m.csv:1: expected a name of the model"));
-  EXPECT_THAT(message_of("a,b\na,c\n"), HasSubstr("m.csv:2: \"a\" stands in a line above"));
+  EXPECT_THAT(message_of("a,b\na,c\n"), HasSubstr("m.csv:2: \"a\" is already in a line above"));
   EXPECT_THAT(message_of("a,b\nc,b\n"), HasSubstr("m.csv:2: \"b\" is already \"a\""));
   EXPECT_THAT(message_of("# x\na,b,c\n"), HasSubstr("m.csv:2: expected one name in the take"));
 }
