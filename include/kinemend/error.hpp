@@ -16,8 +16,8 @@ enum class ErrorKind {
 };
 
 /// The one exception of the library. `what()` is a whole line for the user:
-/// `walk.bvh:212: expected 63 channel values, found 62`. What it quotes from files and command lines
-/// is escaped and bounded (`printable`), so that it can go to a terminal, a log or a page.
+/// `walk.bvh:212: expected 63 channel values, found 62`. What it quotes from files and command
+/// lines is escaped and bounded (`printable`), so that it can go to a terminal, a log or a page.
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& message);

@@ -120,7 +120,8 @@ struct Format {
 std::span<const Format> formats();
 /// The format of a file by its extension alone; nullptr for an unknown extension.
 const Format* format_of_path(const std::filesystem::path& path);
-/// The format of a file by its first bytes (`head`, at most 4096); nullptr when no format claims it.
+/// The format of a file by its first bytes (`head`, at most 4096); nullptr when no format claims
+/// it.
 const Format* format_of_content(std::string_view head);
 
 }  // namespace kinemend

@@ -7,7 +7,8 @@
 #include <string_view>
 #include <vector>
 
-// Small tables that people edit: cells separated by commas, quoted if they have to be; `#` comments.
+// Small tables that people edit: cells separated by commas, quoted if they have to be; `#`
+// comments.
 namespace kinemend {
 
 /// The text without blanks and tabs at both ends.

@@ -14,8 +14,8 @@ inline constexpr double deviations_per_median = 1.482602218505602;
 /// median of the chi-squared distribution of three degrees of freedom.
 inline constexpr double median_of_chi3 = 1.5381722544550522;
 
-/// The value of rank `rank` (below the number of values). Reorders the values: those before it are not
-/// larger, those after it not smaller.
+/// The value of rank `rank` (below the number of values). Reorders the values: those before it are
+/// not larger, those after it not smaller.
 inline double of_rank(std::vector<double>& values, std::size_t rank) {
   const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank);
   std::nth_element(values.begin(), place, values.end());

@@ -10,9 +10,10 @@
 
 namespace kinemend {
 
-/// Records of bytes that are written once and can then be read in any order, any number of times. They
-/// are kept in memory up to a limit, and beyond it in a file in the temporary folder. The file has no
-/// name, so that nothing is left of it however the program ends. Several threads may read at once.
+/// Records of bytes that are written once and can then be read in any order, any number of times.
+/// They are kept in memory up to a limit, and beyond it in a file in the temporary folder. The file
+/// has no name, so that nothing is left of it however the program ends. Several threads may read at
+/// once.
 class Spool {
  public:
   /// `most_memory`: bytes of records to keep in memory.

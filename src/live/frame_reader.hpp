@@ -68,8 +68,8 @@ class JointReader final : public FrameReader {
   std::vector<double> line_;
 };
 
-/// Lines of three cells per marker, separated by commas. A marker with an empty or not finite cell is
-/// not observed.
+/// Lines of three cells per marker, separated by commas. A marker with an empty or not finite cell
+/// is not observed.
 class MarkerReader final : public FrameReader {
  public:
   MarkerReader(std::size_t markers, bool numbered, std::size_t skipped_words);

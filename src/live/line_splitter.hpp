@@ -14,9 +14,9 @@ class LineSplitter {
 
   explicit LineSplitter(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
-  /// Removes bytes from the front of `bytes`, up to the end of a line, or all of them. A line ends with
-  /// LF or CR, and with | if `bars_end_lines`. `line` does not include the line end and may be empty;
-  /// it is valid until the next call.
+  /// Removes bytes from the front of `bytes`, up to the end of a line, or all of them. A line ends
+  /// with LF or CR, and with | if `bars_end_lines`. `line` does not include the line end and may be
+  /// empty; it is valid until the next call.
   Found next(std::string_view& bytes, bool bars_end_lines, std::string_view& line);
   /// Ends the partial line.
   Found end(std::string_view& line);

@@ -63,8 +63,9 @@ std::string change_table(const CleanReport& report, bool all_rows) {
   const std::size_t shown = all_rows ? rows.size() : std::min(rows.size(), short_list);
   for (std::size_t i = 0; i < shown; ++i) {
     const TrackSummary& row = *rows[i];
-    table.add({printable_name(row.name), row.noise > 0 ? length(row.noise) : "-", length(row.rms_change),
-               length(row.max_change), row.frames_repaired > 0 ? grouped(row.frames_repaired) : "-",
+    table.add({printable_name(row.name), row.noise > 0 ? length(row.noise) : "-",
+               length(row.rms_change), length(row.max_change),
+               row.frames_repaired > 0 ? grouped(row.frames_repaired) : "-",
                figure(row.peak_speed_before), figure(row.peak_speed_after)});
   }
   std::string text = table.text();

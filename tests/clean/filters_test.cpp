@@ -202,7 +202,7 @@ TEST(Butterworth, SaysThatThereIsNothingToDoAboveHalfTheRate) {
   const CleanResult result = clean_clip(clip, *make_butterworth({.cutoff_hz = 6}));
   EXPECT_EQ(result.clip.local_rotations, clip.local_rotations);
   ASSERT_EQ(result.report.warnings.size(), 1U);
-  EXPECT_NE(result.report.warnings[0].find("6 Hz is not below the Nyquist frequency of 6 Hz"),
+  EXPECT_NE(result.report.warnings[0].find("6.00 Hz is not below the Nyquist frequency of 6.00 Hz"),
             std::string::npos);
 }
 

@@ -68,7 +68,8 @@ TEST_F(PageReport, IsOfOneTake) {
 
 TEST_F(PageReport, ReplacesNoTakeAndNoFileUnasked) {
   if (!has_page()) return;
-  synth("walk.html");
+  synth("walk.bvh");
+  fs::rename(folder / "walk.bvh", folder / "walk.html");
   const std::string take = contents(folder / "walk.html");
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"check", "walk.html", "--report", "walk.html", "--force"},

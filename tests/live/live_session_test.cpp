@@ -141,9 +141,10 @@ TEST_F(LiveSessionTest, GivesAMalformedLineThePlaceOfItsFrame) {
       angle_between(clip.rotation(6, 1), slerp(whole.rotation(4, 1), whole.rotation(8, 1), 0.5)),
       digits_rad);
   EXPECT_LT(angle_between(clip.rotation(29, 1), whole.rotation(29, 1)), digits_rad);
-  EXPECT_THAT(run.session.take_notes(),
-              Contains("ignored a malformed line: expected 21 channel values, found 3 (more of them "
-                       "are only counted)"));
+  EXPECT_THAT(
+      run.session.take_notes(),
+      Contains("ignored a malformed line: expected 21 channel values, found 3 (more of them "
+               "are only counted)"));
 }
 
 TEST_F(LiveSessionTest, PutsOvertakenFramesBackInTheirPlace) {

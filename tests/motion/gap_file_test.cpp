@@ -81,7 +81,8 @@ TEST(GapFile, SaysWhichLineIsWrong) {
   EXPECT_EQ(complaint("Head,99999999999999999999999,2"),
             "gaps.csv:1: expected a frame number from 1, found \"99999999999999999999999\"");
   EXPECT_EQ(complaint("Head,7,3"), "gaps.csv:1: the last frame, 3, is before the first, 7");
-  EXPECT_EQ(complaint("\"Head,7,3"), "gaps.csv:1: expected a closing quote at the end of a quoted name");
+  EXPECT_EQ(complaint("\"Head,7,3"),
+            "gaps.csv:1: expected a closing quote at the end of a quoted name");
   EXPECT_EQ(complaint("\"Head\"x,7,8"),
             "gaps.csv:1: expected a closing quote at the end of a quoted name");
 }

@@ -214,10 +214,11 @@ TEST(Report, LimitsOfAComparisonDoNotHoldWhereTheFigureIsUnknown) {
   comparison.psnr_db = 30;
   const Report report{joints_take(), CompareOutcome{"truth.bvh", comparison}};
   const std::vector<FigureLimit> limits = {{"psnr_db", 40}, {"foot_slide", 1}, {"rms_deg", 1}};
-  EXPECT_THAT(passed_limits(report, limits),
-              ElementsAre("psnr_db 30 is below the limit 40",
-                          "foot_slide is unknown because no foot has ground contact: --max-foot-slide "
-                          "cannot be checked"));
+  EXPECT_THAT(
+      passed_limits(report, limits),
+      ElementsAre("psnr_db 30 is below the limit 40",
+                  "foot_slide is unknown because no foot has ground contact: --max-foot-slide "
+                  "cannot be checked"));
 }
 
 TEST(Report, TextIsPlainUnlessColoursAreAskedFor) {

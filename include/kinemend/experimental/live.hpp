@@ -48,14 +48,15 @@ struct LiveOptions {
 struct LiveCounts {
   std::size_t frames_in = 0;
   std::size_t frames_out = 0;
-  std::size_t lost = 0;        ///< missing by their numbers, or malformed lines in their place
-  std::size_t made_up = 0;     ///< lost frames that were interpolated
-  std::size_t held = 0;        ///< repeated by `LiveSession::hold`
-  std::size_t late = 0;        ///< arrived after a later one, and were ignored
-  std::size_t doubled = 0;     ///< had the number of an earlier frame, and were ignored
-  std::size_t malformed = 0;   ///< lines that do not hold a frame
-  std::size_t not_finite = 0;  ///< values (nan, inf) that were replaced by those of the frame before
-  std::size_t restarts = 0;    ///< jumps of the numbers too large to be a loss
+  std::size_t lost = 0;       ///< missing by their numbers, or malformed lines in their place
+  std::size_t made_up = 0;    ///< lost frames that were interpolated
+  std::size_t held = 0;       ///< repeated by `LiveSession::hold`
+  std::size_t late = 0;       ///< arrived after a later one, and were ignored
+  std::size_t doubled = 0;    ///< had the number of an earlier frame, and were ignored
+  std::size_t malformed = 0;  ///< lines that do not hold a frame
+  std::size_t not_finite =
+      0;                     ///< values (nan, inf) that were replaced by those of the frame before
+  std::size_t restarts = 0;  ///< jumps of the numbers too large to be a loss
   std::size_t bad_headers = 0;
   std::size_t sessions = 0;   ///< skeletons, each with a header in the output
   std::size_t reordered = 0;  ///< of those in: arrived after a later one, and were put in order
@@ -68,9 +69,9 @@ struct LivePiece {
 };
 using LiveSink = std::function<void(const LivePiece&)>;
 
-/// One live stream: takes bytes in pieces of any size, and gives cleaned frames with a constant delay.
-/// No input is an error: malformed lines are counted. Once the stream is warm, a frame allocates no
-/// memory.
+/// One live stream: takes bytes in pieces of any size, and gives cleaned frames with a constant
+/// delay. No input is an error: malformed lines are counted. Once the stream is warm, a frame
+/// allocates no memory.
 class LiveSession {
  public:
   /// The cleaner must outlive the session. Errors: `ErrorKind::usage` for options out of range and
@@ -84,9 +85,9 @@ class LiveSession {
   void feed(std::string_view bytes);
   /// Ends the current line, as the end of a datagram does; a partial header is kept.
   void end_line();
-  /// The sender has disconnected: discards a partial line or header. A sender that returns continues
-  /// with a frame or a header. A header with another skeleton or rate ends the current output and
-  /// begins a new one.
+  /// The sender has disconnected: discards a partial line or header. A sender that returns
+  /// continues with a frame or a header. A header with another skeleton or rate ends the current
+  /// output and begins a new one.
   void drop_line();
   /// Repeats the last frame, so that the output keeps its rate while no frame arrives. Does nothing
   /// before the first frame.
