@@ -128,11 +128,11 @@ fuzz: ## fuzz each target for a minute (FUZZ_SECONDS=60)
 soak: $(BUILD)/$(TESTS)/.built ## mutated input, kills, threads and lossy streams for five minutes (SOAK_SECONDS=300)
 	tools/soak $(BUILD)/$(TESTS) $${SOAK_SECONDS:-300}
 
-nightly: ## what continuous integration leaves out: sanitisers on every room, static analysis of all that changed files reach, soak
+nightly: ## what continuous integration leaves out: sanitisers, packages in a fresh root, browser, soak, analysis of includers
 	$(need)
 	tools/lint --includers
 	$(MAKE) asan ASAN=asan-all
-	$(MAKE) fuzz soak test-all
+	$(MAKE) fuzz soak test-all deb-test install-test bench-quick
 
 clean: ## remove everything that was built
 	rm -rf $(BUILD)
