@@ -163,10 +163,10 @@ TEST(CutFile, OfMarkersIsReadUpToTheLastWholeNumber) {
     }
     ReadOptions strict;
     strict.strict = true;
-    EXPECT_THAT(
-        message_of([&] { read_take(text.substr(0, text.size() - 9), "take." + format, strict); },
-                   ErrorKind::quality_limit),
-        HasSubstr("take." + format + ":"));
+    const std::string cut = text.substr(0, text.size() - 9);
+    const std::string name = "take." + format;
+    EXPECT_THAT(message_of([&] { read_take(cut, name, strict); }, ErrorKind::quality_limit),
+                HasSubstr(name + ":"));
   }
 }
 
