@@ -50,7 +50,7 @@ ReportFiles checked_outputs(const Arguments& arguments) {
   const std::vector<std::string>& inputs = arguments.positionals;
   const std::string gaps_out = arguments.text("gaps_out");
   const bool force = arguments.flag("force");
-  const ReportFiles reports = report_files(arguments, inputs.size());
+  ReportFiles reports = report_files(arguments, inputs.size());
   if (!gaps_out.empty() && inputs.size() > 1)
     throw Error(ErrorKind::usage, "--gaps-out: needs a single take");
   RunFiles files;

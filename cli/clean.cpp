@@ -167,7 +167,7 @@ Command clean_command() {
       {"kinemend clean take.bvh --joints 'Left*' --exclude LeftHand --range 2s:5s",
        "part of the body, part of the time"},
       {"kinemend clean walk.bvh --feet auto", "also stop standing feet from sliding"},
-      {"kinemend clean trial.c3d --fix-swaps --fill auto", "markers: labels, gaps, then noise"},
+      {"kinemend clean trial.c3d --fix-swaps --fill auto", "markers: labels, noise, then gaps"},
       {"kinemend clean - < in.bvh > out.bvh", "in a pipeline"},
       {"kinemend clean --preset biomech --print-config > lab.toml",
        "a settings file to keep and edit"}};

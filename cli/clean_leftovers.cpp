@@ -36,7 +36,8 @@ std::vector<Leftover> leftovers_of(const std::vector<Finding>& findings, const C
       leftovers.push_back({counted(count, noun) + of_what + " left", mend});
   };
   if (!plan.fix_swaps) add({FindingKind::swap}, "swap", " of markers", "--fix-swaps undoes them");
-  if (!plan.settings.fill) add({FindingKind::gap}, "long gap", "", "--fill auto fills them");
+  if (!plan.settings.fill)
+    add({FindingKind::gap}, "long gap", "", "--fill auto fills those of labelled points");
   add({FindingKind::frozen, FindingKind::bridged}, "frozen or bridged span", "",
       fmt::format("kinemend check {0} --gaps-out gaps.csv; kinemend clean {0} --gaps gaps.csv "
                   "--fill auto",

@@ -249,7 +249,7 @@ Command compare_command() {
       "calibration pose at the start of a reference of joints is left out. Each --max and --min "
       "option sets a limit; where a figure passes one, the exit "
       "code is 1.";
-  command.positionals = {{"REFERENCE", "the truth; - is standard input", 1, 1, {}},
+  command.positionals = {{"REFERENCE", "the take to compare with; - is standard input", 1, 1, {}},
                          {"OTHER", "the take to judge", 1, 1, {}}};
   command.flags = compare_flags();
   command.examples = {{"kinemend compare truth.bvh cleaned.bvh", "all figures"},

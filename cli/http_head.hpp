@@ -18,9 +18,9 @@ struct HttpHead {
   std::string method;  ///< "GET"
   std::string path;    ///< "/TOKEN/run", without a query, as it was sent
   std::string host;    ///< header Host
-  std::string origin;  ///< header Origin; empty where there is none
-  std::string site;    ///< header Sec-Fetch-Site; empty where there is none
-  std::string type;    ///< header Content-Type; empty where there is none
+  std::string origin;  ///< header Origin; empty if missing
+  std::string site;    ///< header Sec-Fetch-Site; empty if missing
+  std::string type;    ///< header Content-Type; empty if missing
   std::size_t body_bytes = 0;
   bool keeps_alive = true;  ///< the connection stays open for another request
   bool expects_continue = false;

@@ -12,6 +12,7 @@
 #include "kinemend/experimental/version.hpp"
 #include "kinemend/io.hpp"
 #include "model_view.hpp"
+#include "run_files.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -64,7 +65,11 @@ int write_map(const std::string& model_name, const Arguments& arguments) {
   if (arguments.positionals.empty())
     throw Error(ErrorKind::usage, "models: --map needs a TAKE (see kinemend models -h)");
   const std::string output = arguments.text("output");
-  check_is_no_input("--output", output, {arguments.positionals.front(), model_name});
+  RunFiles()
+      .reads("TAKE", arguments.positionals.front())
+      .reads("--map", model_name)
+      .writes("--output", output)
+      .check();
   const std::vector<ShippedModel> models = shipped_models();
   const ShippedModel* shipped = find_shipped(models, model_name);
   const Model model =

@@ -47,7 +47,7 @@ void check_page(const std::string& path, std::size_t takes) {
   if (!is_page(path)) return;
   if (!has_report_page()) {
     throw Error(ErrorKind::usage,
-                "--report: this kinemend was built without its report page (KINEMEND_WEB=OFF); use "
+                "--report: this kinemend was built without its report page; use "
                 "FILE.json");
   }
   if (takes > 1)

@@ -168,17 +168,6 @@ void write_take_output(const std::string& output, const Take& take, const std::s
   write_output(output, bytes, force);
 }
 
-void check_is_no_input(std::string_view option, const std::string& output,
-                       const std::vector<std::string>& inputs) {
-  for (const std::string& input : inputs) {
-    if (!is_same_file(input, output)) continue;
-    throw Error(ErrorKind::usage,
-                fmt::format("{}: {} is also read or written by this run and would be lost; name "
-                            "another file",
-                            option, printable(output)));
-  }
-}
-
 int for_each_input(const std::vector<std::string>& inputs,
                    const std::function<int(const std::string&)>& visit,
                    const std::function<void(std::string entry)>& add_failure) {

@@ -43,10 +43,6 @@ void write_output(const std::string& output, std::string_view bytes, bool force)
 /// Writes the take in `format`, and the file that it needs beside it (the skeleton of an AMC file).
 void write_take_output(const std::string& output, const Take& take, const std::string& format,
                        bool force);
-/// Refuses an output that is one of `inputs` under any name. Commands whose files are all known
-/// before they work use `RunFiles`, which checks them together. Errors: `ErrorKind::usage`.
-void check_is_no_input(std::string_view option, const std::string& output,
-                       const std::vector<std::string>& inputs);
 /// Calls `visit` with each input and returns the highest exit code. An input that cannot be read is
 /// said, its entry in JSON goes to `add_failure`, and it stops none of the others; an output that
 /// cannot be written stops all.

@@ -13,6 +13,7 @@
 #include "commands.hpp"
 #include "kinemend/experimental/page.hpp"
 #include "kinemend/io.hpp"
+#include "run_files.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 #include "view_server.hpp"
@@ -54,14 +55,15 @@ ViewFiles files_of(const Arguments& arguments) {
   files.gaps = given("gaps", beside(files.input, "gaps.csv"));
   files.with_gaps = arguments.given("gaps");
   files.plan = given("plan", beside(files.input, "plan.csv"));
-  check_is_no_input("--output", files.cleaned,
-                    {files.input, files.contacts, files.plan, files.gaps});
-  check_is_no_input("--output", files.filled,
-                    {files.input, files.contacts, files.plan, files.gaps});
-  check_is_no_input("--contacts", files.contacts,
-                    {files.input, files.filled, files.plan, files.gaps});
-  check_is_no_input("--plan", files.plan, {files.input, files.filled, files.gaps});
-  check_is_no_input("--gaps", files.gaps, {files.input});
+  for (const std::string& output : {files.cleaned, files.filled}) {
+    RunFiles()
+        .reads("TAKE", files.input)
+        .writes("--gaps", files.gaps)
+        .writes("--contacts", files.contacts)
+        .writes("--plan", files.plan)
+        .writes("--output", output)
+        .check();
+  }
   for (const char* flag : {"from", "asf"}) {
     if (arguments.given(flag))
       files.reading.push_back(fmt::format("--{}={}", flag, arguments.text(flag)));
@@ -95,8 +97,7 @@ bool open_in_browser(const std::string& address) {
 int run_view(const Arguments& arguments) {
   ViewFiles files = files_of(arguments);
   if (!has_report_page())
-    throw Error(ErrorKind::usage,
-                "view: this kinemend was built without its page (KINEMEND_WEB=OFF)");
+    throw Error(ErrorKind::usage, "view: this kinemend was built without its page");
   for (const std::string& input : {files.input, files.other}) {
     if (input.empty()) continue;
     const TakeResult read = read_take(std::filesystem::path(input), read_options(arguments));

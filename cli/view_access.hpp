@@ -11,8 +11,8 @@ struct ViewRequest {
   std::string method;  ///< "GET", "POST"
   std::string path;    ///< "/TOKEN/run", without a query
   std::string host;    ///< header Host
-  std::string origin;  ///< header Origin; empty where there is none
-  std::string site;    ///< header Sec-Fetch-Site; empty where there is none
+  std::string origin;  ///< header Origin; empty if missing
+  std::string site;    ///< header Sec-Fetch-Site; empty if missing
   std::string type;    ///< header Content-Type
 };
 

@@ -22,6 +22,7 @@
 #include "kinemend/fill.hpp"
 #include "method_options.hpp"
 #include "page_report.hpp"
+#include "run_files.hpp"
 #include "takes.hpp"
 
 namespace kinemend::cli {
@@ -383,7 +384,7 @@ ViewReply ViewSession::save(const ViewAsked& asked) {
   const std::optional<std::string>& plan = fills ? asked.plan : asked.contacts;
   const std::string side = fills ? files_.plan : files_.contacts;
   // An input is never replaced, whatever the person confirms.
-  check_is_no_input("--output", output, inputs());
+  RunFiles().reads("TAKE", inputs()).writes("--output", output).check();
   // All files are looked at before the first is written.
   Json existing = Json::array();
   const auto look_at = [&](const std::string& path) {

@@ -196,7 +196,7 @@ std::string printable_name(std::string_view name) {
 }
 
 std::string printable(std::string_view text) {
-  const std::string result = with_short_words(escaped(text));
+  std::string result = with_short_words(escaped(text));
   if (result.size() <= longest_message) return result;
   const std::size_t tail =
       boundary(result, result.size() - (longest_message - head_of_message - omitted.size() - 2));

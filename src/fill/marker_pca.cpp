@@ -1,10 +1,11 @@
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "fill/bridge.hpp"
 #include "fill/marker_methods.hpp"
 #include "fill/ridge.hpp"
+#include "signal/symmetric_eigen.hpp"
 
 namespace kinemend::fill {
 
@@ -53,14 +54,13 @@ class ComponentRegression {
     mean_y_ = y.colwise().mean();
     x.rowwise() -= mean_x_;
     y.rowwise() -= mean_y_;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(x.transpose() * x);
-    const Eigen::VectorXd& variances = solver.eigenvalues();  // ascending
+    const auto [variances, directions] = symmetric_eigen(x.transpose() * x);
     const double total = variances.sum();
     Eigen::Index kept = 0;
     for (double held = 0; kept < variances.size() && held < kept_variance * total; ++kept) {
       held += variances[variances.size() - 1 - kept];
     }
-    const Eigen::MatrixXd vectors = solver.eigenvectors().rightCols(kept);
+    const Eigen::MatrixXd vectors = directions.rightCols(kept);
     coefficients_ = vectors * variances.tail(kept).cwiseMax(1e-300).cwiseInverse().asDiagonal() *
                     (vectors.transpose() * (x.transpose() * y));
   }

@@ -92,10 +92,12 @@ class TemporaryFile {
  private:
   int open_unnamed() const {
 #ifdef O_TMPFILE
-    return ::open(folder_.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
-#else
-    return -1;
+    const int descriptor = ::open(folder_.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+    // Without /proc, as in a bare root, it could never be given a name.
+    if (descriptor < 0 || ::access(link_of(descriptor).c_str(), F_OK) == 0) return descriptor;
+    ::close(descriptor);
 #endif
+    return -1;
   }
 
   int open_named() {
@@ -110,10 +112,12 @@ class TemporaryFile {
     fail_writing(target_, reason(error));
   }
 
+  static std::string link_of(int descriptor) { return fmt::format("/proc/self/fd/{}", descriptor); }
+
   // False with errno set. By way of /proc, which needs no privilege.
   bool link_to(const fs::path& name) const {
-    const std::string open_file = fmt::format("/proc/self/fd/{}", file_->get());
-    return ::linkat(AT_FDCWD, open_file.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+    return ::linkat(AT_FDCWD, link_of(file_->get()).c_str(), AT_FDCWD, name.c_str(),
+                    AT_SYMLINK_FOLLOW) == 0;
   }
 
   bool name_it() {

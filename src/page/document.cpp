@@ -18,7 +18,7 @@ namespace page {
 void check_is_built() {
   if (has_report_page()) return;
   throw Error(ErrorKind::usage,
-              "this kinemend was built without its report page (KINEMEND_WEB=OFF): a report can be "
+              "this kinemend was built without its report page: a report can be "
               "written as FILE.json");
 }
 

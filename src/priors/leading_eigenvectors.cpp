@@ -3,12 +3,13 @@
 #include <Spectra/MatOp/DenseSymMatProd.h>
 #include <Spectra/SymEigsSolver.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <exception>
 
 #include "kinemend/error.hpp"
+#include "signal/symmetric_eigen.hpp"
 
 namespace kinemend {
 
@@ -29,8 +30,8 @@ struct EigenPairs {
 using MatrixView = Eigen::Map<const Eigen::MatrixXd>;
 
 EigenPairs all_pairs(const MatrixView& matrix) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
-  return {solver.eigenvalues().reverse(), solver.eigenvectors().rowwise().reverse()};
+  const SymmetricEigen eigen = symmetric_eigen(matrix);
+  return {eigen.values.reverse(), eigen.vectors.rowwise().reverse()};
 }
 
 EigenPairs leading_pairs(const MatrixView& matrix, Eigen::Index count, double tolerance) {

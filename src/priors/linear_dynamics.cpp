@@ -9,6 +9,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "kinemend/error.hpp"
+#include "signal/symmetric_eigen.hpp"
 
 namespace kinemend {
 
@@ -26,9 +27,9 @@ MatrixXd symmetric(const MatrixXd& matrix) { return 0.5 * (matrix + matrix.trans
 
 // The nearest matrix that is a covariance.
 MatrixXd covariance_near(const MatrixXd& matrix) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(symmetric(matrix));
-  const VectorXd variances = solver.eigenvalues().cwiseMax(0.0);
-  return solver.eigenvectors() * variances.asDiagonal() * solver.eigenvectors().transpose();
+  const SymmetricEigen eigen = symmetric_eigen(symmetric(matrix));
+  const VectorXd variances = eigen.values.cwiseMax(0.0);
+  return eigen.vectors * variances.asDiagonal() * eigen.vectors.transpose();
 }
 
 void make_stable(MatrixXd& transition) {
@@ -143,11 +144,11 @@ LinearDynamics LinearDynamicsFit::finish(const LinearDynamicsSettings& settings)
   dynamics.outside = VectorXd::Zero(width);
   if (settings.directions > 0 && settings.directions < channels_) {
     const MatrixXd variances = moments.topLeftCorner(width, width);
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(variances);
+    const SymmetricEigen eigen = symmetric_eigen(variances);
     const auto k = static_cast<Index>(settings.directions);
-    dynamics.basis = solver.eigenvectors().rightCols(k);
-    const MatrixXd left_out = solver.eigenvectors().leftCols(width - k);
-    dynamics.outside = (left_out.cwiseAbs2() * solver.eigenvalues().head(width - k).cwiseMax(0.0));
+    dynamics.basis = eigen.vectors.rightCols(k);
+    const MatrixXd left_out = eigen.vectors.leftCols(width - k);
+    dynamics.outside = (left_out.cwiseAbs2() * eigen.values.head(width - k).cwiseMax(0.0));
     moments = projected(moments, dynamics.basis, width);
   }
   const Index k = dynamics.directions(), n = k * static_cast<Index>(order_);

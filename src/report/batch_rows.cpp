@@ -171,7 +171,7 @@ std::string to_text(const BatchCounts& counts, const BatchSums& sums,
                       grouped(sums.cleaned), counted(sums.takes, "take"), grouped(sums.failed),
                       grouped(sums.to_do), sums.duration_s / 60);
   if (worst.empty()) return text;
-  text += worst.size() == 1 ? "most to be looked at:\n" : "most to be looked at, worst first:\n";
+  text += worst.size() == 1 ? "needs review:\n" : "needs review, worst first:\n";
   for (const BatchRow& row : worst) {
     text += fmt::format("  {}: {}", printable(row.name), printable(row.verdict));
     if (!row.warnings.empty()) text += "; " + printable(row.warnings.front());

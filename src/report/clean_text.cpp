@@ -77,7 +77,7 @@ std::string change_table(const CleanReport& report, bool all_rows) {
 
 // Gaps that were filled, by method, and those that were refused, one a line.
 std::string gaps_text(const CleanReport& report, std::int64_t first_frame, bool all_rows) {
-  const std::string unlabelled =
+  std::string unlabelled =
       report.fill.unlabelled == 0
           ? ""
           : fmt::format("  {} of unlabelled points left alone (--unlabelled fills them)\n",

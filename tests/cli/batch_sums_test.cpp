@@ -69,7 +69,7 @@ TEST_F(BatchSums, TheWorstTenAreNamedWorstFirst) {
   put(folder / "raw/odd.bvh", odd);
   const Ran ran = run({"batch", "raw", "-o", "out"});
   ASSERT_EQ(ran.code, 0) << ran.err;
-  const std::size_t heading = ran.out.find("most to be looked at, worst first:\n");
+  const std::size_t heading = ran.out.find("needs review, worst first:\n");
   ASSERT_NE(heading, std::string::npos) << ran.out;
   const std::vector<std::string> lines = lines_of(ran.out.substr(heading));
   ASSERT_GE(lines.size(), 3u);

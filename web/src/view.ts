@@ -223,7 +223,7 @@ class Controls {
       this.text('clean', 'joints', `${nouns} to clean`, `${pattern} (all)`, `names or patterns, separated by commas; empty: all ${nouns}`),
       this.text('clean', 'exclude', `${nouns} to leave out`, 'none', `names or patterns of ${nouns} that are not changed`),
       this.text('clean', 'range', 'frames', '121:240 or 1s:2.5s', 'clean only these frames, by their numbers or in seconds; empty: all frames'),
-      this.option('clean', 'fill gaps', { name: 'fill', kind: 'choice', help: 'fill gaps with this method, before smoothing', default: 'off', choices: ['off', ...this.fillMethods()] }));
+      this.option('clean', 'fill gaps', { name: 'fill', kind: 'choice', help: 'fill gaps with this method, after the noise is removed', default: 'off', choices: ['off', ...this.fillMethods()] }));
     if (this.isJoints) {
       this.rows.clean.append(this.option('clean', 'hold feet', { name: 'feet', kind: 'choice', help: 'stop sliding of feet in ground contact; auto keeps intentional slides, force holds every contact', default: 'off', choices: ['off', 'auto', 'force'] }),
         this.option('clean', 'largest change (deg)', { name: 'max_change_deg', kind: 'number', help: 'limit on how far a rotation may move from its input', default: 180, minimum: 0, maximum: 180, unit: 'deg' }),

@@ -15,7 +15,8 @@
 // A report as one page for a browser: the body in 3D, curves, findings and changes.
 namespace kinemend {
 
-/// Whether this build contains the page's program. A build with KINEMEND_WEB=OFF does not.
+/// Whether this build contains the page's program. A build whose bundle in web/dist
+/// was removed does not.
 bool has_report_page();
 
 struct PageSettings {
