@@ -9,9 +9,8 @@ PRESET ?= release
 TESTS ?= dev
 # What `demo` uses, which compiles in two thirds of the time; continuous integration has a program already.
 FIRST ?= demo
-# The sanitised build: `asan`, or `asan-all`, which has every room. PREBUILT is a build whose rooms serve where none is sanitised.
+# The sanitised build: `asan`, or `asan-all`, which has every room.
 ASAN ?= asan
-PREBUILT ?=
 KINEMEND := $(BUILD)/$(FIRST)/cli/kinemend
 DEMO := build/demo_takes
 # Each target installs the sections of packages.txt that it needs.
@@ -83,7 +82,7 @@ test-all: ## the same, with training, pages and browser installed, so that nothi
 
 asan-build:
 	$(need) core test sanitize
-	@cmake --preset $(ASAN) -DKINEMEND_PREBUILT=$(abspath $(PREBUILT)) >/dev/null
+	@cmake --preset $(ASAN) >/dev/null
 	cmake --build --preset $(ASAN) -j $(JOBS)
 asan-test:
 	ctest --preset $(ASAN) -j $(JOBS)
