@@ -104,6 +104,48 @@ TEST(CutFile, OfBvhWithAShortLineIsStillAnError) {
   EXPECT_THAT(read_error(twice), HasSubstr("expected 6 channel values, found 5"));
 }
 
+// The text of a take of 6 channels with these rows.
+std::string bvh_with_rows(const std::string& rows_text, std::size_t declared) {
+  const std::string text = bvh_text();
+  std::string head = text.substr(0, text.find("0.01\n") + 5);
+  head.replace(head.find("Frames: 12"), 10, fmt::format("Frames: {}", declared));
+  return head + rows_text;
+}
+
+TEST(CutFile, OfBvhThatIsCutInAWordOfTwoNumbersIsWrittenWhole) {
+  const std::string rows_text =
+      "1.25 2.25 3.25 4.25 5.25 6.25\n1.25 2.25 3.25 4.25 5.25 6.25\n"
+      "1.25 2.25 3.25 4.25 5.25 6.25\n1.25 2.25 3.25 4.25 5.25 7.8-0.751";
+  const ReadResult read = read_clip(bvh_with_rows(rows_text, 9), "take.bvh");
+  EXPECT_EQ(read.diagnostics.count("file_cut"), 1u);
+  ASSERT_EQ(read.clip.frame_count(), 4u);
+  const std::string written = write_clip(read.clip);
+  EXPECT_THAT(written, testing::EndsWith(" 7.8\n"));
+  const ReadResult again = read_clip(written, "take.bvh");
+  EXPECT_TRUE(again.diagnostics.empty());
+  EXPECT_EQ(write_clip(again.clip), written);
+}
+
+// Two frames, wrapped over as many lines, are no file of 5 channels.
+TEST(CutFile, OfBvhWithWrappedFramesIsWrittenReadably) {
+  const std::string rows_text = "1 2 3 4 5\n6 1 2 3 4 5 6\n1 2 3 4 5";
+  const ReadResult read = read_clip(bvh_with_rows(rows_text + " 6 1 2 3 4\n", 1), "take.bvh");
+  ASSERT_EQ(read.clip.frame_count(), 3u);
+  const std::string written = write_clip(read.clip);
+  EXPECT_EQ(write_clip(read_text(written)), written);
+  EXPECT_EQ(read_text(bvh_with_rows("1 2 3 4 5\n6 1 2 3 4 5\n6 1 2 3 4 5\n6\n", 3)).frame_count(),
+            3u);
+}
+
+TEST(CutFile, OfBvhThatComesOutEvenOnlyByTheCutIsStillAnError) {
+  const std::string rows_text =
+      "1.25 2.25 3.25 4.25 5.25 6.25 9.25\n1.25 2.25 3.25 4.25 5.25 6.25\n"
+      "1.25 2.25 3.25 4.25 5.25 6.25\n1.25 2.25 3.25 4.25 5.25 6.25\n"
+      "1.25 2.25 3.25 4.25 5.25 6.25\n1.25 2.25 3.25 4.25 7.8";
+  EXPECT_THAT(read_error(bvh_with_rows(rows_text, 6)),
+              HasSubstr("expected 6 channel values, found 7"));
+}
+
 TEST(CutFile, OfAmcIsReadUpToTheLastWholeFrame) {
   const std::string frame = figure_amc();
   const std::size_t begin = frame.find("\n1\n") + 1;

@@ -189,10 +189,19 @@ class MotionReader {
     return value_is_cut_;
   }
 
+  // The line to blame in the rows up to `end`, which leave over `rest` values. Frames that come out
+  // as declared may be wrapped over as many lines as there are frames.
+  std::optional<LineFault> line_fault(const char* end, std::size_t rest) const {
+    const bool as_declared = rest == 0 && header_.frames == frames();
+    return find_line_fault(begin_, end, document_.commas, columns_.count(),
+                           as_declared ? std::nullopt : header_.frames);
+  }
+
   // Whether the file was cut off in the last row, while all before it is whole.
   bool ends_in_row(const MotionRows& rows, std::size_t rest) const {
     if (frames() == 0) return false;
-    if (value_is_cut_) return true;
+    // What is written ends before the row, and must be readable, too.
+    if (value_is_cut_) return !line_fault(row_begin_, 0);
     const bool in_word =
         !rows.at_end() && std::none_of(rows.position(), end_, is_space) &&
         may_start_number({rows.position(), static_cast<std::size_t>(end_ - rows.position())});
@@ -201,7 +210,8 @@ class MotionReader {
     // A line that is short although its end is there, or an earlier one, is another fault.
     const bool ends_with_line = is_line_end(end_[-1]);
     const char* const whole = ends_with_line ? rows.last_end() : row_begin_;
-    return !find_line_fault(begin_, whole, document_.commas, columns_.count(), std::nullopt);
+    return !find_line_fault(begin_, whole, document_.commas, columns_.count(), std::nullopt) &&
+           !line_fault(row_begin_, 0);
   }
 
   void note_cut() {
@@ -217,6 +227,8 @@ class MotionReader {
   // there, in the room of the old one.
   void leave_out_cut_row() {
     document_.bytes.resize(place_of(row_begin_));
+    // A row that starts within a word leaves a number at the end that would pass for a cut one.
+    if (!is_space(document_.bytes.back())) document_.bytes += '\n';
     std::string count = std::to_string(frames());
     if (!header_.frames || count.size() > header_.frame_count.size) return;
     count.resize(header_.frame_count.size, ' ');
@@ -233,9 +245,8 @@ class MotionReader {
                            fmt::format("expected a number, found {}", quote(found)));
     }
     const bool wrong_count = header_.frames && *header_.frames != frames();
-    if (rest > 0 || uneven_lines_ || wrong_count) {
-      const auto fault = find_line_fault(begin_, rows.position(), document_.commas,
-                                         columns_.count(), header_.frames);
+    if (rest > 0 || uneven_lines_ || wrong_count || value_is_cut_) {
+      const auto fault = line_fault(value_is_cut_ ? row_begin_ : rows.position(), rest);
       if (fault) throw text_.error_at(fault->place, to_string(*fault));
     }
     if (rest > 0) {

@@ -70,7 +70,7 @@ class NewFile {
       largest = std::max(largest, most);
       if (clip_.holds_positions(i % clip_.marker_count())) farthest = std::max(farthest, most);
     }
-    if (largest > largest_c3d_real)
+    if (largest > static_cast<double>(std::numeric_limits<float>::max()))
       throw Error(ErrorKind::usage, fmt::format("{:g} is too large for a C3D file", largest));
     // A source's own scale keeps its residuals exact. In a file of reals it need not be one that
     // integers could do with.

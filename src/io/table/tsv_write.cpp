@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/table/csv_head.hpp"
 #include "io/table/tsv.hpp"
 #include "io/table/tsv_document.hpp"
 #include "io/text/cell_patch.hpp"
@@ -39,9 +40,15 @@ class TsvWriter {
     out_.append(key + "\t" + value + "\n");
   }
 
-  static const std::string& checked(const std::string& name) {
-    if (name.find_first_of("\t\r\n\"") == std::string::npos) return name;
-    throw Error(ErrorKind::usage, fmt::format("TSV cannot hold the name {}", quote(name)));
+  // A cell with that text, in quotes where anything would get lost without them.
+  static std::string cell(std::string_view text) {
+    if (text.find_first_of("\r\n") != text.npos)
+      throw Error(ErrorKind::usage, fmt::format("TSV cannot hold the name {}", quote(text)));
+    if (text.find_first_of("\t\"") == text.npos && without_spaces_around(text) == text)
+      return std::string(text);
+    std::string quoted = "\"";
+    for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+    return quoted + "\"";
   }
 
   void write_head() {
@@ -59,15 +66,15 @@ class TsvWriter {
       const std::string name =
           event.context.empty() ? event.label : event.context + " " + event.label;
       const std::string time(room, write_shortest(room, event.time_s));
-      line("EVENT", fmt::format("{}\t{:.0f}\t{}", checked(name),
-                                1 + event.time_s * clip_.frame_rate_hz, time));
+      line("EVENT",
+           fmt::format("{}\t{:.0f}\t{}", cell(name), 1 + event.time_s * clip_.frame_rate_hz, time));
     }
     std::string names, types, labels;
     for (const std::string& name : clip_.names) {
       const bool first = names.empty() && types.empty();
-      names += (first ? "" : "\t") + checked(name);
+      names += (first ? "" : "\t") + cell(name);
       types += first ? "Measured" : "\tMeasured";
-      labels += fmt::format("\t{0} X\t{0} Y\t{0} Z", name);
+      for (const char* axis : {" X", " Y", " Z"}) labels += "\t" + cell(name + axis);
     }
     line("MARKER_NAMES", names);
     line("TRAJECTORY_TYPES", types);

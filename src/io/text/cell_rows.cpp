@@ -22,14 +22,20 @@ bool is_quoted(TokenSpan token) {
   return token.end - token.begin >= 2 && *token.begin == '"' && token.end[-1] == '"';
 }
 
-// Quotes hide separators, up to the end of the line.
+// Quotes hide separators, up to the end of the line; two quotes within quotes are one.
 const char* cell_end(const char* p, const char* end, char separator) {
   const char* q = p;
   while (q != end && is_cell_blank(*q) && *q != separator) ++q;
   bool quoted = q != end && *q == '"';
   if (quoted) p = q + 1;
   for (; p != end && !is_line_end(*p); ++p) {
-    if (*p == '"') quoted = false;
+    if (*p == '"') {
+      if (quoted && p + 1 != end && p[1] == '"') {
+        ++p;
+        continue;
+      }
+      quoted = false;
+    }
     if (!quoted && *p == separator) return p;
   }
   return p;

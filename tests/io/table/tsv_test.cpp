@@ -170,6 +170,21 @@ TEST(TsvWriter, TakesOfOtherFormatsReadBack) {
             "TSV files are in millimetres, the take is in \"m\"");
 }
 
+TEST(TsvWriter, NamesWithQuotesBlanksAndTabsReadBack) {
+  MarkerClip clip = make_marker_clip({"a\"b", "\"c\"", " d ", "\"e\tf\"g"}, 1, 100);
+  clip.unit = "mm";
+  for (std::size_t m = 0; m < 4; ++m) clip.positions[m] = {1, 2, static_cast<double>(m)};
+  clip.observed.assign(4, 1);
+  const std::string written = write_markers(clip, "tsv");
+  const TakeResult result = read_table(written);
+  EXPECT_TRUE(result.diagnostics.empty());
+  EXPECT_EQ(std::get<MarkerClip>(result.take).names, clip.names);
+  EXPECT_EQ(std::get<MarkerClip>(result.take).positions, clip.positions);
+  clip.names[0] = "a\nb";
+  EXPECT_EQ(message_of([&] { write_markers(clip, "tsv"); }, ErrorKind::usage),
+            "TSV cannot hold the name \"a.b\"");
+}
+
 TEST(HostileTsv, EveryFixtureIsReadOrRefused) {
   ASSERT_FALSE(fixture_bytes("tsv").empty());
   for (const std::string& bytes : fixture_bytes("tsv")) expect_take_or_error(bytes, "tsv");
