@@ -7,6 +7,7 @@
 #include "io/table/trc.hpp"
 #include "io/table/trc_document.hpp"
 #include "io/text/cell_patch.hpp"
+#include "io/text/cell_rows.hpp"
 #include "io/text/text_buffer.hpp"
 #include "kinemend/error.hpp"
 
@@ -81,11 +82,11 @@ class TrcWriter {
                      clip_.first_frame));
     std::string names = "Frame#\tTime", axes = "\t";
     for (std::size_t m = 0; m < clip_.marker_count(); ++m) {
-      if (clip_.names[m].find_first_of("\t\r\n\"") != std::string::npos) {
+      if (clip_.names[m].find_first_of("\r\n") != std::string::npos) {
         throw Error(ErrorKind::usage,
                     fmt::format("TRC cannot hold the name {}", quote(clip_.names[m])));
       }
-      names += (m == 0 ? "\t" : "\t\t\t") + clip_.names[m];
+      names += (m == 0 ? "\t" : "\t\t\t") + cell_of(clip_.names[m], '\t');
       axes += fmt::format("\tX{0}\tY{0}\tZ{0}", m + 1);
     }
     line(names + "\t\t");

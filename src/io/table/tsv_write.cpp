@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "io/table/csv_head.hpp"
 #include "io/table/tsv.hpp"
 #include "io/table/tsv_document.hpp"
 #include "io/text/cell_patch.hpp"
+#include "io/text/cell_rows.hpp"
 #include "io/text/text_buffer.hpp"
 #include "kinemend/error.hpp"
 
@@ -40,15 +40,10 @@ class TsvWriter {
     out_.append(key + "\t" + value + "\n");
   }
 
-  // A cell with that text, in quotes where anything would get lost without them.
   static std::string cell(std::string_view text) {
     if (text.find_first_of("\r\n") != text.npos)
       throw Error(ErrorKind::usage, fmt::format("TSV cannot hold the name {}", quote(text)));
-    if (text.find_first_of("\t\"") == text.npos && without_spaces_around(text) == text)
-      return std::string(text);
-    std::string quoted = "\"";
-    for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
-    return quoted + "\"";
+    return cell_of(text, '\t');
   }
 
   void write_head() {

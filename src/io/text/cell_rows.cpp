@@ -89,6 +89,15 @@ std::vector<std::string> split_cells(std::string_view line, char separator) {
   return cells;
 }
 
+std::string cell_of(std::string_view text, char separator) {
+  const bool has_mark = text.find('"') != text.npos || text.find(separator) != text.npos;
+  const bool has_blank_end = !text.empty() && (is_space(text.front()) || is_space(text.back()));
+  if (!has_mark && !has_blank_end) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  return quoted + "\"";
+}
+
 struct CellRows::Output {
   double* values;
   std::size_t count;

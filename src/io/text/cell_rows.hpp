@@ -37,6 +37,9 @@ std::size_t estimate_rows(std::string_view text, std::size_t begin);
 /// The cells of a line without blanks or quotes around them; two quotes within quotes are one. An
 /// empty cell after the last separator is left out.
 std::vector<std::string> split_cells(std::string_view line, char separator);
+/// The cell that `split_cells` reads as this text without line ends: in quotes where a blank at
+/// either end, a quote or the separator would get lost without them.
+std::string cell_of(std::string_view text, char separator);
 
 /// A row as it was read.
 struct CellRow {
