@@ -118,6 +118,27 @@ Leftover noise_left(const CleanReport& report, double metres_per_unit) {
                       report.method)};
 }
 
+// Noise that a check finds in the tracks that were to be cleaned.
+Leftover noise_not_measured(const CheckReport& check, const CleanReport& report) {
+  const bool is_joints = report.kind == TakeKind::joints;
+  std::size_t count = 0;
+  double worst = 0;
+  for (const Finding& finding : check.findings) {
+    const bool is_cleaned = std::any_of(report.tracks.begin(), report.tracks.end(),
+                                        [&](const auto& t) { return t.name == finding.track; });
+    if (finding.kind != FindingKind::noise || !is_cleaned) continue;
+    ++count;
+    worst = std::max(worst, finding.figure);
+  }
+  if (count == 0) return {};
+  return {
+      fmt::format("kinemend check finds jitter on {}, {} {} at most",
+                  counted(count, is_joints ? "joint" : "marker"), figure(worst), check.noise_unit),
+      fmt::format("{} measured none and changed nothing; --method butterworth --cutoff-hz 6 "
+                  "smooths it anyway",
+                  report.method)};
+}
+
 }  // namespace
 
 std::vector<Leftover> reasons_unchanged(const Take& take, const CleanReport& report,
@@ -132,7 +153,8 @@ std::vector<Leftover> reasons_unchanged(const Take& take, const CleanReport& rep
     if (const Found found = found_of(check.findings, kind); found.count > 0)
       reasons.push_back({what(found), mend});
   };
-  const Leftover noise = noise_left(report, check.metres_per_unit);
+  Leftover noise = noise_left(report, check.metres_per_unit);
+  if (noise.what.empty()) noise = noise_not_measured(check, report);
   if (!noise.what.empty() && reason.what.empty()) reasons.push_back(noise);
   add(
       FindingKind::spike,

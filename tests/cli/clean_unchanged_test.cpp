@@ -63,6 +63,23 @@ TEST_F(Unchanged, ACutoffAboveTheNyquistFrequencyIsAWarningInEveryMethod) {
   EXPECT_FALSE(fs::exists(folder / "strict.bvh"));
 }
 
+// Samples of 15 Hz joined by lines have noise that no measure of single frames sees.
+TEST_F(Unchanged, NoiseThatCheckFindsIsSaidWhereTheMethodMeasuresNone) {
+  synth("walk.bvh", "walk", "6");
+  ASSERT_EQ(run({"corrupt", "walk.bvh", "-o", "joined.bvh", "--damage", "gaussian:std_deg=1.5",
+                 "--damage", "upsampled:rate_hz=15"})
+                .code,
+            0);
+  ASSERT_THAT(run({"check", "joined.bvh"}).out, HasSubstr("jitters from frame to frame"));
+  const Ran ran = run({"clean", "joined.bvh", "-m", "hampel", "--threshold", "20", "--dry-run"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out,
+              AllOf(HasSubstr("nothing changed: kinemend check finds jitter on 31 joints, "),
+                    HasSubstr(" deg at most (hampel measured none and changed nothing; --method "
+                              "butterworth --cutoff-hz 6 smooths it anyway)"),
+                    Not(HasSubstr("clean: nothing changed"))));
+}
+
 TEST_F(Unchanged, ATakeOfTwoFramesIsTooShort) {
   put(folder / "hand.bvh", hand_take());
   std::vector<std::string> lines = lines_of(hand_take());
