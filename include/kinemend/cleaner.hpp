@@ -86,6 +86,7 @@ struct LiveSupport {
   std::size_t half_window_frames = 0;  ///< of `windowed`
   std::size_t ahead_frames = 0;        ///< of `delayed`
   std::string why_not{};               ///< of `none`, where there is more to say: what would run
+  std::string warning{};               ///< what the method cannot do at this rate; empty: nothing
 };
 
 /// One frame of live motion.

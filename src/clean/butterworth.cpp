@@ -78,9 +78,12 @@ class Butterworth final : public Cleaner {
     return {};
   }
 
-  LiveSupport live_support(double) const override {
-    if (!options_.causal) return {};
-    return {LiveSupport::Kind::causal, 0};
+  LiveSupport live_support(double frame_rate_hz) const override {
+    LiveSupport support;
+    if (!options_.causal) return support;
+    support.kind = LiveSupport::Kind::causal;
+    if (!acts(frame_rate_hz)) support.warning = nothing_to_do(frame_rate_hz);
+    return support;
   }
 
   std::unique_ptr<FrameFilter> make_frame_filter(const TakeView& like) const override {

@@ -64,14 +64,15 @@ class OneEuro final : public Cleaner {
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
     CleanTrace trace = clean_causally(*this, take, sink, progress);
-    if (!is_below_nyquist(options_.min_cutoff_hz, take.frame_rate_hz)) {
-      trace.warnings.push_back(
-          cutoff_warning("min_cutoff_hz", options_.min_cutoff_hz, take.frame_rate_hz) +
-          "; a pose that is held is hardly smoothed");
-    }
+    if (std::string warning = warning_at(take.frame_rate_hz); !warning.empty())
+      trace.warnings.push_back(std::move(warning));
     return trace;
   }
-  LiveSupport live_support(double) const override { return {LiveSupport::Kind::causal, 0}; }
+  LiveSupport live_support(double frame_rate_hz) const override {
+    LiveSupport support{LiveSupport::Kind::causal};
+    support.warning = warning_at(frame_rate_hz);
+    return support;
+  }
   std::unique_ptr<FrameFilter> make_frame_filter(const TakeView& like) const override {
     const double rate_hz = like.frame_rate_hz;
     return make_track_filter(like, OneEuroTrack<Quat>(options_, rate_hz, 1),
@@ -79,6 +80,12 @@ class OneEuro final : public Cleaner {
   }
 
  private:
+  std::string warning_at(double rate_hz) const {
+    if (is_below_nyquist(options_.min_cutoff_hz, rate_hz)) return {};
+    return cutoff_warning("min_cutoff_hz", options_.min_cutoff_hz, rate_hz) +
+           "; a pose that is held is hardly smoothed";
+  }
+
   OneEuroOptions options_;
 };
 

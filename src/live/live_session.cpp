@@ -204,6 +204,8 @@ class LiveSession::Work {
                                  joints ? opened.skeleton.joint_count() : opened.markers.size(),
                                  joints ? "joints" : "markers", rate_hz, delay,
                                  1000 * static_cast<double>(delay) / rate_hz));
+    if (std::string warning = cleaner_.live_support(rate_hz).warning; !warning.empty())
+      notes_.push_back(std::move(warning));
   }
 
   const Cleaner& cleaner_;

@@ -56,6 +56,22 @@ TEST_F(LiveSessionTest, TellsTheSkeletonAndTheDelay) {
   EXPECT_TRUE(run.session.take_notes().empty());
 }
 
+TEST_F(LiveSessionTest, SaysThatACutoffIsNotBelowTheNyquistFrequency) {
+  LiveRun run(*filter_);
+  run.feed(stream_.header);
+  EXPECT_THAT(run.session.take_notes(),
+              Contains("cutoff_hz: 500 Hz is not below the Nyquist frequency of 60.0 Hz (half the "
+                       "frame rate); nothing is filtered"));
+  const auto euro = make_cleaner("one-euro", {{"min_cutoff_hz", 60.0}});
+  LiveRun euro_run(*euro);
+  euro_run.feed(stream_.header);
+  EXPECT_THAT(euro_run.session.take_notes(), Contains(HasSubstr("min_cutoff_hz: 60.0 Hz is not")));
+  const auto below = make_cleaner("butterworth", {{"causal", true}, {"cutoff_hz", 59.0}});
+  LiveRun below_run(*below);
+  below_run.feed(stream_.header);
+  EXPECT_THAT(below_run.session.take_notes(), testing::SizeIs(1));
+}
+
 TEST_F(LiveSessionTest, ReadsLinesAsSuitsEndThem) {
   std::string text = stream_.header;
   for (std::string frame : stream_.frames) {
