@@ -195,6 +195,19 @@ TEST(MarkerPipeline, FillsFromWhatIsDenoised) {
   EXPECT_EQ(result.report.tracks[4].gaps_left, 0U);
 }
 
+TEST(MarkerPipeline, SmoothsNoiseBeforeItFillsGaps) {
+  MarkerClip clip = marker_take("walk", 2);
+  lose(clip, 4, 100, 111);
+  CleanSettings settings;
+  settings.fill = FillSettings{};
+  std::vector<std::string> stages;
+  settings.progress = [&](std::string_view stage, double) {
+    if (stages.empty() || stages.back() != stage) stages.emplace_back(stage);
+  };
+  clean_markers(clip, *make_auto(), settings);
+  EXPECT_THAT(stages, testing::ElementsAre("cleaning", "filling"));
+}
+
 TEST(MarkerPipeline, FillsOnlyWhatIsSelectedAndInTheRange) {
   MarkerClip clip = marker_take("walk", 2);
   lose(clip, 4, 100, 111);

@@ -133,6 +133,27 @@ TEST_F(ReportWords, SwapsThatAreUndoneAreAChangeAndOthersAreLeftOver) {
               AllOf(HasSubstr("1 swap of markers undone"), Not(HasSubstr("nothing changed"))));
 }
 
+// Smoothed with the wrong label, or filled from it, the take would differ from one without swaps.
+TEST_F(ReportWords, SwapsAreUndoneBeforeNoiseIsSmoothedAndGapsAreFilled) {
+  synth("walk.bvh", "walk", "6");
+  ASSERT_EQ(run({"convert", "walk.bvh", "-o", "walk.trc"}).code, 0);
+  const std::string right = contents(folder / "walk.trc");
+  put(folder / "swapped.trc", with_swap(right, 3, 8, 120, 180));
+  const std::string names = lines_of(right)[3];
+  std::istringstream cells(names);
+  std::string marker;
+  for (std::size_t i = 0; i < 3 + 3 * 3; ++i) std::getline(cells, marker, '\t');
+  put(folder / "gaps.csv", marker + ",184,190\n");
+  for (const char* const take : {"walk.trc", "swapped.trc"}) {
+    const Ran ran = run({"clean", take, "--fix-swaps", "--fill", "auto", "--gaps", "gaps.csv", "-m",
+                         "gaussian", "-o", std::string("done_") + take});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_THAT(ran.out, HasSubstr("1 of 1 gap filled")) << take;
+  }
+  EXPECT_EQ(contents(folder / "done_swapped.trc"), contents(folder / "done_walk.trc"));
+  EXPECT_NE(contents(folder / "done_walk.trc"), right);
+}
+
 TEST_F(ReportWords, StrictPassesNoGreatChangeUnnoticed) {
   synth("walk.bvh", "walk", "4");
   ASSERT_EQ(run({"corrupt", "walk.bvh", "-o", "spiky.bvh", "--damage",
