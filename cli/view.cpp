@@ -7,6 +7,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <set>
 #include <variant>
 #include <vector>
 
@@ -55,7 +56,8 @@ ViewFiles files_of(const Arguments& arguments) {
   files.gaps = given("gaps", beside(files.input, "gaps.csv"));
   files.with_gaps = arguments.given("gaps");
   files.plan = given("plan", beside(files.input, "plan.csv"));
-  for (const std::string& output : {files.cleaned, files.filled}) {
+  // One file where --output is given.
+  for (const std::string& output : std::set<std::string>{files.cleaned, files.filled}) {
     RunFiles()
         .reads("TAKE", files.input)
         .writes("--gaps", files.gaps)
