@@ -27,9 +27,13 @@ const std::string fixed_skeleton =
     ":hierarchy begin\nroot hip spine\nhip thigh\nthigh shin\nshin foot\nspine arm slider neck\n"
     "slider hand\nend\n";
 
-Clip read(const std::string& amc, const std::string& asf, bool* is_cut = nullptr) {
+// `is_mended`: whether the file was cut off, or numbers were run together.
+Clip read(const std::string& amc, const std::string& asf, bool* is_mended = nullptr) {
   TakeResult result = read_amc(amc, "fuzz.amc", asf, "fuzz.asf", {});
-  if (is_cut != nullptr) *is_cut = result.diagnostics.count("file_cut") > 0;
+  if (is_mended != nullptr) {
+    *is_mended =
+        result.diagnostics.count("file_cut") + result.diagnostics.count("numbers_joined") > 0;
+  }
   Clip clip = std::get<Clip>(std::move(result.take));
   clip.validate();
   return clip;
@@ -73,12 +77,12 @@ void change(Clip& clip, std::uint64_t seed) {
   for (Vec3& v : clip.joint_translations) v += {random.normal(), 0, 0.5};
 }
 
-// What is no finite number, or half a frame at the end, is never written: once it is gone, the text
-// stays as it is.
-void check_unchanged(const Clip& clip, bool is_cut, const std::string& amc,
+// What is no finite number, half a frame at the end, or two numbers without a blank between them is
+// never written: once it is gone, the text stays as it is.
+void check_unchanged(const Clip& clip, bool is_mended, const std::string& amc,
                      const std::string& asf) {
   const std::string written = write_clip(clip, "amc");
-  if (clip.observed.empty() && !is_cut) {
+  if (clip.observed.empty() && !is_mended) {
     check(written == amc);
     return;
   }
@@ -88,9 +92,9 @@ void check_unchanged(const Clip& clip, bool is_cut, const std::string& amc,
 }
 
 // Of a pair that was read: nothing of what is written from it may be refused.
-void check_written(Clip clip, bool is_cut, const std::string& amc, const std::string& asf,
+void check_written(Clip clip, bool is_mended, const std::string& amc, const std::string& asf,
                    std::uint64_t seed) {
-  check_unchanged(clip, is_cut, amc, asf);
+  check_unchanged(clip, is_mended, amc, asf);
   check(write_clip(clip, "asf") == asf);
   const SourceInfo source = clip.source;
   clip.source = {};
@@ -116,14 +120,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string amc = both ? bytes.substr(motion) : bytes;
   const std::string asf = both ? bytes.substr(0, motion) : fixed_skeleton;
   Clip clip;
-  bool is_cut = false;
+  bool is_mended = false;
   try {
-    clip = read(amc, asf, &is_cut);
+    clip = read(amc, asf, &is_mended);
   } catch (const Error& error) {
     const bool is_of_motion = std::string_view(error.what()).starts_with("fuzz.amc:");
     check_refusal(error, {ErrorKind::unreadable_input}, is_of_motion ? "fuzz.amc:" : "fuzz.asf:");
     return 0;
   }
-  check_written(std::move(clip), is_cut, amc, asf, seed);
+  check_written(std::move(clip), is_mended, amc, asf, seed);
   return 0;
 }

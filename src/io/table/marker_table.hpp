@@ -90,9 +90,9 @@ bool is_not_finite(std::string_view text);
 unsigned decimals_of(std::string_view bytes, const MarkerTable& table);
 
 /// The bytes with every changed sample replaced, with as many decimals as the table has. Missing
-/// samples, and all cells that hold no finite number, become empty cells. Empty where the table has
-/// no separators, so that it cannot show an empty cell. The clip has the table's frames and
-/// markers.
+/// samples, and all cells that hold no finite number, become empty cells. Empty where the table
+/// cannot show them: it has no separators, or a row would have empty cells alone. The clip has the
+/// table's frames and markers.
 std::optional<std::string> rewrite_marker_table(const MarkerClip& clip, std::string_view bytes,
                                                 const MarkerTable& table);
 

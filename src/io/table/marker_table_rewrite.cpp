@@ -42,6 +42,7 @@ class TableRewriter {
         if (patch_.has_replacements()) empty(column);
       }
       cut_.clear();
+      if (patch_.empties_row()) return std::nullopt;
       ++f;
     }
     if (needs_empty_cells_ && table_.style.separator == ' ') return std::nullopt;

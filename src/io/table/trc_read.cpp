@@ -34,6 +34,7 @@ class TrcReader {
     table.frame_column = 0;
     table.time_column = header_.has_time ? 1 : -1;
     clip_.unit = header_.value("Units");
+    if (is_not_finite(clip_.unit)) clip_.unit.clear();
     table.head_is_finite =
         std::none_of(header_.values.begin(), header_.values.end(), is_not_finite);
     if (!table.head_is_finite)

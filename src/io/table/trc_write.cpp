@@ -86,7 +86,7 @@ class TrcWriter {
         throw Error(ErrorKind::usage,
                     fmt::format("TRC cannot hold the name {}", quote(clip_.names[m])));
       }
-      names += (m == 0 ? "\t" : "\t\t\t") + cell_of(clip_.names[m], '\t');
+      names.append(m == 0 ? "\t" : "\t\t\t").append(cell_of(clip_.names[m], '\t'));
       axes += fmt::format("\tX{0}\tY{0}\tZ{0}", m + 1);
     }
     line(names + "\t\t");

@@ -67,9 +67,9 @@ class TsvWriter {
     std::string names, types, labels;
     for (const std::string& name : clip_.names) {
       const bool first = names.empty() && types.empty();
-      names += (first ? "" : "\t") + cell(name);
+      names.append(first ? "" : "\t").append(cell(name));
       types += first ? "Measured" : "\tMeasured";
-      for (const char* axis : {" X", " Y", " Z"}) labels += "\t" + cell(name + axis);
+      for (const char* axis : {" X", " Y", " Z"}) labels.append("\t").append(cell(name + axis));
     }
     line("MARKER_NAMES", names);
     line("TRAJECTORY_TYPES", types);

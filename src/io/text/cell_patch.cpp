@@ -1,6 +1,7 @@
 #include "io/text/cell_patch.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace kinemend {
 
@@ -27,6 +28,14 @@ void CellPatch::replace(std::size_t column, double value, unsigned decimals) {
       decimals > most_fixed_decimals ? 0 : 0.5 * std::pow(10.0, -static_cast<double>(decimals));
   if (std::fabs(value - values_[column]) <= keep_below) return;
   replacements_.push_back({column, value, decimals});
+}
+
+bool CellPatch::empties_row() const {
+  if (replacements_.empty()) return false;
+  std::vector<std::uint8_t> is_filled(width_);
+  for (std::size_t i = 0; i < width_; ++i) is_filled[i] = tokens_[i].begin != tokens_[i].end;
+  for (const Replacement& r : replacements_) is_filled[r.column] = !std::isnan(r.value);
+  return std::find(is_filled.begin(), is_filled.end(), 1) == is_filled.end();
 }
 
 std::string CellPatch::finish() && {

@@ -34,6 +34,9 @@ class CellPatch {
   /// the new value as well as so many decimals can are kept.
   void replace(std::size_t column, double value, unsigned decimals);
   bool has_replacements() const { return !replacements_.empty(); }
+  /// Whether the replacements leave no cell of this row that is not empty: it would no longer be
+  /// read as a row.
+  bool empties_row() const;
   /// The rest of the bytes, as they are.
   std::string finish() &&;
 

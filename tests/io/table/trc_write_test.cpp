@@ -169,6 +169,15 @@ TEST(TrcWriter, AClipMadeInMemoryReadsBackExactly) {
   }
 }
 
+TEST(TrcWriter, AUnitThatIsNoNumberIsNotWritten) {
+  std::string text = write_markers(make_marker_clip({"A"}, 2, 100), "trc");
+  text.replace(text.find("\tmm\t"), 4, "\tnan\t");
+  const TakeResult read = read_take(text, "take.trc");
+  EXPECT_EQ(read.diagnostics.count("head_not_finite"), 1u);
+  const std::string written = write_take(read.take);
+  EXPECT_EQ(read_take(written, "take.trc").diagnostics.count("head_not_finite"), 0u);
+}
+
 TEST(TrcWriter, NamesWithQuotesBlanksAndTabsReadBack) {
   MarkerClip clip = make_marker_clip({"a\"b", "\"c\"", " d ", "\"e\tf\"g"}, 1, 100);
   for (std::size_t m = 0; m < 4; ++m) clip.positions[m] = {1, 2, static_cast<double>(m)};

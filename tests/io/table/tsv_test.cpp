@@ -170,6 +170,19 @@ TEST(TsvWriter, TakesOfOtherFormatsReadBack) {
             "TSV files are in millimetres, the take is in \"m\"");
 }
 
+// A row without number or time whose only marker is missing would be a blank line.
+TEST(TsvWriter, ARowWithoutAnySampleStaysAFrame) {
+  const std::string text =
+      "NO_OF_FRAMES\t3\nNO_OF_MARKERS\t1\nFREQUENCY\t100\nMARKER_NAMES\tA\n"
+      "1\t2\t3\n4\t5\t6\n7\t8\t9\n";
+  auto clip = std::get<MarkerClip>(read_table(text).take);
+  ASSERT_EQ(clip.frame_count(), 3u);
+  clip.observed[1] = 0;
+  const auto again = std::get<MarkerClip>(read_table(write_markers(clip, "tsv")).take);
+  EXPECT_THAT(again.observed, ElementsAre(1, 0, 1));
+  EXPECT_EQ(again.position(2, 0), (Vec3{7, 8, 9}));
+}
+
 TEST(TsvWriter, NamesWithQuotesBlanksAndTabsReadBack) {
   MarkerClip clip = make_marker_clip({"a\"b", "\"c\"", " d ", "\"e\tf\"g"}, 1, 100);
   clip.unit = "mm";
