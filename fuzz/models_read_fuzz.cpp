@@ -18,6 +18,7 @@ std::unique_ptr<Cleaner> cleaner_of(const std::shared_ptr<const Model>& model) {
   if (model->method == "example") return make_example({}, model);
   if (model->method == "sparse") return make_sparse({}, model);
   if (model->method == "kalman-learned") return make_kalman_learned({}, model);
+  if (model->method == "learned") return make_learned({}, model);
   if (model->method == "recurrent") return make_recurrent({}, model);
   return nullptr;
 }

@@ -4,22 +4,20 @@
 
 #include <charconv>
 #include <system_error>
+#include <utility>
 
 #include "kinemend/error.hpp"
 
 namespace kinemend::train {
 
-std::string write_checkpoint(const SequenceNetwork& network, std::size_t batch,
-                             std::uint64_t seed) {
-  TensorFile state = network.state();
+std::string write_checkpoint(TensorFile state, std::size_t batch, std::uint64_t seed) {
   state.metadata["batch"] = fmt::format("{}", batch);
   state.metadata["seed"] = fmt::format("{}", seed);
   return write_tensors(state);
 }
 
-std::size_t read_checkpoint(std::string_view bytes, std::string_view name, std::uint64_t seed,
-                            SequenceNetwork& network) {
-  const TensorFile state = parse_tensors(bytes, name);
+Checkpoint read_checkpoint(std::string_view bytes, std::string_view name, std::uint64_t seed) {
+  TensorFile state = parse_tensors(bytes, name);
   const auto number = [&](const char* key) {
     const auto found = state.metadata.find(key);
     const std::string text = found == state.metadata.end() ? "" : found->second;
@@ -33,8 +31,7 @@ std::size_t read_checkpoint(std::string_view bytes, std::string_view name, std::
   if (other_seed != seed)
     throw Error(ErrorKind::usage,
                 fmt::format("{}: is of a training with seed {}, not {}", name, other_seed, seed));
-  network.set_state(state);
-  return batch;
+  return {std::move(state), batch};
 }
 
 }  // namespace kinemend::train

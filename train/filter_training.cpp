@@ -432,11 +432,13 @@ Model FilterTrainer::model() const {
 }
 
 std::string FilterTrainer::checkpoint() const {
-  return write_checkpoint(*network_, batch_, settings_.seed);
+  return write_checkpoint(network_->state(), batch_, settings_.seed);
 }
 
 void FilterTrainer::resume(std::string_view bytes, std::string_view name) {
-  batch_ = read_checkpoint(bytes, name, settings_.seed, *network_);
+  const Checkpoint kept = read_checkpoint(bytes, name, settings_.seed);
+  network_->set_state(kept.state);
+  batch_ = kept.batch;
 }
 
 void FilterTrainer::begin_with(const Model& model) {

@@ -10,6 +10,7 @@
 #include "base/file_bytes.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
+#include "motion_training.hpp"
 #include "priors/sequence_damage.hpp"
 #include "program.hpp"
 #include "recurrent_training.hpp"
@@ -108,6 +109,8 @@ void train(const Arguments& arguments) {
 int start(int count, char** values) {
   if (count > 1 && std::strcmp(values[1], "paper") == 0)
     return paper_program(count - 1, values + 1);
+  if (count > 1 && std::strcmp(values[1], "learned") == 0)
+    return motion_program(count - 1, values + 1);
   Arguments arguments;
   RecurrentTraining& training = arguments.training;
   CLI::App app{

@@ -178,11 +178,13 @@ Model RecurrentTrainer::model() const {
 }
 
 std::string RecurrentTrainer::checkpoint() const {
-  return write_checkpoint(network_, batch_, settings_.seed);
+  return write_checkpoint(network_.state(), batch_, settings_.seed);
 }
 
 void RecurrentTrainer::resume(std::string_view bytes, std::string_view name) {
-  batch_ = read_checkpoint(bytes, name, settings_.seed, network_);
+  const Checkpoint kept = read_checkpoint(bytes, name, settings_.seed);
+  network_.set_state(kept.state);
+  batch_ = kept.batch;
 }
 
 }  // namespace kinemend::train

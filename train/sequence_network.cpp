@@ -7,14 +7,12 @@
 #include <cmath>
 #include <utility>
 
-#include "kinemend/error.hpp"
+#include "descent.hpp"
 #include "lstm_layer.hpp"
 
 namespace kinemend::train {
 
 namespace {
-
-using Parameters = std::map<std::string, torch::Tensor, std::less<>>;
 
 struct Call {
   const Parameters& weights;
@@ -112,33 +110,7 @@ torch::Tensor forward_of(const NetworkShape& shape, const Call& call, const torc
       shape);
 }
 
-// Draws weights, uniform and of variance 1 / inputs at gain 1, in the order of their making.
-class Maker {
- public:
-  Maker(Parameters& weights, std::uint64_t seed) : weights_(weights) { torch::manual_seed(seed); }
-
-  void add(const std::string& name, std::vector<std::int64_t> shape, double bound) {
-    torch::Tensor values = torch::zeros(shape);
-    if (bound > 0) values.uniform_(-bound, bound);
-    weights_[name] = values.requires_grad_(true);
-  }
-  void set(const std::string& name, const std::vector<double>& values) {
-    const torch::NoGradGuard guard;
-    for (std::size_t i = 0; i < values.size(); ++i)
-      weights_.at(name)[static_cast<std::int64_t>(i)] = values[i];
-  }
-  void add_dense(const std::string& name, std::size_t inputs, std::size_t outputs,
-                 double gain = 1) {
-    const auto in = static_cast<std::int64_t>(inputs), out = static_cast<std::int64_t>(outputs);
-    add(name + ".weight", {out, in}, gain * std::sqrt(3.0 / static_cast<double>(inputs)));
-    add(name + ".bias", {out}, 0);
-  }
-
- private:
-  Parameters& weights_;
-};
-
-void make(const ConvolutionalShape& shape, Maker& maker) {
+void make(const ConvolutionalShape& shape, WeightMaker& maker) {
   const std::size_t hidden = shape.hidden;
   const auto width = static_cast<std::int64_t>(hidden);
   maker.add_dense("input", shape.inputs, hidden);
@@ -152,7 +124,7 @@ void make(const ConvolutionalShape& shape, Maker& maker) {
   maker.add_dense("output", hidden, shape.outputs, 0);
 }
 
-void add_lstm(Maker& maker, const std::string& name, std::size_t inputs, std::size_t units) {
+void add_lstm(WeightMaker& maker, const std::string& name, std::size_t inputs, std::size_t units) {
   const auto in = static_cast<std::int64_t>(inputs), out = static_cast<std::int64_t>(units);
   maker.add(name + ".input.weight", {4 * out, in}, std::sqrt(3.0 / static_cast<double>(inputs)));
   maker.add(name + ".state.weight", {4 * out, out}, std::sqrt(1.0 / static_cast<double>(units)));
@@ -164,7 +136,7 @@ void add_lstm(Maker& maker, const std::string& name, std::size_t inputs, std::si
   maker.set(name + ".input.bias", open);
 }
 
-void make(const BidirectionalShape& shape, Maker& maker) {
+void make(const BidirectionalShape& shape, WeightMaker& maker) {
   // Sums of as much variance as what goes in: at smaller ones every layer of ten would make the
   // signal smaller by a factor, and little but the biases would reach the outputs.
   std::size_t width = shape.inputs * (2 * shape.reach + 1);
@@ -193,58 +165,24 @@ std::size_t inputs_of(const NetworkShape& shape) {
   return std::visit([](const auto& network) { return network.inputs; }, shape);
 }
 
-std::vector<float> floats_of(const torch::Tensor& tensor) {
-  const torch::Tensor flat = tensor.detach().contiguous();
-  const float* values = flat.data_ptr<float>();
-  return {values, values + flat.numel()};
-}
-
-Tensor tensor_of(const torch::Tensor& values) {
-  Tensor tensor;
-  for (const std::int64_t size : values.sizes())
-    tensor.shape.push_back(static_cast<std::size_t>(size));
-  const std::vector<float> floats = floats_of(values);
-  tensor.values.assign(floats.begin(), floats.end());
-  return tensor;
-}
-
-// Brings the values of a tensor of the same shape into `target`.
-void take_values(const Tensor& from, torch::Tensor& target, const std::string& name) {
-  if (from.values.size() != static_cast<std::size_t>(target.numel()))
-    throw Error(ErrorKind::unreadable_input, fmt::format("{}: expected {} numbers, found {}", name,
-                                                         target.numel(), from.values.size()));
-  const torch::NoGradGuard guard;
-  const std::vector<float> floats(from.values.begin(), from.values.end());
-  target.copy_(torch::from_blob(const_cast<float*>(floats.data()), target.sizes()));
-}
-
 }  // namespace
 
 struct SequenceNetwork::Body {
   NetworkShape shape;
-  DescentSettings settings;
-  Parameters weights, means, first, second;  // moments of the gradient
-  std::int64_t steps = 0;
+  Descent descent;
   torch::Tensor last;  // outputs of the last forward
 
   Body(const NetworkShape& made, const DescentSettings& given, std::uint64_t seed)
-      : shape(made), settings(given) {
-    Maker maker(weights, seed);
+      : shape(made), descent{given, {}, {}, {}, {}} {
+    WeightMaker maker(descent.weights, seed);
     std::visit([&](const auto& network) { make(network, maker); }, shape);
-    for (const auto& [name, values] : weights) {
-      means[name] = values.detach().clone();
-      first[name] = torch::zeros_like(values);
-      second[name] = torch::zeros_like(values);
-    }
+    descent.start();
   }
 
   torch::Tensor matrix_of(std::span<const float> values, std::size_t width) const {
     const auto rows = static_cast<std::int64_t>(values.size() / width);
     return torch::from_blob(const_cast<float*>(values.data()),
                             {rows, static_cast<std::int64_t>(width)});
-  }
-  std::vector<std::pair<std::string, Parameters*>> parts() {
-    return {{"weights", &weights}, {"means", &means}, {"first", &first}, {"second", &second}};
   }
 };
 
@@ -256,7 +194,8 @@ SequenceNetwork::~SequenceNetwork() = default;
 std::vector<float> SequenceNetwork::forward(std::span<const float> inputs, std::uint64_t seed,
                                             std::size_t sequences) {
   torch::manual_seed(seed);
-  body_->last = forward_of(body_->shape, {body_->weights, body_->settings.dropout},
+  const Descent& descent = body_->descent;
+  body_->last = forward_of(body_->shape, {descent.weights, descent.settings.dropout},
                            body_->matrix_of(inputs, inputs_of(body_->shape)).clone(), sequences);
   return floats_of(body_->last);
 }
@@ -266,68 +205,16 @@ void SequenceNetwork::add_gradient(std::span<const float> derivative) {
   body_->last = torch::Tensor();
 }
 
-double SequenceNetwork::step(double rate) {
-  const torch::NoGradGuard guard;
-  constexpr double first_decay = 0.9, second_decay = 0.99, least = 1e-8;
-  Body& body = *body_;
-  ++body.steps;
-  double square = 0;
-  for (const auto& [name, values] : body.weights)
-    square += values.grad().pow(2).sum().item<double>();
-  const double size = std::sqrt(square);
-  const double cut = std::min(1.0, body.settings.most_gradient / (size + 1e-12));
-  const auto steps = static_cast<double>(body.steps);
-  const double first_share = 1 - std::pow(first_decay, steps);
-  const double second_share = 1 - std::pow(second_decay, steps);
-  const double decay = std::min(body.settings.average_decay, steps / (steps + 10));
-  for (auto& [name, values] : body.weights) {
-    torch::Tensor gradient = values.grad().mul(cut);
-    torch::Tensor &first = body.first[name], &second = body.second[name];
-    first.mul_(first_decay).add_(gradient, 1 - first_decay);
-    second.mul_(second_decay).addcmul_(gradient, gradient, 1 - second_decay);
-    if (values.dim() > 1) values.mul_(1 - rate * body.settings.weight_decay);
-    values.addcdiv_(first, second.div(second_share).sqrt_().add_(least), -rate / first_share);
-    values.mutable_grad().zero_();
-    body.means[name].mul_(decay).add_(values, 1 - decay);
-  }
-  return size;
-}
+double SequenceNetwork::step(double rate) { return body_->descent.step(rate); }
 
 std::vector<float> SequenceNetwork::run(std::span<const float> inputs) const {
   const torch::NoGradGuard guard;
-  return floats_of(forward_of(body_->shape, {body_->means, 0},
+  return floats_of(forward_of(body_->shape, {body_->descent.means, 0},
                               body_->matrix_of(inputs, inputs_of(body_->shape)), 1));
 }
 
-Weights SequenceNetwork::averages() const {
-  Weights result;
-  for (const auto& [name, values] : body_->means) result[name] = tensor_of(values);
-  return result;
-}
-
-TensorFile SequenceNetwork::state() const {
-  TensorFile file;
-  file.metadata["steps"] = fmt::format("{}", body_->steps);
-  for (const auto& [part, values] : body_->parts()) {
-    for (const auto& [name, tensor] : *values) file.tensors[part + "." + name] = tensor_of(tensor);
-  }
-  return file;
-}
-
-void SequenceNetwork::set_state(const TensorFile& state) {
-  const auto steps = state.metadata.find("steps");
-  if (steps == state.metadata.end())
-    throw Error(ErrorKind::unreadable_input, "this is no checkpoint: it does not say its steps");
-  body_->steps = std::stoll(steps->second);
-  for (const auto& [part, values] : body_->parts()) {
-    for (auto& [name, tensor] : *values) {
-      const auto found = state.tensors.find(part + "." + name);
-      if (found == state.tensors.end())
-        throw Error(ErrorKind::unreadable_input,
-                    fmt::format("the checkpoint lacks {}.{}", part, name));
-      take_values(found->second, tensor, part + "." + name);
-    }
-  }
-}
+Weights SequenceNetwork::averages() const { return body_->descent.averages(); }
+TensorFile SequenceNetwork::state() const { return body_->descent.state(); }
+void SequenceNetwork::set_state(const TensorFile& state) { body_->descent.set_state(state); }
 
 }  // namespace kinemend::train

@@ -193,6 +193,18 @@ std::unique_ptr<Cleaner> make_recurrent(const RecurrentOptions& options = {},
                                         std::shared_ptr<const Model> model = nullptr,
                                         std::shared_ptr<const Model> gap_model = nullptr);
 
+/// A network that has seen much clean motion, damaged in every way that systems and pipelines
+/// damage it, and takes that two systems saw: it mixes smoothers of all widths per channel and
+/// moment, and corrects what the body tells. Any skeleton, and markers; it knows bodies better
+/// whose joints it recognises. No model of it ships yet, and the table of methods does not list it.
+/// Errors: `ErrorKind::usage` without a model, and for one of another method.
+struct LearnedOptions {
+  std::string model{};  ///< a file made by `kinemend-train learned`
+  std::string map{};    ///< file that maps names in the take to names in the model
+};
+std::unique_ptr<Cleaner> make_learned(const LearnedOptions& options = {},
+                                      std::shared_ptr<const Model> model = nullptr);
+
 /// The way to fill gaps of joints by a network of Mall et al. 2017 (their EBD), for
 /// `FillSettings::learned`. None ships: `kinemend-train paper --network ebd --head pose` makes
 /// one. The root, joints that the model does not know, joints that turn farther from its mean than

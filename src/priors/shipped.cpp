@@ -6,6 +6,7 @@
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/model.hpp"
+#include "kinemend/experimental/train.hpp"
 #include "priors/shipped_list.hpp"
 
 namespace kinemend {
@@ -29,9 +30,13 @@ std::shared_ptr<const Model> shipped_model(std::string_view method) {
     return model.method == method;
   });
   if (shipped == models.end()) {
-    throw Error(
-        ErrorKind::usage,
-        fmt::format("method {0} needs a model: --model FILE, made by kinemend train {0}", method));
+    const auto methods = methods_with_models();
+    const bool is_network =
+        std::any_of(methods.begin(), methods.end(),
+                    [&](const LearnedMethod& m) { return m.name == method && m.train == nullptr; });
+    throw Error(ErrorKind::usage,
+                fmt::format("method {0} needs a model: --model FILE, made by kinemend{1} {0}",
+                            method, is_network ? "-train" : " train"));
   }
   auto model = std::make_shared<const Model>(
       parse_model(shipped->bytes, fmt::format("the {} model of this program", method)));

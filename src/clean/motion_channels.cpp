@@ -1,0 +1,143 @@
+#include "clean/motion_channels.hpp"
+
+#include <utility>
+
+#include "clean/auto_scale.hpp"
+#include "clean/neighbours.hpp"
+#include "clean/pieces.hpp"
+#include "tracks/smooth_chart.hpp"
+#include "tracks/spikes.hpp"
+#include "tracks/vector_tracks.hpp"
+
+namespace kinemend {
+
+namespace {
+
+std::vector<Vec3> positions_in(const TakeView& take, std::size_t number) {
+  return take.markers ? whole_positions(take, number)
+                      : std::move(position_pieces(take, number).front().samples);
+}
+
+void put(MotionTake& take, std::size_t frame, std::size_t n, Vec3 vector) {
+  float* const to = take.values.data() + frame * take.channels + 3 * n;
+  to[0] = static_cast<float>(vector.x);
+  to[1] = static_cast<float>(vector.y);
+  to[2] = static_cast<float>(vector.z);
+}
+
+// The tracks of one space, despiked.
+void read_together(const TakeView& take, const std::vector<std::size_t>& own,
+                   MotionTracks& tracks) {
+  if (own.empty()) return;
+  const std::size_t frames = take.frames, count = own.size();
+  VectorTracks vectors(frames, count);
+  SampleMarks gross(frames, count), gaps(frames, count);
+  std::vector<std::size_t> numbers;
+  numbers.reserve(count);
+  for (const std::size_t n : own) numbers.push_back(tracks.numbers[n]);
+  for_each_parallel(count, frames * count, [&](std::size_t i) {
+    const Track& track = take.tracks[numbers[i]];
+    if (track.space == Space::rotation) {
+      const std::vector<Quat> rotations = rotation_piece(take, numbers[i]).samples;
+      std::vector<Quat> steady = rotations;
+      const std::vector<std::uint8_t> marks = replace_gross_spikes(steady);
+      tracks.charts[own[i]] = smooth_chart(steady, take.frame_rate_hz);
+      for (std::size_t f = 0; f < frames; ++f) {
+        vectors.set(f, i, degrees_per_radian * tracks.charts[own[i]]->vector_of(f, rotations[f]));
+        gross(f, i) = marks[f];
+      }
+    } else {
+      const std::vector<Vec3> positions = positions_in(take, numbers[i]);
+      for (std::size_t f = 0; f < frames; ++f)
+        vectors.set(f, i, degrees_per_unit(take) * positions[f]);
+    }
+    for (std::size_t f = 0; f < frames; ++f) gaps(f, i) = track.is_observed(f) ? 0 : 1;
+  });
+  const DetectedSpikes spikes =
+      find_spikes(vectors, gross, tracks_nearby(take, numbers), take.frame_rate_hz, &gaps);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t f = 0; f < frames; ++f) {
+      put(tracks.take, f, own[i], vectors.at(f, i));
+      const bool is_spike = spikes.marked(f, i) != 0;
+      tracks.is_spike[f * tracks.numbers.size() + own[i]] = is_spike ? 1 : 0;
+      if (!is_spike && gaps(f, i) == 0) continue;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        tracks.take.missing[f * tracks.take.channels + 3 * own[i] + axis] = 1;
+    }
+  }
+}
+
+}  // namespace
+
+MotionTracks motion_tracks_of(const TakeView& take, std::vector<std::size_t> numbers) {
+  MotionTracks tracks;
+  tracks.numbers = std::move(numbers);
+  const std::size_t count = tracks.numbers.size();
+  tracks.charts.resize(count);
+  tracks.is_spike.resize(take.frames * count);
+  tracks.take.frames = take.frames;
+  tracks.take.channels = 3 * count;
+  tracks.take.frame_rate_hz = take.frame_rate_hz;
+  tracks.take.values.resize(take.frames * 3 * count);
+  tracks.take.missing.resize(tracks.take.values.size());
+  tracks.take.slots.assign(3 * count, -1);
+  std::vector<std::size_t> turning, moving;
+  for (std::size_t n = 0; n < count; ++n) {
+    const bool turns = take.tracks[tracks.numbers[n]].space == Space::rotation;
+    (turns ? turning : moving).push_back(n);
+    tracks.take.is_position.insert(tracks.take.is_position.end(), 3, turns ? 0 : 1);
+  }
+  read_together(take, turning, tracks);
+  read_together(take, moving, tracks);
+  return tracks;
+}
+
+std::vector<float> values_in(const MotionTracks& tracks, const TakeView& other) {
+  MotionTake take = tracks.take;
+  for (std::size_t n = 0; n < tracks.numbers.size(); ++n) {
+    const std::size_t number = tracks.numbers[n];
+    if (const auto& chart = tracks.charts[n]) {
+      const std::vector<Quat> rotations = rotation_piece(other, number).samples;
+      for (std::size_t f = 0; f < take.frames; ++f)
+        put(take, f, n, degrees_per_radian * chart->vector_of(f, rotations[f]));
+      continue;
+    }
+    const std::vector<Vec3> positions = positions_in(other, number);
+    for (std::size_t f = 0; f < take.frames; ++f)
+      put(take, f, n, degrees_per_unit(other) * positions[f]);
+  }
+  return std::move(take.values);
+}
+
+CleanedTrack cleaned_track(const MotionTracks& tracks, const TakeView& take, std::size_t n,
+                           std::span<const float> values) {
+  const std::size_t number = tracks.numbers[n];
+  const auto vector_at = [&](std::size_t frame) {
+    const float* const from = values.data() + frame * tracks.take.channels + 3 * n;
+    return Vec3{from[0], from[1], from[2]};
+  };
+  const auto action_at = [&](std::size_t frame) {
+    return tracks.is_spike[frame * tracks.numbers.size() + n] != 0 ? Action::despiked
+                                                                   : Action::kept;
+  };
+  if (const auto& chart = tracks.charts[n]) {
+    Piece<Quat> piece = rotation_piece(take, number);
+    piece.actions.assign(take.frames, Action::kept);
+    for (std::size_t f = 0; f < take.frames; ++f) {
+      piece.samples[f] = chart->rotation_of(f, radians_per_degree * vector_at(f));
+      piece.actions[f] = action_at(f);
+    }
+    return assemble(std::move(piece));
+  }
+  std::vector<Piece<Vec3>> pieces = position_pieces(take, number);
+  for (Piece<Vec3>& piece : pieces) {
+    piece.actions.assign(piece.samples.size(), Action::kept);
+    for (std::size_t i = 0; i < piece.samples.size(); ++i) {
+      piece.samples[i] = (1 / degrees_per_unit(take)) * vector_at(piece.first_frame + i);
+      piece.actions[i] = action_at(piece.first_frame + i);
+    }
+  }
+  return assemble(take, number, pieces);
+}
+
+}  // namespace kinemend

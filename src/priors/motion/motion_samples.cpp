@@ -1,0 +1,390 @@
+#include "priors/motion/motion_samples.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "kinemend/experimental/signal.hpp"
+#include "kinemend/rotation.hpp"
+#include "priors/sequence_damage.hpp"
+#include "priors/warped_sequence.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr double least_pace = 0.7, fastest_pace = 1.4;
+
+double evenly_in_logarithm(Random& random, double low, double high) {
+  return std::exp(random.uniform(std::log(low), std::log(high)));
+}
+
+std::vector<double> deviations_of(const PoseMatrix& poses) {
+  std::vector<double> result;
+  for (std::size_t c = 0; c < poses.channels; ++c) {
+    double sum = 0, square = 0;
+    for (std::size_t f = 0; f < poses.frames; ++f) {
+      sum += poses(f, c);
+      square += poses(f, c) * poses(f, c);
+    }
+    const auto n = static_cast<double>(poses.frames);
+    result.push_back(std::sqrt(std::max(0.0, square / n - sum * sum / (n * n))));
+  }
+  return result;
+}
+
+// Zero phase, at a frequency that the rate allows.
+void low_pass(PoseMatrix& poses, int order, double cutoff_hz, double rate_hz) {
+  filter_zero_phase(poses,
+                    butterworth_lowpass(order, std::min(cutoff_hz, 0.45 * rate_hz), rate_hz));
+}
+
+// Noise of deviation 1 in every channel: white, of the first order, or low-passed.
+PoseMatrix unit_noise(std::size_t frames, std::size_t channels, double rate_hz, bool has_slow,
+                      Random& random) {
+  PoseMatrix noise(frames, channels);
+  for (double& value : noise.values) value = random.normal();
+  const double kind = random.uniform();
+  if (kind < 0.4) return noise;
+  if (kind < 0.65 || !has_slow) {
+    const double correlation = random.uniform(0.2, 0.98),
+                 fresh = std::sqrt(1 - correlation * correlation);
+    for (std::size_t f = 1; f < frames; ++f) {
+      for (std::size_t c = 0; c < channels; ++c)
+        noise(f, c) = correlation * noise(f - 1, c) + fresh * noise(f, c);
+    }
+    return noise;
+  }
+  low_pass(noise, 1 + static_cast<int>(random.below(4)), evenly_in_logarithm(random, 0.7, 12),
+           rate_hz);
+  double square = 0;
+  for (const double value : noise.values) square += value * value;
+  const double unit = std::sqrt(static_cast<double>(noise.values.size()) / std::max(square, 1e-12));
+  for (double& value : noise.values) value *= unit;
+  return noise;
+}
+
+// Noise comes and goes: a factor of each frame.
+std::vector<double> bursts(std::size_t frames, double rate_hz, Random& random) {
+  PoseMatrix slow(frames, 1);
+  for (double& value : slow.values) value = random.normal();
+  low_pass(slow, 2, random.uniform(0.3, 1), rate_hz);
+  double square = 0;
+  for (const double value : slow.values) square += value * value;
+  const double unit = std::sqrt(static_cast<double>(frames) / std::max(square, 1e-12));
+  for (double& value : slow.values) value = std::exp(0.8 * unit * value);
+  return slow.values;
+}
+
+// A stretch that is being damaged.
+struct DamagedStretch {
+  const BodyLayout& layout;
+  double rate_hz;
+  PoseMatrix poses;
+  std::vector<std::uint8_t> observed;  // F x tracks; empty: all
+
+  void apply(std::string_view name, const OptionValues& values, Random& random) {
+    Random own = random.fork(random.next());
+    damage_sequence(layout, rate_hz, poses, observed, name, values, own);
+  }
+
+  // Samples on the line between those that were measured.
+  void bridge() {
+    if (observed.empty()) return;
+    const std::size_t tracks = poses.channels / 3;
+    std::vector<std::uint8_t> missing(poses.values.size());
+    for (std::size_t i = 0; i < missing.size(); ++i)
+      missing[i] = observed[i / poses.channels * tracks + i % poses.channels / 3] == 0 ? 1 : 0;
+    fill_linear(poses, missing);
+  }
+
+  void add_noise(bool has_slow, Random& random) {
+    const std::size_t channels = poses.channels;
+    std::vector<double> strengths(channels, evenly_in_logarithm(random, 0.15, 6));
+    if (random.chance(0.55)) {
+      const double share = evenly_in_logarithm(random, 0.08, 1);
+      strengths = deviations_of(poses);
+      for (double& strength : strengths) strength *= share;
+    }
+    if (random.chance(0.3)) {
+      for (double& strength : strengths) strength *= std::exp(0.5 * random.normal());
+    }
+    const PoseMatrix noise = unit_noise(poses.frames, channels, rate_hz, has_slow, random);
+    const std::vector<double> factors = random.chance(0.15)
+                                            ? bursts(poses.frames, rate_hz, random)
+                                            : std::vector<double>(poses.frames, 1.0);
+    for (std::size_t f = 0; f < poses.frames; ++f) {
+      for (std::size_t c = 0; c < channels; ++c)
+        poses(f, c) += factors[f] * strengths[c] * noise(f, c);
+    }
+  }
+
+  void lower_rate(Random& random) {
+    const double lower = rate_hz / static_cast<double>(2 + random.below(4));
+    apply(random.chance(0.4) ? "held" : "upsampled", {{"rate_hz", lower}}, random);
+  }
+
+  void lose_samples(Random& random) {
+    if (random.chance(0.2))
+      apply(
+          "outliers",
+          {{"share", evenly_in_logarithm(random, 0.001, 0.02)}, {"std_deg", random.uniform(5, 30)}},
+          random);
+    if (random.chance(0.15))
+      apply("gaps",
+            {{"start_probability", evenly_in_logarithm(random, 0.001, 0.01)},
+             {"mean_length_s", evenly_in_logarithm(random, 0.02, 0.6)},
+             {"scope", std::string("joint")}},
+            random);
+  }
+
+  void damage(const MotionSampling& sampling, Random& random) {
+    const double kind = random.uniform();
+    if (kind < 0.88) {
+      add_noise(sampling.has_slow_noise, random);
+    } else {
+      static constexpr std::array<const char*, 5> systems{"video", "triangulated", "depth",
+                                                          "inertial", "optical"};
+      apply("system",
+            {{"kind", std::string(systems[random.below(systems.size())])},
+             {"strength", evenly_in_logarithm(random, 0.3, 2)}},
+            random);
+    }
+    lose_samples(random);
+    bridge();
+    if (rate_hz >= 100 && random.chance(0.15)) lower_rate(random);
+    if (sampling.has_slow_noise && random.chance(0.3))
+      low_pass(poses, 1 + static_cast<int>(random.below(3)), random.uniform(3, 12), rate_hz);
+  }
+};
+
+// Turned axes for a track, drawn evenly.
+Quat random_turn(Random& random) {
+  return normalized(Quat{random.normal(), random.normal(), random.normal(), random.normal()});
+}
+
+void turn_axes(PoseMatrix& poses, Random& random) {
+  for (std::size_t track = 0; track < poses.channels / 3; ++track) {
+    const Quat turn = random_turn(random);
+    for (std::size_t f = 0; f < poses.frames; ++f) {
+      double* const v = &poses(f, 3 * track);
+      const Vec3 turned = rotate(turn, Vec3{v[0], v[1], v[2]});
+      v[0] = turned.x, v[1] = turned.y, v[2] = turned.z;
+    }
+  }
+}
+
+void stand_still(MotionSample& sample, std::size_t channel) {
+  for (std::size_t f = 0; f < sample.take.frames; ++f) {
+    const std::size_t at = f * sample.take.channels + channel;
+    sample.take.values[at] = sample.truth[at] = 0;
+    if (!sample.take.missing.empty()) sample.take.missing[at] = 0;
+  }
+}
+
+void lose_whole_tracks(MotionSample& sample, double share, Random& random) {
+  const std::size_t tracks = sample.take.channels / 3, kept = random.below(tracks);
+  for (std::size_t n = 0; n < tracks; ++n) {
+    if (n == kept || !random.chance(share)) continue;
+    for (std::size_t c = 3 * n; c < 3 * n + 3; ++c) stand_still(sample, c);
+  }
+}
+
+template <class Value>
+void reverse_rows(std::vector<Value>& values, std::size_t channels) {
+  const std::size_t frames = channels > 0 ? values.size() / channels : 0;
+  for (std::size_t f = 0; f < frames / 2; ++f)
+    std::swap_ranges(values.begin() + static_cast<std::ptrdiff_t>(f * channels),
+                     values.begin() + static_cast<std::ptrdiff_t>((f + 1) * channels),
+                     values.begin() + static_cast<std::ptrdiff_t>((frames - 1 - f) * channels));
+}
+
+std::size_t frames_of(const MotionSampling& sampling, double rate_hz) {
+  return static_cast<std::size_t>(
+             std::lround(static_cast<double>(sampling.steps - 1) * rate_hz / motion_steps_hz)) +
+         1;
+}
+
+PoseMatrix random_stretch(const TrainingSequences& sequences, double pace, std::size_t frames,
+                          Random& random) {
+  const auto wanted = static_cast<std::size_t>(pace * static_cast<double>(frames)) + 3;
+  std::vector<double> ends;
+  for (const TrainingSequences::Entry& entry : sequences.entries) {
+    const bool fits = 2 * entry.frames >= wanted;
+    const double share = fits ? entry.weight * std::sqrt(static_cast<double>(entry.frames)) : 0;
+    ends.push_back(share + (ends.empty() ? 0 : ends.back()));
+  }
+  const double at = random.uniform() * ends.back();
+  const auto index =
+      static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), at) - ends.begin());
+  const std::size_t have = sequences.entries[index].frames, taken = std::min(wanted, have);
+  const std::size_t first = random.below(have - taken + 1);
+  // A stretch that is too short is played more slowly.
+  const double slower = std::min(1.0, static_cast<double>(have) / static_cast<double>(wanted));
+  return warped(sequence_at(sequences, index, first, first + taken).poses, pace * slower, frames);
+}
+
+MotionSample random_damage(const TrainingSequences& sequences, const BodyMirror& mirror,
+                           const MotionSampling& sampling, Random random) {
+  static constexpr std::array<double, 6> rates{25, 30, 50, 60, 100, 120};
+  const double rate_hz = random.chance(0.3) ? rates[random.below(rates.size())] : 120;
+  const double pace = random.uniform(least_pace, fastest_pace) * sequences.rate_hz / rate_hz;
+  PoseMatrix poses = random_stretch(sequences, pace, frames_of(sampling, rate_hz), random);
+  const std::size_t channels = poses.channels;
+  const RecurrentForm form{random.chance(0.5), random.chance(0.5)};
+  const std::vector<float> shown =
+      in_form(std::vector<float>(poses.values.begin(), poses.values.end()), form, mirror);
+  poses.values.assign(shown.begin(), shown.end());
+  const bool is_known = random.chance(0.7);
+  if (!is_known && random.chance(0.7)) turn_axes(poses, random);
+
+  MotionSample sample;
+  sample.truth.assign(poses.values.begin(), poses.values.end());
+  DamagedStretch damaged{sequences.layout, rate_hz, std::move(poses), {}};
+  if (!random.chance(sampling.clean_share)) damaged.damage(sampling, random);
+  MotionTake& take = sample.take;
+  take.frames = damaged.poses.frames;
+  take.channels = channels;
+  take.frame_rate_hz = rate_hz;
+  take.values.assign(damaged.poses.values.begin(), damaged.poses.values.end());
+  if (!damaged.observed.empty()) {
+    take.missing.resize(take.values.size());
+    for (std::size_t i = 0; i < take.missing.size(); ++i)
+      take.missing[i] =
+          damaged.observed[i / channels * (channels / 3) + i % channels / 3] == 0 ? 1 : 0;
+  }
+  for (std::size_t c = 0; c < channels; ++c) {
+    take.is_position.push_back(c / 3 >= sequences.layout.track_count() ? 1 : 0);
+    take.slots.push_back(is_known ? static_cast<std::int32_t>(c) : -1);
+  }
+  if (is_known && random.chance(0.2)) {
+    for (std::size_t c = 0; c < channels; c += 3) {
+      if (random.chance(0.2))
+        std::fill_n(take.slots.begin() + static_cast<std::ptrdiff_t>(c), 3, -1);
+    }
+  }
+  if (random.chance(is_known ? 0.2 : 0.7))
+    lose_whole_tracks(sample, is_known ? random.uniform(0.02, 0.5) : random.uniform(0.1, 0.9),
+                      random);
+  return sample;
+}
+
+// In proportion to their length.
+const MotionPair& drawn_pair(std::span<const MotionPair> pairs, Random& random) {
+  std::vector<double> ends;
+  for (const MotionPair& pair : pairs) {
+    const MotionTake& take = pair.sample.take;
+    const double seconds = static_cast<double>(take.frames) / take.frame_rate_hz;
+    ends.push_back(seconds + (ends.empty() ? 0 : ends.back()));
+  }
+  const double at = random.uniform() * ends.back();
+  return pairs[static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), at) -
+                                        ends.begin())];
+}
+
+// A stretch of a pair, its channels turned over and scaled at random.
+MotionSample random_pair(const MotionPair& pair, std::size_t channels,
+                         const MotionSampling& sampling, Random random) {
+  const MotionTake& whole = pair.sample.take;
+  const std::size_t frames = std::min(frames_of(sampling, whole.frame_rate_hz), whole.frames);
+  const std::size_t first = random.below(whole.frames - frames + 1);
+  MotionSample sample;
+  MotionTake& take = sample.take;
+  take.frames = frames;
+  take.channels = channels;
+  take.frame_rate_hz = whole.frame_rate_hz;
+  take.values.assign(frames * channels, 0.0F);
+  take.slots.assign(channels, -1);
+  take.is_position.assign(channels, 0);
+  sample.truth = take.values;
+  if (!whole.missing.empty()) take.missing.assign(take.values.size(), 0);
+  const auto scale = static_cast<float>(std::exp(0.2 * random.normal()));
+  const std::size_t shown = std::min(whole.channels, channels);
+  for (std::size_t c = 0; c < shown; ++c) {
+    const float factor = random.chance(0.5) ? scale : -scale;
+    take.is_position[c] = whole.is_position[c];
+    for (std::size_t f = 0; f < frames; ++f) {
+      const std::size_t from = (first + f) * whole.channels + c, to = f * channels + c;
+      take.values[to] = factor * whole.values[from];
+      sample.truth[to] = factor * pair.sample.truth[from];
+      if (!whole.missing.empty()) take.missing[to] = whole.missing[from];
+    }
+  }
+  if (random.chance(0.5)) {
+    reverse_rows(take.values, channels);
+    reverse_rows(take.missing, channels);
+    reverse_rows(sample.truth, channels);
+  }
+  return sample;
+}
+
+}  // namespace
+
+MotionStatistics motion_statistics(const TrainingSequences& sequences) {
+  constexpr double least_deviation = 1, least_speed_deg = 0.02;
+  const std::size_t channels = sequences.layout.channel_count();
+  std::vector<double> sum(channels), square(channels), change(channels);
+  double frames = 0, changes = 0;
+  for (std::size_t i = 0; i < sequences.entries.size(); ++i) {
+    const TrainingSequence sequence = sequence_at(sequences, i);
+    for (std::size_t f = 0; f < sequence.poses.frames; ++f) {
+      frames += sequence.weight;
+      changes += f > 0 ? sequence.weight : 0;
+      for (std::size_t c = 0; c < channels; ++c) {
+        const double value = sequence.poses(f, c);
+        sum[c] += sequence.weight * value;
+        square[c] += sequence.weight * value * value;
+        if (f == 0) continue;
+        const double step = value - sequence.poses(f - 1, c);
+        change[c] += sequence.weight * step * step;
+      }
+    }
+  }
+  MotionStatistics result;
+  for (std::size_t c = 0; c < channels; ++c) {
+    const double mean = sum[c] / frames;
+    const double variance = std::max(0.0, square[c] / frames - mean * mean);
+    result.mean.push_back(static_cast<float>(mean));
+    result.deviation.push_back(static_cast<float>(std::max(least_deviation, std::sqrt(variance))));
+    const double speed = std::sqrt(change[c] / std::max(changes, 1.0)) * sequences.rate_hz / 120;
+    result.speed.push_back(static_cast<float>(std::max(least_speed_deg, speed)));
+  }
+  return result;
+}
+
+MotionPair mapped_pair(MotionPair pair, double least_deg) {
+  MotionSample& sample = pair.sample;
+  const std::size_t channels = sample.take.channels, frames = sample.take.frames;
+  const auto n = static_cast<double>(frames);
+  for (std::size_t c = 0; c < channels; ++c) {
+    double x = 0, y = 0, xx = 0, xy = 0;
+    for (std::size_t f = 0; f < frames; ++f) {
+      const double truth = sample.truth[f * channels + c],
+                   seen = sample.take.values[f * channels + c];
+      x += truth, y += seen, xx += truth * truth, xy += truth * seen;
+    }
+    const double spread = xx / n - x * x / (n * n);
+    if (std::sqrt(std::max(0.0, spread)) < least_deg) {
+      stand_still(sample, c);
+      continue;
+    }
+    const double gain = (xy / n - x * y / (n * n)) / spread, offset = (y - gain * x) / n;
+    for (std::size_t f = 0; f < frames; ++f) {
+      float& truth = sample.truth[f * channels + c];
+      truth = static_cast<float>(gain * static_cast<double>(truth) + offset);
+    }
+  }
+  return pair;
+}
+
+MotionSample random_motion_sample(const TrainingSequences& sequences, const BodyMirror& mirror,
+                                  std::span<const MotionPair> pairs, const MotionSampling& sampling,
+                                  Random random) {
+  if (!pairs.empty() && random.chance(sampling.pair_share))
+    return random_pair(drawn_pair(pairs, random), sequences.layout.channel_count(), sampling,
+                       random.fork(1));
+  return random_damage(sequences, mirror, sampling, random.fork(1));
+}
+
+}  // namespace kinemend

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kinemend/experimental/random.hpp"
+#include "priors/motion/motion_steps.hpp"
+#include "priors/recurrent_forms.hpp"
+#include "priors/training_sequences.hpp"
+
+// What the learned cleaner learns from: clean motion, damaged in every way that systems and
+// pipelines damage it, and motions that two systems saw.
+namespace kinemend {
+
+struct MotionSample {
+  MotionTake take;
+  std::vector<float> truth;  ///< F x C
+};
+
+/// Of each channel of the body over the sequences: mean, deviation (at least 1 degree), and
+/// deviation of its changes (degrees per 1/120 s, at least 0.02).
+struct MotionStatistics {
+  std::vector<float> mean, deviation, speed;
+};
+MotionStatistics motion_statistics(const TrainingSequences& sequences);
+
+/// One motion by two systems on the same frames. Gains and offsets of channels are no noise: the
+/// reference is mapped to the take by the affine map of each channel that fits best.
+struct MotionPair {
+  std::string name;
+  MotionSample sample;
+};
+/// The same with the reference mapped, and channels that hardly move (deviation below `least_deg`)
+/// made constant.
+MotionPair mapped_pair(MotionPair pair, double least_deg);
+
+struct MotionSampling {
+  std::size_t steps = 128;     ///< of a sample
+  double pair_share = 0.2;     ///< of samples that are pairs, where there are some
+  double clean_share = 0.2;    ///< of the others
+  bool has_slow_noise = true;  ///< low-passed noise, and takes filtered after they were damaged
+};
+
+/// The same `random` gives the same sample.
+MotionSample random_motion_sample(const TrainingSequences& sequences, const BodyMirror& mirror,
+                                  std::span<const MotionPair> pairs, const MotionSampling& sampling,
+                                  Random random);
+
+}  // namespace kinemend

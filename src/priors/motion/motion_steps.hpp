@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "priors/motion/smoother_bank.hpp"
+
+// A take as the network of the learned cleaner sees it: features of each channel, thirty times a
+// second whatever the frame rate.
+namespace kinemend {
+
+inline constexpr double motion_steps_hz = 30;
+
+/// A take as channels. Three belong to a track: the axes of a rotation vector, or of a position.
+struct MotionTake {
+  std::size_t frames = 0, channels = 0;
+  double frame_rate_hz = 0;
+  std::vector<float> values;          ///< F x C, degrees; bridges where nothing was measured
+  std::vector<std::uint8_t> missing;  ///< F x C, 1 where not measured; empty: nowhere
+  /// C: the channel of the model's body that it is, in the same axes and about the same reference;
+  /// -1: it is none, or the body is not known.
+  std::vector<std::int32_t> slots;
+  std::vector<std::uint8_t> is_position;  ///< C
+
+  std::size_t steps() const;
+  /// The frame that a step looks at.
+  std::size_t frame_of_step(std::size_t step) const;
+  bool is_missing(std::size_t frame, std::size_t channel) const {
+    return !missing.empty() && missing[frame * channels + channel] != 0;
+  }
+};
+
+/// Bands lie between neighbouring levels of the bank.
+inline constexpr std::size_t motion_bands = bank_levels - 1;
+/// Of these, the ones whose value counts beside their strength: below about 6 Hz.
+inline constexpr std::size_t first_signed_band = 4;
+/// Strengths of bands about the step, the same against the whole take's, values of slow bands in
+/// units of the take's strength, share of samples that are missing.
+inline constexpr std::size_t motion_features =
+    2 * motion_bands + (motion_bands - first_signed_band) + 1;
+/// Strengths of bands over the take, spread of its slowest level, whether it is a position.
+inline constexpr std::size_t motion_take_features = motion_bands + 2;
+/// What corrections of a channel are measured by: the strengths of four bands about the step, and
+/// where samples are missing the spread of the channel.
+inline constexpr std::size_t motion_scales = 5;
+inline constexpr std::size_t scale_bands[motion_scales - 1] = {2, 4, 6, 8};
+
+/// What a whole take says of its channels.
+struct MotionStrengths {
+  std::vector<float> bands;            ///< C x motion_bands: root mean square, degrees
+  std::vector<float> spread;           ///< C: deviation of the slowest level
+  std::vector<float> features;         ///< C x motion_take_features
+  std::vector<std::uint8_t> is_alive;  ///< C: 1 where anything moves
+};
+
+/// Some steps of a take.
+struct MotionSteps {
+  std::size_t first = 0, count = 0;
+  std::vector<float> features;  ///< C x count x motion_features
+  std::vector<float> levels;    ///< C x count x bank_levels, at the step's frame
+  std::vector<float> changes;   ///< the same: to the next frame, degrees per 1/120 s
+  std::vector<float> scales;    ///< C x count x motion_scales
+};
+
+/// A take with what is needed to make steps of it. The take outlives it.
+class MotionReader {
+ public:
+  explicit MotionReader(const MotionTake& take);
+
+  const MotionTake& take() const noexcept { return take_; }
+  const SmootherBank& bank() const noexcept { return bank_; }
+  const ExtendedChannels& extended() const noexcept { return extended_; }
+  const MotionStrengths& strengths() const noexcept { return strengths_; }
+  MotionSteps steps(std::size_t first, std::size_t count) const;
+
+ private:
+  // Levels about some steps, and the mean squares of the bands at each.
+  struct Block;
+  Block block(std::size_t first, std::size_t count) const;
+
+  const MotionTake& take_;
+  SmootherBank bank_;
+  ExtendedChannels extended_;
+  MotionStrengths strengths_;
+};
+
+}  // namespace kinemend

@@ -1,0 +1,98 @@
+#include "priors/motion/smoother_bank.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace kinemend {
+
+namespace {
+
+constexpr double cut_deviations = 3.3;
+constexpr double line_s = 0.1;
+
+std::vector<float> taps_of(double sigma_frames) {
+  const auto reach = static_cast<std::size_t>(std::ceil(cut_deviations * sigma_frames));
+  std::vector<double> taps(reach + 1);
+  double sum = 0;
+  for (std::size_t k = 0; k <= reach; ++k) {
+    const double z = static_cast<double>(k) / sigma_frames;
+    taps[k] = std::exp(-0.5 * z * z);
+    sum += k == 0 ? taps[k] : 2 * taps[k];
+  }
+  for (double& tap : taps) tap /= sum;
+  return {taps.begin(), taps.end()};
+}
+
+// What a line fitted to `count` samples says at the first of them.
+double fitted_end(const float* first, std::ptrdiff_t stride, std::size_t count) {
+  double sum = 0, moment = 0;
+  const double middle = (static_cast<double>(count) - 1) / 2;
+  double spread = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = static_cast<double>(i) - middle;
+    const double y = first[static_cast<std::ptrdiff_t>(i) * stride];
+    sum += y;
+    moment += x * y;
+    spread += x * x;
+  }
+  const double slope = spread > 0 ? moment / spread : 0;
+  return sum / static_cast<double>(count) - slope * middle;
+}
+
+}  // namespace
+
+SmootherBank::SmootherBank(double frame_rate_hz) : frame_rate_hz_(frame_rate_hz) {
+  taps_.push_back({1.0F});
+  for (const double width : bank_widths_s) taps_.push_back(taps_of(width * frame_rate_hz));
+  reach_ = taps_.back().size() - 1;
+}
+
+ExtendedChannels SmootherBank::extended(std::span<const float> values, std::size_t channels) const {
+  ExtendedChannels result;
+  result.channels = channels;
+  result.frames = values.size() / channels;
+  // Steps pool energies over a few frames beyond the ends.
+  result.reach = reach_ + static_cast<std::size_t>(std::ceil(frame_rate_hz_ / 10)) + 2;
+  result.values.resize((result.frames + 2 * result.reach) * channels);
+  std::copy(values.begin(), values.end(),
+            result.values.begin() + static_cast<std::ptrdiff_t>(result.reach * channels));
+  const std::size_t fit =
+      std::clamp<std::size_t>(static_cast<std::size_t>(line_s * frame_rate_hz_),
+                              std::min<std::size_t>(3, result.frames), result.frames);
+  const auto width = static_cast<std::ptrdiff_t>(channels);
+  for (std::size_t c = 0; c < channels; ++c) {
+    const float* const first = values.data() + c;
+    const float* const last = first + (result.frames - 1) * channels;
+    const double before = fitted_end(first, width, fit), behind = fitted_end(last, -width, fit);
+    for (std::size_t k = 1; k <= result.reach; ++k) {
+      const std::size_t from = std::min(k, result.frames - 1);
+      result.values[(result.reach - k) * channels + c] =
+          static_cast<float>(2 * before - first[from * channels]);
+      result.values[(result.reach + result.frames - 1 + k) * channels + c] =
+          static_cast<float>(2 * behind - *(last - from * channels));
+    }
+  }
+  return result;
+}
+
+void SmootherBank::level(const ExtendedChannels& input, std::size_t level, std::ptrdiff_t first,
+                         std::size_t count, std::span<float> result) const {
+  const std::vector<float>& taps = taps_[level];
+  const std::size_t width = input.channels;
+  assert(result.size() == count * width);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto frame = first + static_cast<std::ptrdiff_t>(i);
+    float* const out = result.data() + i * width;
+    const float* const middle = input.row(frame);
+    for (std::size_t c = 0; c < width; ++c) out[c] = taps[0] * middle[c];
+    for (std::size_t k = 1; k < taps.size(); ++k) {
+      const float tap = taps[k];
+      const float* const left = input.row(frame - static_cast<std::ptrdiff_t>(k));
+      const float* const right = input.row(frame + static_cast<std::ptrdiff_t>(k));
+      for (std::size_t c = 0; c < width; ++c) out[c] += tap * (left[c] + right[c]);
+    }
+  }
+}
+
+}  // namespace kinemend

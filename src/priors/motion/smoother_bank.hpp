@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+// Gaussian means of a take's channels over a range of widths: what the learned cleaner mixes.
+namespace kinemend {
+
+/// The channel itself, and its means over Gaussians of these deviations, seconds: each band between
+/// two of them is half an octave.
+inline constexpr std::array<double, 10> bank_widths_s{0.0125, 0.0177, 0.025,  0.0354, 0.05,
+                                                      0.0708, 0.1,    0.1415, 0.2,    0.283};
+inline constexpr std::size_t bank_levels = bank_widths_s.size() + 1;
+
+/// F frames x C channels with `reach` more on either side: there each channel goes on as its point
+/// reflection about the end of a line fitted to its outermost tenth of a second, so that straight
+/// lines stay and noise of the last sample does not lift what stands beyond it.
+struct ExtendedChannels {
+  std::size_t frames = 0, channels = 0, reach = 0;
+  std::vector<float> values;  ///< (F + 2 reach) x C
+
+  /// Frame `frame`, from -reach to F + reach - 1.
+  const float* row(std::ptrdiff_t frame) const {
+    return values.data() +
+           (frame + static_cast<std::ptrdiff_t>(reach)) * static_cast<std::ptrdiff_t>(channels);
+  }
+};
+
+/// The kernels at one frame rate, cut at 3.3 deviations and normalised to sum 1.
+class SmootherBank {
+ public:
+  explicit SmootherBank(double frame_rate_hz);
+
+  std::size_t reach() const noexcept { return reach_; }
+  /// `values`: F x C, at least one frame.
+  ExtendedChannels extended(std::span<const float> values, std::size_t channels) const;
+  /// Level 0 to `bank_levels` - 1 of frames [first, first + count), which may lie beyond the ends
+  /// by what `input.reach` has over `reach()`: count x C.
+  void level(const ExtendedChannels& input, std::size_t level, std::ptrdiff_t first,
+             std::size_t count, std::span<float> result) const;
+
+ private:
+  double frame_rate_hz_;
+  std::size_t reach_ = 0;
+  std::vector<std::vector<float>> taps_;  // of each level, from the middle outwards
+};
+
+}  // namespace kinemend

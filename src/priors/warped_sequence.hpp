@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstddef>
+
+#include "kinemend/experimental/pose_matrix.hpp"
+
+namespace kinemend {
+
+/// The first `frames` frames of a sequence that runs at `speed` times its pace: Catmull-Rom's cubic
+/// through the frames, read at every `speed`-th; beyond its ends it stands still.
+PoseMatrix warped(const PoseMatrix& poses, double speed, std::size_t frames);
+
+}  // namespace kinemend

@@ -1,0 +1,86 @@
+#include "priors/motion/motion_samples.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <variant>
+#include <vector>
+
+#include "kinemend/experimental/synth.hpp"
+
+namespace kinemend {
+namespace {
+
+const TrainingSequences& walks() {
+  static const TrainingSequences sequences = [] {
+    SynthOptions options{.motion = "walk", .duration_s = 6, .frame_rate_hz = 120};
+    const Clip clip = synthesize(options);
+    return encode_takes({1, [&](std::size_t) { return std::variant<Clip, MarkerClip>(clip); }}, {},
+                        120);
+  }();
+  return sequences;
+}
+
+MotionSample drawn(const MotionSampling& sampling, std::uint64_t seed) {
+  return random_motion_sample(walks(), mirror_of(walks().layout), {}, sampling, Random(seed));
+}
+
+double size_of_damage(const MotionSample& sample) {
+  double square = 0;
+  for (std::size_t i = 0; i < sample.truth.size(); ++i)
+    square += std::pow(static_cast<double>(sample.take.values[i] - sample.truth[i]), 2);
+  return std::sqrt(square / static_cast<double>(sample.truth.size()));
+}
+
+TEST(MotionSamples, AreTheSameForTheSameSeed) {
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    const MotionSample one = drawn({}, seed), other = drawn({}, seed);
+    EXPECT_EQ(one.take.values, other.take.values);
+    EXPECT_EQ(one.truth, other.truth);
+    EXPECT_EQ(one.take.missing, other.take.missing);
+  }
+  EXPECT_NE(drawn({}, 1).take.values, drawn({}, 2).take.values);
+}
+
+TEST(MotionSamples, HaveAsManyStepsAsAskedForAtEveryRate) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const MotionSample sample = drawn({.steps = 40}, seed);
+    EXPECT_GE(sample.take.steps(), 40U);
+    EXPECT_LE(sample.take.steps(), 41U) << sample.take.frame_rate_hz;
+    EXPECT_EQ(sample.take.values.size(), sample.take.frames * sample.take.channels);
+    for (const float value : sample.take.values) ASSERT_TRUE(std::isfinite(value));
+  }
+}
+
+TEST(MotionSamples, AreDamagedButForTheShareThatIsClean) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    EXPECT_EQ(size_of_damage(drawn({.clean_share = 1}, seed)), 0);
+    EXPECT_GT(size_of_damage(drawn({.clean_share = 0}, seed)), 1e-3);
+  }
+}
+
+TEST(MotionSamples, MapAReferenceByTheGainAndOffsetOfEachChannel) {
+  MotionPair pair;
+  MotionTake& take = pair.sample.take;
+  take.frames = 200;
+  take.channels = 3;
+  take.frame_rate_hz = 60;
+  take.slots.assign(3, -1);
+  take.is_position.assign(3, 0);
+  for (std::size_t f = 0; f < take.frames; ++f) {
+    const auto x = static_cast<float>(10 * std::sin(0.1 * static_cast<double>(f)));
+    for (const float value : {x, 2 * x, 0.01F * x}) pair.sample.truth.push_back(value);
+    for (const float value : {3 - 0.5F * x, 1 + x, x}) take.values.push_back(value);
+  }
+  const MotionPair mapped = mapped_pair(pair, 1);
+  for (std::size_t f = 0; f < take.frames; ++f) {
+    for (std::size_t c = 0; c < 2; ++c)
+      ASSERT_NEAR(mapped.sample.truth[3 * f + c], take.values[3 * f + c], 1e-4);
+    // It hardly moves: nothing is told of it.
+    EXPECT_EQ(mapped.sample.truth[3 * f + 2], 0);
+    EXPECT_EQ(mapped.sample.take.values[3 * f + 2], 0);
+  }
+}
+
+}  // namespace
+}  // namespace kinemend

@@ -1,0 +1,142 @@
+#include "descent.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinemend/error.hpp"
+
+namespace kinemend::train {
+
+namespace {
+
+// Brings the values of a tensor of the same shape into `target`.
+void take_values(const Tensor& from, torch::Tensor& target, const std::string& name) {
+  if (from.values.size() != static_cast<std::size_t>(target.numel()))
+    throw Error(ErrorKind::unreadable_input, fmt::format("{}: expected {} numbers, found {}", name,
+                                                         target.numel(), from.values.size()));
+  const torch::NoGradGuard guard;
+  const std::vector<float> floats(from.values.begin(), from.values.end());
+  target.copy_(torch::from_blob(const_cast<float*>(floats.data()), target.sizes()));
+}
+
+template <class Body>
+std::vector<std::pair<std::string, decltype(&std::declval<Body&>().weights)>> parts_of(Body& body) {
+  return {{"weights", &body.weights},
+          {"means", &body.means},
+          {"first", &body.first},
+          {"second", &body.second}};
+}
+
+}  // namespace
+
+std::vector<float> floats_of(const torch::Tensor& tensor) {
+  const torch::Tensor flat = tensor.detach().contiguous();
+  const float* values = flat.data_ptr<float>();
+  return {values, values + flat.numel()};
+}
+
+Tensor tensor_of(const torch::Tensor& values) {
+  Tensor tensor;
+  for (const std::int64_t size : values.sizes())
+    tensor.shape.push_back(static_cast<std::size_t>(size));
+  const std::vector<float> floats = floats_of(values);
+  tensor.values.assign(floats.begin(), floats.end());
+  return tensor;
+}
+
+void WeightMaker::add(const std::string& name, std::vector<std::int64_t> shape, double bound) {
+  torch::Tensor values = torch::zeros(shape);
+  if (bound > 0) values.uniform_(-bound, bound);
+  weights_[name] = values.requires_grad_(true);
+}
+
+void WeightMaker::set(const std::string& name, const std::vector<double>& values) {
+  const torch::NoGradGuard guard;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    weights_.at(name)[static_cast<std::int64_t>(i)] = values[i];
+}
+
+void WeightMaker::add_dense(const std::string& name, std::size_t inputs, std::size_t outputs,
+                            double gain) {
+  const auto in = static_cast<std::int64_t>(inputs), out = static_cast<std::int64_t>(outputs);
+  add(name + ".weight", {out, in}, gain * std::sqrt(3.0 / static_cast<double>(inputs)));
+  add(name + ".bias", {out}, 0);
+}
+
+void WeightMaker::add_convolution(const std::string& name, std::size_t inputs, std::size_t outputs,
+                                  double gain) {
+  const auto in = static_cast<std::int64_t>(inputs), out = static_cast<std::int64_t>(outputs);
+  add(name + ".weight", {out, 3, in}, gain * std::sqrt(3.0 / static_cast<double>(3 * inputs)));
+  add(name + ".bias", {out}, 0);
+}
+
+void Descent::start() {
+  for (const auto& [name, values] : weights) {
+    means[name] = values.detach().clone();
+    first[name] = torch::zeros_like(values);
+    second[name] = torch::zeros_like(values);
+  }
+}
+
+double Descent::step(double rate) {
+  const torch::NoGradGuard guard;
+  constexpr double first_decay = 0.9, second_decay = 0.99, least = 1e-8;
+  ++steps;
+  double square = 0;
+  for (const auto& [name, values] : weights) {
+    if (values.grad().defined()) square += values.grad().pow(2).sum().item<double>();
+  }
+  const double size = std::sqrt(square);
+  const double cut = std::min(1.0, settings.most_gradient / (size + 1e-12));
+  const auto count = static_cast<double>(steps);
+  const double first_share = 1 - std::pow(first_decay, count);
+  const double second_share = 1 - std::pow(second_decay, count);
+  const double decay = std::min(settings.average_decay, count / (count + 10));
+  for (auto& [name, values] : weights) {
+    if (!values.grad().defined()) continue;
+    torch::Tensor gradient = values.grad().mul(cut);
+    torch::Tensor &mean = first[name], &variance = second[name];
+    mean.mul_(first_decay).add_(gradient, 1 - first_decay);
+    variance.mul_(second_decay).addcmul_(gradient, gradient, 1 - second_decay);
+    if (values.dim() > 1) values.mul_(1 - rate * settings.weight_decay);
+    values.addcdiv_(mean, variance.div(second_share).sqrt_().add_(least), -rate / first_share);
+    values.mutable_grad().zero_();
+    means[name].mul_(decay).add_(values, 1 - decay);
+  }
+  return size;
+}
+
+Weights Descent::averages() const {
+  Weights result;
+  for (const auto& [name, values] : means) result[name] = tensor_of(values);
+  return result;
+}
+
+TensorFile Descent::state() const {
+  TensorFile file;
+  file.metadata["steps"] = fmt::format("{}", steps);
+  for (const auto& [part, values] : parts_of(*this)) {
+    for (const auto& [name, tensor] : *values) file.tensors[part + "." + name] = tensor_of(tensor);
+  }
+  return file;
+}
+
+void Descent::set_state(const TensorFile& state) {
+  const auto found = state.metadata.find("steps");
+  if (found == state.metadata.end())
+    throw Error(ErrorKind::unreadable_input, "this is no checkpoint: it does not say its steps");
+  steps = std::stoll(found->second);
+  for (const auto& [part, values] : parts_of(*this)) {
+    for (auto& [name, tensor] : *values) {
+      const auto kept = state.tensors.find(part + "." + name);
+      if (kept == state.tensors.end())
+        throw Error(ErrorKind::unreadable_input,
+                    fmt::format("the checkpoint lacks {}.{}", part, name));
+      take_values(kept->second, tensor, part + "." + name);
+    }
+  }
+}
+
+}  // namespace kinemend::train

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <torch/torch.h>
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sequence_network.hpp"
+
+// Weights and the steps of their descent. Seen by files that see LibTorch, and by no other.
+namespace kinemend::train {
+
+using Parameters = std::map<std::string, torch::Tensor, std::less<>>;
+
+std::vector<float> floats_of(const torch::Tensor& tensor);
+Tensor tensor_of(const torch::Tensor& values);
+
+/// Draws weights, uniform and of variance 1 / inputs at gain 1, in the order of their making.
+class WeightMaker {
+ public:
+  WeightMaker(Parameters& weights, std::uint64_t seed) : weights_(weights) {
+    torch::manual_seed(seed);
+  }
+  void add(const std::string& name, std::vector<std::int64_t> shape, double bound);
+  void set(const std::string& name, const std::vector<double>& values);
+  void add_dense(const std::string& name, std::size_t inputs, std::size_t outputs, double gain = 1);
+  /// [outputs, 3, inputs], and a bias.
+  void add_convolution(const std::string& name, std::size_t inputs, std::size_t outputs,
+                       double gain = 1);
+
+ private:
+  Parameters& weights_;
+};
+
+/// Adam with decoupled weight decay, and running means of the weights.
+struct Descent {
+  DescentSettings settings;
+  Parameters weights, means, first, second;  // moments of the gradient
+  std::int64_t steps = 0;
+
+  /// Once the weights are made.
+  void start();
+  /// By the gradients that the weights have, which are zero afterwards. Returns their norm.
+  double step(double rate);
+  Weights averages() const;
+  TensorFile state() const;
+  /// Errors: as of `SequenceNetwork::set_state`.
+  void set_state(const TensorFile& state);
+};
+
+}  // namespace kinemend::train

@@ -1,0 +1,239 @@
+#include "motion_descent.hpp"
+
+#include <fmt/format.h>
+#include <torch/torch.h>
+
+#include <utility>
+
+#include "descent.hpp"
+#include "priors/motion/motion_network.hpp"
+
+namespace kinemend::train {
+
+namespace {
+
+std::int64_t whole(std::size_t value) { return static_cast<std::int64_t>(value); }
+
+torch::Tensor tensor_of(const std::vector<float>& values, std::vector<std::int64_t> shape) {
+  return torch::from_blob(const_cast<float*>(values.data()), shape);
+}
+
+struct Inputs {
+  torch::Tensor features, take_features, levels, changes, scales, truth, truth_changes, alive,
+      known;
+};
+
+Inputs inputs_of(const MotionBatch& batch) {
+  const std::int64_t b = whole(batch.samples), c = whole(batch.channels), n = whole(batch.steps);
+  return {tensor_of(batch.features, {b, c, n, whole(motion_features)}),
+          tensor_of(batch.take_features, {b, c, whole(motion_take_features)}),
+          tensor_of(batch.levels, {b, c, n, whole(bank_levels)}),
+          tensor_of(batch.changes, {b, c, n, whole(bank_levels)}),
+          tensor_of(batch.scales, {b, c, n, whole(motion_scales)}),
+          tensor_of(batch.truth, {b, c, n}),
+          tensor_of(batch.truth_changes, {b, c, n}),
+          tensor_of(batch.alive, {b, c}),
+          tensor_of(batch.known, {b, c})};
+}
+
+// Steps t - d, t and t + d of the last dimension but one side by side, zeros beyond the ends.
+torch::Tensor with_neighbours(const torch::Tensor& x, std::int64_t dilation) {
+  const std::int64_t steps = x.size(-2);
+  const torch::Tensor pad = torch::zeros_like(x.narrow(-2, 0, dilation));
+  return torch::cat({torch::cat({pad, x.narrow(-2, 0, steps - dilation)}, -2), x,
+                     torch::cat({x.narrow(-2, dilation, steps - dilation), pad}, -2)},
+                    -1);
+}
+
+struct Call {
+  const Parameters& weights;
+  double dropout = 0;
+
+  torch::Tensor dense(const torch::Tensor& x, const std::string& layer) const {
+    return torch::linear(x, weights.at(layer + ".weight"), weights.at(layer + ".bias"));
+  }
+  torch::Tensor convolution(const torch::Tensor& x, const std::string& layer,
+                            std::size_t dilation) const {
+    return torch::linear(with_neighbours(x, whole(dilation)),
+                         weights.at(layer + ".weight").flatten(1), weights.at(layer + ".bias"));
+  }
+  torch::Tensor drop(const torch::Tensor& x) const {
+    return dropout > 0 ? torch::dropout(x, dropout, true) : x;
+  }
+};
+
+// Changes of a sequence of steps, from the ones before and behind, per 1/120 s.
+torch::Tensor slope_of(const torch::Tensor& x) {
+  const std::int64_t n = x.size(2);
+  const torch::Tensor before = torch::cat({x.narrow(2, 0, 1), x.narrow(2, 0, n - 1)}, 2);
+  const torch::Tensor behind = torch::cat({x.narrow(2, 1, n - 1), x.narrow(2, n - 1, 1)}, 2);
+  return (behind - before) / 8;
+}
+
+}  // namespace
+
+struct MotionDescent::Body {
+  MotionShape shape;
+  Descent descent;
+  torch::Tensor mean, deviation, speed;
+
+  torch::Tensor outputs(const Call& call, const Inputs& in) const {
+    const std::int64_t b = in.features.size(0), c = in.features.size(1), n = in.features.size(2);
+    const std::int64_t encoded = whole(shape.encoded);
+    const torch::Tensor alive = in.alive.unsqueeze(2).unsqueeze(3);
+    const torch::Tensor known = in.known.unsqueeze(2).unsqueeze(3) * alive;
+    torch::Tensor h = torch::relu(call.convolution(in.features, "encoder", 1) +
+                                  call.dense(in.take_features, "of_take").unsqueeze(2));
+    h = (h + torch::relu(call.convolution(h, "second_encoder", shape.second_dilation))) * alive;
+    const torch::Tensor count = in.alive.sum(1).clamp_min(1).view({b, 1, 1});
+    const torch::Tensor pooled = torch::cat({h.sum(1) / count, (h * h).sum(1) / count}, 2);
+    const torch::Tensor per_track =
+        in.alive.view({b, c / 3, 3}).sum(2).clamp_min(1).view({b, c / 3, 1, 1, 1});
+    const torch::Tensor of_track = (h.view({b, c / 3, 3, n, encoded}).sum(2, true) / per_track)
+                                       .expand({b, c / 3, 3, n, encoded})
+                                       .reshape({b, c, n, encoded});
+    const torch::Tensor pose = ((in.levels.select(3, 3) - mean) / deviation) * known.squeeze(3);
+    const torch::Tensor pace = (in.changes.select(3, 4) / speed).clamp(-6, 6) * known.squeeze(3);
+    const torch::Tensor body =
+        torch::cat({call.drop((h * known).transpose(1, 2).reshape({b, n, c * encoded})),
+                    pose.transpose(1, 2), pace.transpose(1, 2)},
+                   2);
+    torch::Tensor g = torch::relu(call.dense(body, "body") + call.dense(pooled, "pool"));
+    if (!shape.has_trunk) g = torch::zeros_like(g);
+    for (std::size_t i = 0; i < shape.dilations.size(); ++i) {
+      const std::string block = fmt::format("block{}", i);
+      const torch::Tensor inner =
+          torch::relu(call.convolution(g, block + ".convolution", shape.dilations[i]));
+      g = g + call.dense(call.drop(inner), block + ".dense");
+    }
+    g = torch::relu(g);
+    const torch::Tensor slots =
+        call.dense(g, "to_slots").view({b, n, c, whole(shape.slot_units)}).transpose(1, 2) * known;
+    const torch::Tensor hidden =
+        torch::relu(call.dense(torch::cat({h, of_track, slots}, 3), "head") +
+                    call.dense(g, "to_all").unsqueeze(1));
+    const torch::Tensor out = call.dense(hidden, "output");
+    const torch::Tensor corrections = call.dense(g, "slot_corrections")
+                                          .view({b, n, c, whole(motion_body_corrections)})
+                                          .transpose(1, 2) *
+                                      known;
+    const std::int64_t at = whole(motion_smoothers + first_body_correction);
+    return torch::cat(
+        {out.narrow(3, 0, at), out.narrow(3, at, whole(motion_body_corrections)) + corrections,
+         out.narrow(3, whole(motion_outputs) - 1, 1)},
+        3);
+  }
+
+  // Values and changes that the outputs make of a batch.
+  std::pair<torch::Tensor, torch::Tensor> results(const torch::Tensor& outputs,
+                                                  const Inputs& in) const {
+    const std::int64_t levels = whole(bank_levels), inner = levels - 2;
+    const torch::Tensor mix = outputs.narrow(3, 0, whole(motion_smoothers)).softmax(3);
+    const auto all = [&](const torch::Tensor& x) {
+      return torch::cat({x, 2 * x.narrow(3, 1, inner) - x.narrow(3, 2, inner)}, 3);
+    };
+    const torch::Tensor smooth = all(in.levels);
+    const torch::Tensor correction =
+        (outputs.narrow(3, whole(motion_smoothers), whole(motion_scales)) * in.scales).sum(3) * 0.5;
+    const torch::Tensor values = (mix * smooth).sum(3) + correction;
+    const torch::Tensor changes = (mix * all(in.changes)).sum(3) +
+                                  (slope_of(mix) * (smooth - in.levels.narrow(3, 0, 1))).sum(3) +
+                                  slope_of(correction.unsqueeze(3)).squeeze(3);
+    return {values, changes};
+  }
+
+  // Root mean squares over channels, of each step that counts: B x steps.
+  static torch::Tensor size_of(const torch::Tensor& x, const Inputs& in, std::size_t margin) {
+    const std::int64_t n = x.size(2);
+    const torch::Tensor square =
+        (x * x * in.alive.unsqueeze(2)).sum(1) / in.alive.sum(1, true).clamp_min(1);
+    return torch::sqrt(square + 1e-4).narrow(1, whole(margin), n - 2 * whole(margin));
+  }
+};
+
+MotionDescent::MotionDescent(const MotionShape& shape, const std::vector<float>& mean,
+                             const std::vector<float>& deviation, const std::vector<float>& speed,
+                             const DescentSettings& settings, std::uint64_t seed)
+    : body_(std::make_unique<Body>()) {
+  Body& body = *body_;
+  body.shape = shape;
+  body.descent.settings = settings;
+  const std::int64_t d = whole(shape.slots);
+  body.mean = tensor_of(mean, {1, d, 1}).clone();
+  body.deviation = tensor_of(deviation, {1, d, 1}).clone();
+  body.speed = tensor_of(speed, {1, d, 1}).clone();
+  WeightMaker maker(body.descent.weights, seed);
+  const std::size_t encoded = shape.encoded, hidden = shape.hidden;
+  maker.add_convolution("encoder", motion_features, encoded);
+  maker.add_convolution("second_encoder", encoded, encoded);
+  maker.add_dense("of_take", motion_take_features, encoded);
+  maker.add_dense("body", shape.slots * (encoded + 2), hidden);
+  maker.add_dense("pool", 2 * encoded, hidden);
+  for (std::size_t i = 0; i < shape.dilations.size(); ++i) {
+    const std::string block = fmt::format("block{}", i);
+    maker.add_convolution(block + ".convolution", hidden, hidden);
+    maker.add_dense(block + ".dense", hidden, hidden, 0.3);
+  }
+  maker.add_dense("to_slots", hidden, shape.slots * shape.slot_units);
+  maker.add_dense("slot_corrections", hidden, shape.slots * motion_body_corrections, 0.1);
+  maker.add_dense("to_all", hidden, shape.head);
+  maker.add_dense("head", 2 * encoded + shape.slot_units, shape.head);
+  maker.add_dense("output", shape.head, motion_outputs, 0.1);
+  // To begin with, most of what was measured stays.
+  std::vector<double> outset(motion_outputs, 0);
+  outset.front() = 2;
+  maker.set("output.bias", outset);
+  body.descent.start();
+}
+MotionDescent::~MotionDescent() = default;
+
+double MotionDescent::step(const MotionBatch& batch, const MotionLoss& loss, double rate,
+                           std::uint64_t seed) {
+  torch::manual_seed(seed);
+  Body& body = *body_;
+  const Inputs in = inputs_of(batch);
+  const torch::Tensor outputs =
+      body.outputs({body.descent.weights, body.descent.settings.dropout}, in);
+  const auto [values, changes] = body.results(outputs, in);
+  const auto size = [&](const torch::Tensor& x) {
+    return Body::size_of(x, in, loss.margin).mean(1);
+  };
+  const torch::Tensor damage = size(in.levels.select(3, 0) - in.truth);
+  const torch::Tensor change_damage = size(in.changes.select(3, 0) - in.truth_changes);
+  const torch::Tensor error = values - in.truth;
+  const torch::Tensor share =
+      (size(error) / (damage + loss.floor_deg) +
+       loss.velocity * size(changes - in.truth_changes) / (change_damage + loss.floor_change_deg))
+          .mean();
+  const torch::Tensor log_variance = outputs.select(3, whole(motion_outputs) - 1).clamp(-12, 8);
+  const torch::Tensor likelihood =
+      (0.5 * (log_variance + (error.detach().pow(2) + 1e-5) * torch::exp(-log_variance)))
+          .clamp_max(20) *
+      in.alive.unsqueeze(2);
+  (share + loss.likelihood * likelihood.sum() / (in.alive.sum() * whole(batch.steps))).backward();
+  body.descent.step(rate);
+  return share.item<double>();
+}
+
+std::vector<float> MotionDescent::outputs(const MotionBatch& batch) const {
+  const torch::NoGradGuard guard;
+  return floats_of(body_->outputs({body_->descent.means, 0}, inputs_of(batch)));
+}
+
+double MotionDescent::share_left(const MotionBatch& batch, const MotionLoss& loss) const {
+  const torch::NoGradGuard guard;
+  const Inputs in = inputs_of(batch);
+  const auto [values, changes] = body_->results(body_->outputs({body_->descent.means, 0}, in), in);
+  const auto size = [&](const torch::Tensor& x) {
+    return Body::size_of(x, in, loss.margin).mean(1);
+  };
+  return (size(values - in.truth) / (size(in.levels.select(3, 0) - in.truth) + loss.floor_deg))
+      .mean()
+      .item<double>();
+}
+
+Weights MotionDescent::averages() const { return body_->descent.averages(); }
+TensorFile MotionDescent::state() const { return body_->descent.state(); }
+void MotionDescent::set_state(const TensorFile& state) { body_->descent.set_state(state); }
+
+}  // namespace kinemend::train

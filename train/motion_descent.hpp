@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sequence_network.hpp"
+
+// The network of the learned cleaner (`priors/motion/motion_network.hpp`) as it is trained.
+// LibTorch is behind this header.
+namespace kinemend::train {
+
+struct MotionShape {
+  std::size_t slots = 0;  ///< D, channels of the body
+  std::size_t encoded = 24, slot_units = 16, hidden = 192, head = 64;
+  std::vector<std::size_t> dilations{1, 2, 4, 8, 1, 2};
+  std::size_t second_dilation = 2;  ///< of the encoder's second layer
+  bool has_trunk = true;            ///< without one no channel sees another
+};
+
+/// B samples of C = D channels and n steps each; as of `MotionSteps`, one sample behind the other.
+struct MotionBatch {
+  std::size_t samples = 0, channels = 0, steps = 0;
+  std::vector<float> features, take_features, levels, changes, scales;
+  std::vector<float> truth, truth_changes;  ///< B x C x n
+  std::vector<float> alive, known;          ///< B x C, 0 or 1
+};
+
+/// How errors count.
+struct MotionLoss {
+  double velocity = 0.5;                             ///< of changes, beside that of values
+  double likelihood = 0.02;                          ///< of the expected variance
+  double floor_deg = 0.15, floor_change_deg = 0.02;  ///< added to the damage that errors are
+                                                     ///< measured by
+  std::size_t margin = 8;                            ///< steps at either end that do not count
+};
+
+class MotionDescent {
+ public:
+  /// `statistics`: mean, deviation and speed of the D channels.
+  MotionDescent(const MotionShape& shape, const std::vector<float>& mean,
+                const std::vector<float>& deviation, const std::vector<float>& speed,
+                const DescentSettings& settings, std::uint64_t seed);
+  ~MotionDescent();
+
+  /// One step; returns the loss. Dropout is drawn from `seed`.
+  double step(const MotionBatch& batch, const MotionLoss& loss, double rate, std::uint64_t seed);
+  /// B x C x n x `motion_outputs`, by the running means of the weights.
+  std::vector<float> outputs(const MotionBatch& batch) const;
+  /// Of values alone, share of the damage, by the running means.
+  double share_left(const MotionBatch& batch, const MotionLoss& loss) const;
+  Weights averages() const;
+  TensorFile state() const;
+  void set_state(const TensorFile& state);
+
+ private:
+  struct Body;
+  std::unique_ptr<Body> body_;
+};
+
+}  // namespace kinemend::train

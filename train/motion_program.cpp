@@ -1,0 +1,151 @@
+// `kinemend-train learned`: the network of the method `learned`.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "base/file_bytes.hpp"
+#include "clean/motion_channels.hpp"
+#include "clean/pieces.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/io.hpp"
+#include "motion_training.hpp"
+#include "program.hpp"
+
+namespace kinemend::train {
+
+namespace {
+
+constexpr double rate_hz = 120;
+constexpr std::size_t validation_samples = 24;
+constexpr std::uint64_t validation_seed = 77;
+
+struct Arguments {
+  Run run;
+  MotionTraining training;
+  std::string pairs, validation_pairs;
+};
+
+TrainingTakes takes_of(const std::vector<std::string>& paths) {
+  return {paths.size(), [paths](std::size_t i) -> std::optional<std::variant<Clip, MarkerClip>> {
+            return read_clip(paths[i]).clip;
+          }};
+}
+
+template <class AnyClip>
+MotionPair pair_of(const std::string& name, const AnyClip& noisy, const AnyClip& reference,
+                   double least_deg) {
+  const TakeView take = view_of(noisy);
+  MotionTracks tracks = motion_tracks_of(take, changeable_tracks(take));
+  std::vector<float> truth = values_in(tracks, view_of(reference));
+  return mapped_pair({name, {std::move(tracks.take), std::move(truth)}}, least_deg);
+}
+
+// Lines `noisy reference`, with a tab between. Channels that move by less than two degrees, or half
+// a hundredth of a body height, say little of motion.
+std::vector<MotionPair> pairs_of(const std::string& list) {
+  constexpr double least_turn_deg = 2, least_move_deg = 3.4;
+  std::vector<MotionPair> pairs;
+  if (list.empty()) return pairs;
+  for (const std::string& line : lines_of(list)) {
+    const std::size_t tab = line.find('\t');
+    if (tab == std::string::npos)
+      throw Error(ErrorKind::usage, fmt::format("{}: expected two files with a tab between", list));
+    const std::string noisy = line.substr(0, tab), reference = line.substr(tab + 1);
+    const Take one = read_take(noisy).take, other = read_take(reference).take;
+    if (one.index() != other.index())
+      throw Error(ErrorKind::usage, fmt::format("{}: joints and markers are no pair", noisy));
+    if (const auto* markers = std::get_if<MarkerClip>(&one)) {
+      pairs.push_back(pair_of(noisy, *markers, std::get<MarkerClip>(other), least_move_deg));
+    } else {
+      pairs.push_back(pair_of(noisy, std::get<Clip>(one), std::get<Clip>(other), least_turn_deg));
+    }
+  }
+  return pairs;
+}
+
+void save(const Run& run, const MotionTrainer& trainer, const TrainingSequences& sequences) {
+  if (!run.checkpoint.empty()) write_file(run.checkpoint, trainer.checkpoint());
+  Model model = trainer.model();
+  model.card = run.card;
+  model.takes = sequences.takes;
+  for (const TrainingSequences::Entry& entry : sequences.entries)
+    model.seconds += entry.weight * static_cast<double>(entry.frames) / sequences.rate_hz;
+  write_file(run.output, write_model(model));
+}
+
+void train(const Arguments& arguments) {
+  const Run& run = arguments.run;
+  TrainSettings settings;
+  settings.seed = arguments.training.seed;
+  const TrainingSequences sequences = encode_takes(takes_of(run.paths()), settings, rate_hz);
+  std::vector<MotionPair> pairs = pairs_of(arguments.pairs);
+  const std::vector<MotionPair> kept = pairs_of(arguments.validation_pairs);
+  fmt::print("{} takes, {} sequences, {} channels, {} pairs\n", sequences.takes,
+             sequences.entries.size(), sequences.layout.channel_count(), pairs.size());
+  MotionTrainer trainer(sequences, std::move(pairs), arguments.training);
+  if (run.resume) trainer.resume(file_bytes(run.checkpoint), run.checkpoint);
+  std::optional<TrainingSequences> others;
+  if (!run.validation.empty())
+    others = encode_takes(takes_of(lines_of(run.validation)), settings, rate_hz);
+  const auto validation = [&] {
+    std::string text;
+    if (others && others->layout.channel_count() == sequences.layout.channel_count()) {
+      MotionSampling sampling = arguments.training.sampling;
+      sampling.clean_share = 0;
+      text += fmt::format(
+          "  of the damage: takes {:.4f}",
+          trainer.share_left(*others, {}, sampling, validation_samples, validation_seed));
+    }
+    if (!kept.empty()) {
+      MotionSampling sampling = arguments.training.sampling;
+      sampling.pair_share = 1;
+      text += fmt::format(
+          "  pairs {:.4f}",
+          trainer.share_left(sequences, kept, sampling, validation_samples, validation_seed));
+    }
+    return text;
+  };
+  run_steps({trainer.batch(), arguments.training.batches, 0.995, [&] { return trainer.step(); },
+             validation, [&] { save(run, trainer, sequences); }},
+            run.report_s);
+}
+
+}  // namespace
+
+int motion_program(int count, char** values) {
+  Arguments arguments;
+  MotionTraining& training = arguments.training;
+  CLI::App app{"Trains the network of the method learned.", "kinemend-train learned"};
+  add_run_options(app, arguments.run, training.descent);
+  app.add_option(
+      "--pairs", arguments.pairs,
+      "file with takes of two systems, noisy and reference, tab between, one pair a line");
+  app.add_option("--validate-pairs", arguments.validation_pairs, "the same, not learned from");
+  app.add_option("--seed", training.seed)->capture_default_str();
+  app.add_option("--batches", training.batches, "steps of the training")->capture_default_str();
+  app.add_option("--batch", training.batch, "samples a step")->capture_default_str();
+  app.add_option("--steps", training.sampling.steps, "of a sample, thirty a second")
+      ->capture_default_str();
+  app.add_option("--pair-share", training.sampling.pair_share, "of samples that are pairs")
+      ->capture_default_str();
+  app.add_flag("!--no-slow-noise", training.sampling.has_slow_noise,
+               "no low-passed noise, no filtered takes");
+  app.add_flag("!--no-trunk", training.shape.has_trunk, "every channel by itself");
+  app.add_option("--encoded", training.shape.encoded)->capture_default_str();
+  app.add_option("--slot-units", training.shape.slot_units)->capture_default_str();
+  app.add_option("--hidden", training.shape.hidden)->capture_default_str();
+  app.add_option("--head", training.shape.head)->capture_default_str();
+  app.add_option("--dilations", training.shape.dilations, "of the blocks")->delimiter(',');
+  app.add_option("--velocity", training.loss.velocity, "what errors of velocity count")
+      ->capture_default_str();
+  app.add_option("--rate", training.rate, "of learning, at its highest")->capture_default_str();
+  int exit_code = 0;
+  if (!parse(app, count, values, arguments.run, exit_code)) return exit_code;
+  train(arguments);
+  return 0;
+}
+
+}  // namespace kinemend::train

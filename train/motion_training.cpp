@@ -1,0 +1,143 @@
+#include "motion_training.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "checkpoint.hpp"
+#include "priors/motion/motion_network.hpp"
+
+namespace kinemend::train {
+
+namespace {
+
+MotionShape with_slots(MotionShape shape, const TrainingSequences& sequences) {
+  shape.slots = sequences.layout.channel_count();
+  return shape;
+}
+
+double rate_at(std::size_t batch, const MotionTraining& settings) {
+  constexpr double warm_up = 200, least = 0.01;
+  const double done = static_cast<double>(batch) / static_cast<double>(settings.batches);
+  const double cosine = 0.5 + 0.5 * std::cos(std::numbers::pi * std::min(done, 1.0));
+  const double warm = std::min(1.0, static_cast<double>(batch + 1) / warm_up);
+  return settings.rate * warm * (least + (1 - least) * cosine);
+}
+
+void append(std::vector<float>& all, const std::vector<float>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+MotionBatch batch_of(const std::vector<MotionSample>& samples, std::size_t steps) {
+  MotionBatch batch;
+  batch.samples = samples.size();
+  batch.channels = samples.front().take.channels;
+  batch.steps = steps;
+  for (const MotionSample& sample : samples) {
+    const MotionTake& take = sample.take;
+    const MotionReader reader(take);
+    const MotionSteps part = reader.steps(0, steps);
+    append(batch.features, part.features);
+    append(batch.take_features, reader.strengths().features);
+    append(batch.levels, part.levels);
+    append(batch.changes, part.changes);
+    append(batch.scales, part.scales);
+    const auto speed = static_cast<float>(take.frame_rate_hz / 120);
+    for (std::size_t c = 0; c < take.channels; ++c) {
+      batch.alive.push_back(reader.strengths().is_alive[c] != 0 ? 1.0F : 0.0F);
+      batch.known.push_back(take.slots[c] >= 0 ? 1.0F : 0.0F);
+      for (std::size_t s = 0; s < steps; ++s) {
+        const std::size_t frame = take.frame_of_step(s),
+                          next = std::min(frame + 1, take.frames - 1);
+        const float value = sample.truth[frame * take.channels + c];
+        batch.truth.push_back(value);
+        batch.truth_changes.push_back(speed * (sample.truth[next * take.channels + c] - value));
+      }
+    }
+  }
+  return batch;
+}
+
+MotionTrainer::MotionTrainer(const TrainingSequences& sequences, std::vector<MotionPair> pairs,
+                             const MotionTraining& settings)
+    : sequences_(sequences),
+      pairs_(std::move(pairs)),
+      settings_(settings),
+      statistics_(motion_statistics(sequences)),
+      mirror_(mirror_of(sequences.layout)),
+      descent_(with_slots(settings.shape, sequences), statistics_.mean, statistics_.deviation,
+               statistics_.speed, settings.descent, settings.seed) {}
+
+MotionTrainer::~MotionTrainer() = default;
+
+MotionBatch MotionTrainer::drawn(std::size_t batch) const {
+  std::vector<MotionSample> samples;
+  const Random random = Random(settings_.seed).fork(batch);
+  for (std::size_t i = 0; i < settings_.batch; ++i)
+    samples.push_back(
+        random_motion_sample(sequences_, mirror_, pairs_, settings_.sampling, random.fork(i)));
+  return batch_of(samples, settings_.sampling.steps);
+}
+
+double MotionTrainer::step() {
+  const MotionBatch batch = next_.valid() && next_number_ == batch_ ? next_.get() : drawn(batch_);
+  next_number_ = batch_ + 1;
+  if (next_number_ < settings_.batches)
+    next_ = std::async(std::launch::async, [this, number = next_number_] { return drawn(number); });
+  const double loss = descent_.step(batch, settings_.loss, rate_at(batch_, settings_), batch_);
+  ++batch_;
+  return loss;
+}
+
+double MotionTrainer::share_left(const TrainingSequences& sequences,
+                                 const std::vector<MotionPair>& pairs,
+                                 const MotionSampling& sampling, std::size_t samples,
+                                 std::uint64_t seed) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < samples; ++i) {
+    const MotionSample sample =
+        random_motion_sample(sequences, mirror_, pairs, sampling, Random(seed).fork(i));
+    sum += descent_.share_left(batch_of({sample}, sampling.steps), settings_.loss);
+  }
+  return sum / static_cast<double>(samples);
+}
+
+Model MotionTrainer::model() const {
+  Model model;
+  model.method = "learned";
+  model.rate_hz = sequences_.rate_hz;
+  model.layout = sequences_.layout;
+  const MotionShape& shape = settings_.shape;
+  model.numbers["blocks"] = static_cast<double>(shape.dilations.size());
+  model.numbers["second_encoder.dilation"] = static_cast<double>(shape.second_dilation);
+  for (std::size_t i = 0; i < shape.dilations.size(); ++i)
+    model.numbers[fmt::format("block{}.dilation", i)] = static_cast<double>(shape.dilations[i]);
+  for (auto& [name, tensor] : descent_.averages()) {
+    model.tensors[name] = tensor;
+    model.tensors[name].stored = tensor.shape.size() > 1 ? TensorType::f16 : TensorType::f32;
+  }
+  const auto put = [&](const char* name, const std::vector<float>& values) {
+    model.tensors[name] = {TensorType::f32, {values.size()}, {values.begin(), values.end()}};
+  };
+  put("mean", statistics_.mean);
+  put("deviation", statistics_.deviation);
+  put("speed", statistics_.speed);
+  return model;
+}
+
+std::string MotionTrainer::checkpoint() const {
+  return write_checkpoint(descent_.state(), batch_, settings_.seed);
+}
+
+void MotionTrainer::resume(std::string_view bytes, std::string_view name) {
+  const Checkpoint kept = read_checkpoint(bytes, name, settings_.seed);
+  descent_.set_state(kept.state);
+  batch_ = kept.batch;
+}
+
+}  // namespace kinemend::train
