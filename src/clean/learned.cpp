@@ -170,10 +170,10 @@ class Learned final : public Cleaner {
       }
       decode_body(body->channels, model_->layout, body->match, body->clip, chosen);
     }
+    const TakeView decoded = body ? view_of(body->clip) : TakeView{};
     for (std::size_t n = 0; n < tracks.numbers.size(); ++n) {
       CleanedTrack cleaned = cleaned_track(tracks, view, n, result.values);
       if (is_body[n] != 0) {
-        const TakeView decoded = view_of(body->clip);
         if (cleaned.positions.empty()) {
           cleaned.rotations = rotations_of(decoded.tracks[tracks.numbers[n]]);
         } else {

@@ -2,21 +2,15 @@
 
 #include <utility>
 
-#include "clean/auto_scale.hpp"
 #include "clean/neighbours.hpp"
 #include "clean/pieces.hpp"
-#include "tracks/smooth_chart.hpp"
+#include "clean/track_vectors.hpp"
 #include "tracks/spikes.hpp"
 #include "tracks/vector_tracks.hpp"
 
 namespace kinemend {
 
 namespace {
-
-std::vector<Vec3> positions_in(const TakeView& take, std::size_t number) {
-  return take.markers ? whole_positions(take, number)
-                      : std::move(position_pieces(take, number).front().samples);
-}
 
 void put(MotionTake& take, std::size_t frame, std::size_t n, Vec3 vector) {
   float* const to = take.values.data() + frame * take.channels + 3 * n;
@@ -31,30 +25,21 @@ void read_together(const TakeView& take, const std::vector<std::size_t>& own,
   if (own.empty()) return;
   const std::size_t frames = take.frames, count = own.size();
   VectorTracks vectors(frames, count);
-  SampleMarks gross(frames, count), gaps(frames, count);
+  SampleMarks suspects(frames, count), gaps(frames, count);
   std::vector<std::size_t> numbers;
   numbers.reserve(count);
   for (const std::size_t n : own) numbers.push_back(tracks.numbers[n]);
   for_each_parallel(count, frames * count, [&](std::size_t i) {
-    const Track& track = take.tracks[numbers[i]];
-    if (track.space == Space::rotation) {
-      const std::vector<Quat> rotations = rotation_piece(take, numbers[i]).samples;
-      std::vector<Quat> steady = rotations;
-      const std::vector<std::uint8_t> marks = replace_gross_spikes(steady);
-      tracks.charts[own[i]] = smooth_chart(steady, take.frame_rate_hz);
-      for (std::size_t f = 0; f < frames; ++f) {
-        vectors.set(f, i, degrees_per_radian * tracks.charts[own[i]]->vector_of(f, rotations[f]));
-        gross(f, i) = marks[f];
-      }
-    } else {
-      const std::vector<Vec3> positions = positions_in(take, numbers[i]);
-      for (std::size_t f = 0; f < frames; ++f)
-        vectors.set(f, i, degrees_per_unit(take) * positions[f]);
+    TrackVectors curve = vectors_of(take, numbers[i]);
+    for (std::size_t f = 0; f < frames; ++f) {
+      vectors.set(f, i, curve.vectors[f]);
+      if (!curve.suspects.empty()) suspects(f, i) = curve.suspects[f];
+      gaps(f, i) = take.tracks[numbers[i]].is_observed(f) ? 0 : 1;
     }
-    for (std::size_t f = 0; f < frames; ++f) gaps(f, i) = track.is_observed(f) ? 0 : 1;
+    tracks.charts[own[i]] = std::move(curve.chart);
   });
   const DetectedSpikes spikes =
-      find_spikes(vectors, gross, tracks_nearby(take, numbers), take.frame_rate_hz, &gaps);
+      find_spikes(vectors, suspects, tracks_nearby(take, numbers), take.frame_rate_hz, &gaps);
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t f = 0; f < frames; ++f) {
       put(tracks.take, f, own[i], vectors.at(f, i));
@@ -102,42 +87,23 @@ std::vector<float> values_in(const MotionTracks& tracks, const TakeView& other) 
         put(take, f, n, degrees_per_radian * chart->vector_of(f, rotations[f]));
       continue;
     }
-    const std::vector<Vec3> positions = positions_in(other, number);
-    for (std::size_t f = 0; f < take.frames; ++f)
-      put(take, f, n, degrees_per_unit(other) * positions[f]);
+    const std::vector<Vec3> positions = vectors_of(other, number).vectors;
+    for (std::size_t f = 0; f < take.frames; ++f) put(take, f, n, positions[f]);
   }
   return std::move(take.values);
 }
 
 CleanedTrack cleaned_track(const MotionTracks& tracks, const TakeView& take, std::size_t n,
                            std::span<const float> values) {
-  const std::size_t number = tracks.numbers[n];
-  const auto vector_at = [&](std::size_t frame) {
-    const float* const from = values.data() + frame * tracks.take.channels + 3 * n;
-    return Vec3{from[0], from[1], from[2]};
-  };
-  const auto action_at = [&](std::size_t frame) {
-    return tracks.is_spike[frame * tracks.numbers.size() + n] != 0 ? Action::despiked
-                                                                   : Action::kept;
-  };
-  if (const auto& chart = tracks.charts[n]) {
-    Piece<Quat> piece = rotation_piece(take, number);
-    piece.actions.assign(take.frames, Action::kept);
-    for (std::size_t f = 0; f < take.frames; ++f) {
-      piece.samples[f] = chart->rotation_of(f, radians_per_degree * vector_at(f));
-      piece.actions[f] = action_at(f);
-    }
-    return assemble(std::move(piece));
+  std::vector<Vec3> vectors(take.frames);
+  std::vector<std::uint8_t> spikes(take.frames);
+  for (std::size_t f = 0; f < take.frames; ++f) {
+    const float* const from = values.data() + f * tracks.take.channels + 3 * n;
+    vectors[f] = {from[0], from[1], from[2]};
+    spikes[f] = tracks.is_spike[f * tracks.numbers.size() + n];
   }
-  std::vector<Piece<Vec3>> pieces = position_pieces(take, number);
-  for (Piece<Vec3>& piece : pieces) {
-    piece.actions.assign(piece.samples.size(), Action::kept);
-    for (std::size_t i = 0; i < piece.samples.size(); ++i) {
-      piece.samples[i] = (1 / degrees_per_unit(take)) * vector_at(piece.first_frame + i);
-      piece.actions[i] = action_at(piece.first_frame + i);
-    }
-  }
-  return assemble(take, number, pieces);
+  const auto& chart = tracks.charts[n];
+  return track_of(take, tracks.numbers[n], vectors, spikes, true, chart ? &*chart : nullptr);
 }
 
 }  // namespace kinemend

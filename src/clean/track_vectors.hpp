@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kinemend/cleaner.hpp"
+#include "rotation/rotation_chart.hpp"
+
+// A track of a take as vectors in degrees, and back.
+namespace kinemend {
+
+struct TrackVectors {
+  std::vector<Vec3> vectors;           ///< F; gaps are bridged
+  std::vector<std::uint8_t> suspects;  ///< F, the first that may be spikes; empty: none
+  std::optional<RotationChart> chart;  ///< of rotations
+};
+
+/// Rotations in their smooth chart, positions by `degrees_per_unit`.
+TrackVectors vectors_of(const TakeView& take, std::size_t number);
+
+/// A cleaned track from its vectors: those of all samples where it is smoothed, else of spikes (F
+/// marks). `chart` is that of `vectors_of`, which takes more room than the vectors; null: it is
+/// made again.
+CleanedTrack track_of(const TakeView& take, std::size_t number, std::span<const Vec3> vectors,
+                      std::span<const std::uint8_t> spikes, bool smoothed,
+                      const RotationChart* chart = nullptr);
+
+}  // namespace kinemend
