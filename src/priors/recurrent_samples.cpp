@@ -5,7 +5,6 @@
 #include <string>
 #include <utility>
 
-#include "kinemend/experimental/signal.hpp"
 #include "priors/auto_channels.hpp"
 #include "priors/sequence_damage.hpp"
 #include "priors/warped_sequence.hpp"
@@ -20,10 +19,6 @@ constexpr double least_sample_noise_deg = 0.15, most_sample_noise_deg = 6;
 
 std::vector<float> to_floats(const std::vector<double>& values) {
   return {values.begin(), values.end()};
-}
-
-double log_uniform(Random& random, double low, double high) {
-  return std::exp(random.uniform(std::log(low), std::log(high)));
 }
 
 // A take that is being damaged.
@@ -90,18 +85,6 @@ void lose_tracks(Damaged& take, Random& random) {
   }
 }
 
-PoseMatrix with_bridges(PoseMatrix poses, const std::vector<std::uint8_t>& observed) {
-  if (observed.empty()) return poses;
-  const std::size_t tracks = poses.channels / 3;
-  std::vector<std::uint8_t> missing(poses.values.size());
-  for (std::size_t f = 0; f < poses.frames; ++f) {
-    for (std::size_t c = 0; c < poses.channels; ++c)
-      missing[f * poses.channels + c] = observed[f * tracks + c / 3] == 0 ? 1 : 0;
-  }
-  fill_linear(poses, missing);
-  return poses;
-}
-
 }  // namespace
 
 RecurrentSample in_form(const RecurrentSample& sample, RecurrentForm form,
@@ -138,7 +121,8 @@ RecurrentSample recurrent_sample(const BodyLayout& layout, double rate_hz, const
 RecurrentSample recurrent_sample_of(const BodyLayout& layout, double rate_hz,
                                     const PoseMatrix& truth, const PoseMatrix& poses,
                                     const std::vector<std::uint8_t>& observed) {
-  const PoseMatrix bridged = with_bridges(poses, observed);
+  PoseMatrix bridged = poses;
+  bridge_lost(bridged, observed);
   const AutoChannels automatic = auto_of_channels(layout, rate_hz, bridged, observed);
   RecurrentSample sample;
   const std::size_t channels = truth.channels, tracks = channels / 3;
@@ -182,33 +166,12 @@ RecurrentSample random_recurrent_sample(const TrainingSequences& sequences, std:
 
 RecurrentStatistics recurrent_statistics(const TrainingSequences& sequences) {
   constexpr double least_deviation = 0.5, least_speed_deg = 0.05;
-  const std::size_t channels = sequences.layout.channel_count();
-  std::vector<double> sum(channels), square(channels), change(channels);
-  double frames = 0, changes = 0;
-  for (std::size_t i = 0; i < sequences.entries.size(); ++i) {
-    const TrainingSequence sequence = sequence_at(sequences, i);
-    for (std::size_t f = 0; f < sequence.poses.frames; ++f) {
-      frames += sequence.weight;
-      const bool has_next = f + recurrent_step < sequence.poses.frames;
-      changes += has_next ? sequence.weight : 0;
-      for (std::size_t c = 0; c < channels; ++c) {
-        const double value = sequence.poses(f, c);
-        sum[c] += sequence.weight * value;
-        square[c] += sequence.weight * value * value;
-        if (!has_next) continue;
-        const double step = sequence.poses(f + recurrent_step, c) - value;
-        change[c] += sequence.weight * step * step;
-      }
-    }
-  }
+  const ChannelMoments moments = channel_moments(sequences, recurrent_step);
   RecurrentStatistics result;
-  for (std::size_t c = 0; c < channels; ++c) {
-    const double mean = sum[c] / frames;
-    const double variance = std::max(0.0, square[c] / frames - mean * mean);
-    result.mean.push_back(static_cast<float>(mean));
-    result.deviation.push_back(static_cast<float>(std::max(least_deviation, std::sqrt(variance))));
-    result.speed.push_back(static_cast<float>(
-        std::max(least_speed_deg, std::sqrt(change[c] / std::max(changes, 1.0)))));
+  for (std::size_t c = 0; c < moments.mean.size(); ++c) {
+    result.mean.push_back(static_cast<float>(moments.mean[c]));
+    result.deviation.push_back(static_cast<float>(std::max(least_deviation, moments.deviation[c])));
+    result.speed.push_back(static_cast<float>(std::max(least_speed_deg, moments.change[c])));
   }
   return result;
 }

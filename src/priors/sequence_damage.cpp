@@ -1,6 +1,9 @@
 #include "priors/sequence_damage.hpp"
 
+#include <cmath>
 #include <utility>
+
+#include "kinemend/experimental/signal.hpp"
 
 namespace kinemend {
 
@@ -28,6 +31,21 @@ DamageReport damage_sequence(const BodyLayout& layout, double rate_hz, PoseMatri
   poses = std::move(motion.values);
   observed = std::move(motion.observed);
   return report;
+}
+
+void bridge_lost(PoseMatrix& poses, const std::vector<std::uint8_t>& observed) {
+  if (observed.empty()) return;
+  const std::size_t tracks = poses.channels / 3;
+  std::vector<std::uint8_t> missing(poses.values.size());
+  for (std::size_t f = 0; f < poses.frames; ++f) {
+    for (std::size_t c = 0; c < poses.channels; ++c)
+      missing[f * poses.channels + c] = observed[f * tracks + c / 3] == 0 ? 1 : 0;
+  }
+  fill_linear(poses, missing);
+}
+
+double log_uniform(Random& random, double low, double high) {
+  return std::exp(random.uniform(std::log(low), std::log(high)));
 }
 
 }  // namespace kinemend

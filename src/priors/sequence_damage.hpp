@@ -19,4 +19,10 @@ DamageReport damage_sequence(const BodyLayout& layout, double rate_hz, PoseMatri
                              std::vector<std::uint8_t>& observed, std::string_view name,
                              const OptionValues& values, Random& random);
 
+/// Samples that were lost on the line between those that were not; `observed` as above.
+void bridge_lost(PoseMatrix& poses, const std::vector<std::uint8_t>& observed);
+
+/// Evenly in the logarithm, as strengths and frequencies are drawn.
+double log_uniform(Random& random, double low, double high);
+
 }  // namespace kinemend

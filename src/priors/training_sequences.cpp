@@ -177,4 +177,34 @@ void for_each_half(const TrainingSequence& sequence, std::size_t takes, std::siz
   use(1, thinned(sequence.poses, middle, sequence.poses.frames, 1));
 }
 
+ChannelMoments channel_moments(const TrainingSequences& sequences, std::size_t lag) {
+  const std::size_t channels = sequences.layout.channel_count();
+  std::vector<double> sum(channels), square(channels), change(channels);
+  double frames = 0, changes = 0;
+  for (std::size_t i = 0; i < sequences.entries.size(); ++i) {
+    const TrainingSequence sequence = sequence_at(sequences, i);
+    for (std::size_t f = 0; f < sequence.poses.frames; ++f) {
+      frames += sequence.weight;
+      const bool has_next = f + lag < sequence.poses.frames;
+      changes += has_next ? sequence.weight : 0;
+      for (std::size_t c = 0; c < channels; ++c) {
+        const double value = sequence.poses(f, c);
+        sum[c] += sequence.weight * value;
+        square[c] += sequence.weight * value * value;
+        if (!has_next) continue;
+        const double step = sequence.poses(f + lag, c) - value;
+        change[c] += sequence.weight * step * step;
+      }
+    }
+  }
+  ChannelMoments result;
+  for (std::size_t c = 0; c < channels; ++c) {
+    const double mean = sum[c] / frames;
+    result.mean.push_back(mean);
+    result.deviation.push_back(std::sqrt(std::max(0.0, square[c] / frames - mean * mean)));
+    result.change.push_back(std::sqrt(change[c] / std::max(changes, 1.0)));
+  }
+  return result;
+}
+
 }  // namespace kinemend

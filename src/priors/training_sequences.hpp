@@ -54,6 +54,13 @@ double for_each_sequence(const TrainingSequences& sequences, std::size_t least_f
                          const TrainSettings& settings,
                          const std::function<void(const TrainingSequence&)>& use);
 
+/// Of each channel over all sequences: mean, deviation, and root mean square of the changes over
+/// `lag` frames; degrees.
+struct ChannelMoments {
+  std::vector<double> mean, deviation, change;
+};
+ChannelMoments channel_moments(const TrainingSequences& sequences, std::size_t lag);
+
 /// A sequence as of one of the halves of all takes, 0 or 1, for cross-validation: every other take;
 /// of `takes` = 1 the halves of each sequence, or 0 where these would be shorter than
 /// `least_frames`.

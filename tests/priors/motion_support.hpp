@@ -1,29 +1,18 @@
 #pragma once
 
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "kinemend/experimental/model.hpp"
 #include "priors/motion/motion_steps.hpp"
+#include "priors/one_joint_model.hpp"
 
 namespace kinemend::test {
 
 /// Of a body of one joint and its place: the random network of train/reference_motion_network.cpp,
 /// and beside its tensors a take and what LibTorch makes of it.
 inline Model small_motion_model() {
-  const std::string path = KINEMEND_TEST_FIXTURES "/nn/motion.safetensors";
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes(std::istreambuf_iterator<char>(file), {});
-  Model model;
-  model.method = "learned";
-  model.rate_hz = 120;
-  model.layout.names = {"Hips"};
-  model.layout.parents = {-1};
-  model.layout.references = {Quat{}};
-  model.layout.bones = {Vec3{0, 1, 0}};
-  model.tensors = parse_tensors(bytes, path).tensors;
+  Model model = model_of_one_joint("learned", "motion.safetensors");
   model.numbers = {{"blocks", 2},
                    {"block0.dilation", 1},
                    {"block1.dilation", 2},

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "kinemend/experimental/model.hpp"
+#include "priors/one_joint_model.hpp"
 #include "priors/recurrent_input.hpp"
 
 namespace kinemend::test {
@@ -14,17 +13,7 @@ namespace kinemend::test {
 /// train/reference_recurrent_network.cpp, and beside its tensors some features and what LibTorch
 /// makes of them.
 inline Model small_network_model() {
-  const std::string path = KINEMEND_TEST_FIXTURES "/nn/recurrent.safetensors";
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes(std::istreambuf_iterator<char>(file), {});
-  Model model;
-  model.method = "recurrent";
-  model.rate_hz = 120;
-  model.layout.names = {"Hips"};
-  model.layout.parents = {-1};
-  model.layout.references = {Quat{}};
-  model.layout.bones = {Vec3{0, 1, 0}};
-  model.tensors = parse_tensors(bytes, path).tensors;
+  Model model = model_of_one_joint("recurrent", "recurrent.safetensors");
   const std::size_t channels = model.layout.channel_count();
   for (const char* name : {"mean", "deviation", "speed"})
     model.tensors[name] = {TensorType::f32, {channels}, std::vector<double>(channels, 1.0)};

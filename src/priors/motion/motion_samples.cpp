@@ -16,10 +16,6 @@ namespace {
 
 constexpr double least_pace = 0.7, fastest_pace = 1.4;
 
-double evenly_in_logarithm(Random& random, double low, double high) {
-  return std::exp(random.uniform(std::log(low), std::log(high)));
-}
-
 std::vector<double> deviations_of(const PoseMatrix& poses) {
   std::vector<double> result;
   for (std::size_t c = 0; c < poses.channels; ++c) {
@@ -56,8 +52,7 @@ PoseMatrix unit_noise(std::size_t frames, std::size_t channels, double rate_hz, 
     }
     return noise;
   }
-  low_pass(noise, 1 + static_cast<int>(random.below(4)), evenly_in_logarithm(random, 0.7, 12),
-           rate_hz);
+  low_pass(noise, 1 + static_cast<int>(random.below(4)), log_uniform(random, 0.7, 12), rate_hz);
   double square = 0;
   for (const double value : noise.values) square += value * value;
   const double unit = std::sqrt(static_cast<double>(noise.values.size()) / std::max(square, 1e-12));
@@ -89,21 +84,11 @@ struct DamagedStretch {
     damage_sequence(layout, rate_hz, poses, observed, name, values, own);
   }
 
-  // Samples on the line between those that were measured.
-  void bridge() {
-    if (observed.empty()) return;
-    const std::size_t tracks = poses.channels / 3;
-    std::vector<std::uint8_t> missing(poses.values.size());
-    for (std::size_t i = 0; i < missing.size(); ++i)
-      missing[i] = observed[i / poses.channels * tracks + i % poses.channels / 3] == 0 ? 1 : 0;
-    fill_linear(poses, missing);
-  }
-
   void add_noise(bool has_slow, Random& random) {
     const std::size_t channels = poses.channels;
-    std::vector<double> strengths(channels, evenly_in_logarithm(random, 0.15, 6));
+    std::vector<double> strengths(channels, log_uniform(random, 0.15, 6));
     if (random.chance(0.55)) {
-      const double share = evenly_in_logarithm(random, 0.08, 1);
+      const double share = log_uniform(random, 0.08, 1);
       strengths = deviations_of(poses);
       for (double& strength : strengths) strength *= share;
     }
@@ -127,14 +112,13 @@ struct DamagedStretch {
 
   void lose_samples(Random& random) {
     if (random.chance(0.2))
-      apply(
-          "outliers",
-          {{"share", evenly_in_logarithm(random, 0.001, 0.02)}, {"std_deg", random.uniform(5, 30)}},
-          random);
+      apply("outliers",
+            {{"share", log_uniform(random, 0.001, 0.02)}, {"std_deg", random.uniform(5, 30)}},
+            random);
     if (random.chance(0.15))
       apply("gaps",
-            {{"start_probability", evenly_in_logarithm(random, 0.001, 0.01)},
-             {"mean_length_s", evenly_in_logarithm(random, 0.02, 0.6)},
+            {{"start_probability", log_uniform(random, 0.001, 0.01)},
+             {"mean_length_s", log_uniform(random, 0.02, 0.6)},
              {"scope", std::string("joint")}},
             random);
   }
@@ -148,11 +132,11 @@ struct DamagedStretch {
                                                           "inertial", "optical"};
       apply("system",
             {{"kind", std::string(systems[random.below(systems.size())])},
-             {"strength", evenly_in_logarithm(random, 0.3, 2)}},
+             {"strength", log_uniform(random, 0.3, 2)}},
             random);
     }
     lose_samples(random);
-    bridge();
+    bridge_lost(poses, observed);
     if (rate_hz >= 100 && random.chance(0.15)) lower_rate(random);
     if (sampling.has_slow_noise && random.chance(0.3))
       low_pass(poses, 1 + static_cast<int>(random.below(3)), random.uniform(3, 12), rate_hz);
@@ -323,31 +307,12 @@ MotionSample random_pair(const MotionPair& pair, std::size_t channels,
 
 MotionStatistics motion_statistics(const TrainingSequences& sequences) {
   constexpr double least_deviation = 1, least_speed_deg = 0.02;
-  const std::size_t channels = sequences.layout.channel_count();
-  std::vector<double> sum(channels), square(channels), change(channels);
-  double frames = 0, changes = 0;
-  for (std::size_t i = 0; i < sequences.entries.size(); ++i) {
-    const TrainingSequence sequence = sequence_at(sequences, i);
-    for (std::size_t f = 0; f < sequence.poses.frames; ++f) {
-      frames += sequence.weight;
-      changes += f > 0 ? sequence.weight : 0;
-      for (std::size_t c = 0; c < channels; ++c) {
-        const double value = sequence.poses(f, c);
-        sum[c] += sequence.weight * value;
-        square[c] += sequence.weight * value * value;
-        if (f == 0) continue;
-        const double step = value - sequence.poses(f - 1, c);
-        change[c] += sequence.weight * step * step;
-      }
-    }
-  }
+  const ChannelMoments moments = channel_moments(sequences, 1);
   MotionStatistics result;
-  for (std::size_t c = 0; c < channels; ++c) {
-    const double mean = sum[c] / frames;
-    const double variance = std::max(0.0, square[c] / frames - mean * mean);
-    result.mean.push_back(static_cast<float>(mean));
-    result.deviation.push_back(static_cast<float>(std::max(least_deviation, std::sqrt(variance))));
-    const double speed = std::sqrt(change[c] / std::max(changes, 1.0)) * sequences.rate_hz / 120;
+  for (std::size_t c = 0; c < moments.mean.size(); ++c) {
+    const double speed = moments.change[c] * sequences.rate_hz / 120;
+    result.mean.push_back(static_cast<float>(moments.mean[c]));
+    result.deviation.push_back(static_cast<float>(std::max(least_deviation, moments.deviation[c])));
     result.speed.push_back(static_cast<float>(std::max(least_speed_deg, speed)));
   }
   return result;

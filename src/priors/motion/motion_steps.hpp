@@ -18,8 +18,8 @@ struct MotionTake {
   double frame_rate_hz = 0;
   std::vector<float> values;          ///< F x C, degrees; bridges where nothing was measured
   std::vector<std::uint8_t> missing;  ///< F x C, 1 where not measured; empty: nowhere
-  /// C: the channel of the model's body that it is, in the same axes and about the same reference;
-  /// -1: it is none, or the body is not known.
+  /// C: which channel of the model's body this is, in the same axes and about the same reference;
+  /// -1 where it is none of them, or the body is not known.
   std::vector<std::int32_t> slots;
   std::vector<std::uint8_t> is_position;  ///< C
 
