@@ -21,6 +21,16 @@ void take_values(const Tensor& from, torch::Tensor& target, const std::string& n
   target.copy_(torch::from_blob(const_cast<float*>(floats.data()), target.sizes()));
 }
 
+// Frames t - d, t and t + d of each frame side by side, zeros beyond the ends.
+torch::Tensor with_neighbours(const torch::Tensor& x, std::int64_t dilation) {
+  const std::int64_t frames = x.size(-2);
+  std::vector<std::int64_t> sizes = x.sizes().vec();
+  sizes[sizes.size() - 2] = dilation;
+  const torch::Tensor pad = torch::zeros(sizes);
+  const torch::Tensor padded = torch::cat({pad, x, pad}, -2);
+  return torch::cat({padded.narrow(-2, 0, frames), x, padded.narrow(-2, 2 * dilation, frames)}, -1);
+}
+
 template <class Body>
 std::vector<std::pair<std::string, decltype(&std::declval<Body&>().weights)>> parts_of(Body& body) {
   return {{"weights", &body.weights},
@@ -44,6 +54,20 @@ Tensor tensor_of(const torch::Tensor& values) {
   const std::vector<float> floats = floats_of(values);
   tensor.values.assign(floats.begin(), floats.end());
   return tensor;
+}
+
+torch::Tensor LayerCall::dense(const torch::Tensor& x, const std::string& layer) const {
+  return torch::linear(x, weights.at(layer + ".weight"), weights.at(layer + ".bias"));
+}
+
+torch::Tensor LayerCall::convolution(const torch::Tensor& x, const std::string& layer,
+                                     std::size_t dilation) const {
+  return torch::linear(with_neighbours(x, static_cast<std::int64_t>(dilation)),
+                       weights.at(layer + ".weight").flatten(1), weights.at(layer + ".bias"));
+}
+
+torch::Tensor LayerCall::drop(const torch::Tensor& x) const {
+  return dropout > 0 ? torch::dropout(x, dropout, true) : x;
 }
 
 void WeightMaker::add(const std::string& name, std::vector<std::int64_t> shape, double bound) {

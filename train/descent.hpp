@@ -17,6 +17,19 @@ using Parameters = std::map<std::string, torch::Tensor, std::less<>>;
 std::vector<float> floats_of(const torch::Tensor& tensor);
 Tensor tensor_of(const torch::Tensor& values);
 
+/// Layers with the weights of a network.
+struct LayerCall {
+  const Parameters& weights;
+  double dropout = 0;  ///< 0: none
+
+  torch::Tensor dense(const torch::Tensor& x, const std::string& layer) const;
+  /// Of three taps, `dilation` frames apart, over the last dimension but one; zeros beyond the
+  /// ends.
+  torch::Tensor convolution(const torch::Tensor& x, const std::string& layer,
+                            std::size_t dilation) const;
+  torch::Tensor drop(const torch::Tensor& x) const;
+};
+
 /// Draws weights, uniform and of variance 1 / inputs at gain 1, in the order of their making.
 class WeightMaker {
  public:

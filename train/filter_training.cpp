@@ -1,17 +1,15 @@
 #include "filter_training.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "checkpoint.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/corrupt.hpp"
 #include "kinemend/experimental/signal.hpp"
+#include "network_model.hpp"
 
 namespace kinemend::train {
 
@@ -82,10 +80,7 @@ FilterStatistics statistics_of(const std::vector<FilterTake>& takes) {
 double rate_at(std::size_t batch, std::size_t batches, double highest) {
   constexpr double longest_warm_up = 100, least = 0.02;
   const double warm_up = std::min(longest_warm_up, 0.1 * static_cast<double>(batches));
-  const double done = static_cast<double>(batch) / static_cast<double>(batches);
-  const double cosine = 0.5 + 0.5 * std::cos(std::numbers::pi * std::min(done, 1.0));
-  return highest * std::min(1.0, static_cast<double>(batch + 1) / warm_up) *
-         (least + (1 - least) * cosine);
+  return cosine_rate(batch, batches, warm_up, highest, least);
 }
 
 // Straight lines in the gaps.
@@ -418,16 +413,10 @@ Model FilterTrainer::model() const {
   model.numbers["encoders"] = static_cast<double>(shape_.encoder.size());
   model.numbers["layers"] = static_cast<double>(shape_.layers);
   model.numbers["decoders"] = static_cast<double>(shape_.decoder.size() + 1);
-  for (auto& [name, tensor] : network_->averages()) {
-    model.tensors[name] = tensor;
-    model.tensors[name].stored = tensor.shape.size() > 1 ? TensorType::f16 : TensorType::f32;
-  }
-  const auto put = [&](const char* name, const std::vector<float>& values) {
-    model.tensors[name] = {TensorType::f32, {values.size()}, {values.begin(), values.end()}};
-  };
-  put("mean", statistics_.mean);
-  put("deviation", statistics_.deviation);
-  put("turning", statistics_.turning);
+  put_weights(network_->averages(), model);
+  put_numbers("mean", statistics_.mean, model);
+  put_numbers("deviation", statistics_.deviation, model);
+  put_numbers("turning", statistics_.turning, model);
   return model;
 }
 

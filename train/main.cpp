@@ -26,12 +26,6 @@ struct Arguments {
   RecurrentTraining training;
 };
 
-TrainingTakes takes_of(const std::vector<std::string>& paths) {
-  return {paths.size(), [paths](std::size_t i) -> std::optional<std::variant<Clip, MarkerClip>> {
-            return read_clip(paths[i]).clip;
-          }};
-}
-
 struct ValidationSet {
   std::string name;
   std::vector<RecurrentSample> samples;
@@ -78,16 +72,6 @@ std::string validation_text(const RecurrentTrainer& trainer,
   return text.empty() ? text : "  of auto's error:" + text;
 }
 
-void save(const Run& run, const RecurrentTrainer& trainer, const TrainingSequences& sequences) {
-  if (!run.checkpoint.empty()) write_file(run.checkpoint, trainer.checkpoint());
-  Model model = trainer.model();
-  model.card = run.card;
-  model.takes = sequences.takes;
-  for (const TrainingSequences::Entry& entry : sequences.entries)
-    model.seconds += entry.weight * static_cast<double>(entry.frames) / sequences.rate_hz;
-  write_file(run.output, write_model(model));
-}
-
 void train(const Arguments& arguments) {
   const Run& run = arguments.run;
   TrainSettings settings;
@@ -100,10 +84,10 @@ void train(const Arguments& arguments) {
   const std::vector<ValidationSet> sets =
       run.validation.empty() ? std::vector<ValidationSet>{}
                              : validation_sets(lines_of(run.validation), sequences);
-  run_steps(
-      {trainer.batch(), arguments.training.batches, 0.995, [&] { return trainer.step(); },
-       [&] { return validation_text(trainer, sets); }, [&] { save(run, trainer, sequences); }},
-      run.report_s);
+  run_steps({trainer.batch(), arguments.training.batches, 0.995, [&] { return trainer.step(); },
+             [&] { return validation_text(trainer, sets); },
+             [&] { save(run, trainer.checkpoint(), trainer.model(), &sequences); }},
+            run.report_s);
 }
 
 int start(int count, char** values) {

@@ -36,32 +36,6 @@ Inputs inputs_of(const MotionBatch& batch) {
           tensor_of(batch.known, {b, c})};
 }
 
-// Steps t - d, t and t + d of the last dimension but one side by side, zeros beyond the ends.
-torch::Tensor with_neighbours(const torch::Tensor& x, std::int64_t dilation) {
-  const std::int64_t steps = x.size(-2);
-  const torch::Tensor pad = torch::zeros_like(x.narrow(-2, 0, dilation));
-  return torch::cat({torch::cat({pad, x.narrow(-2, 0, steps - dilation)}, -2), x,
-                     torch::cat({x.narrow(-2, dilation, steps - dilation), pad}, -2)},
-                    -1);
-}
-
-struct Call {
-  const Parameters& weights;
-  double dropout = 0;
-
-  torch::Tensor dense(const torch::Tensor& x, const std::string& layer) const {
-    return torch::linear(x, weights.at(layer + ".weight"), weights.at(layer + ".bias"));
-  }
-  torch::Tensor convolution(const torch::Tensor& x, const std::string& layer,
-                            std::size_t dilation) const {
-    return torch::linear(with_neighbours(x, whole(dilation)),
-                         weights.at(layer + ".weight").flatten(1), weights.at(layer + ".bias"));
-  }
-  torch::Tensor drop(const torch::Tensor& x) const {
-    return dropout > 0 ? torch::dropout(x, dropout, true) : x;
-  }
-};
-
 // Changes of a sequence of steps, from the ones before and behind, per 1/120 s.
 torch::Tensor slope_of(const torch::Tensor& x) {
   const std::int64_t n = x.size(2);
@@ -77,7 +51,7 @@ struct MotionDescent::Body {
   Descent descent;
   torch::Tensor mean, deviation, speed;
 
-  torch::Tensor outputs(const Call& call, const Inputs& in) const {
+  torch::Tensor outputs(const LayerCall& call, const Inputs& in) const {
     const std::int64_t b = in.features.size(0), c = in.features.size(1), n = in.features.size(2);
     const std::int64_t encoded = whole(shape.encoded);
     const torch::Tensor alive = in.alive.unsqueeze(2).unsqueeze(3);

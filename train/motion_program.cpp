@@ -28,12 +28,6 @@ struct Arguments {
   std::string pairs, validation_pairs;
 };
 
-TrainingTakes takes_of(const std::vector<std::string>& paths) {
-  return {paths.size(), [paths](std::size_t i) -> std::optional<std::variant<Clip, MarkerClip>> {
-            return read_clip(paths[i]).clip;
-          }};
-}
-
 template <class AnyClip>
 MotionPair pair_of(const std::string& name, const AnyClip& noisy, const AnyClip& reference,
                    double least_deg) {
@@ -64,16 +58,6 @@ std::vector<MotionPair> pairs_of(const std::string& list) {
     }
   }
   return pairs;
-}
-
-void save(const Run& run, const MotionTrainer& trainer, const TrainingSequences& sequences) {
-  if (!run.checkpoint.empty()) write_file(run.checkpoint, trainer.checkpoint());
-  Model model = trainer.model();
-  model.card = run.card;
-  model.takes = sequences.takes;
-  for (const TrainingSequences::Entry& entry : sequences.entries)
-    model.seconds += entry.weight * static_cast<double>(entry.frames) / sequences.rate_hz;
-  write_file(run.output, write_model(model));
 }
 
 void train(const Arguments& arguments) {
@@ -109,7 +93,7 @@ void train(const Arguments& arguments) {
     return text;
   };
   run_steps({trainer.batch(), arguments.training.batches, 0.995, [&] { return trainer.step(); },
-             validation, [&] { save(run, trainer, sequences); }},
+             validation, [&] { save(run, trainer.checkpoint(), trainer.model(), &sequences); }},
             run.report_s);
 }
 

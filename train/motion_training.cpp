@@ -1,13 +1,10 @@
 #include "motion_training.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "checkpoint.hpp"
+#include "network_model.hpp"
 #include "priors/motion/motion_network.hpp"
 
 namespace kinemend::train {
@@ -21,10 +18,7 @@ MotionShape with_slots(MotionShape shape, const TrainingSequences& sequences) {
 
 double rate_at(std::size_t batch, const MotionTraining& settings) {
   constexpr double warm_up = 200, least = 0.01;
-  const double done = static_cast<double>(batch) / static_cast<double>(settings.batches);
-  const double cosine = 0.5 + 0.5 * std::cos(std::numbers::pi * std::min(done, 1.0));
-  const double warm = std::min(1.0, static_cast<double>(batch + 1) / warm_up);
-  return settings.rate * warm * (least + (1 - least) * cosine);
+  return cosine_rate(batch, settings.batches, warm_up, settings.rate, least);
 }
 
 void append(std::vector<float>& all, const std::vector<float>& more) {
@@ -113,20 +107,12 @@ Model MotionTrainer::model() const {
   model.rate_hz = sequences_.rate_hz;
   model.layout = sequences_.layout;
   const MotionShape& shape = settings_.shape;
-  model.numbers["blocks"] = static_cast<double>(shape.dilations.size());
   model.numbers["second_encoder.dilation"] = static_cast<double>(shape.second_dilation);
-  for (std::size_t i = 0; i < shape.dilations.size(); ++i)
-    model.numbers[fmt::format("block{}.dilation", i)] = static_cast<double>(shape.dilations[i]);
-  for (auto& [name, tensor] : descent_.averages()) {
-    model.tensors[name] = tensor;
-    model.tensors[name].stored = tensor.shape.size() > 1 ? TensorType::f16 : TensorType::f32;
-  }
-  const auto put = [&](const char* name, const std::vector<float>& values) {
-    model.tensors[name] = {TensorType::f32, {values.size()}, {values.begin(), values.end()}};
-  };
-  put("mean", statistics_.mean);
-  put("deviation", statistics_.deviation);
-  put("speed", statistics_.speed);
+  put_dilations(shape.dilations, model);
+  put_weights(descent_.averages(), model);
+  put_numbers("mean", statistics_.mean, model);
+  put_numbers("deviation", statistics_.deviation, model);
+  put_numbers("speed", statistics_.speed, model);
   return model;
 }
 

@@ -55,13 +55,6 @@ std::vector<Clip> read_takes(const std::vector<std::string>& paths) {
   return takes;
 }
 
-void save(const Run& run, const FilterTrainer& trainer) {
-  if (!run.checkpoint.empty()) write_file(run.checkpoint, trainer.checkpoint());
-  Model model = trainer.model();
-  model.card = run.card;
-  write_file(run.output, write_model(model));
-}
-
 void train(Arguments arguments) {
   const Run& run = arguments.run;
   for (const std::string& text : arguments.noise)
@@ -80,7 +73,7 @@ void train(Arguments arguments) {
                return kept.empty() ? std::string()
                                    : fmt::format("  kept takes {:.4f}", trainer.share_left(kept));
              },
-             [&] { save(run, trainer); }},
+             [&] { save(run, trainer.checkpoint(), trainer.model()); }},
             run.report_s);
 }
 

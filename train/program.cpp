@@ -6,8 +6,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <optional>
+#include <utility>
+#include <variant>
 
 #include "kinemend/error.hpp"
+#include "kinemend/io.hpp"
 
 namespace kinemend::train {
 
@@ -70,6 +74,24 @@ bool parse(CLI::App& app, int count, char** values, const Run& run, int& exit_co
   if (run.resume && run.checkpoint.empty())
     throw Error(ErrorKind::usage, "--resume wants --checkpoint");
   return true;
+}
+
+TrainingTakes takes_of(const std::vector<std::string>& paths) {
+  return {paths.size(), [paths](std::size_t i) -> std::optional<std::variant<Clip, MarkerClip>> {
+            return read_clip(paths[i]).clip;
+          }};
+}
+
+void save(const Run& run, const std::string& checkpoint, Model model,
+          const TrainingSequences* sequences) {
+  if (!run.checkpoint.empty()) write_file(run.checkpoint, checkpoint);
+  model.card = run.card;
+  if (sequences) {
+    model.takes = sequences->takes;
+    for (const TrainingSequences::Entry& entry : sequences->entries)
+      model.seconds += entry.weight * static_cast<double>(entry.frames) / sequences->rate_hz;
+  }
+  write_file(run.output, write_model(model));
 }
 
 void run_steps(const Steps& steps, double report_s) {

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "kinemend/experimental/model.hpp"
+#include "kinemend/experimental/train.hpp"
+#include "priors/training_sequences.hpp"
 #include "sequence_network.hpp"
 
 // What the programs that train have in common.
@@ -35,6 +37,12 @@ void add_run_options(CLI::App& app, Run& run, DescentSettings& descent);
 /// Parses the command line. Returns false where it has been answered already, with the exit code.
 /// Errors: `ErrorKind::usage` for `--resume` without a checkpoint.
 bool parse(CLI::App& app, int count, char** values, const Run& run, int& exit_code);
+
+TrainingTakes takes_of(const std::vector<std::string>& paths);
+/// The checkpoint, where one is wanted, and the model with the card of the run and, where
+/// `sequences` are given, how much was learned from.
+void save(const Run& run, const std::string& checkpoint, Model model,
+          const TrainingSequences* sequences = nullptr);
 
 /// A training, a step at a time.
 struct Steps {

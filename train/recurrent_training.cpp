@@ -1,15 +1,13 @@
 #include "recurrent_training.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
 #include "checkpoint.hpp"
 #include "kinemend/error.hpp"
+#include "network_model.hpp"
 
 namespace kinemend::train {
 
@@ -79,10 +77,7 @@ ConvolutionalShape shape_of(const TrainingSequences& sequences, const RecurrentT
 
 double rate_at(std::size_t batch, const RecurrentTraining& settings) {
   constexpr double warm_up = 200, least = 0.02;
-  const double done = static_cast<double>(batch) / static_cast<double>(settings.batches);
-  const double cosine = 0.5 + 0.5 * std::cos(std::numbers::pi * std::min(done, 1.0));
-  const double warm = std::min(1.0, static_cast<double>(batch + 1) / warm_up);
-  return settings.rate * warm * (least + (1 - least) * cosine);
+  return cosine_rate(batch, settings.batches, warm_up, settings.rate, least);
 }
 
 std::uint64_t number_of(std::size_t batch, std::size_t index) {
@@ -161,19 +156,11 @@ Model RecurrentTrainer::model() const {
   model.method = "recurrent";
   model.rate_hz = sequences_.rate_hz;
   model.layout = sequences_.layout;
-  model.numbers["blocks"] = static_cast<double>(settings_.dilations.size());
-  for (std::size_t i = 0; i < settings_.dilations.size(); ++i)
-    model.numbers[fmt::format("block{}.dilation", i)] = static_cast<double>(settings_.dilations[i]);
-  for (auto& [name, tensor] : network_.averages()) {
-    model.tensors[name] = tensor;
-    model.tensors[name].stored = tensor.shape.size() > 1 ? TensorType::f16 : TensorType::f32;
-  }
-  const auto put = [&](const char* name, const std::vector<float>& values) {
-    model.tensors[name] = {TensorType::f32, {values.size()}, {values.begin(), values.end()}};
-  };
-  put("mean", statistics_.mean);
-  put("deviation", statistics_.deviation);
-  put("speed", statistics_.speed);
+  put_dilations(settings_.dilations, model);
+  put_weights(network_.averages(), model);
+  put_numbers("mean", statistics_.mean, model);
+  put_numbers("deviation", statistics_.deviation, model);
+  put_numbers("speed", statistics_.speed, model);
   return model;
 }
 

@@ -14,40 +14,17 @@ namespace kinemend::train {
 
 namespace {
 
-struct Call {
-  const Parameters& weights;
-  double dropout = 0;  // 0: none
-
-  torch::Tensor dense(const torch::Tensor& x, const std::string& layer) const {
-    return torch::addmm(weights.at(layer + ".bias"), x, weights.at(layer + ".weight").t());
-  }
-  torch::Tensor drop(const torch::Tensor& x) const {
-    return dropout > 0 ? torch::dropout(x, dropout, true) : x;
-  }
-};
-
-// Frames t - d, t and t + d of each frame side by side, zeros beyond the ends.
-torch::Tensor with_neighbours(const torch::Tensor& x, std::int64_t dilation) {
-  const std::int64_t frames = x.size(0);
-  const torch::Tensor pad = torch::zeros({dilation, x.size(1)});
-  const torch::Tensor padded = torch::cat({pad, x, pad}, 0);
-  return torch::cat({padded.narrow(0, 0, frames), x, padded.narrow(0, 2 * dilation, frames)}, 1);
-}
-
-torch::Tensor forward_of(const ConvolutionalShape& shape, const Call& call, torch::Tensor x) {
+torch::Tensor forward_of(const ConvolutionalShape& shape, const LayerCall& call, torch::Tensor x) {
   x = call.dense(x, "input");
   for (std::size_t i = 0; i < shape.dilations.size(); ++i) {
     const std::string block = fmt::format("block{}", i);
-    const torch::Tensor taps = with_neighbours(x, static_cast<std::int64_t>(shape.dilations[i]));
-    const torch::Tensor weight = call.weights.at(block + ".convolution.weight").flatten(1);
-    const torch::Tensor sum =
-        torch::addmm(call.weights.at(block + ".convolution.bias"), taps, weight.t());
+    const torch::Tensor sum = call.convolution(x, block + ".convolution", shape.dilations[i]);
     x = x + call.dense(call.drop(torch::relu(sum)), block + ".dense");
   }
   return call.dense(torch::relu(x), "output");
 }
 
-torch::Tensor forward_of(const ConvolutionalShape& shape, const Call& call, torch::Tensor x,
+torch::Tensor forward_of(const ConvolutionalShape& shape, const LayerCall& call, torch::Tensor x,
                          std::int64_t) {
   return forward_of(shape, call, std::move(x));
 }
@@ -62,7 +39,7 @@ torch::Tensor windows_of(const torch::Tensor& x, std::int64_t reach) {
 
 // T x B x inputs to T x B x 2 H: LibTorch's layer, or where gradients are wanted one that is as
 // exact and quicker to differentiate.
-torch::Tensor both_ways(const Call& call, std::size_t layer, const torch::Tensor& x) {
+torch::Tensor both_ways(const LayerCall& call, std::size_t layer, const torch::Tensor& x) {
   const auto weight = [&](const char* way, const char* part) {
     return call.weights.at(fmt::format("{}{}{}", way, layer, part));
   };
@@ -83,7 +60,7 @@ torch::Tensor both_ways(const Call& call, std::size_t layer, const torch::Tensor
   return std::get<0>(torch::lstm(x, {zero, zero}, weights, true, 1, 0.0, false, true, false));
 }
 
-torch::Tensor forward_of(const BidirectionalShape& shape, const Call& call, torch::Tensor x,
+torch::Tensor forward_of(const BidirectionalShape& shape, const LayerCall& call, torch::Tensor x,
                          std::int64_t sequences) {
   if (shape.reach > 0) {
     x = x.view({sequences, -1, x.size(1)});
@@ -101,7 +78,7 @@ torch::Tensor forward_of(const BidirectionalShape& shape, const Call& call, torc
   return call.dense(x, fmt::format("decoder{}", shape.decoder.size()));
 }
 
-torch::Tensor forward_of(const NetworkShape& shape, const Call& call, const torch::Tensor& x,
+torch::Tensor forward_of(const NetworkShape& shape, const LayerCall& call, const torch::Tensor& x,
                          std::size_t sequences) {
   return std::visit(
       [&](const auto& network) {

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "kinemend/experimental/model.hpp"
+#include "sequence_network.hpp"
+
+// What the trainers put into the models that they make.
+namespace kinemend::train {
+
+/// Weights by the names of their layers: matrices in half precision, biases in single.
+void put_weights(const Weights& weights, Model& model);
+void put_numbers(const char* name, const std::vector<float>& values, Model& model);
+/// `blocks` and the dilation of each.
+void put_dilations(const std::vector<std::size_t>& dilations, Model& model);
+
+/// The rate of learning at a batch: rises over the first `warm_up` batches to `highest`, then falls
+/// along a cosine to the share `least` of it.
+double cosine_rate(std::size_t batch, std::size_t batches, double warm_up, double highest,
+                   double least);
+
+}  // namespace kinemend::train
