@@ -67,7 +67,10 @@ torch::Tensor LayerCall::convolution(const torch::Tensor& x, const std::string& 
 }
 
 torch::Tensor LayerCall::drop(const torch::Tensor& x) const {
-  return dropout > 0 ? torch::dropout(x, dropout, true) : x;
+  if (!(dropout > 0)) return x;
+  const c10::optional<at::Generator> generator =
+      drawn_by.defined() ? c10::optional<at::Generator>(drawn_by) : c10::nullopt;
+  return x * torch::empty_like(x).bernoulli_(1 - dropout, generator).div_(1 - dropout);
 }
 
 void WeightMaker::add(const std::string& name, std::vector<std::int64_t> shape, double bound) {
@@ -102,6 +105,17 @@ void Descent::start() {
     first[name] = torch::zeros_like(values);
     second[name] = torch::zeros_like(values);
   }
+}
+
+std::vector<torch::Tensor> Descent::gradient_of(const torch::Tensor& loss) const {
+  std::vector<torch::Tensor> all;
+  for (const auto& [name, values] : weights) all.push_back(values);
+  return torch::autograd::grad({loss}, all, {}, c10::nullopt, false, true);
+}
+
+void Descent::set_gradient(std::vector<torch::Tensor> gradient) {
+  std::size_t i = 0;
+  for (auto& [name, values] : weights) values.mutable_grad() = std::move(gradient[i++]);
 }
 
 double Descent::step(double rate) {

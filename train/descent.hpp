@@ -20,7 +20,8 @@ Tensor tensor_of(const torch::Tensor& values);
 /// Layers with the weights of a network.
 struct LayerCall {
   const Parameters& weights;
-  double dropout = 0;  ///< 0: none
+  double dropout = 0;        ///< 0: none
+  at::Generator drawn_by{};  ///< what is dropped; none: LibTorch's own
 
   torch::Tensor dense(const torch::Tensor& x, const std::string& layer) const;
   /// Of three taps, `dilation` frames apart, over the last dimension but one; zeros beyond the
@@ -55,6 +56,11 @@ struct Descent {
 
   /// Once the weights are made.
   void start();
+  /// The gradient of a loss, in the order of the weights; undefined where it does not depend on
+  /// them. Safe to call from several threads.
+  std::vector<torch::Tensor> gradient_of(const torch::Tensor& loss) const;
+  /// To be the gradients that `step` goes by.
+  void set_gradient(std::vector<torch::Tensor> gradient);
   /// By the gradients that the weights have, which are zero afterwards. Returns their norm.
   double step(double rate);
   Weights averages() const;

@@ -3,14 +3,19 @@
 #include <fmt/format.h>
 #include <torch/torch.h>
 
+#include <algorithm>
+#include <numeric>
 #include <utility>
 
+#include "base/parallel.hpp"
 #include "descent.hpp"
 #include "priors/motion/motion_network.hpp"
 
 namespace kinemend::train {
 
 namespace {
+
+constexpr std::size_t samples_of_part = 4;
 
 std::int64_t whole(std::size_t value) { return static_cast<std::int64_t>(value); }
 
@@ -21,6 +26,14 @@ torch::Tensor tensor_of(const std::vector<float>& values, std::vector<std::int64
 struct Inputs {
   torch::Tensor features, take_features, levels, changes, scales, truth, truth_changes, alive,
       known;
+
+  // At most `count` of them, from the `first` one on.
+  Inputs samples(std::size_t first, std::size_t count) const {
+    const std::int64_t from = whole(first), n = std::min(whole(count), alive.size(0) - from);
+    const auto part = [&](const torch::Tensor& x) { return x.narrow(0, from, n); };
+    return {part(features), part(take_features), part(levels), part(changes), part(scales),
+            part(truth),    part(truth_changes), part(alive),  part(known)};
+  }
 };
 
 Inputs inputs_of(const MotionBatch& batch) {
@@ -163,30 +176,48 @@ MotionDescent::~MotionDescent() = default;
 
 double MotionDescent::step(const MotionBatch& batch, const MotionLoss& loss, double rate,
                            std::uint64_t seed) {
-  torch::manual_seed(seed);
   Body& body = *body_;
-  const Inputs in = inputs_of(batch);
-  const torch::Tensor outputs =
-      body.outputs({body.descent.weights, body.descent.settings.dropout}, in);
-  const auto [values, changes] = body.results(outputs, in);
-  const auto size = [&](const torch::Tensor& x) {
-    return Body::size_of(x, in, loss.margin).mean(1);
-  };
-  const torch::Tensor damage = size(in.levels.select(3, 0) - in.truth);
-  const torch::Tensor change_damage = size(in.changes.select(3, 0) - in.truth_changes);
-  const torch::Tensor error = values - in.truth;
-  const torch::Tensor share =
-      (size(error) / (damage + loss.floor_deg) +
-       loss.velocity * size(changes - in.truth_changes) / (change_damage + loss.floor_change_deg))
-          .mean();
-  const torch::Tensor log_variance = outputs.select(3, whole(motion_outputs) - 1).clamp(-12, 8);
-  const torch::Tensor likelihood =
-      (0.5 * (log_variance + (error.detach().pow(2) + 1e-5) * torch::exp(-log_variance)))
-          .clamp_max(20) *
-      in.alive.unsqueeze(2);
-  (share + loss.likelihood * likelihood.sum() / (in.alive.sum() * whole(batch.steps))).backward();
+  const Inputs all = inputs_of(batch);
+  const double counted = all.alive.sum().item<double>() * static_cast<double>(batch.steps);
+  // Each part's graph is walked by a thread of its own. How many parts there are does not depend on
+  // the cores, nor does the order in which they are added.
+  const std::size_t parts = (batch.samples + samples_of_part - 1) / samples_of_part;
+  std::vector<std::vector<torch::Tensor>> gradients(parts);
+  std::vector<double> shares(parts);
+  for_each_parallel(parts, batch.features.size(), [&](std::size_t part) {
+    const Inputs in = all.samples(part * samples_of_part, samples_of_part);
+    at::Generator drawn_by = at::detail::createCPUGenerator(seed * parts + part);
+    const torch::Tensor outputs =
+        body.outputs({body.descent.weights, body.descent.settings.dropout, drawn_by}, in);
+    const auto [values, changes] = body.results(outputs, in);
+    const auto size = [&](const torch::Tensor& x) {
+      return Body::size_of(x, in, loss.margin).mean(1);
+    };
+    const torch::Tensor damage = size(in.levels.select(3, 0) - in.truth);
+    const torch::Tensor change_damage = size(in.changes.select(3, 0) - in.truth_changes);
+    const torch::Tensor error = values - in.truth;
+    const torch::Tensor share =
+        (size(error) / (damage + loss.floor_deg) +
+         loss.velocity * size(changes - in.truth_changes) / (change_damage + loss.floor_change_deg))
+            .sum() /
+        whole(batch.samples);
+    const torch::Tensor log_variance = outputs.select(3, whole(motion_outputs) - 1).clamp(-12, 8);
+    const torch::Tensor likelihood =
+        (0.5 * (log_variance + (error.detach().pow(2) + 1e-5) * torch::exp(-log_variance)))
+            .clamp_max(20) *
+        in.alive.unsqueeze(2);
+    gradients[part] =
+        body.descent.gradient_of(share + loss.likelihood * likelihood.sum() / counted);
+    shares[part] = share.item<double>();
+  });
+  for (std::size_t part = 1; part < parts; ++part) {
+    for (std::size_t i = 0; i < gradients[part].size(); ++i) {
+      if (gradients[part][i].defined()) gradients.front()[i] += gradients[part][i];
+    }
+  }
+  body.descent.set_gradient(std::move(gradients.front()));
   body.descent.step(rate);
-  return share.item<double>();
+  return std::accumulate(shares.begin(), shares.end(), 0.0);
 }
 
 std::vector<float> MotionDescent::outputs(const MotionBatch& batch) const {
