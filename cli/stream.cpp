@@ -35,7 +35,7 @@ bool has_live_form(const Method& method) {
                      [](const OptionSpec& spec) { return spec.name == "live"; });
 }
 
-// Whether a method runs live: as it is, with an option, or with a model of the user's own.
+// Whether a method runs live: as it is, with an option, or with its model.
 bool may_run_live(const Method& method) {
   static const std::vector<LiveMethod> list = live_methods();
   return has_live_form(method) || std::any_of(list.begin(), list.end(), [&](const LiveMethod& m) {
@@ -43,7 +43,7 @@ bool may_run_live(const Method& method) {
          });
 }
 
-// For a method that needs a model to run live. Errors: those of the model.
+// For a learned method that has a live form. Errors: those of the model.
 std::unique_ptr<Cleaner> live_with_model(const Method& method, OptionValues values) {
   values.try_emplace("live", true);
   return make_cleaner(method.name, values);

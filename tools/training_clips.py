@@ -1,4 +1,4 @@
-"""Which takes of the CMU library the networks that ship learn from, and the words of their cards."""
+"""Which takes of the CMU library the network of the method learned learns from, and the words of their cards."""
 import csv
 import pathlib
 

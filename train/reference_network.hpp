@@ -11,9 +11,8 @@ namespace kinemend::train {
 /// A small network of this shape by LibTorch with random weights: these, random features of so many
 /// steps and what it makes of them. The last layer, which begins with zeros, is drawn with this
 /// deviation.
-template <class Shape>
-TensorFile reference_network(const Shape& shape, std::size_t steps, double deviation,
-                             const std::string& made_by) {
+inline TensorFile reference_network(const BidirectionalShape& shape, std::size_t steps,
+                                    double deviation, const std::string& made_by) {
   SequenceNetwork network(shape, {}, 3);
   Random random(5);
   TensorFile state = network.state();

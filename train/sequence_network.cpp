@@ -14,21 +14,6 @@ namespace kinemend::train {
 
 namespace {
 
-torch::Tensor forward_of(const ConvolutionalShape& shape, const LayerCall& call, torch::Tensor x) {
-  x = call.dense(x, "input");
-  for (std::size_t i = 0; i < shape.dilations.size(); ++i) {
-    const std::string block = fmt::format("block{}", i);
-    const torch::Tensor sum = call.convolution(x, block + ".convolution", shape.dilations[i]);
-    x = x + call.dense(call.drop(torch::relu(sum)), block + ".dense");
-  }
-  return call.dense(torch::relu(x), "output");
-}
-
-torch::Tensor forward_of(const ConvolutionalShape& shape, const LayerCall& call, torch::Tensor x,
-                         std::int64_t) {
-  return forward_of(shape, call, std::move(x));
-}
-
 // Frames of each sequence with their neighbours side by side, zeros beyond the ends.
 torch::Tensor windows_of(const torch::Tensor& x, std::int64_t reach) {
   const torch::Tensor pad = torch::zeros({x.size(0), reach, x.size(2)});
@@ -78,29 +63,6 @@ torch::Tensor forward_of(const BidirectionalShape& shape, const LayerCall& call,
   return call.dense(x, fmt::format("decoder{}", shape.decoder.size()));
 }
 
-torch::Tensor forward_of(const NetworkShape& shape, const LayerCall& call, const torch::Tensor& x,
-                         std::size_t sequences) {
-  return std::visit(
-      [&](const auto& network) {
-        return forward_of(network, call, x, static_cast<std::int64_t>(sequences));
-      },
-      shape);
-}
-
-void make(const ConvolutionalShape& shape, WeightMaker& maker) {
-  const std::size_t hidden = shape.hidden;
-  const auto width = static_cast<std::int64_t>(hidden);
-  maker.add_dense("input", shape.inputs, hidden);
-  for (std::size_t i = 0; i < shape.dilations.size(); ++i) {
-    const std::string block = fmt::format("block{}", i);
-    maker.add(block + ".convolution.weight", {width, 3, width},
-              std::sqrt(3.0 / static_cast<double>(3 * hidden)));
-    maker.add(block + ".convolution.bias", {width}, 0);
-    maker.add_dense(block + ".dense", hidden, hidden, 0.5);
-  }
-  maker.add_dense("output", hidden, shape.outputs, 0);
-}
-
 void add_lstm(WeightMaker& maker, const std::string& name, std::size_t inputs, std::size_t units) {
   const auto in = static_cast<std::int64_t>(inputs), out = static_cast<std::int64_t>(units);
   maker.add(name + ".input.weight", {4 * out, in}, std::sqrt(3.0 / static_cast<double>(inputs)));
@@ -135,24 +97,17 @@ void make(const BidirectionalShape& shape, WeightMaker& maker) {
   if (!shape.outset.empty()) maker.set(last + ".bias", shape.outset);
 }
 
-std::size_t outputs_of(const NetworkShape& shape) {
-  return std::visit([](const auto& network) { return network.outputs; }, shape);
-}
-std::size_t inputs_of(const NetworkShape& shape) {
-  return std::visit([](const auto& network) { return network.inputs; }, shape);
-}
-
 }  // namespace
 
 struct SequenceNetwork::Body {
-  NetworkShape shape;
+  BidirectionalShape shape;
   Descent descent;
   torch::Tensor last;  // outputs of the last forward
 
-  Body(const NetworkShape& made, const DescentSettings& given, std::uint64_t seed)
+  Body(const BidirectionalShape& made, const DescentSettings& given, std::uint64_t seed)
       : shape(made), descent{given, {}, {}, {}, {}} {
     WeightMaker maker(descent.weights, seed);
-    std::visit([&](const auto& network) { make(network, maker); }, shape);
+    make(shape, maker);
     descent.start();
   }
 
@@ -163,7 +118,7 @@ struct SequenceNetwork::Body {
   }
 };
 
-SequenceNetwork::SequenceNetwork(const NetworkShape& shape, const DescentSettings& settings,
+SequenceNetwork::SequenceNetwork(const BidirectionalShape& shape, const DescentSettings& settings,
                                  std::uint64_t seed)
     : body_(std::make_unique<Body>(shape, settings, seed)) {}
 SequenceNetwork::~SequenceNetwork() = default;
@@ -173,12 +128,13 @@ std::vector<float> SequenceNetwork::forward(std::span<const float> inputs, std::
   torch::manual_seed(seed);
   const Descent& descent = body_->descent;
   body_->last = forward_of(body_->shape, {descent.weights, descent.settings.dropout},
-                           body_->matrix_of(inputs, inputs_of(body_->shape)).clone(), sequences);
+                           body_->matrix_of(inputs, body_->shape.inputs).clone(),
+                           static_cast<std::int64_t>(sequences));
   return floats_of(body_->last);
 }
 
 void SequenceNetwork::add_gradient(std::span<const float> derivative) {
-  body_->last.backward(body_->matrix_of(derivative, outputs_of(body_->shape)));
+  body_->last.backward(body_->matrix_of(derivative, body_->shape.outputs));
   body_->last = torch::Tensor();
 }
 
@@ -187,7 +143,7 @@ double SequenceNetwork::step(double rate) { return body_->descent.step(rate); }
 std::vector<float> SequenceNetwork::run(std::span<const float> inputs) const {
   const torch::NoGradGuard guard;
   return floats_of(forward_of(body_->shape, {body_->descent.means, 0},
-                              body_->matrix_of(inputs, inputs_of(body_->shape)), 1));
+                              body_->matrix_of(inputs, body_->shape.inputs), 1));
 }
 
 Weights SequenceNetwork::averages() const { return body_->descent.averages(); }

@@ -6,7 +6,6 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "kinemend/experimental/tensor.hpp"
@@ -25,13 +24,6 @@ struct DescentSettings {
   double dropout = 0.1;
 };
 
-/// A dilated convolutional network: dense to `hidden`, then for each dilation
-/// h += dense(ReLU(convolution of 3 taps(h))), then dense to `outputs`.
-struct ConvolutionalShape {
-  std::size_t inputs = 0, hidden = 192, outputs = 0;
-  std::vector<std::size_t> dilations{1, 2, 4, 8};
-};
-
 /// Dense layers with tanh, LSTM layers in both directions, dense layers with tanh and a last one
 /// without (`FilterNetwork`). Dropout is on what the LSTM layers see.
 struct BidirectionalShape {
@@ -42,16 +34,16 @@ struct BidirectionalShape {
   std::size_t reach = 0;       ///< without LSTM layers: frames on either side of a window
   std::vector<double> outset;  ///< of the outputs before training; empty: 0
 };
-using NetworkShape = std::variant<ConvolutionalShape, BidirectionalShape>;
 
 class SequenceNetwork {
  public:
   /// Weights are drawn from the seed; those of the last layer are zero.
-  SequenceNetwork(const NetworkShape& shape, const DescentSettings& settings, std::uint64_t seed);
+  SequenceNetwork(const BidirectionalShape& shape, const DescentSettings& settings,
+                  std::uint64_t seed);
   ~SequenceNetwork();
 
   /// T x inputs to T x outputs, with dropout drawn from `seed`; kept for `add_gradient`. Several
-  /// sequences of one length, one behind the other, may go through a bidirectional network at once.
+  /// sequences of one length, one behind the other, may go through it at once.
   std::vector<float> forward(std::span<const float> inputs, std::uint64_t seed,
                              std::size_t sequences = 1);
   /// Adds the gradient of the weights, by the derivative by the outputs of the last `forward`.

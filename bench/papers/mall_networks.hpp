@@ -38,12 +38,14 @@ struct PaperNetwork {
   FilterNetwork network;
 };
 
-/// `<models>/<name>.kmodel`, as `tools/train_paper` leaves it.
+/// `<models>/<name>.kmodel`, as `tools/train_paper` leaves it; without that file `ebf` is the model
+/// that ships.
 inline std::optional<PaperNetwork> paper_network(const Arguments& arguments,
                                                  const std::string& name) {
   const std::filesystem::path path = arguments.models / (name + ".kmodel");
-  if (!std::filesystem::is_regular_file(path)) return std::nullopt;
-  const Model model = read_model(path);
+  const bool is_file = std::filesystem::is_regular_file(path);
+  if (!is_file && name != "ebf") return std::nullopt;
+  const Model model = is_file ? read_model(path) : *shipped_model("recurrent");
   return PaperNetwork{model.layout, filter_network_of(model)};
 }
 

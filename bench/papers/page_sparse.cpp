@@ -34,8 +34,8 @@ std::vector<Kind> kinds() {
           {"inertial", of("system", {{"kind", std::string("inertial")}})}};
 }
 
-// Three seconds of each of ten hold-outs of cmu/recurrent-100.csv, which no model that ships has
-// seen.
+// Three seconds of each of ten hold-outs of cmu/recurrent-100.csv, which the models measured here
+// have not seen.
 std::vector<Clip> takes(const Arguments& arguments) {
   std::vector<std::string> names{"02_02", "05_01", "07_02", "08_01", "16_15",
                                  "26_01", "35_02", "09_01", "10_01", "135_04"};

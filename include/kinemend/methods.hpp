@@ -171,11 +171,10 @@ struct SparseOptions {
 std::unique_ptr<Cleaner> make_sparse(const SparseOptions& options = {},
                                      std::shared_ptr<const Model> model = nullptr);
 
-/// A neural network improves the result of `auto` for a take of joints: it predicts for each joint
-/// and frame which bands of motion to keep, and a residual (after Mall et al. 2017). It is not told
-/// the noise. Errors of `clean`, beside those above: a take of markers. Errors: `ErrorKind::usage`
-/// for a gap model or `live` beside a model that is no filter network, for both together, and for a
-/// gap model of another body.
+/// A neural network predicts a filter for each joint and frame (Mall et al. 2017). It is not told
+/// the noise. The root, and takes at another rate than the network's, are cleaned by `auto`. Errors
+/// of `clean`, beside those above: a take of markers. Errors: `ErrorKind::usage` for a model that
+/// fills gaps, for a gap model together with `live`, and for a gap model of another body.
 struct RecurrentOptions {
   std::string model{};
   std::string map{};

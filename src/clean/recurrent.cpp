@@ -15,7 +15,6 @@
 #include "priors/filter_network.hpp"
 #include "priors/gap_network.hpp"
 #include "priors/live_filter_network.hpp"
-#include "priors/recurrent_filter.hpp"
 
 namespace kinemend {
 
@@ -25,7 +24,7 @@ const OptionTable<RecurrentOptions>& recurrent_table() {
   static const auto options =
       OptionTable<RecurrentOptions>()
           .text(&RecurrentOptions::model, "model",
-                "model file made by kinemend-train; empty: the model that ships")
+                "model file made by kinemend-train paper; empty: the model that ships")
           .text(&RecurrentOptions::map, "map",
                 "file that maps names in the take to names in the model")
           .flag(&RecurrentOptions::fill, "fill_gaps", "fill gaps of joints that the model knows")
@@ -34,22 +33,6 @@ const OptionTable<RecurrentOptions>& recurrent_table() {
           .flag(&RecurrentOptions::live, "live",
                 "live form of a filter network (EBF): looks 15 frames ahead");
   return options;
-}
-
-void filter_recurrent(PriorWork& work, const RecurrentNetwork& network, const BodyLayout& layout) {
-  const std::vector<std::uint8_t>& observed = work.channels.observed;
-  std::vector<std::uint8_t> missing = work.suspect;
-  for (std::size_t i = 0; i < missing.size(); ++i) {
-    if (observed[i] == 0) missing[i] = 1;
-  }
-  std::vector<double> shares;
-  work.channels.poses = guarded_recurrent_filter(
-      network, layout, {work.channels.poses, work.fallback, missing, work.channels.frame_rate_hz},
-      &shares);
-  for (double& share : shares) share = 1 - share;
-  add_fall_back(work, "on a trial of this take the network does not better auto",
-                std::move(shares));
-  work.rejected = work.suspect;
 }
 
 // The networks of the paper that clean together.
@@ -85,9 +68,11 @@ void filter_as_in_the_paper(PriorWork& work, const PaperNetworks& networks,
   const std::size_t parts = poses.channels / 3;
   if (!has_rate_of(network, work.channels.frame_rate_hz)) {
     poses = work.fallback;
-    return add_fall_back(work,
-                         fmt::format("the network filters takes of {:g} Hz only", network.rate_hz),
-                         std::vector<double>(parts, 1.0));
+    return add_fall_back(
+        work,
+        fmt::format("the network filters takes of {:g} Hz only, and this one has {:g}",
+                    network.rate_hz, work.channels.frame_rate_hz),
+        std::vector<double>(parts, 1.0));
   }
   for (std::size_t i = 0; i < poses.values.size(); ++i) {
     const bool is_measured = work.channels.observed[i] != 0 && work.suspect[i] == 0;
@@ -102,13 +87,6 @@ void filter_as_in_the_paper(PriorWork& work, const PaperNetworks& networks,
 
 PriorFilter filter_of(const std::shared_ptr<const Model>& model,
                       const std::shared_ptr<const Model>& gap_model) {
-  if (!is_filter_network(*model)) {
-    if (gap_model)
-      throw Error(ErrorKind::usage,
-                  "a gap model goes with a model that filters: kinemend-train paper --network ebf");
-    auto network = std::make_shared<const RecurrentNetwork>(recurrent_network_of(*model));
-    return [network, model](PriorWork& work) { filter_recurrent(work, *network, model->layout); };
-  }
   PaperNetworks networks{filter_network_of(*model), {}};
   if (networks.filter.inputs.has_masks)
     throw Error(ErrorKind::usage,
@@ -125,10 +103,8 @@ PriorFilter filter_of(const std::shared_ptr<const Model>& model,
 }
 
 constexpr const char* live_needs =
-    "recurrent runs live with a filter network of the paper: --live --model FILE, made by "
-    "kinemend-train paper --network ebf; the model that ships corrects what auto makes of the "
-    "whole "
-    "take";
+    "recurrent runs live in its live form (--live), 15 frames behind; without it, auto sees the "
+    "whole take first";
 
 // A cleaner of the whole take, which says what would run live.
 class WholeTakeRecurrent final : public Cleaner {
@@ -177,7 +153,6 @@ std::unique_ptr<Cleaner> make_live(const RecurrentOptions& options,
   if (has_gap_model)
     throw Error(ErrorKind::usage,
                 "live, gaps are held or bridged: a gap model needs the whole take");
-  if (!is_filter_network(*model)) throw Error(ErrorKind::usage, live_needs);
   return std::make_unique<LiveRecurrent>(model, options.map);
 }
 
@@ -198,8 +173,8 @@ std::unique_ptr<Cleaner> make_recurrent(const RecurrentOptions& options,
 Method recurrent_method() {
   return {
       "recurrent",
-      "neural network, trained on damaged motion, that improves the result of auto",
-      "after Mall et al. 2017",
+      "neural network that predicts a filter for each joint and frame",
+      "Mall et al. 2017",
       recurrent_table().specs(),
       [](const OptionValues& values) { return make_recurrent(recurrent_table().parse(values)); },
       true};

@@ -10,7 +10,6 @@ FilterNetwork gap_network_of(const Model& model) {
   constexpr const char* needed =
       "this model of the method recurrent cleans and fills no gaps: one that does is made by "
       "kinemend-train paper --network ebd --head pose";
-  if (!is_filter_network(model)) throw Error(ErrorKind::usage, needed);
   FilterNetwork network = filter_network_of(model);
   if (!network.inputs.has_masks) throw Error(ErrorKind::usage, needed);
   return network;

@@ -28,7 +28,7 @@ bool runs_live(const Method& method, const OptionValues& options) {
 std::vector<LiveMethod> live_methods() {
   std::vector<LiveMethod> list;
   for (const Method& method : methods()) {
-    // A learned method runs live with a model of the user's own only, by its option `live`. To make
+    // A learned method runs live on bodies that its model knows only, by its option `live`. To make
     // one reads a model, which takes long.
     if (is_learned(method)) continue;
     if (runs_live(method, {})) {

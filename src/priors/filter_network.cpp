@@ -167,8 +167,6 @@ std::vector<float> filter_features(const FilterTake& take, const FilterStatistic
   return features;
 }
 
-bool is_filter_network(const Model& model) { return model.numbers.count("head") > 0; }
-
 FilterNetwork filter_network_of(const Model& model) {
   const std::size_t channels = axes * (model.layout.track_count() - 1);
   FilterNetwork network;

@@ -67,8 +67,6 @@ struct FilterNetwork {
   std::size_t channels() const noexcept { return statistics.mean.size(); }
 };
 
-/// Whether the tensors of a model of the method `recurrent` are those of such a network.
-bool is_filter_network(const Model& model);
 /// Errors: `ErrorKind::unreadable_input` naming the tensor or number that is missing or does not
 /// fit.
 FilterNetwork filter_network_of(const Model& model);

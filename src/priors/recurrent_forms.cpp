@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 
 namespace kinemend {
 
@@ -19,9 +20,8 @@ std::string mirrored_name(const std::string& name) {
   return name;
 }
 
-template <class Value>
-std::vector<Value> backwards(const std::vector<Value>& values, std::size_t width) {
-  std::vector<Value> result;
+std::vector<float> backwards(const std::vector<float>& values, std::size_t width) {
+  std::vector<float> result;
   result.reserve(values.size());
   for (std::size_t row = values.size() / width; row > 0; --row) {
     const auto from = values.begin() + static_cast<std::ptrdiff_t>((row - 1) * width);
@@ -67,17 +67,6 @@ std::vector<float> in_form(const std::vector<float>& values, RecurrentForm form,
                            const BodyMirror& mirror) {
   std::vector<float> result = form.is_mirrored ? mirrored(values, mirror) : values;
   return form.is_reversed ? backwards(result, 3 * mirror.partners.size()) : result;
-}
-
-RecurrentTake in_form(const RecurrentTake& take, RecurrentForm form, const BodyMirror& mirror) {
-  RecurrentTake result = take;
-  result.measured = in_form(take.measured, form, mirror);
-  result.automatic = in_form(take.automatic, form, mirror);
-  const std::size_t tracks = mirror.partners.size();
-  for (std::size_t i = 0; i < take.marks.size() && form.is_mirrored; ++i)
-    result.marks[i] = take.marks[i - i % tracks + mirror.partners[i % tracks]];
-  if (form.is_reversed) result.marks = backwards(result.marks, tracks);
-  return result;
 }
 
 }  // namespace kinemend

@@ -4,9 +4,8 @@
 #include <vector>
 
 #include "kinemend/experimental/body.hpp"
-#include "priors/recurrent_input.hpp"
 
-// The same motion in a mirror and backwards: more to learn from, and an ensemble to clean with.
+// The same motion in a mirror and backwards: more to learn from.
 namespace kinemend {
 
 /// How tracks look in a mirror.
@@ -28,6 +27,5 @@ struct RecurrentForm {
 /// references of the layout are symmetrical.
 std::vector<float> in_form(const std::vector<float>& values, RecurrentForm form,
                            const BodyMirror& mirror);
-RecurrentTake in_form(const RecurrentTake& take, RecurrentForm form, const BodyMirror& mirror);
 
 }  // namespace kinemend

@@ -4,7 +4,7 @@
 namespace kinemend {
 
 LearnedMethod recurrent_learned() {
-  return {"recurrent", 1, "network that corrects auto (by kinemend-train)", {}, nullptr};
+  return {"recurrent", 1, "network that predicts filters (by kinemend-train paper)", {}, nullptr};
 }
 
 }  // namespace kinemend

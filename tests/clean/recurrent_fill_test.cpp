@@ -148,7 +148,7 @@ TEST_F(RecurrentPair, FillsTheGapsThatTheFilterSees) {
 
 TEST_F(RecurrentPair, RefusesModelsThatDoNotGoTogether) {
   EXPECT_THROW(make_recurrent({}, filter(), filter()), Error);          // fills nothing
-  EXPECT_THROW(make_recurrent({}, nullptr, adding(truth_, 0)), Error);  // the one that ships
+  EXPECT_THROW(make_recurrent({}, nullptr, adding(truth_, 0)), Error);  // another body
   EXPECT_THROW(make_recurrent({}, adding(truth_, 0)), Error);           // filters nothing
   EXPECT_THROW(make_recurrent({.live = true}, filter(), adding(truth_, 0)), Error);
   EXPECT_THROW(make_recurrent({}, filter(), adding(truth_, 0, {"Hips", "LeftUpLeg", "LeftLeg"})),

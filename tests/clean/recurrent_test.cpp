@@ -47,20 +47,13 @@ TEST(Recurrent, TakesNoiseAwayAtAnyRate) {
   }
 }
 
-TEST(Recurrent, ChangesWhatAutoMakesOfNoise) {
-  const Clip noisy = damaged_by(walk_at(120), "gaussian", {{"std_deg", 3.0}});
-  EXPECT_GT(rms_deg(clean_clip(noisy, *make_auto()).clip, clean_clip(noisy, cleaner()).clip), 0.02);
-}
-
-// Without the trial the network doubles the error of this walk_at, which is like none that it has
-// seen.
-TEST(Recurrent, IsNoWorseThanAutoOnABodyThatTheNetworkDoesNotKnow) {
-  const Clip truth = walk_at(120, 3);
-  for (const double noise_deg : {1.0, 3.0}) {
-    const Clip noisy = damaged_by(truth, "gaussian", {{"std_deg", noise_deg}});
-    const double automatic = rms_deg(truth, clean_clip(noisy, *make_auto()).clip);
-    EXPECT_LT(rms_deg(truth, clean_clip(noisy, cleaner()).clip), 1.03 * automatic) << noise_deg;
-  }
+TEST(Recurrent, LeavesToAutoATakeAtAnotherRateAndSaysSo) {
+  const Clip noisy = damaged_by(walk_at(60), "gaussian", {{"std_deg", 3.0}});
+  const CleanResult result = clean_clip(noisy, cleaner());
+  EXPECT_LT(rms_deg(clean_clip(noisy, *make_auto()).clip, result.clip), 1e-6);
+  ASSERT_FALSE(result.report.fall_backs.empty());
+  EXPECT_EQ(result.report.fall_backs.front().reason,
+            "the network filters takes of 120 Hz only, and this one has 60");
 }
 
 TEST(Recurrent, LeavesACleanTakeAsItIs) {
@@ -84,7 +77,7 @@ TEST(Recurrent, RefusesATakeOfMarkersAndSaysWhy) {
 TEST(Recurrent, RefusesAModelOfAnotherMethodAndOneThatLacksALayer) {
   EXPECT_THROW(make_recurrent({}, shipped_model("wiener")), Error);
   Model model = *shipped_model("recurrent");
-  model.tensors.erase("output.weight");
+  model.tensors.erase("decoder0.weight");
   EXPECT_THROW(make_recurrent({}, std::make_shared<const Model>(model)), Error);
 }
 
@@ -126,13 +119,6 @@ TEST(Recurrent, CleansJointsWithTheFiltersThatANetworkOfThePaperPredicts) {
   const Clip automatic = clean_clip(noisy, *make_auto()).clip;
   for (std::size_t f = 0; f < truth.frame_count(); ++f)
     EXPECT_LT(angle_between(cleaned.rotation(f, 0), automatic.rotation(f, 0)), 1e-6);
-}
-
-TEST(Recurrent, LeavesATakeAtAnotherRateThanThatOfThePapersNetworkToAuto) {
-  const Clip noisy = damaged_by(walk_at(60), "gaussian", {{"std_deg", 4.0}});
-  const auto cleaner = make_recurrent({}, constant_filter(noisy, FilterHead::gaussian));
-  const CleanResult result = clean_clip(noisy, *cleaner);
-  EXPECT_LT(rms_deg(clean_clip(noisy, *make_auto()).clip, result.clip), 1e-6);
 }
 
 TEST(Recurrent, RefusesANetworkThatFillsGaps) {

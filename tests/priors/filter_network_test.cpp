@@ -101,8 +101,9 @@ TEST(FilterNetwork, ThatDoesNotFitItselfOrItsBodyIsRefusedWithTheLayer) {
   model = small_model("ebf");
   model.tensors["deviation"].values[2] = 0;
   EXPECT_EQ(message_of(model), "the model's deviation is not positive everywhere");
-  EXPECT_TRUE(is_filter_network(model));
-  EXPECT_FALSE(is_filter_network(*shipped_model("recurrent")));
+  model = small_model("ebf");
+  model.numbers.erase("head");
+  EXPECT_EQ(message_of(model), "the model has no number \"head\", which recurrent needs");
 }
 
 TEST(FilterTake, HoldsTheJointsButTheRootAndHowTheRootTurns) {

@@ -53,7 +53,6 @@ TEST_P(EveryKind, GoesOnFromACheckpointToTheSameResult) {
   EXPECT_EQ(write_model(whole.model()), write_model(second.model()));
   // What it has made is a network that cleans.
   const Model model = whole.model();
-  EXPECT_TRUE(is_filter_network(model));
   const Clip clip = walks()[0];
   const FilterTake take =
       filter_take_of(encode_body(clip, model.layout, match_body(model.layout, clip)), model.layout);
@@ -68,6 +67,25 @@ INSTANTIATE_TEST_SUITE_P(Kinds, EveryKind,
                          [](const auto& kind) {
                            return std::string(kind.param.name) + "_" + kind.param.head;
                          });
+
+TEST(FilterTraining, DependsOnItsSeed) {
+  FilterTraining other = tiny("ebf", "gaussian");
+  other.seed = 2;
+  FilterTrainer a(walks(), tiny("ebf", "gaussian")), b(walks(), other);
+  a.step(), b.step();
+  EXPECT_NE(write_model(a.model()), write_model(b.model()));
+  EXPECT_THROW(b.resume(a.checkpoint(), "checkpoint"), Error);
+  EXPECT_THROW(b.resume("no tensors", "checkpoint"), Error);
+}
+
+TEST(Checkpoints, WithoutTheirNumbersAreRefused) {
+  FilterTrainer trainer(walks(), tiny("ebf", "gaussian"));
+  TensorFile file = parse_tensors(trainer.checkpoint(), "good");
+  file.metadata["batch"] = "many";
+  EXPECT_THROW(trainer.resume(write_tensors(file), "damaged"), Error);
+  file.metadata.erase("batch");
+  EXPECT_THROW(trainer.resume(write_tensors(file), "damaged"), Error);
+}
 
 TEST(FilterTraining, LeavesLessErrorTheLongerItGoesOn) {
   // A free shape begins as the mean of 31 frames.
