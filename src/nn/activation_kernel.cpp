@@ -113,17 +113,6 @@ void lstm_f32(float* gates, std::size_t units, float* cell, float* state) {
   });
 }
 
-void gru_f32(float* a, const float* b, std::size_t units, float* state) {
-  for_parts(units, [&](const Lanes& part) HWY_ATTR {
-    const Tag d = part.d;
-    const V reset = sigmoid_lanes(d, hn::Add(part.load(a), part.load(b)));
-    const V keep = sigmoid_lanes(d, hn::Add(part.load(a + units), part.load(b + units)));
-    const V fresh =
-        tanh_lanes(d, hn::Add(part.load(a + 2 * units), hn::Mul(reset, part.load(b + 2 * units))));
-    part.store(hn::Add(fresh, hn::Mul(keep, hn::Sub(part.load(state), fresh))), state);
-  });
-}
-
 }  // namespace kinemend::nn::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -135,7 +124,6 @@ HWY_EXPORT(sigmoid_f32);
 HWY_EXPORT(relu_f32);
 HWY_EXPORT(elu_f32);
 HWY_EXPORT(lstm_f32);
-HWY_EXPORT(gru_f32);
 
 void exp_of(float* values, std::size_t count) { HWY_DYNAMIC_DISPATCH(exp_f32)(values, count); }
 void tanh_of(float* values, std::size_t count) { HWY_DYNAMIC_DISPATCH(tanh_f32)(values, count); }
@@ -146,9 +134,6 @@ void relu_of(float* values, std::size_t count) { HWY_DYNAMIC_DISPATCH(relu_f32)(
 void elu_of(float* values, std::size_t count) { HWY_DYNAMIC_DISPATCH(elu_f32)(values, count); }
 void lstm_gates(float* gates, std::size_t units, float* cell, float* state) {
   HWY_DYNAMIC_DISPATCH(lstm_f32)(gates, units, cell, state);
-}
-void gru_gates(float* from_input, const float* from_state, std::size_t units, float* state) {
-  HWY_DYNAMIC_DISPATCH(gru_f32)(from_input, from_state, units, state);
 }
 }  // namespace kinemend::nn
 #endif

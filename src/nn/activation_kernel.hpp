@@ -14,8 +14,5 @@ void elu_of(float* values, std::size_t count);
 /// A step of an LSTM's memory from its gates i, f, g and o, `units` each, one behind the other, to
 /// which their functions have not been applied: c = s(f) c + s(i) tanh(g), h = s(o) tanh(c).
 void lstm_gates(float* gates, std::size_t units, float* cell, float* state);
-/// A step of a GRU from what the input (r, z, n) and the state bring to its gates: r = s(a_r +
-/// b_r), z = s(a_z + b_z), n = tanh(a_n + r b_n), h = n + z (h - n).
-void gru_gates(float* from_input, const float* from_state, std::size_t units, float* state);
 
 }  // namespace kinemend::nn

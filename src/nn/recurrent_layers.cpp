@@ -12,7 +12,7 @@ namespace kinemend::nn {
 
 namespace {
 
-constexpr std::size_t lstm_gate_count = 4, gru_gate_count = 3;
+constexpr std::size_t gate_count = 4;
 
 MatrixViewF row_of(std::span<const float> values) {
   return {values.data(), 1, values.size(), values.size()};
@@ -21,9 +21,8 @@ MutableMatrixViewF mutable_row(std::vector<float>& values) {
   return {values.data(), 1, values.size(), values.size()};
 }
 
-void check_gates(const std::string& name, const Dense& input, const Dense& state,
-                 std::size_t gates) {
-  if (input.outputs() == gates * state.inputs() && state.outputs() == input.outputs()) return;
+void check_gates(const std::string& name, const Dense& input, const Dense& state) {
+  if (input.outputs() == gate_count * state.inputs() && state.outputs() == input.outputs()) return;
   throw Error(ErrorKind::unreadable_input,
               fmt::format("layer {}: its {} and {} gates do not fit {} units", name,
                           input.outputs(), state.outputs(), state.inputs()));
@@ -34,20 +33,9 @@ void step_from_gates(const Lstm& layer, RecurrentState& state) {
   multiply(row_of(state.hidden), layer.state, mutable_row(state.gates), Product::add);
   lstm_gates(state.gates.data(), layer.units(), state.cell.data(), state.hidden.data());
 }
-void step_from_gates(const Gru& layer, RecurrentState& state) {
-  run(layer.state, row_of(state.hidden), mutable_row(state.more_gates));
-  gru_gates(state.gates.data(), state.more_gates.data(), layer.units(), state.hidden.data());
-}
-
-template <class Layer>
-void step_layer(const Layer& layer, std::span<const float> x, RecurrentState& state) {
-  run(layer.input, row_of(x), mutable_row(state.gates));
-  step_from_gates(layer, state);
-}
 
 // From frame to frame, with what the inputs bring to the gates.
-template <class Layer>
-void go_on(const Layer& layer, Direction direction, const MatrixViewF& gates, RecurrentState& state,
+void go_on(const Lstm& layer, Direction direction, const MatrixViewF& gates, RecurrentState& state,
            const MutableMatrixViewF& y) {
   for (std::size_t i = 0; i < gates.rows; ++i) {
     const std::size_t t = direction == Direction::forward ? i : gates.rows - 1 - i;
@@ -57,53 +45,27 @@ void go_on(const Layer& layer, Direction direction, const MatrixViewF& gates, Re
   }
 }
 
-// The products with the inputs of all frames are made together.
-template <class Layer>
-void run_layer(const Layer& layer, Direction direction, const MatrixViewF& x,
-               const MutableMatrixViewF& y) {
-  assert(x.columns == layer.inputs() && y.columns == layer.units() && x.rows == y.rows);
-  const std::size_t width = layer.input.outputs();
-  std::vector<float> gates(x.rows * width);
-  run(layer.input, x, {gates.data(), x.rows, width, width});
-  RecurrentState state = start(layer);
-  go_on(layer, direction, {gates.data(), x.rows, width, width}, state, y);
-}
-
 }  // namespace
 
 Lstm read_lstm(const NamedTensors& tensors, const std::string& name) {
   Lstm layer;
   layer.input = read_dense(tensors, name + ".input");
   Dense state = read_dense(tensors, name + ".state");
-  check_gates(name, layer.input, state, lstm_gate_count);
+  check_gates(name, layer.input, state);
   for (std::size_t i = 0; i < state.bias.size(); ++i) layer.input.bias[i] += state.bias[i];
   layer.state = std::move(state.weight);
   return layer;
 }
 
-Gru read_gru(const NamedTensors& tensors, const std::string& name) {
-  Gru layer{read_dense(tensors, name + ".input"), read_dense(tensors, name + ".state")};
-  check_gates(name, layer.input, layer.state, gru_gate_count);
-  return layer;
-}
-
 RecurrentState start(const Lstm& layer) {
   const std::size_t units = layer.units();
-  return {std::vector<float>(units),
-          std::vector<float>(units),
-          std::vector<float>(lstm_gate_count * units),
-          {}};
-}
-RecurrentState start(const Gru& layer) {
-  const std::vector<float> gates(gru_gate_count * layer.units());
-  return {std::vector<float>(layer.units()), {}, gates, gates};
+  return {std::vector<float>(units), std::vector<float>(units),
+          std::vector<float>(gate_count * units)};
 }
 
 void step(const Lstm& layer, std::span<const float> x, RecurrentState& state) {
-  step_layer(layer, x, state);
-}
-void step(const Gru& layer, std::span<const float> x, RecurrentState& state) {
-  step_layer(layer, x, state);
+  run(layer.input, row_of(x), mutable_row(state.gates));
+  step_from_gates(layer, state);
 }
 
 void restart(RecurrentState& state) {
@@ -118,12 +80,15 @@ void run_on(const Lstm& layer, Direction direction, const MatrixViewF& gates, Re
   go_on(layer, direction, gates, state, y);
 }
 
+// The products with the inputs of all frames are made together.
 void run(const Lstm& layer, Direction direction, const MatrixViewF& x,
          const MutableMatrixViewF& y) {
-  run_layer(layer, direction, x, y);
-}
-void run(const Gru& layer, Direction direction, const MatrixViewF& x, const MutableMatrixViewF& y) {
-  run_layer(layer, direction, x, y);
+  assert(x.columns == layer.inputs() && y.columns == layer.units() && x.rows == y.rows);
+  const std::size_t width = layer.input.outputs();
+  std::vector<float> gates(x.rows * width);
+  run(layer.input, x, {gates.data(), x.rows, width, width});
+  RecurrentState state = start(layer);
+  go_on(layer, direction, {gates.data(), x.rows, width, width}, state, y);
 }
 
 }  // namespace kinemend::nn

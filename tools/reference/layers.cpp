@@ -56,9 +56,9 @@ void convolution(const std::string& name, bool is_causal) {
   keep(name + ".y", y.squeeze(0).t());
 }
 
-template <class Run>
-void recurrent(const std::string& name, std::int64_t gates, const Run& run) {
-  constexpr std::int64_t frames = 13, inputs = 5, units = 19;
+void lstm() {
+  constexpr std::int64_t frames = 13, inputs = 5, units = 19, gates = 4;
+  const std::string name = "lstm";
   const torch::Tensor x = drawn(name + ".x", {frames, inputs});
   std::vector<torch::Tensor> weights;
   for (const std::string way : {".forward", ".backward"}) {
@@ -67,7 +67,10 @@ void recurrent(const std::string& name, std::int64_t gates, const Run& run) {
     weights.push_back(drawn(name + way + ".input.bias", {gates * units}));
     weights.push_back(drawn(name + way + ".state.bias", {gates * units}));
   }
-  keep(name + ".y", run(x.unsqueeze(1), torch::zeros({2, 1, units}), weights).squeeze(1));
+  const torch::Tensor zero = torch::zeros({2, 1, units});
+  const torch::Tensor y = std::get<0>(
+      torch::lstm(x.unsqueeze(1), {zero, zero}, weights, true, 1, 0.0, false, true, false));
+  keep(name + ".y", y.squeeze(1));
 }
 
 }  // namespace
@@ -81,12 +84,7 @@ int main(int count, char** values) {
   dense();
   convolution("centred", false);
   convolution("causal", true);
-  recurrent("lstm", 4, [](const auto& x, const auto& zero, const auto& weights) {
-    return std::get<0>(torch::lstm(x, {zero, zero}, weights, true, 1, 0.0, false, true, false));
-  });
-  recurrent("gru", 3, [](const auto& x, const auto& zero, const auto& weights) {
-    return std::get<0>(torch::gru(x, zero, weights, true, 1, 0.0, false, true, false));
-  });
+  lstm();
   file.metadata["made by"] = "tools/reference/layers.cpp, LibTorch " TORCH_VERSION;
   std::ofstream(values[1], std::ios::binary) << kinemend::write_tensors(file);
 }
