@@ -5,7 +5,7 @@ import pathlib
 # Frames of zeros, repeated frames, turns by 360 degrees.
 DEFECTS = {"07_12", "09_10", "06_02", "01_07", "03_02", "35_22", "05_16"}
 MEASURED_ON = {"02_09", "05_08", "06_06", "131_02", "16_11", "27_01", "35_33", "49_14", "135_05"}
-KEPT_FOR_THE_PAGE = {"01_13", "02_10", "05_14", "06_11", "08_08", "131_07", "135_09", "16_24", "35_14", "49_17"}
+KEPT_FOR_THE_PAGE = {"01_13", "02_05", "02_10", "05_14", "06_11", "08_08", "09_03", "131_07", "135_09", "16_24", "35_01", "35_14", "49_17"}
 DATA_WORDS = ("CMU Graphics Lab Motion Capture Database, {clips} clips of {subjects} subjects. The data used in this project was "
               "obtained from mocap.cs.cmu.edu. The database was created with funding from NSF EIA-0196217.")
 LICENCE = ("CMU: This data is free for use in research projects. You may include this data in commercially-sold products, "

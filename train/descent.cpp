@@ -152,6 +152,17 @@ Weights Descent::averages() const {
   return result;
 }
 
+void Descent::begin_with(const Weights& tensors) {
+  for (auto* const part : {&weights, &means}) {
+    for (auto& [name, values] : *part) {
+      const auto found = tensors.find(name);
+      if (found == tensors.end())
+        throw Error(ErrorKind::unreadable_input, fmt::format("the model lacks {}", name));
+      take_values(found->second, values, name);
+    }
+  }
+}
+
 TensorFile Descent::state() const {
   TensorFile file;
   file.metadata["steps"] = fmt::format("{}", steps);

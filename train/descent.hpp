@@ -64,6 +64,9 @@ struct Descent {
   /// By the gradients that the weights have, which are zero afterwards. Returns their norm.
   double step(double rate);
   Weights averages() const;
+  /// Begins with these. Errors: `ErrorKind::unreadable_input` naming the weights that are missing
+  /// or have another number.
+  void begin_with(const Weights& tensors);
   TensorFile state() const;
   /// Errors: as of `SequenceNetwork::set_state`.
   void set_state(const TensorFile& state);

@@ -40,8 +40,8 @@ Inputs inputs_of(const MotionBatch& batch) {
   const std::int64_t b = whole(batch.samples), c = whole(batch.channels), n = whole(batch.steps);
   return {tensor_of(batch.features, {b, c, n, whole(motion_features)}),
           tensor_of(batch.take_features, {b, c, whole(motion_take_features)}),
-          tensor_of(batch.levels, {b, c, n, whole(bank_levels)}),
-          tensor_of(batch.changes, {b, c, n, whole(bank_levels)}),
+          tensor_of(batch.levels, {b, c, n, whole(motion_levels)}),
+          tensor_of(batch.changes, {b, c, n, whole(motion_levels)}),
           tensor_of(batch.scales, {b, c, n, whole(motion_scales)}),
           tensor_of(batch.truth, {b, c, n}),
           tensor_of(batch.truth_changes, {b, c, n}),
@@ -117,7 +117,9 @@ struct MotionDescent::Body {
     const std::int64_t levels = whole(bank_levels), inner = levels - 2;
     const torch::Tensor mix = outputs.narrow(3, 0, whole(motion_smoothers)).softmax(3);
     const auto all = [&](const torch::Tensor& x) {
-      return torch::cat({x, 2 * x.narrow(3, 1, inner) - x.narrow(3, 2, inner)}, 3);
+      return torch::cat({x.narrow(3, 0, levels), 2 * x.narrow(3, 1, inner) - x.narrow(3, 2, inner),
+                         x.narrow(3, levels, 1)},
+                        3);
     };
     const torch::Tensor smooth = all(in.levels);
     const torch::Tensor correction =
@@ -130,11 +132,10 @@ struct MotionDescent::Body {
   }
 
   // Root mean squares over channels, of each step that counts: B x steps.
-  static torch::Tensor size_of(const torch::Tensor& x, const Inputs& in, std::size_t margin) {
-    const std::int64_t n = x.size(2);
+  static torch::Tensor size_of(const torch::Tensor& x, const Inputs& in) {
     const torch::Tensor square =
         (x * x * in.alive.unsqueeze(2)).sum(1) / in.alive.sum(1, true).clamp_min(1);
-    return torch::sqrt(square + 1e-4).narrow(1, whole(margin), n - 2 * whole(margin));
+    return torch::sqrt(square + 1e-4);
   }
 };
 
@@ -190,9 +191,7 @@ double MotionDescent::step(const MotionBatch& batch, const MotionLoss& loss, dou
     const torch::Tensor outputs =
         body.outputs({body.descent.weights, body.descent.settings.dropout, drawn_by}, in);
     const auto [values, changes] = body.results(outputs, in);
-    const auto size = [&](const torch::Tensor& x) {
-      return Body::size_of(x, in, loss.margin).mean(1);
-    };
+    const auto size = [&](const torch::Tensor& x) { return Body::size_of(x, in).mean(1); };
     const torch::Tensor damage = size(in.levels.select(3, 0) - in.truth);
     const torch::Tensor change_damage = size(in.changes.select(3, 0) - in.truth_changes);
     const torch::Tensor error = values - in.truth;
@@ -229,15 +228,14 @@ double MotionDescent::share_left(const MotionBatch& batch, const MotionLoss& los
   const torch::NoGradGuard guard;
   const Inputs in = inputs_of(batch);
   const auto [values, changes] = body_->results(body_->outputs({body_->descent.means, 0}, in), in);
-  const auto size = [&](const torch::Tensor& x) {
-    return Body::size_of(x, in, loss.margin).mean(1);
-  };
+  const auto size = [&](const torch::Tensor& x) { return Body::size_of(x, in).mean(1); };
   return (size(values - in.truth) / (size(in.levels.select(3, 0) - in.truth) + loss.floor_deg))
       .mean()
       .item<double>();
 }
 
 Weights MotionDescent::averages() const { return body_->descent.averages(); }
+void MotionDescent::begin_with(const Weights& tensors) { body_->descent.begin_with(tensors); }
 TensorFile MotionDescent::state() const { return body_->descent.state(); }
 void MotionDescent::set_state(const TensorFile& state) { body_->descent.set_state(state); }
 

@@ -30,11 +30,10 @@ struct MotionBatch {
 
 /// How errors count.
 struct MotionLoss {
-  double velocity = 0.5;                             ///< of changes, beside that of values
+  double velocity = 1;                               ///< of changes, beside that of values
   double likelihood = 0.02;                          ///< of the expected variance
   double floor_deg = 0.15, floor_change_deg = 0.02;  ///< added to the damage that errors are
                                                      ///< measured by
-  std::size_t margin = 8;                            ///< steps at either end that do not count
 };
 
 class MotionDescent {
@@ -52,6 +51,8 @@ class MotionDescent {
   /// Of values alone, share of the damage, by the running means.
   double share_left(const MotionBatch& batch, const MotionLoss& loss) const;
   Weights averages() const;
+  /// As of `Descent`.
+  void begin_with(const Weights& tensors);
   TensorFile state() const;
   void set_state(const TensorFile& state);
 

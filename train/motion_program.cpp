@@ -25,7 +25,7 @@ constexpr std::uint64_t validation_seed = 77;
 struct Arguments {
   Run run;
   MotionTraining training;
-  std::string pairs, validation_pairs;
+  std::string pairs, validation_pairs, outset;
 };
 
 template <class AnyClip>
@@ -70,6 +70,7 @@ void train(const Arguments& arguments) {
   fmt::print("{} takes, {} sequences, {} channels, {} pairs\n", sequences.takes,
              sequences.entries.size(), sequences.layout.channel_count(), pairs.size());
   MotionTrainer trainer(sequences, std::move(pairs), arguments.training);
+  if (!arguments.outset.empty()) trainer.begin_with(read_model(arguments.outset));
   if (run.resume) trainer.resume(file_bytes(run.checkpoint), run.checkpoint);
   std::optional<TrainingSequences> others;
   if (!run.validation.empty())
@@ -108,6 +109,7 @@ int motion_program(int count, char** values) {
       "--pairs", arguments.pairs,
       "file with takes of two systems, noisy and reference, tab between, one pair a line");
   app.add_option("--validate-pairs", arguments.validation_pairs, "the same, not learned from");
+  app.add_option("--from", arguments.outset, "model to begin with, of the same shape");
   app.add_option("--seed", training.seed)->capture_default_str();
   app.add_option("--batches", training.batches, "steps of the training")->capture_default_str();
   app.add_option("--batch", training.batch, "samples a step")->capture_default_str();

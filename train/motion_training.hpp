@@ -45,6 +45,9 @@ class MotionTrainer {
   std::vector<float> outputs(const MotionBatch& batch) const { return descent_.outputs(batch); }
   /// The model as it is now. Card, takes and seconds are the caller's.
   Model model() const;
+  /// Begins with the weights of a model of the same shape. Errors: `ErrorKind::unreadable_input`
+  /// where it has another.
+  void begin_with(const Model& model) { descent_.begin_with(model.tensors); }
   std::string checkpoint() const;
   void resume(std::string_view bytes, std::string_view name);
 

@@ -40,6 +40,8 @@ int main(int count, char** values) {
     take.missing.push_back(random.chance(0.1) ? 1 : 0);
   }
   sample.truth = take.values;
+  for (const float value : take.values)
+    take.measured.push_back(value + static_cast<float>(random.normal()));
   const std::vector<float> outputs = network.outputs(train::batch_of({sample}, steps));
   TensorFile file;
   file.tensors = network.averages();
@@ -50,6 +52,7 @@ int main(int count, char** values) {
   put("deviation", deviation);
   put("speed", speed);
   put("take", take.values);
+  put("measured", take.measured);
   put("missing", {take.missing.begin(), take.missing.end()});
   put("outputs", outputs);
   file.metadata["made by"] = "train/reference_motion_network.cpp";

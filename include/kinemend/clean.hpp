@@ -81,6 +81,7 @@ struct TrackSummary {
   std::string name;
   bool is_position = true;  ///< false for a point that is an angle or a force: no count has it
   double noise = 0;         ///< noise per axis before: the method's estimate, else measured
+  double left = 0;          ///< how far the result is expected to be off, per axis; 0: not said
   double rms_change = 0;    ///< of a marker over the samples that were observed
   double max_change = 0;
   std::size_t frames_changed = 0;

@@ -56,6 +56,9 @@ struct NoiseCharacter {
   /// were shown at 60.
   double frames_per_sample = 1;
   bool is_interpolated = false;  ///< the frames between are on a line; else the sample is held
+  /// Not measured: a model expects it of takes like this one. It is slow, and says nothing of
+  /// itself: strength alone is known.
+  bool is_expected = false;
 
   /// The frequency below which a share of the noise's power lies (0..1), hertz, at the frame rate
   /// of the take.
@@ -66,6 +69,9 @@ struct NoiseCharacter {
 struct CleanTrace {
   /// One a track: estimated noise per axis before cleaning, degrees or file units; else empty.
   std::vector<double> noise;
+  /// One a track, of methods that say how sure they are: how far its samples are expected to be
+  /// from the truth when they are cleaned, per axis, degrees or file units; else empty.
+  std::vector<double> left;
   /// At most one for rotations and one for positions, of methods that look; none of a space without
   /// noise.
   std::vector<NoiseCharacter> characters;

@@ -195,10 +195,10 @@ std::unique_ptr<Cleaner> make_recurrent(const RecurrentOptions& options = {},
 /// A network that has seen much clean motion, damaged in every way that systems and pipelines
 /// damage it, and takes that two systems saw: it mixes smoothers of all widths per channel and
 /// moment, and corrects what the body tells. Any skeleton, and markers; it knows bodies better
-/// whose joints it recognises. No model of it ships yet, and the table of methods does not list it.
-/// Errors: `ErrorKind::usage` without a model, and for one of another method.
+/// whose joints it recognises. Takes that are shorter than half a second, or slower than 20 Hz, are
+/// cleaned by `auto`. Errors: `ErrorKind::usage` for a model of another method.
 struct LearnedOptions {
-  std::string model{};  ///< a file made by `kinemend-train learned`
+  std::string model{};  ///< a file made by `kinemend-train learned`; empty: ships
   std::string map{};    ///< file that maps names in the take to names in the model
 };
 std::unique_ptr<Cleaner> make_learned(const LearnedOptions& options = {},

@@ -99,9 +99,10 @@ class Finisher {
       TrackSummary& summary = own.summary;
       // A method that finds out what the noise is knows more than the measure of white noise.
       if (!trace.noise.empty()) summary.noise = trace.noise[n];
+      if (!trace.left.empty()) summary.left = trace.left[n];
       if (take_.markers && !take_.markers->holds_positions(n)) {
         summary.is_position = false;
-        summary.noise = 0;
+        summary.noise = summary.left = 0;
         summary.gaps_left = summary.frames_missing = 0;
       }
       report.spans.insert(report.spans.end(), own.spans.begin(), own.spans.end());

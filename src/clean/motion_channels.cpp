@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "clean/auto_scale.hpp"
 #include "clean/neighbours.hpp"
 #include "clean/pieces.hpp"
 #include "clean/track_vectors.hpp"
@@ -41,8 +42,12 @@ void read_together(const TakeView& take, const std::vector<std::size_t>& own,
   const DetectedSpikes spikes =
       find_spikes(vectors, suspects, tracks_nearby(take, numbers), take.frame_rate_hz, &gaps);
   for (std::size_t i = 0; i < count; ++i) {
+    // So that single precision is enough wherever the take stands.
+    const bool turns = tracks.charts[own[i]].has_value();
+    const Vec3 origin = turns ? Vec3{} : vectors.at(0, i);
+    tracks.origins[own[i]] = origin;
     for (std::size_t f = 0; f < frames; ++f) {
-      put(tracks.take, f, own[i], vectors.at(f, i));
+      put(tracks.take, f, own[i], vectors.at(f, i) - origin);
       const bool is_spike = spikes.marked(f, i) != 0;
       tracks.is_spike[f * tracks.numbers.size() + own[i]] = is_spike ? 1 : 0;
       if (!is_spike && gaps(f, i) == 0) continue;
@@ -59,7 +64,9 @@ MotionTracks motion_tracks_of(const TakeView& take, std::vector<std::size_t> num
   tracks.numbers = std::move(numbers);
   const std::size_t count = tracks.numbers.size();
   tracks.charts.resize(count);
+  tracks.origins.resize(count);
   tracks.is_spike.resize(take.frames * count);
+  tracks.degrees_per_unit = degrees_per_unit(take, Space::position);
   tracks.take.frames = take.frames;
   tracks.take.channels = 3 * count;
   tracks.take.frame_rate_hz = take.frame_rate_hz;
@@ -79,6 +86,7 @@ MotionTracks motion_tracks_of(const TakeView& take, std::vector<std::size_t> num
 
 std::vector<float> values_in(const MotionTracks& tracks, const TakeView& other) {
   MotionTake take = tracks.take;
+  const double same_unit = tracks.degrees_per_unit / degrees_per_unit(other, Space::position);
   for (std::size_t n = 0; n < tracks.numbers.size(); ++n) {
     const std::size_t number = tracks.numbers[n];
     if (const auto& chart = tracks.charts[n]) {
@@ -88,7 +96,8 @@ std::vector<float> values_in(const MotionTracks& tracks, const TakeView& other) 
       continue;
     }
     const std::vector<Vec3> positions = vectors_of(other, number).vectors;
-    for (std::size_t f = 0; f < take.frames; ++f) put(take, f, n, positions[f]);
+    for (std::size_t f = 0; f < take.frames; ++f)
+      put(take, f, n, same_unit * positions[f] - tracks.origins[n]);
   }
   return std::move(take.values);
 }
@@ -99,7 +108,7 @@ CleanedTrack cleaned_track(const MotionTracks& tracks, const TakeView& take, std
   std::vector<std::uint8_t> spikes(take.frames);
   for (std::size_t f = 0; f < take.frames; ++f) {
     const float* const from = values.data() + f * tracks.take.channels + 3 * n;
-    vectors[f] = {from[0], from[1], from[2]};
+    vectors[f] = tracks.origins[n] + Vec3{from[0], from[1], from[2]};
     spikes[f] = tracks.is_spike[f * tracks.numbers.size() + n];
   }
   const auto& chart = tracks.charts[n];

@@ -10,10 +10,7 @@
   METHOD(wiener)                         \
   METHOD(sparse)                         \
   METHOD(kalman_learned)
-#define KINEMEND_NETWORK_METHODS(METHOD) METHOD(recurrent)
-/// Networks of which no model ships: their files are read, and the library makes their cleaners,
-/// but the table of methods has none yet.
-#define KINEMEND_COMING_METHODS(METHOD) METHOD(learned)
+#define KINEMEND_NETWORK_METHODS(METHOD) METHOD(recurrent) METHOD(learned)
 
 namespace kinemend {
 
@@ -21,7 +18,6 @@ struct LearnedMethod;
 #define KINEMEND_DECLARE(name) LearnedMethod name##_learned();
 KINEMEND_LEARNED_METHODS(KINEMEND_DECLARE)
 KINEMEND_NETWORK_METHODS(KINEMEND_DECLARE)
-KINEMEND_COMING_METHODS(KINEMEND_DECLARE)
 #undef KINEMEND_DECLARE
 
 }  // namespace kinemend

@@ -61,7 +61,6 @@ std::span<const LearnedMethod> methods_with_models() {
     std::vector<LearnedMethod> list(fitted.begin(), fitted.end());
 #define KINEMEND_LIST(name) list.push_back(name##_learned());
     KINEMEND_NETWORK_METHODS(KINEMEND_LIST)
-    KINEMEND_COMING_METHODS(KINEMEND_LIST)
 #undef KINEMEND_LIST
     return list;
   }();

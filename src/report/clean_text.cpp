@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/measure.hpp"
+#include "base/quantiles.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "report/clean_counts.hpp"
@@ -224,6 +225,21 @@ std::string headline(const TakeFacts& take, const CleanOutcome& outcome, bool co
   return line + (take.output.empty() ? "; nothing written (--dry-run)" : written_text(take)) + "\n";
 }
 
+// How far off the result is expected to be, of methods that say it.
+std::string left_text(const CleanReport& report) {
+  std::vector<double> all;
+  const TrackSummary* worst = nullptr;
+  for (const TrackSummary& track : report.tracks) {
+    if (track.left <= 0) continue;
+    all.push_back(track.left);
+    if (worst == nullptr || track.left > worst->left) worst = &track;
+  }
+  if (worst == nullptr) return "";
+  return fmt::format("  expected to be left: {} per axis, most {} ({})\n",
+                     measure_text(median_of(all), report.unit), printable_name(worst->name),
+                     measure_text(worst->left, report.unit));
+}
+
 // A table of what changed, the gaps, and the sums.
 std::string details(const TakeFacts& take, const CleanOutcome& outcome, bool all_rows) {
   if (!take.contents.empty()) return "";
@@ -245,6 +261,7 @@ std::string details(const TakeFacts& take, const CleanOutcome& outcome, bool all
   for (const NoiseCharacter& noise : report.noise)
     text += fmt::format("  noise: {}\n",
                         noise_words(noise, report.kind, report.unit, report.frame_rate_hz));
+  text += left_text(report);
   text += fall_backs_text(report, all_rows) + swap_text(outcome, take.first_frame) +
           gaps_text(report, take.first_frame, all_rows) + leftovers_text(outcome);
   if (report.feet) text += feet_text(*report.feet, take.first_frame, all_rows);

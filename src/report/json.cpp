@@ -133,16 +133,19 @@ Json noise_json(const std::vector<NoiseCharacter>& characters, double frame_rate
   constexpr double half = 0.5, nearly_all = 0.9;
   Json list = Json::array();
   for (const NoiseCharacter& noise : characters) {
-    list.push_back(
-        {{"quantity", noise.space == Space::rotation ? "rotation" : "position"},
-         {"strength", noise.strength},
-         {"correlation", noise.correlation},
-         {"half_below_hz", noise.frequency_of_share(half, frame_rate_hz)},
-         {"ninety_percent_below_hz", noise.frequency_of_share(nearly_all, frame_rate_hz)},
-         {"samples", noise.frames_per_sample == 1 ? "every_frame"
-                     : noise.is_interpolated      ? "interpolated"
-                                                  : "held"},
-         {"sample_rate_hz", frame_rate_hz / noise.frames_per_sample}});
+    const auto below = [&](double share) {
+      return noise.is_expected ? Json() : Json(noise.frequency_of_share(share, frame_rate_hz));
+    };
+    list.push_back({{"quantity", noise.space == Space::rotation ? "rotation" : "position"},
+                    {"strength", noise.strength},
+                    {"correlation", noise.correlation},
+                    {"half_below_hz", below(half)},
+                    {"ninety_percent_below_hz", below(nearly_all)},
+                    {"is_expected", noise.is_expected},
+                    {"samples", noise.frames_per_sample == 1 ? "every_frame"
+                                : noise.is_interpolated      ? "interpolated"
+                                                             : "held"},
+                    {"sample_rate_hz", frame_rate_hz / noise.frames_per_sample}});
   }
   return list;
 }

@@ -78,7 +78,8 @@ TEST(FeetStep, IsNotTakenUnasked) {
 class FeetAfter : public testing::TestWithParam<std::string> {};
 
 std::unique_ptr<Cleaner> made(const Method& method) {
-  if (!method.learned || method.name == "recurrent") return make_cleaner(method.name);
+  const bool has_network = method.name == "recurrent" || method.name == "learned";
+  if (!method.learned || has_network) return make_cleaner(method.name);
   const auto model = std::make_shared<const Model>(train_model(
       method.name, {2, [](std::size_t i) {
                       return std::variant<Clip, MarkerClip>(synthesize({"walk", 3, 60, i + 2}));

@@ -32,9 +32,19 @@ Clip with_damage(Clip clip, const std::string& damage, const OptionValues& optio
   return clip;
 }
 
+std::unique_ptr<Cleaner> cleaner_of(Model model) {
+  return make_learned({}, std::make_shared<const Model>(std::move(model)));
+}
+
 // Asks for one smoother, whatever it sees.
 std::unique_ptr<Cleaner> asking_for(std::size_t smoother) {
-  return make_learned({}, std::make_shared<const Model>(one_smoother_model(smoother)));
+  return cleaner_of(one_smoother_model(smoother));
+}
+
+// States one deviation of its result, whatever it sees.
+Model expecting(Model model, double deviation_deg) {
+  model.tensors["output.bias"].values.back() = 2 * std::log(deviation_deg);
+  return model;
 }
 
 Clip without_known_names(Clip clip) {
@@ -96,23 +106,51 @@ TEST(LearnedCleaner, GivesTheSameAgain) {
             clean_clip(noisy, *asking_for(gaussian_of_50_ms)).clip.local_rotations);
 }
 
-TEST(LearnedCleaner, LeavesTheShortestTakesAsTheyAre) {
+TEST(LearnedCleaner, LeavesShortTakesAndSlowOnesToAutoAndSaysSo) {
   const Clip noisy = with_damage(walk_for_networks(120), "gaussian", {{"std_deg", 3.0}});
-  for (const std::size_t frames : {1, 2, 3}) {
-    const Clip take = slice(noisy, 0, frames);
-    EXPECT_EQ(clean_clip(take, *asking_for(gaussian_of_50_ms)).clip.local_rotations,
-              take.local_rotations);
+  Clip slow = noisy;
+  slow.frame_rate_hz = 15;
+  const std::unique_ptr<Cleaner> learned = asking_for(gaussian_of_50_ms), automatic = make_auto();
+  for (const auto& [take, reason] : {std::pair{slice(noisy, 0, 3), "shorter than half a second"},
+                                     {slice(noisy, 0, 59), "shorter than half a second"},
+                                     {slow, "below 20 Hz"}}) {
+    const CleanResult result = clean_clip(take, *learned);
+    EXPECT_EQ(result.clip.local_rotations, clean_clip(take, *automatic).clip.local_rotations);
+    ASSERT_EQ(result.report.fall_backs.size(), 1U);
+    EXPECT_EQ(result.report.fall_backs[0].method, "auto");
+    EXPECT_THAT(result.report.fall_backs[0].reason, testing::HasSubstr(reason));
   }
 }
 
-TEST(LearnedCleaner, SaysThatItNeedsAModel) {
-  try {
-    make_learned();
-    FAIL() << "was made";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::usage);
-    EXPECT_THAT(error.what(), testing::HasSubstr("made by kinemend-train learned"));
+TEST(LearnedCleaner, SaysHowFarItsResultIsExpectedToBeOff) {
+  const Clip clip = walk_for_networks(120);
+  const CleanReport report =
+      clean_clip(clip, *cleaner_of(expecting(one_smoother_model(0), 0.5))).report;
+  for (const TrackSummary& track : report.tracks) {
+    if (track.left > 0) {
+      EXPECT_NEAR(track.left, 0.5, 1e-3) << track.name;
+    }
   }
+  EXPECT_GT(report.tracks[0].left, 0);
+}
+
+// What shows from frame to frame is measurable, however large it is; and small errors are nothing
+// to speak of.
+TEST(LearnedCleaner, NamesNoiseThatIsLargeAndSlowOnly) {
+  const Clip clip = walk_for_networks(120);
+  const auto characters = [&](const Clip& take, double expected_deg) {
+    const std::unique_ptr<Cleaner> cleaner =
+        cleaner_of(expecting(one_smoother_model(gaussian_of_50_ms), expected_deg));
+    std::vector<NoiseCharacter> noise = clean_clip(take, *cleaner).report.noise;
+    std::erase_if(noise, [](const NoiseCharacter& one) { return one.space != Space::rotation; });
+    return noise;
+  };
+  EXPECT_TRUE(characters(clip, 0.2).empty());
+  EXPECT_TRUE(characters(with_damage(clip, "gaussian", {{"std_deg", 6.0}}), 2).empty());
+  const std::vector<NoiseCharacter> slow = characters(clip, 4);
+  ASSERT_FALSE(slow.empty());
+  EXPECT_TRUE(slow[0].is_expected);
+  EXPECT_NEAR(slow[0].strength, 4, 0.2);
 }
 
 }  // namespace

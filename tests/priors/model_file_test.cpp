@@ -261,7 +261,7 @@ TEST(ShippedModels, AreReadableAndOfTheMethodTheyAreNamedAfter) {
     EXPECT_EQ(shipped_model(shipped.method), model) << "parsed once";
     EXPECT_EQ(model_for(shipped.method, ""), model);
     EXPECT_EQ(write_model(*model), shipped.bytes);
-    EXPECT_LT(shipped.bytes.size(), 3u << 20);
+    EXPECT_LT(shipped.bytes.size(), 5'000'000u);
     EXPECT_FALSE(model->card.licence.empty());
   }
 }

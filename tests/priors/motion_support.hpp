@@ -27,6 +27,8 @@ inline MotionTake small_motion_take(const Model& model) {
   take.frame_rate_hz = 120;
   for (const double value : model.tensors.at("take").values)
     take.values.push_back(static_cast<float>(value));
+  for (const double value : model.tensors.at("measured").values)
+    take.measured.push_back(static_cast<float>(value));
   for (const double mark : model.tensors.at("missing").values)
     take.missing.push_back(mark != 0 ? 1 : 0);
   take.frames = take.values.size() / take.channels;

@@ -19,14 +19,13 @@ const TrainingSequences& walks_to_clean() {
 MotionTraining tiny_motion_training() {
   MotionTraining training;
   training.batches = 8;
-  training.batch = 2;
+  training.batch = 5;  // more than one part
   training.sampling.steps = 24;
   training.shape.encoded = 6;
   training.shape.slot_units = 4;
   training.shape.hidden = 12;
   training.shape.head = 8;
   training.shape.dilations = {1, 2};
-  training.loss.margin = 2;
   return training;
 }
 
@@ -51,6 +50,19 @@ TEST(MotionTraining, DependsOnItsSeed) {
   EXPECT_NE(write_model(a.model()), write_model(b.model()));
   EXPECT_THROW(b.resume(a.checkpoint(), "checkpoint"), Error);
   EXPECT_THROW(b.resume("no tensors", "checkpoint"), Error);
+}
+
+TEST(MotionTraining, BeginsWithAModel) {
+  MotionTrainer trained(walks_to_clean(), {}, tiny_motion_training());
+  for (int i = 0; i < 3; ++i) trained.step();
+  MotionTraining other = tiny_motion_training();
+  other.seed = 2;
+  MotionTrainer next(walks_to_clean(), {}, other);
+  next.begin_with(trained.model());
+  EXPECT_EQ(write_model(next.model()), write_model(trained.model()));
+  MotionTraining wider = other;
+  wider.shape.hidden = 16;
+  EXPECT_THROW(MotionTrainer(walks_to_clean(), {}, wider).begin_with(trained.model()), Error);
 }
 
 TEST(MotionTraining, LearnsToTakeNoiseOut) {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/parallel.hpp"
+#include "nn/activation_kernel.hpp"
 
 namespace kinemend {
 
@@ -11,45 +13,58 @@ namespace {
 
 constexpr std::size_t steps_filtered_together = 256;
 
-// Weights of the levels, the correction and the logarithm of the variance of a channel at a step.
-struct StepMix {
-  float levels[bank_levels] = {};
-  float correction = 0, log_variance = 0;
+// Of every channel and step: the weights of the levels (C x steps x `motion_levels`), the
+// correction and the deviation.
+struct Mixes {
+  std::vector<float> levels, corrections, deviations;
 };
 
-StepMix mix_of(const float* outputs, const float* scales) {
-  StepMix mix;
-  float weights[motion_smoothers], sum = 0;
-  const float most = *std::max_element(outputs, outputs + motion_smoothers);
-  for (std::size_t i = 0; i < motion_smoothers; ++i) {
-    weights[i] = std::exp(outputs[i] - most);
-    sum += weights[i];
+Mixes mixes_of(std::vector<float> outputs, const MotionSteps& steps) {
+  const std::size_t count = outputs.size() / motion_outputs;
+  Mixes mixes{std::vector<float>(count * motion_levels), std::vector<float>(count),
+              std::vector<float>(count)};
+  for (std::size_t i = 0; i < count; ++i) {
+    float* const own = outputs.data() + i * motion_outputs;
+    const float* const scales = steps.scales.data() + i * motion_scales;
+    for (std::size_t n = 0; n < motion_scales; ++n)
+      mixes.corrections[i] += 0.5F * own[motion_smoothers + n] * scales[n];
+    const float most = *std::max_element(own, own + motion_smoothers);
+    for (std::size_t n = 0; n < motion_smoothers; ++n) own[n] -= most;
+    mixes.deviations[i] = 0.5F * std::clamp(own[motion_outputs - 1], -12.0F, 8.0F);
   }
-  for (std::size_t level = 0; level < bank_levels; ++level)
-    mix.levels[level] = weights[level] / sum;
-  for (std::size_t i = bank_levels; i < motion_smoothers; ++i) {
-    const std::size_t level = i - bank_levels + 1;
-    mix.levels[level] += 2 * weights[i] / sum;
-    mix.levels[level + 1] -= weights[i] / sum;
+  nn::exp_of(outputs.data(), outputs.size());
+  nn::exp_of(mixes.deviations.data(), count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float* const weights = outputs.data() + i * motion_outputs;
+    float* const levels = mixes.levels.data() + i * motion_levels;
+    float sum = 0;
+    for (std::size_t n = 0; n < motion_smoothers; ++n) sum += weights[n];
+    for (std::size_t n = 0; n < bank_levels; ++n) levels[n] = weights[n] / sum;
+    levels[bank_levels] = weights[motion_smoothers - 1] / sum;
+    for (std::size_t n = bank_levels; n + 1 < motion_smoothers; ++n) {
+      const std::size_t level = n - bank_levels + 1;
+      levels[level] += 2 * weights[n] / sum;
+      levels[level + 1] -= weights[n] / sum;
+    }
   }
-  for (std::size_t i = 0; i < motion_scales; ++i)
-    mix.correction += 0.5F * outputs[motion_smoothers + i] * scales[i];
-  mix.log_variance = std::clamp(outputs[motion_outputs - 1], -12.0F, 8.0F);
-  return mix;
+  return mixes;
 }
 
 // Frames [first, last) lie between the first and the last of the steps.
-void put_frames(const MotionReader& reader, const MotionSteps& steps,
-                const std::vector<float>& outputs, std::size_t first, std::size_t last,
-                MotionResult& result) {
+void put_frames(const MotionReader& reader, const MotionSteps& steps, std::vector<float> outputs,
+                std::size_t first, std::size_t last, MotionResult& result) {
   const MotionTake& take = reader.take();
   const std::size_t channels = take.channels, count = last - first;
-  std::vector<StepMix> mixes(channels * steps.count);
-  for (std::size_t i = 0; i < mixes.size(); ++i)
-    mixes[i] = mix_of(outputs.data() + i * motion_outputs, steps.scales.data() + i * motion_scales);
+  const Mixes mixes = mixes_of(std::move(outputs), steps);
   std::vector<float> level(count * channels);
-  for (std::size_t n = 0; n < bank_levels; ++n) {
-    reader.bank().level(reader.extended(), n, static_cast<std::ptrdiff_t>(first), count, level);
+  const std::vector<float>& measured = take.measured.empty() ? take.values : take.measured;
+  for (std::size_t n = 0; n < motion_levels; ++n) {
+    if (n < bank_levels) {
+      reader.bank().level(reader.extended(), n, static_cast<std::ptrdiff_t>(first), count, level);
+    } else {
+      std::copy_n(measured.begin() + static_cast<std::ptrdiff_t>(first * channels), level.size(),
+                  level.begin());
+    }
     for (std::size_t i = 0; i < count; ++i) {
       const double time = static_cast<double>(first + i) * motion_steps_hz / take.frame_rate_hz;
       const auto before = static_cast<std::size_t>(time);
@@ -57,15 +72,18 @@ void put_frames(const MotionReader& reader, const MotionSteps& steps,
       const std::size_t s = before - steps.first;
       for (std::size_t c = 0; c < channels; ++c) {
         if (reader.strengths().is_alive[c] == 0) continue;
-        const StepMix *one = &mixes[c * steps.count + s], *other = one + 1;
+        const std::size_t one = c * steps.count + s, other = one + 1;
+        const auto between = [&](const std::vector<float>& all, std::size_t size, std::size_t k) {
+          const float from = all[one * size + k];
+          return from + share * (all[other * size + k] - from);
+        };
         const std::size_t at = (first + i) * channels + c;
-        const float weight = one->levels[n] + share * (other->levels[n] - one->levels[n]);
         float& value = result.values[at];
-        value = (n == 0 ? 0 : value) + weight * level[i * channels + c];
-        if (n + 1 < bank_levels) continue;
-        value += one->correction + share * (other->correction - one->correction);
-        result.deviation[at] = std::exp(
-            0.5F * (one->log_variance + share * (other->log_variance - one->log_variance)));
+        value = (n == 0 ? 0 : value) +
+                between(mixes.levels, motion_levels, n) * level[i * channels + c];
+        if (n + 1 < motion_levels) continue;
+        value += between(mixes.corrections, 1, 0);
+        result.deviation[at] = between(mixes.deviations, 1, 0);
       }
     }
   }

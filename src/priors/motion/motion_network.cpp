@@ -49,8 +49,12 @@ struct Pass {
       const MatrixViewF features{steps.features.data() + c * count * motion_features, count,
                                  motion_features, motion_features};
       nn::run(network.encoder, features, rows_of(first, count, width));
-      for (std::size_t i = 0; i < first.size(); ++i)
-        first[i] = std::max(0.0F, first[i] + of_take[c * width + i % width]);
+      for (std::size_t s = 0; s < count; ++s) {
+        for (std::size_t i = 0; i < width; ++i) {
+          float& value = first[s * width + i];
+          value = std::max(0.0F, value + of_take[c * width + i]);
+        }
+      }
       float* const own = result.data() + c * count * width;
       nn::run(network.second_encoder, matrix_of(first, count, width), {own, count, width, width});
       for (std::size_t i = 0; i < first.size(); ++i) own[i] += first[i];
@@ -68,7 +72,7 @@ struct Pass {
       for (std::size_t s = 0; s < count; ++s) {
         const float* const own = encoded.data() + (c * count + s) * width;
         std::copy(own, own + width, result.data() + s * row + slot * width);
-        const std::size_t at = (c * count + s) * bank_levels;
+        const std::size_t at = (c * count + s) * motion_levels;
         const float pose = (steps.levels[at + 3] - network.mean[slot]) / network.deviation[slot];
         const float speed = steps.changes[at + 4] / network.speed[slot];
         result[s * row + network.slots * width + slot] = pose;

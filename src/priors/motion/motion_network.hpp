@@ -14,9 +14,10 @@ namespace kinemend {
 
 /// What a step says of a channel: the logarithm of the weight of each smoother (the levels of the
 /// bank, then, of those between the first and the last, twice the level less the next, which keeps
-/// peaks better), corrections in units of the channel's scales, and the logarithm of the variance
-/// of what will be wrong with the result, degrees squared.
-inline constexpr std::size_t motion_smoothers = bank_levels + bank_levels - 2;
+/// peaks better, then the smoothing by the measured noise), corrections in units of the channel's
+/// scales, and the logarithm of the variance of what will be wrong with the result, degrees
+/// squared.
+inline constexpr std::size_t motion_smoothers = bank_levels + (bank_levels - 2) + 1;
 inline constexpr std::size_t motion_outputs = motion_smoothers + motion_scales + 1;
 /// Corrections that a known body adds to those of its channels.
 inline constexpr std::size_t motion_body_corrections = 3;

@@ -7,6 +7,7 @@
 
 #include "kinemend/experimental/signal.hpp"
 #include "kinemend/rotation.hpp"
+#include "priors/motion/measured_smoothing.hpp"
 #include "priors/sequence_damage.hpp"
 #include "priors/warped_sequence.hpp"
 
@@ -118,7 +119,7 @@ struct DamagedStretch {
     if (random.chance(0.15))
       apply("gaps",
             {{"start_probability", log_uniform(random, 0.001, 0.01)},
-             {"mean_length_s", log_uniform(random, 0.02, 0.6)},
+             {"mean_length_s", log_uniform(random, 0.02, 1)},
              {"scope", std::string("joint")}},
             random);
   }
@@ -346,10 +347,15 @@ MotionPair mapped_pair(MotionPair pair, double least_deg) {
 MotionSample random_motion_sample(const TrainingSequences& sequences, const BodyMirror& mirror,
                                   std::span<const MotionPair> pairs, const MotionSampling& sampling,
                                   Random random) {
-  if (!pairs.empty() && random.chance(sampling.pair_share))
-    return random_pair(drawn_pair(pairs, random), sequences.layout.channel_count(), sampling,
-                       random.fork(1));
-  return random_damage(sequences, mirror, sampling, random.fork(1));
+  const bool is_pair = !pairs.empty() && random.chance(sampling.pair_share);
+  // Live, no noise is measured.
+  const bool is_measured = !random.chance(sampling.live_share);
+  MotionSample sample =
+      is_pair ? random_pair(drawn_pair(pairs, random), sequences.layout.channel_count(), sampling,
+                            random.fork(1))
+              : random_damage(sequences, mirror, sampling, random.fork(1));
+  if (is_measured) add_measured_smoothing(sample.take);
+  return sample;
 }
 
 }  // namespace kinemend

@@ -13,6 +13,8 @@ constexpr float least_square = 1e-5F, least_spread_square = 1e-4F;
 constexpr std::size_t steps_read_together = 512;
 // Bands from this one on are pooled over twice the time: they change that slowly.
 constexpr std::size_t first_slow_band = 5;
+// The smoothing by the measured noise is told by how it lies to the level above this band.
+constexpr std::size_t measured_band = 5;
 
 float log_feature(float square) { return 0.25F * std::log(square) + 0.5F; }
 
@@ -47,6 +49,7 @@ struct MotionReader::Block {
   std::size_t frames = 0;
   std::vector<std::vector<float>> levels;  // each frames x C
   std::vector<float> squares;              // steps x C x motion_bands
+  std::vector<float> taken_out;            // steps x C: mean squares of the measured noise
 };
 
 MotionReader::Block MotionReader::block(std::size_t first, std::size_t count) const {
@@ -62,7 +65,8 @@ MotionReader::Block MotionReader::block(std::size_t first, std::size_t count) co
     result.levels.emplace_back(result.frames * channels);
     bank_.level(extended_, level, result.first_frame, result.frames, result.levels.back());
   }
-  result.squares.assign(count * channels * motion_bands, 0);
+  result.squares.resize(count * channels * motion_bands);
+  std::vector<float> sums(channels);
   for (std::size_t band = 0; band < motion_bands; ++band) {
     const std::vector<float>& weights = band < first_slow_band ? quick : slow;
     const auto reach = static_cast<std::ptrdiff_t>(weights.size()) - 1;
@@ -70,14 +74,32 @@ MotionReader::Block MotionReader::block(std::size_t first, std::size_t count) co
     for (std::size_t s = 0; s < count; ++s) {
       const auto at =
           static_cast<std::ptrdiff_t>(take_.frame_of_step(first + s)) - result.first_frame;
-      float* const squares = result.squares.data() + s * channels * motion_bands + band;
+      std::fill(sums.begin(), sums.end(), 0.0F);
       for (std::ptrdiff_t k = -reach; k <= reach; ++k) {
         const float weight = weights[static_cast<std::size_t>(std::abs(k))];
         const std::size_t row = static_cast<std::size_t>(at + k) * channels;
         for (std::size_t c = 0; c < channels; ++c) {
           const float difference = upper[row + c] - lower[row + c];
-          squares[c * motion_bands] += weight * difference * difference;
+          sums[c] += weight * difference * difference;
         }
+      }
+      float* const squares = result.squares.data() + s * channels * motion_bands + band;
+      for (std::size_t c = 0; c < channels; ++c) squares[c * motion_bands] = sums[c];
+    }
+  }
+  result.taken_out.assign(count * channels, 0);
+  const auto last_frame = static_cast<std::ptrdiff_t>(take_.frames) - 1;
+  const auto reach = static_cast<std::ptrdiff_t>(quick.size()) - 1;
+  for (std::size_t s = 0; s < count && !take_.measured.empty(); ++s) {
+    const auto at = static_cast<std::ptrdiff_t>(take_.frame_of_step(first + s));
+    float* const out = result.taken_out.data() + s * channels;
+    for (std::ptrdiff_t k = -reach; k <= reach; ++k) {
+      const auto row =
+          static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(at + k, 0, last_frame)) * channels;
+      const float weight = quick[static_cast<std::size_t>(std::abs(k))];
+      for (std::size_t c = 0; c < channels; ++c) {
+        const float difference = take_.values[row + c] - take_.measured[row + c];
+        out[c] += weight * difference * difference;
       }
     }
   }
@@ -132,7 +154,7 @@ MotionSteps MotionReader::steps(std::size_t first, std::size_t count) const {
   result.first = first;
   result.count = count;
   result.features.resize(channels * count * motion_features);
-  result.levels.resize(channels * count * bank_levels);
+  result.levels.resize(channels * count * motion_levels);
   result.changes.resize(result.levels.size());
   result.scales.resize(channels * count * motion_scales);
   const auto speed = static_cast<float>(take_.frame_rate_hz / change_rate_hz);
@@ -143,12 +165,16 @@ MotionSteps MotionReader::steps(std::size_t first, std::size_t count) const {
     const auto at = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(frame) - part.first_frame);
     for (std::size_t c = 0; c < channels; ++c) {
       const std::size_t row = c * count + s;
-      float* const levels = result.levels.data() + row * bank_levels;
-      float* const changes = result.changes.data() + row * bank_levels;
+      float* const levels = result.levels.data() + row * motion_levels;
+      float* const changes = result.changes.data() + row * motion_levels;
       for (std::size_t level = 0; level < bank_levels; ++level) {
         levels[level] = part.levels[level][at * channels + c];
         changes[level] = speed * (part.levels[level][(at + 1) * channels + c] - levels[level]);
       }
+      const std::size_t next = std::min(frame + 1, take_.frames - 1);
+      const std::vector<float>& measured = take_.measured.empty() ? take_.values : take_.measured;
+      levels[bank_levels] = measured[frame * channels + c];
+      changes[bank_levels] = speed * (measured[next * channels + c] - levels[bank_levels]);
       const float* const squares = part.squares.data() + (s * channels + c) * motion_bands;
       float* const features = result.features.data() + row * motion_features;
       for (std::size_t band = 0; band < motion_bands; ++band) {
@@ -169,7 +195,13 @@ MotionSteps MotionReader::steps(std::size_t first, std::size_t count) const {
         (take_.is_missing(static_cast<std::size_t>(f), c) ? missing : seen) += 1;
       }
       const float share = missing > 0 ? missing / (missing + seen) : 0;
-      features[motion_features - 1] = share;
+      features[missing_feature] = share;
+      const float taken_out = part.taken_out[s * channels + c];
+      const float unit = strengths_.bands[c * motion_bands + measured_band] + 0.01F;
+      features[missing_feature + 1] = log_feature(taken_out + least_square);
+      features[missing_feature + 2] =
+          std::asinh((levels[bank_levels] - levels[measured_band]) / unit);
+      features[missing_feature + 3] = take_.measured.empty() ? 0.0F : 1.0F;
       float* const scales = result.scales.data() + row * motion_scales;
       for (std::size_t i = 0; i + 1 < motion_scales; ++i)
         scales[i] = std::sqrt(squares[scale_bands[i]] + least_square);

@@ -16,7 +16,8 @@ inline constexpr double motion_steps_hz = 30;
 struct MotionTake {
   std::size_t frames = 0, channels = 0;
   double frame_rate_hz = 0;
-  std::vector<float> values;          ///< F x C, degrees; bridges where nothing was measured
+  std::vector<float> values;    ///< F x C, degrees; bridges where nothing was measured
+  std::vector<float> measured;  ///< F x C, smoothed by the noise that is measured; empty: not known
   std::vector<std::uint8_t> missing;  ///< F x C, 1 where not measured; empty: nowhere
   /// C: which channel of the model's body this is, in the same axes and about the same reference;
   /// -1 where it is none of them, or the body is not known.
@@ -31,14 +32,18 @@ struct MotionTake {
   }
 };
 
+/// What can be mixed: the levels of the bank, and the smoothing by the measured noise.
+inline constexpr std::size_t motion_levels = bank_levels + 1;
 /// Bands lie between neighbouring levels of the bank.
 inline constexpr std::size_t motion_bands = bank_levels - 1;
 /// Of these, the ones whose value counts beside their strength: below about 6 Hz.
 inline constexpr std::size_t first_signed_band = 4;
 /// Strengths of bands about the step, the same against the whole take's, values of slow bands in
-/// units of the take's strength, share of samples that are missing.
-inline constexpr std::size_t motion_features =
-    2 * motion_bands + (motion_bands - first_signed_band) + 1;
+/// units of the take's strength, share of samples that are missing; of the smoothing by the
+/// measured noise what it takes out, how it lies to the level of 50 ms, and whether it is known.
+inline constexpr std::size_t missing_feature =
+    2 * motion_bands + (motion_bands - first_signed_band);
+inline constexpr std::size_t motion_features = missing_feature + 4;
 /// Strengths of bands over the take, spread of its slowest level, whether it is a position.
 inline constexpr std::size_t motion_take_features = motion_bands + 2;
 /// What corrections of a channel are measured by: the strengths of four bands about the step, and
@@ -58,7 +63,7 @@ struct MotionStrengths {
 struct MotionSteps {
   std::size_t first = 0, count = 0;
   std::vector<float> features;  ///< C x count x motion_features
-  std::vector<float> levels;    ///< C x count x bank_levels, at the step's frame
+  std::vector<float> levels;    ///< C x count x motion_levels, at the step's frame
   std::vector<float> changes;   ///< the same: to the next frame, degrees per 1/120 s
   std::vector<float> scales;    ///< C x count x motion_scales
 };

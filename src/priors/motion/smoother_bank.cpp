@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "priors/motion/smoother_kernel.hpp"
+
 namespace kinemend {
 
 namespace {
@@ -81,18 +83,9 @@ void SmootherBank::level(const ExtendedChannels& input, std::size_t level, std::
   const std::vector<float>& taps = taps_[level];
   const std::size_t width = input.channels;
   assert(result.size() == count * width);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto frame = first + static_cast<std::ptrdiff_t>(i);
-    float* const out = result.data() + i * width;
-    const float* const middle = input.row(frame);
-    for (std::size_t c = 0; c < width; ++c) out[c] = taps[0] * middle[c];
-    for (std::size_t k = 1; k < taps.size(); ++k) {
-      const float tap = taps[k];
-      const float* const left = input.row(frame - static_cast<std::ptrdiff_t>(k));
-      const float* const right = input.row(frame + static_cast<std::ptrdiff_t>(k));
-      for (std::size_t c = 0; c < width; ++c) out[c] += tap * (left[c] + right[c]);
-    }
-  }
+  for (std::size_t i = 0; i < count; ++i)
+    sum_rows(input.row(first + static_cast<std::ptrdiff_t>(i)), width, taps,
+             result.data() + i * width);
 }
 
 }  // namespace kinemend

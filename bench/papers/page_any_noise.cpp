@@ -1,0 +1,190 @@
+// Figures of docs/methods/learned.md: noise of every kind on takes that no model that ships has
+// seen, and what happens to takes that are clean.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "kinemend/experimental/signal.hpp"
+#include "kinemend/rotation.hpp"
+#include "page.hpp"
+#include "quality/lower_rate.hpp"
+
+namespace kinemend::papers {
+namespace {
+
+const std::vector<std::string> methods_compared{"auto", "wiener", "learned"};
+
+// Kept aside by tools/training_clips.py.
+std::vector<std::string> kept_takes(const Arguments& arguments) {
+  if (arguments.quick || arguments.data.empty()) return {"walk"};
+  return {"01_13",  "02_05",  "02_10", "05_14", "06_11", "08_08", "09_03",
+          "131_07", "135_09", "16_24", "35_01", "35_14", "49_17"};
+}
+
+Clip kept_take(const Arguments& arguments, const std::string& name) {
+  const Clip whole = load_take(arguments, name + ".bvh", {.motion = name}).clip;
+  constexpr std::size_t most_frames = 1201;
+  return slice(whole, 0, std::min(whole.frame_count(), most_frames));
+}
+
+double gaussian_error(const Clip& truth, const Clip& clip, double width_s) {
+  return rms_deg(truth, cleaned(clip, "gaussian", {{"width_s", width_s}}));
+}
+
+double best_gaussian(const Clip& truth, const Clip& clip) {
+  double best = rms_deg(truth, clip);
+  for (const double width_s :
+       {0.006, 0.009, 0.013, 0.018, 0.025, 0.035, 0.045, 0.058, 0.08, 0.11, 0.16})
+    best = std::min(best, gaussian_error(truth, clip, width_s));
+  return best;
+}
+
+struct Kind {
+  std::string name;
+  std::function<Clip(const Clip&, std::uint64_t)> damage;
+  std::function<double(const Clip&, const Clip&)> measure = best_gaussian;
+};
+
+// A deviation of `std_deg` per axis, shaped by `shape` (F x 3 J, from white noise).
+Clip with_shaped_noise(Clip clip, double std_deg, std::uint64_t seed,
+                       const std::function<void(PoseMatrix&)>& shape) {
+  PoseMatrix noise(clip.frame_count(), 3 * clip.joint_count());
+  Random random(seed);
+  for (double& value : noise.values) value = random.normal();
+  shape(noise);
+  double square = 0;
+  for (const double value : noise.values) square += value * value;
+  const double unit =
+      radians_per_degree * std_deg / std::sqrt(square / static_cast<double>(noise.values.size()));
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    for (std::size_t j = 0; j < clip.joint_count(); ++j) {
+      const Vec3 v{noise(f, 3 * j), noise(f, 3 * j + 1), noise(f, 3 * j + 2)};
+      clip.rotation(f, j) = clip.rotation(f, j) * exp(unit * v);
+    }
+  }
+  return clip;
+}
+
+// As pipelines filter takes before they hand them over.
+Clip low_passed_noise(const Clip& clip, std::uint64_t seed) {
+  return with_shaped_noise(clip, 3, seed, [&](PoseMatrix& noise) {
+    filter_zero_phase(noise, butterworth_lowpass(2, 4, clip.frame_rate_hz));
+  });
+}
+
+// As of a system of 30 Hz whose poses were brought to the rate of the take.
+Clip noise_of_30_hz(const Clip& clip, std::uint64_t seed) {
+  return with_shaped_noise(clip, 1.5, seed, [&](PoseMatrix& noise) {
+    const auto step = static_cast<std::size_t>(std::lround(clip.frame_rate_hz / 30));
+    for (std::size_t f = 0; f < noise.frames; ++f) {
+      const std::size_t before = f - f % step, after = std::min(before + step, noise.frames - 1);
+      const double share = static_cast<double>(f - before) / static_cast<double>(step);
+      if (f == before || after % step != 0) continue;
+      for (std::size_t c = 0; c < noise.channels; ++c)
+        noise(f, c) = noise(before, c) + share * (noise(after, c) - noise(before, c));
+    }
+  });
+}
+
+std::vector<Kind> kinds() {
+  using quality::of_lower_rate;
+  const auto of = [](const std::string& name, const OptionValues& options) {
+    return [name, options](const Clip& c, std::uint64_t s) { return damaged(c, name, options, s); };
+  };
+  return {{"half of each channel", of("gaussian-channels", {{"k", 0.5}}),
+           [](const Clip& truth, const Clip& clip) { return gaussian_error(truth, clip, 0.058); }},
+          {"white", of("gaussian", {{"std_deg", 1.5}})},
+          {"ar1 0.5", of("ar1", {{"std_deg", 1.5}, {"correlation", 0.5}})},
+          {"ar1 0.8", of("ar1", {{"std_deg", 1.5}, {"correlation", 0.8}})},
+          {"ar1 0.95", of("ar1", {{"std_deg", 1.5}, {"correlation", 0.95}})},
+          {"held 60", [](const Clip& c,
+                         std::uint64_t s) { return of_lower_rate(noisy(c, 1.5, 0, s), 2, true); }},
+          {"lines between 30 Hz", noise_of_30_hz},
+          {"below 4 Hz", low_passed_noise}};
+}
+
+void every_noise(const Arguments& arguments) {
+  Table table(arguments, "any_noise.csv", "noise,method,takes,share,rms_deg");
+  for (const Kind& kind : kinds()) {
+    std::map<std::string, double> shares, errors;
+    const std::vector<std::string> names = kept_takes(arguments);
+    const auto count = static_cast<double>(names.size());
+    for (const std::string& name : names) {
+      const Clip take = kept_take(arguments, name);
+      const Clip clip = kind.damage(take, 7);
+      const Clip truth = slice(take, 0, clip.frame_count());
+      const double unit = kind.measure(truth, clip);
+      const auto add = [&](const std::string& method, const Clip& result) {
+        const double error = rms_deg(truth, result);
+        shares[method] += error / unit / count;
+        errors[method] += error / count;
+      };
+      add("untouched", clip);
+      for (const std::string& method : methods_compared) add(method, cleaned(clip, method));
+    }
+    for (const auto& [method, share] : shares) {
+      table.add({kind.name, method, fmt::format("{}", names.size()), figure(share),
+                 figure(errors[method])});
+      fmt::print("{:22} {:10} {:.3f}  {:.3f} deg\n", kind.name, method, share, errors[method]);
+    }
+  }
+  table.close();
+}
+
+// White noise of 1.5 degrees and spikes, on the three clips of the project's first tables.
+void white_and_spikes(const Arguments& arguments) {
+  Table table(arguments, "any_spikes.csv", "take,method,rms_deg");
+  std::vector<std::string> names{"35_01", "02_05", "09_03"};
+  if (arguments.quick || arguments.data.empty()) names = {"walk"};
+  for (const std::string& name : names) {
+    const Clip truth = load_take(arguments, name + ".bvh", {.motion = name}).clip;
+    const Clip clip = noisy(truth, 1.5, 0.004, 1);
+    table.add({name, "untouched", figure(rms_deg(truth, clip))});
+    for (const std::string& method : methods_compared)
+      table.add({name, method, figure(rms_deg(truth, cleaned(clip, method)))});
+  }
+  table.close();
+}
+
+double quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
+}
+
+// What is done to takes that need nothing.
+void clean_takes(const Arguments& arguments) {
+  Table table(arguments, "any_clean.csv", "method,takes,median_deg,worst_deg");
+  std::vector<std::string> names;
+  std::ifstream list(arguments.data / "cmu" / "recurrent-100.csv");
+  for (std::string line; std::getline(list, line);) {
+    const std::string name = line.substr(0, line.find(','));
+    if (name.find('_') != std::string::npos) names.push_back(name);
+  }
+  if (arguments.quick || names.empty()) names = {"walk"};
+  for (const std::string& method : methods_compared) {
+    std::vector<double> changes;
+    std::string worst;
+    for (const std::string& name : names) {
+      const Clip clip = load_take(arguments, name + ".bvh", {.motion = name}).clip;
+      changes.push_back(geodesic_rms_deg(clip, cleaned(clip, method)));
+      if (changes.back() == *std::max_element(changes.begin(), changes.end())) worst = name;
+    }
+    const double median = quantile(changes, 0.5), most = quantile(changes, 1);
+    fmt::print("clean: {:10} median {:.4f} deg, most {:.3f} ({})\n", method, median, most, worst);
+    table.add({method, fmt::format("{}", names.size()), figure(median), figure(most)});
+  }
+  table.close();
+}
+
+void experiment(const Arguments& arguments) {
+  every_noise(arguments);
+  white_and_spikes(arguments);
+  clean_takes(arguments);
+}
+
+const Registration registration("page_any_noise", experiment);
+
+}  // namespace
+}  // namespace kinemend::papers

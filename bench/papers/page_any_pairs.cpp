@@ -1,0 +1,200 @@
+// Figures of docs/methods/learned.md: takes of markerless systems and of depth cameras beside
+// markers of the same motion, of systems and persons that no model that ships has seen.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <variant>
+
+#include "clean/motion_channels.hpp"
+#include "clean/pieces.hpp"
+#include "kinemend/experimental/model.hpp"
+#include "kinemend/experimental/representation.hpp"
+#include "kinemend/experimental/signal.hpp"
+#include "kinemend/rotation.hpp"
+#include "page.hpp"
+#include "priors/motion/measured_smoothing.hpp"
+#include "priors/motion/motion_filter.hpp"
+#include "priors/motion/motion_samples.hpp"
+
+namespace kinemend::papers {
+namespace {
+
+struct Pair {
+  std::string source, noisy, reference;
+};
+
+// Those that tools/train_learned does not learn from.
+bool is_left_out(const std::string& name) {
+  if (name.starts_with("lbmc-")) {
+    const std::string system = name.substr(5, name.find('-', 5) - 5);
+    return system != "M1" && system != "M2" && system != "M3" && system != "M5" && system != "M7";
+  }
+  const std::size_t person = name.find("_s");
+  return name.starts_with("kinect-") && person != std::string::npos && name[person + 3] > '3';
+}
+
+std::vector<Pair> pairs_below(const std::filesystem::path& folder) {
+  std::vector<Pair> pairs;
+  if (!std::filesystem::is_directory(folder)) return pairs;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    const std::size_t at = name.find(".noisy.");
+    if (at == std::string::npos || !is_left_out(name)) continue;
+    const std::string reference = name.substr(0, at) + ".reference." + name.substr(at + 7);
+    pairs.push_back(
+        {name.substr(0, name.find('-')), entry.path().string(), (folder / reference).string()});
+  }
+  std::sort(pairs.begin(), pairs.end(),
+            [](const Pair& a, const Pair& b) { return a.noisy < b.noisy; });
+  return pairs;
+}
+
+struct Errors {
+  double value = 0, velocity = 0, fast = 0;
+};
+
+// Root mean squares over channels whose reference moves. F x C.
+Errors errors_of(const std::vector<float>& values, const MotionSample& pair) {
+  const MotionTake& take = pair.take;
+  PoseMatrix error(take.frames, take.channels);
+  std::vector<std::uint8_t> moves(take.channels);
+  for (std::size_t f = 0; f < take.frames; ++f) {
+    for (std::size_t c = 0; c < take.channels; ++c) {
+      const std::size_t i = f * take.channels + c;
+      error(f, c) = static_cast<double>(values[i] - pair.truth[i]);
+      if (pair.truth[i] != 0) moves[c] = 1;
+    }
+  }
+  PoseMatrix fast = error;
+  filter_zero_phase(fast, butterworth_lowpass(4, 6, take.frame_rate_hz));
+  Errors sums;
+  double count = 0;
+  for (std::size_t f = 1; f + 1 < take.frames; ++f) {
+    for (std::size_t c = 0; c < take.channels; ++c) {
+      if (moves[c] == 0) continue;
+      const double change = (error(f + 1, c) - error(f - 1, c)) * take.frame_rate_hz / 2;
+      const double quick = error(f, c) - fast(f, c);
+      sums.value += error(f, c) * error(f, c);
+      sums.velocity += change * change;
+      sums.fast += quick * quick;
+      count += 1;
+    }
+  }
+  return {std::sqrt(sums.value / count), std::sqrt(sums.velocity / count),
+          std::sqrt(sums.fast / count)};
+}
+
+Errors share_of(const Errors& errors, const Errors& before) {
+  return {errors.value / before.value, errors.velocity / before.velocity,
+          errors.fast / before.fast};
+}
+
+struct Source {
+  std::size_t takes = 0;
+  double within = 0;  ///< summed over takes
+  std::map<std::string, Errors> shares;
+};
+
+// The share of errors that are no larger than the deviation that the network states.
+double share_within(const MotionSample& pair) {
+  static const MotionNetwork network = motion_network_of(*shipped_model("learned"));
+  MotionTake take = pair.take;
+  add_measured_smoothing(take);
+  const MotionResult result = filtered(network, take);
+  std::size_t count = 0, within = 0;
+  for (std::size_t i = 0; i < pair.truth.size(); ++i) {
+    if (pair.truth[i] == 0) continue;
+    ++count;
+    within += std::abs(result.values[i] - pair.truth[i]) <= result.deviation[i] ? 1U : 0U;
+  }
+  return static_cast<double>(within) / static_cast<double>(count);
+}
+
+// F x 3 (J - 1): the turns of the joints below the root, degrees, going on past half a turn.
+std::vector<float> channels_of(const MotionTracks&, const Clip& clip) {
+  const std::size_t joints = clip.joint_count() - 1;
+  std::vector<float> values;
+  std::vector<Vec3> last(joints);
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    for (std::size_t j = 0; j < joints; ++j) {
+      last[j] = continue_rotation_vector(log(clip.rotation(f, j + 1)), last[j]);
+      for (const double radians : {last[j].x, last[j].y, last[j].z})
+        values.push_back(static_cast<float>(degrees_per_radian * radians));
+    }
+  }
+  return values;
+}
+std::vector<float> channels_of(const MotionTracks& tracks, const MarkerClip& clip) {
+  return values_in(tracks, view_of(clip));
+}
+
+template <class AnyClip>
+void add_pair(const AnyClip& noisy, const AnyClip& reference, double least_deg, Source& source) {
+  const TakeView view = view_of(noisy);
+  MotionTracks tracks = motion_tracks_of(view, changeable_tracks(view));
+  MotionSample both{tracks.take, channels_of(tracks, reference)};
+  both.take.values = channels_of(tracks, noisy);
+  both.take.channels = both.take.values.size() / both.take.frames;
+  const MotionSample pair = mapped_pair({"", std::move(both)}, least_deg).sample;
+  if (std::all_of(pair.truth.begin(), pair.truth.end(), [](float v) { return v == 0; })) return;
+  const auto errors_by = [&](const std::string& method, const OptionValues& options) {
+    AnyClip result = noisy;
+    clean_in_place(*make_cleaner(method, options), result);
+    return errors_of(channels_of(tracks, result), pair);
+  };
+  const Errors untouched = errors_of(channels_of(tracks, noisy), pair);
+  const auto add = [&](const std::string& name, const Errors& errors) {
+    Errors& sum = source.shares[name];
+    const Errors share = share_of(errors, untouched);
+    sum.value += share.value;
+    sum.velocity += share.velocity;
+    sum.fast += share.fast;
+  };
+  Errors best{0, std::numeric_limits<double>::max(), 0};
+  for (const double cutoff_hz : {1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0}) {
+    if (cutoff_hz >= noisy.frame_rate_hz / 2.2) break;
+    const Errors errors = errors_by("butterworth", {{"cutoff_hz", cutoff_hz}});
+    if (errors.velocity < best.velocity) best = errors;
+  }
+  add("best cut", best);
+  add("butterworth", errors_by("butterworth", {}));
+  for (const char* method : {"auto", "learned"}) add(method, errors_by(method, {}));
+  const MotionSample seen{tracks.take, values_in(tracks, view_of(reference))};
+  source.within += share_within(mapped_pair({"", seen}, least_deg).sample);
+  ++source.takes;
+}
+
+void experiment(const Arguments& arguments) {
+  constexpr double least_turn_deg = 2, least_move_deg = 0.34;
+  std::map<std::string, Source> sources;
+  std::size_t number = 0;
+  for (const Pair& pair : pairs_below(arguments.data / "real2")) {
+    if (arguments.quick && number++ % 20 != 0) continue;
+    const auto noisy = read_take(pair.noisy).take, reference = read_take(pair.reference).take;
+    if (const auto* markers = std::get_if<MarkerClip>(&noisy)) {
+      add_pair(*markers, std::get<MarkerClip>(reference), least_move_deg, sources[pair.source]);
+    } else {
+      add_pair(std::get<Clip>(noisy), std::get<Clip>(reference), least_turn_deg,
+               sources[pair.source]);
+    }
+  }
+  if (sources.empty()) return;
+  Table table(arguments, "any_pairs.csv", "source,method,takes,value,velocity,above_6_hz,within");
+  for (const auto& [name, source] : sources) {
+    const auto count = static_cast<double>(source.takes);
+    for (const auto& [method, sum] : source.shares) {
+      table.add({name, method, fmt::format("{}", source.takes), figure(sum.value / count),
+                 figure(sum.velocity / count), figure(sum.fast / count),
+                 method == "learned" ? figure(source.within / count) : ""});
+      fmt::print("{:8} {:12} {:4}  {:.3f} {:.3f} {:.3f}\n", name, method, source.takes,
+                 sum.value / count, sum.velocity / count, sum.fast / count);
+    }
+  }
+  table.close();
+}
+
+const Registration registration("page_any_pairs", experiment);
+
+}  // namespace
+}  // namespace kinemend::papers

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace kinemend {
+
+/// Rows of `width` numbers lie one behind the other about `middle`. Writes taps[0] middle + the sum
+/// over k of taps[k] (row k before + row k behind). Every processor gives the same numbers.
+void sum_rows(const float* middle, std::size_t width, std::span<const float> taps, float* result);
+
+}  // namespace kinemend
