@@ -23,16 +23,6 @@ void add_noise(TrackHealth& track, double noise, double limit, std::size_t frame
                              noise, report.noise_unit, "jitters from frame to frame"});
 }
 
-void add_slow_noise_findings(std::size_t frames, CheckReport& report) {
-  for (const NoiseCharacter& noise : report.noise) {
-    const bool is_of_tracks = report.is_markers == (noise.space == Space::position);
-    if (!noise.is_expected || !is_of_tracks) continue;
-    report.findings.push_back({FindingKind::noise, Severity::warning, "", 0, frames - 1,
-                               noise.strength, report.noise_unit,
-                               "is off slowly, as takes of markerless video are"});
-  }
-}
-
 // One finding for each run of frames, as `clean` repairs and counts them.
 void add_spikes(TrackHealth& track, const std::string& name,
                 const std::map<std::size_t, double>& sizes, const std::string& unit,
@@ -95,7 +85,6 @@ void check_noise_and_spikes(const Clip& clip, const CheckSettings& settings, Che
   const Verdict verdict = verdict_of(view_of(clip));
   const std::vector<double>& noise = verdict.trace.noise;
   report.noise = verdict.trace.characters;
-  add_slow_noise_findings(frames, report);
   for (std::size_t j = 0; j < joints && !noise.empty(); ++j)
     add_noise(report.tracks[j], noise[j], settings.noise_deg, frames, report);
   for (std::size_t j = 0; j < joints; ++j)
@@ -113,7 +102,6 @@ void check_noise_and_spikes(const MarkerClip& clip, const std::vector<std::size_
   const Verdict verdict = verdict_of(view_of(clip));
   const std::vector<double>& noise = verdict.trace.noise;
   report.noise = verdict.trace.characters;
-  add_slow_noise_findings(frames, report);
   // Without a unit there is no limit to compare with.
   const double limit = report.metres_per_unit > 0
                            ? 0.01 * settings.noise_cm / report.metres_per_unit

@@ -23,6 +23,7 @@ GOOD = """#!/bin/bash
 words=("$@"); out=
 for ((i = 1; i < $#; i++)); do case "${words[i]}" in -o|--report|--plan-out) out=${words[i+1]}; echo 1 > "$out";; esac; done
 [ "$1" = convert ] && echo 1 > "$3"
+[ "$1" = convert ] && [ "${3##*.}" = glb ] && printf 'glTF\\2\\0\\0\\0\\30\\0\\0\\0\\4\\0\\0\\0JSON{}  ' > "$3"
 [ "$1" = batch ] && { rm -f out; echo "kinemend: no" >&2; exit 3; }
 %s
 exit 0
