@@ -1,11 +1,11 @@
-// Figures of docs/methods/learned.md: noise of every kind on takes that no model that ships has
-// seen, and what happens to takes that are clean.
+// Figures of docs/methods/learned.md: noise of every kind on takes that its model has not seen,
+// and what happens to takes that are clean.
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
-#include <memory>
 
+#include "base/quantiles.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "kinemend/rotation.hpp"
 #include "page.hpp"
@@ -148,11 +148,6 @@ void white_and_spikes(const Arguments& arguments) {
   table.close();
 }
 
-double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
-}
-
 // What is done to takes that need nothing.
 void clean_takes(const Arguments& arguments) {
   Table table(arguments, "any_clean.csv", "method,takes,median_deg,worst_deg");
@@ -165,14 +160,15 @@ void clean_takes(const Arguments& arguments) {
   if (arguments.quick || names.empty()) names = {"walk"};
   for (const std::string& method : methods_compared) {
     std::vector<double> changes;
-    std::string worst;
     for (const std::string& name : names) {
       const Clip clip = load_take(arguments, name + ".bvh", {.motion = name}).clip;
       changes.push_back(geodesic_rms_deg(clip, cleaned(clip, method)));
-      if (changes.back() == *std::max_element(changes.begin(), changes.end())) worst = name;
     }
-    const double median = quantile(changes, 0.5), most = quantile(changes, 1);
-    fmt::print("clean: {:10} median {:.4f} deg, most {:.3f} ({})\n", method, median, most, worst);
+    const auto worst = std::max_element(changes.begin(), changes.end());
+    const std::string& worst_name = names[static_cast<std::size_t>(worst - changes.begin())];
+    const double most = *worst, median = upper_median_of(changes);
+    fmt::print("clean: {:10} median {:.4f} deg, most {:.3f} ({})\n", method, median, most,
+               worst_name);
     table.add({method, fmt::format("{}", names.size()), figure(median), figure(most)});
   }
   table.close();

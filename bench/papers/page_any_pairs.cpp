@@ -143,7 +143,7 @@ void add_pair(const AnyClip& noisy, const AnyClip& reference, double least_deg, 
     clean_in_place(*make_cleaner(method, options), result);
     return errors_of(channels_of(tracks, result), pair);
   };
-  const Errors untouched = errors_of(channels_of(tracks, noisy), pair);
+  const Errors untouched = errors_of(pair.take.values, pair);
   const auto add = [&](const std::string& name, const Errors& errors) {
     Errors& sum = source.shares[name];
     const Errors share = share_of(errors, untouched);

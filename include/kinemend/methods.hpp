@@ -198,7 +198,7 @@ std::unique_ptr<Cleaner> make_recurrent(const RecurrentOptions& options = {},
 /// whose joints it recognises. Takes that are shorter than half a second, or slower than 20 Hz, are
 /// cleaned by `auto`. Errors: `ErrorKind::usage` for a model of another method.
 struct LearnedOptions {
-  std::string model{};  ///< a file made by `kinemend-train learned`; empty: ships
+  std::string model{};  ///< a file made by `kinemend-train learned`; empty: what ships
   std::string map{};    ///< file that maps names in the take to names in the model
 };
 std::unique_ptr<Cleaner> make_learned(const LearnedOptions& options = {},
