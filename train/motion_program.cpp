@@ -87,6 +87,7 @@ void train(const Arguments& arguments) {
     if (!kept.empty()) {
       MotionSampling sampling = arguments.training.sampling;
       sampling.pair_share = 1;
+      sampling.clean_share = 0;
       text += fmt::format(
           "  pairs {:.4f}",
           trainer.share_left(sequences, kept, sampling, validation_samples, validation_seed));

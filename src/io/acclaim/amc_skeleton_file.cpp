@@ -90,6 +90,10 @@ fs::path find_skeleton_file(std::string_view amc_name, std::string_view named_in
 
 fs::path skeleton_place(const fs::path& output, std::string_view named_inside,
                         std::string_view asf_bytes, const std::string& usual_name) {
+  const fs::path parent = output.parent_path();
+  const std::string stem = output.stem().string();
+  // Before looking inside one: a take that is written meanwhile may put this skeleton there.
+  const std::vector<fs::path> files = asf_files_in(parent.empty() ? fs::path(".") : parent);
   const auto holds_it = [&](const fs::path& path) {
     std::error_code error;
     const auto size = fs::file_size(path, error);
@@ -100,9 +104,6 @@ fs::path skeleton_place(const fs::path& output, std::string_view named_inside,
   } catch (const Error&) {
     // There is none yet.
   }
-  const fs::path parent = output.parent_path();
-  const std::string stem = output.stem().string();
-  const std::vector<fs::path> files = asf_files_in(parent.empty() ? fs::path(".") : parent);
   const auto is_there = [&](const std::string& name) {
     return std::any_of(files.begin(), files.end(), [&](const fs::path& file) {
       return equal_ignoring_case(file.filename().string(), name);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "kinemend/experimental/signal.hpp"
@@ -119,7 +120,7 @@ struct DamagedStretch {
     if (random.chance(0.15))
       apply("gaps",
             {{"start_probability", log_uniform(random, 0.001, 0.01)},
-             {"mean_length_s", log_uniform(random, 0.02, 1)},
+             {"mean_length_s", log_uniform(random, 0.02, 1.5)},
              {"scope", std::string("joint")}},
             random);
   }
@@ -143,6 +144,29 @@ struct DamagedStretch {
       low_pass(poses, 1 + static_cast<int>(random.below(3)), random.uniform(3, 12), rate_hz);
   }
 };
+
+// Clean takes are not all alike: optical ones come low-passed too, and what a body does may be
+// regular and fast (a tremor, a drum roll, breathing).
+void vary_motion(PoseMatrix& poses, double rate_hz, Random& random) {
+  if (random.chance(0.2))
+    low_pass(poses, 1 + static_cast<int>(random.below(3)), log_uniform(random, 4, 20), rate_hz);
+  if (!random.chance(0.1)) return;
+  const double frequency_hz = log_uniform(random, 0.2, 12), share = random.uniform(0.05, 0.5);
+  const double largest_deg = log_uniform(random, 0.1, 20) / std::max(1.0, frequency_hz / 2);
+  const std::size_t frames = poses.frames, first = random.below(frames),
+                    last = first + random.below(frames - first) + 1;
+  const auto ramp = 0.3 * rate_hz;  // frames that it takes to set in
+  constexpr double turn = 2 * std::numbers::pi;
+  for (std::size_t c = 0; c < poses.channels; ++c) {
+    if (!random.chance(share)) continue;
+    const double size = largest_deg * random.uniform(0.1, 1), outset = random.uniform(0, turn);
+    for (std::size_t f = first; f < last; ++f) {
+      const auto inside = static_cast<double>(std::min(f - first, last - 1 - f));
+      poses(f, c) += size * std::min(1.0, inside / ramp) *
+                     std::sin(outset + turn * frequency_hz * static_cast<double>(f) / rate_hz);
+    }
+  }
+}
 
 // Turned axes for a track, drawn evenly.
 Quat random_turn(Random& random) {
@@ -221,6 +245,7 @@ MotionSample random_damage(const TrainingSequences& sequences, const BodyMirror&
   const std::vector<float> shown =
       in_form(std::vector<float>(poses.values.begin(), poses.values.end()), form, mirror);
   poses.values.assign(shown.begin(), shown.end());
+  vary_motion(poses, rate_hz, random);
   const bool is_known = random.chance(0.7);
   if (!is_known && random.chance(0.7)) turn_axes(poses, random);
 
@@ -268,12 +293,14 @@ const MotionPair& drawn_pair(std::span<const MotionPair> pairs, Random& random) 
                                         ends.begin())];
 }
 
-// A stretch of a pair, its channels turned over and scaled at random.
+// A stretch of a pair, its channels turned over and scaled at random. In a share of them the
+// reference is what is shown: a clean take, low-passed as optical ones are.
 MotionSample random_pair(const MotionPair& pair, std::size_t channels,
                          const MotionSampling& sampling, Random random) {
   const MotionTake& whole = pair.sample.take;
   const std::size_t frames = std::min(frames_of(sampling, whole.frame_rate_hz), whole.frames);
   const std::size_t first = random.below(whole.frames - frames + 1);
+  const bool is_clean = random.chance(sampling.clean_share);
   MotionSample sample;
   MotionTake& take = sample.take;
   take.frames = frames;
@@ -283,7 +310,9 @@ MotionSample random_pair(const MotionPair& pair, std::size_t channels,
   take.slots.assign(channels, -1);
   take.is_position.assign(channels, 0);
   sample.truth = take.values;
-  if (!whole.missing.empty()) take.missing.assign(take.values.size(), 0);
+  const std::vector<float>& seen = is_clean ? pair.sample.truth : whole.values;
+  const bool has_gaps = !is_clean && !whole.missing.empty();
+  if (has_gaps) take.missing.assign(take.values.size(), 0);
   const auto scale = static_cast<float>(std::exp(0.2 * random.normal()));
   const std::size_t shown = std::min(whole.channels, channels);
   for (std::size_t c = 0; c < shown; ++c) {
@@ -291,9 +320,9 @@ MotionSample random_pair(const MotionPair& pair, std::size_t channels,
     take.is_position[c] = whole.is_position[c];
     for (std::size_t f = 0; f < frames; ++f) {
       const std::size_t from = (first + f) * whole.channels + c, to = f * channels + c;
-      take.values[to] = factor * whole.values[from];
+      take.values[to] = factor * seen[from];
       sample.truth[to] = factor * pair.sample.truth[from];
-      if (!whole.missing.empty()) take.missing[to] = whole.missing[from];
+      if (has_gaps) take.missing[to] = whole.missing[from];
     }
   }
   if (random.chance(0.5)) {

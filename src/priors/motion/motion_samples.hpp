@@ -39,7 +39,7 @@ MotionPair mapped_pair(MotionPair pair, double least_deg);
 struct MotionSampling {
   std::size_t steps = 128;     ///< of a sample
   double pair_share = 0.25;    ///< of samples that are pairs, where there are some
-  double clean_share = 0.2;    ///< of the others
+  double clean_share = 0.2;    ///< of them that are clean
   double live_share = 0.15;    ///< of samples whose noise is not measured
   bool has_slow_noise = true;  ///< low-passed noise, and takes filtered after they were damaged
 };
