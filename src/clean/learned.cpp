@@ -8,6 +8,7 @@
 #include "base/progress.hpp"
 #include "base/quantiles.hpp"
 #include "clean/auto_scale.hpp"
+#include "clean/learned_body.hpp"
 #include "clean/motion_channels.hpp"
 #include "clean/pieces.hpp"
 #include "clean/prior_cleaning.hpp"
@@ -34,76 +35,6 @@ const OptionTable<LearnedOptions>& learned_table() {
           .text(&LearnedOptions::map, "map",
                 "file that maps names in the take to names in the model");
   return options;
-}
-
-// The joints of a take that the model knows, as its channels.
-struct KnownBody {
-  BodyMatch match;
-  Clip clip;  // without spikes
-  BodyChannels channels;
-  std::vector<std::int32_t> track_of;  // N and the place: the track among those cleaned, or -1
-};
-
-// Whether a part stays where its channels can say what it does.
-bool is_tame(const BodyChannels& body, std::size_t part) {
-  constexpr double most_step_deg = 60;
-  const auto vector_at = [&](std::size_t frame) {
-    return Vec3{body.poses(frame, 3 * part), body.poses(frame, 3 * part + 1),
-                body.poses(frame, 3 * part + 2)};
-  };
-  for (std::size_t f = 0; f < body.poses.frames; ++f) {
-    if (norm(vector_at(f)) > degrees_per_radian * tangent_limit_rad) return false;
-    if (f > 0 && norm(vector_at(f) - vector_at(f - 1)) > most_step_deg) return false;
-  }
-  return true;
-}
-
-// Nothing where the model knows too little of the take.
-std::optional<KnownBody> known_body(const BodyLayout& layout, const NameMap& names,
-                                    const TakeView& view, const MotionTracks& tracks) {
-  if (view.joints == nullptr || layout.kind != BodyKind::joints) return std::nullopt;
-  KnownBody body;
-  try {
-    body.match = match_body(layout, *view.joints, names);
-  } catch (const Error&) {
-    if (!names.empty()) throw;
-    return std::nullopt;
-  }
-  body.clip = *view.joints;
-  for (std::size_t n = 0; n < tracks.numbers.size(); ++n) {
-    const CleanedTrack steady = cleaned_track(tracks, view, n, tracks.take.values);
-    if (steady.positions.empty()) {
-      set_track(body.clip, tracks.numbers[n], steady.rotations);
-    } else {
-      set_track(body.clip, tracks.numbers[n], steady.positions);
-    }
-  }
-  body.channels = encode_body(body.clip, layout, body.match);
-  const std::size_t parts = body.channels.poses.channels / 3;
-  body.track_of.assign(parts, -1);
-  // The place stays what any position is: in the body's frame it would depend on how that turns.
-  for (std::size_t part = 0; part < layout.track_count(); ++part) {
-    if (body.match.tracks[part] < 0) continue;
-    const auto number = static_cast<std::size_t>(body.match.tracks[part]);
-    const auto found = std::find(tracks.numbers.begin(), tracks.numbers.end(), number);
-    if (found == tracks.numbers.end() || !is_tame(body.channels, part)) continue;
-    body.track_of[part] = static_cast<std::int32_t>(found - tracks.numbers.begin());
-  }
-  return body;
-}
-
-// Channels of the body take the place of those that know nothing of it.
-void show_body(const KnownBody& body, MotionTake& take) {
-  for (std::size_t part = 0; part < body.track_of.size(); ++part) {
-    if (body.track_of[part] < 0) continue;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::size_t slot = 3 * part + axis;
-      const std::size_t c = 3 * static_cast<std::size_t>(body.track_of[part]) + axis;
-      take.slots[c] = static_cast<std::int32_t>(slot);
-      for (std::size_t f = 0; f < take.frames; ++f)
-        take.values[f * take.channels + c] = static_cast<float>(body.channels.poses(f, slot));
-    }
-  }
 }
 
 // Mean squares per axis of a track, degrees squared.
@@ -254,19 +185,9 @@ class Learned final : public Cleaner {
                  const TrackSink& sink) const {
     std::vector<std::uint8_t> is_body(tracks.numbers.size());
     if (body) {
-      std::vector<std::uint8_t> chosen;
-      for (std::size_t part = 0; part < body->track_of.size(); ++part) {
-        const std::int32_t n = body->track_of[part];
-        chosen.push_back(n >= 0 ? 1 : 0);
-        if (n < 0) continue;
-        is_body[static_cast<std::size_t>(n)] = 1;
-        for (std::size_t f = 0; f < view.frames; ++f) {
-          for (std::size_t axis = 0; axis < 3; ++axis)
-            body->channels.poses(f, 3 * part + axis) = static_cast<double>(
-                result.values[f * tracks.take.channels + 3 * static_cast<std::size_t>(n) + axis]);
-        }
-      }
-      decode_body(body->channels, model_->layout, body->match, body->clip, chosen);
+      decode_known_body(*body, model_->layout, tracks.take, result.values);
+      for (const std::int32_t n : body->track_of)
+        if (n >= 0) is_body[static_cast<std::size_t>(n)] = 1;
     }
     const TakeView decoded = body ? view_of(body->clip) : TakeView{};
     for (std::size_t n = 0; n < tracks.numbers.size(); ++n) {
