@@ -22,13 +22,16 @@ void take_values(const Tensor& from, torch::Tensor& target, const std::string& n
 }
 
 // Frames t - d, t and t + d of each frame side by side, zeros beyond the ends.
-torch::Tensor with_neighbours(const torch::Tensor& x, std::int64_t dilation) {
+torch::Tensor with_neighbours(const torch::Tensor& x, std::int64_t dilation,
+                              const torch::Tensor& looks_ahead) {
   const std::int64_t frames = x.size(-2);
   std::vector<std::int64_t> sizes = x.sizes().vec();
   sizes[sizes.size() - 2] = dilation;
   const torch::Tensor pad = torch::zeros(sizes);
   const torch::Tensor padded = torch::cat({pad, x, pad}, -2);
-  return torch::cat({padded.narrow(-2, 0, frames), x, padded.narrow(-2, 2 * dilation, frames)}, -1);
+  torch::Tensor behind = padded.narrow(-2, 2 * dilation, frames);
+  if (looks_ahead.defined()) behind = behind * looks_ahead;
+  return torch::cat({padded.narrow(-2, 0, frames), x, behind}, -1);
 }
 
 template <class Body>
@@ -61,8 +64,8 @@ torch::Tensor LayerCall::dense(const torch::Tensor& x, const std::string& layer)
 }
 
 torch::Tensor LayerCall::convolution(const torch::Tensor& x, const std::string& layer,
-                                     std::size_t dilation) const {
-  return torch::linear(with_neighbours(x, static_cast<std::int64_t>(dilation)),
+                                     std::size_t dilation, const torch::Tensor& looks_ahead) const {
+  return torch::linear(with_neighbours(x, static_cast<std::int64_t>(dilation), looks_ahead),
                        weights.at(layer + ".weight").flatten(1), weights.at(layer + ".bias"));
 }
 

@@ -25,9 +25,9 @@ struct LayerCall {
 
   torch::Tensor dense(const torch::Tensor& x, const std::string& layer) const;
   /// Of three taps, `dilation` frames apart, over the last dimension but one; zeros beyond the
-  /// ends.
-  torch::Tensor convolution(const torch::Tensor& x, const std::string& layer,
-                            std::size_t dilation) const;
+  /// ends. What it sees ahead counts by `looks_ahead`, 0 or 1 where there is one.
+  torch::Tensor convolution(const torch::Tensor& x, const std::string& layer, std::size_t dilation,
+                            const torch::Tensor& looks_ahead = {}) const;
   torch::Tensor drop(const torch::Tensor& x) const;
 };
 

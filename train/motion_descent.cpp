@@ -25,28 +25,29 @@ torch::Tensor tensor_of(const std::vector<float>& values, std::vector<std::int64
 
 struct Inputs {
   torch::Tensor features, take_features, levels, changes, scales, truth, truth_changes, alive,
-      known;
+      known, looks_ahead;
 
   // At most `count` of them, from the `first` one on.
   Inputs samples(std::size_t first, std::size_t count) const {
     const std::int64_t from = whole(first), n = std::min(whole(count), alive.size(0) - from);
     const auto part = [&](const torch::Tensor& x) { return x.narrow(0, from, n); };
     return {part(features), part(take_features), part(levels), part(changes), part(scales),
-            part(truth),    part(truth_changes), part(alive),  part(known)};
+            part(truth),    part(truth_changes), part(alive),  part(known),   part(looks_ahead)};
   }
 };
 
 Inputs inputs_of(const MotionBatch& batch) {
   const std::int64_t b = whole(batch.samples), c = whole(batch.channels), n = whole(batch.steps);
   return {tensor_of(batch.features, {b, c, n, whole(motion_features)}),
-          tensor_of(batch.take_features, {b, c, whole(motion_take_features)}),
+          tensor_of(batch.take_features, {b, c, n, whole(motion_take_features)}),
           tensor_of(batch.levels, {b, c, n, whole(motion_levels)}),
           tensor_of(batch.changes, {b, c, n, whole(motion_levels)}),
           tensor_of(batch.scales, {b, c, n, whole(motion_scales)}),
           tensor_of(batch.truth, {b, c, n}),
           tensor_of(batch.truth_changes, {b, c, n}),
           tensor_of(batch.alive, {b, c}),
-          tensor_of(batch.known, {b, c})};
+          tensor_of(batch.known, {b, c}),
+          tensor_of(batch.looks_ahead, {b, 1, 1})};
 }
 
 // Changes of a sequence of steps, from the ones before and behind, per 1/120 s.
@@ -69,9 +70,11 @@ struct MotionDescent::Body {
     const std::int64_t encoded = whole(shape.encoded);
     const torch::Tensor alive = in.alive.unsqueeze(2).unsqueeze(3);
     const torch::Tensor known = in.known.unsqueeze(2).unsqueeze(3) * alive;
-    torch::Tensor h = torch::relu(call.convolution(in.features, "encoder", 1) +
-                                  call.dense(in.take_features, "of_take").unsqueeze(2));
-    h = (h + torch::relu(call.convolution(h, "second_encoder", shape.second_dilation))) * alive;
+    const torch::Tensor ahead = in.looks_ahead.unsqueeze(3);
+    torch::Tensor h = torch::relu(call.convolution(in.features, "encoder", 1, ahead) +
+                                  call.dense(in.take_features, "of_take"));
+    h = (h + torch::relu(call.convolution(h, "second_encoder", shape.second_dilation, ahead))) *
+        alive;
     const torch::Tensor count = in.alive.sum(1).clamp_min(1).view({b, 1, 1});
     const torch::Tensor pooled = torch::cat({h.sum(1) / count, (h * h).sum(1) / count}, 2);
     const torch::Tensor per_track =
@@ -89,8 +92,8 @@ struct MotionDescent::Body {
     if (!shape.has_trunk) g = torch::zeros_like(g);
     for (std::size_t i = 0; i < shape.dilations.size(); ++i) {
       const std::string block = fmt::format("block{}", i);
-      const torch::Tensor inner =
-          torch::relu(call.convolution(g, block + ".convolution", shape.dilations[i]));
+      const torch::Tensor inner = torch::relu(
+          call.convolution(g, block + ".convolution", shape.dilations[i], in.looks_ahead));
       g = g + call.dense(call.drop(inner), block + ".dense");
     }
     g = torch::relu(g);

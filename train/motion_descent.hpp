@@ -20,12 +20,14 @@ struct MotionShape {
   bool has_trunk = true;            ///< without one no channel sees another
 };
 
-/// B samples of C = D channels and n steps each; as of `MotionSteps`, one sample behind the other.
+/// B samples of C = D channels and n steps each; as of `MotionSteps`, one sample behind the other,
+/// with features of the take at every step.
 struct MotionBatch {
   std::size_t samples = 0, channels = 0, steps = 0;
   std::vector<float> features, take_features, levels, changes, scales;
   std::vector<float> truth, truth_changes;  ///< B x C x n
   std::vector<float> alive, known;          ///< B x C, 0 or 1
+  std::vector<float> looks_ahead;           ///< B, 0 of samples that are read live
 };
 
 /// How errors count.

@@ -77,21 +77,20 @@ void train(const Arguments& arguments) {
     others = encode_takes(takes_of(lines_of(run.validation)), settings, rate_hz);
   const auto validation = [&] {
     std::string text;
-    if (others && others->layout.channel_count() == sequences.layout.channel_count()) {
-      MotionSampling sampling = arguments.training.sampling;
-      sampling.clean_share = 0;
-      text += fmt::format(
-          "  of the damage: takes {:.4f}",
-          trainer.share_left(*others, {}, sampling, validation_samples, validation_seed));
-    }
-    if (!kept.empty()) {
-      MotionSampling sampling = arguments.training.sampling;
-      sampling.pair_share = 1;
-      sampling.clean_share = 0;
-      text += fmt::format(
-          "  pairs {:.4f}",
-          trainer.share_left(sequences, kept, sampling, validation_samples, validation_seed));
-    }
+    MotionSampling damaged = arguments.training.sampling;
+    damaged.clean_share = damaged.live_share = 0;
+    MotionSampling live = damaged;
+    live.live_share = 1;
+    MotionSampling paired = damaged;
+    paired.pair_share = 1;
+    const auto left = [&](const TrainingSequences& from, const std::vector<MotionPair>& seen,
+                          const MotionSampling& sampling) {
+      return trainer.share_left(from, seen, sampling, validation_samples, validation_seed);
+    };
+    if (others && others->layout.channel_count() == sequences.layout.channel_count())
+      text += fmt::format("  of the damage: takes {:.4f}, live {:.4f}", left(*others, {}, damaged),
+                          left(*others, {}, live));
+    if (!kept.empty()) text += fmt::format("  pairs {:.4f}", left(sequences, kept, paired));
     return text;
   };
   run_steps({trainer.batch(), arguments.training.batches, 0.995, [&] { return trainer.step(); },

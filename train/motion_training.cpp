@@ -1,10 +1,12 @@
 #include "motion_training.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "checkpoint.hpp"
 #include "network_model.hpp"
+#include "priors/motion/live_motion_steps.hpp"
 #include "priors/motion/motion_network.hpp"
 
 namespace kinemend::train {
@@ -25,6 +27,63 @@ void append(std::vector<float>& all, const std::vector<float>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
+// A sample as the network sees it, with features of the take at every step.
+struct ReadSample {
+  MotionSteps steps;
+  std::vector<std::uint8_t> is_alive;
+};
+
+ReadSample read_whole(const MotionTake& take, std::size_t steps) {
+  const MotionReader reader(take);
+  ReadSample read{reader.steps(0, steps), reader.strengths().is_alive};
+  const std::vector<float> of_take = std::move(read.steps.take_features);
+  read.steps.take_features.clear();
+  for (std::size_t c = 0; c < take.channels; ++c) {
+    const auto own = of_take.begin() + static_cast<std::ptrdiff_t>(c * motion_take_features);
+    for (std::size_t s = 0; s < steps; ++s)
+      read.steps.take_features.insert(read.steps.take_features.end(), own,
+                                      own + motion_take_features);
+  }
+  return read;
+}
+
+ReadSample read_live(const MotionTake& take, std::size_t steps) {
+  LiveMotionSteps live(take.frame_rate_hz, take.is_position);
+  ReadSample read;
+  read.steps.resize(take.channels, steps);
+  read.steps.take_features.resize(take.channels * steps * motion_take_features);
+  MotionSteps step;
+  std::size_t done = 0;
+  const auto put = [&](const std::vector<float>& from, std::vector<float>& to) {
+    const std::size_t width = from.size() / take.channels;
+    for (std::size_t c = 0; c < take.channels; ++c)
+      std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(c * width), width,
+                  to.begin() + static_cast<std::ptrdiff_t>((c * steps + done) * width));
+  };
+  const auto take_steps = [&] {
+    while (done < steps && live.next_step(step)) {
+      put(step.features, read.steps.features);
+      put(step.take_features, read.steps.take_features);
+      put(step.levels, read.steps.levels);
+      put(step.changes, read.steps.changes);
+      put(step.scales, read.steps.scales);
+      ++done;
+    }
+  };
+  const std::span<const float> values(take.values);
+  const std::span<const std::uint8_t> missing(take.missing);
+  for (std::size_t f = 0; f < take.frames; ++f) {
+    const std::size_t at = f * take.channels;
+    live.push(values.subspan(at, take.channels),
+              missing.empty() ? missing : missing.subspan(at, take.channels));
+    take_steps();
+  }
+  live.end();
+  take_steps();
+  read.is_alive = live.is_alive();
+  return read;
+}
+
 }  // namespace
 
 MotionBatch batch_of(const std::vector<MotionSample>& samples, std::size_t steps) {
@@ -34,16 +93,16 @@ MotionBatch batch_of(const std::vector<MotionSample>& samples, std::size_t steps
   batch.steps = steps;
   for (const MotionSample& sample : samples) {
     const MotionTake& take = sample.take;
-    const MotionReader reader(take);
-    const MotionSteps part = reader.steps(0, steps);
-    append(batch.features, part.features);
-    append(batch.take_features, reader.strengths().features);
-    append(batch.levels, part.levels);
-    append(batch.changes, part.changes);
-    append(batch.scales, part.scales);
+    const ReadSample read = sample.is_live ? read_live(take, steps) : read_whole(take, steps);
+    append(batch.features, read.steps.features);
+    append(batch.take_features, read.steps.take_features);
+    append(batch.levels, read.steps.levels);
+    append(batch.changes, read.steps.changes);
+    append(batch.scales, read.steps.scales);
+    batch.looks_ahead.push_back(sample.is_live ? 0.0F : 1.0F);
     const auto speed = static_cast<float>(take.frame_rate_hz / 120);
     for (std::size_t c = 0; c < take.channels; ++c) {
-      batch.alive.push_back(reader.strengths().is_alive[c] != 0 ? 1.0F : 0.0F);
+      batch.alive.push_back(read.is_alive[c] != 0 ? 1.0F : 0.0F);
       batch.known.push_back(take.slots[c] >= 0 ? 1.0F : 0.0F);
       for (std::size_t s = 0; s < steps; ++s) {
         const std::size_t frame = take.frame_of_step(s),

@@ -43,6 +43,8 @@ int main(int count, char** values) {
   for (const float value : take.values)
     take.measured.push_back(value + static_cast<float>(random.normal()));
   const std::vector<float> outputs = network.outputs(train::batch_of({sample}, steps));
+  sample.is_live = true;
+  const std::vector<float> live_outputs = network.outputs(train::batch_of({sample}, steps));
   TensorFile file;
   file.tensors = network.averages();
   const auto put = [&](const char* name, const std::vector<float>& from) {
@@ -55,6 +57,7 @@ int main(int count, char** values) {
   put("measured", take.measured);
   put("missing", {take.missing.begin(), take.missing.end()});
   put("outputs", outputs);
+  put("live_outputs", live_outputs);
   file.metadata["made by"] = "train/reference_motion_network.cpp";
   std::ofstream(values[1], std::ios::binary) << write_tensors(file);
 }

@@ -200,12 +200,15 @@ std::unique_ptr<Cleaner> make_recurrent(const RecurrentOptions& options = {},
 struct LearnedOptions {
   std::string model{};  ///< a file made by `kinemend-train learned`; empty: what ships
   std::string map{};    ///< file that maps names in the take to names in the model
+  /// Frame by frame, 0.117 s behind (at most 14 frames): no rules of spikes, no noise that is
+  /// measured first. A take is then cleaned as a stream of its frames would be.
+  bool live = false;
 };
 std::unique_ptr<Cleaner> make_learned(const LearnedOptions& options = {},
                                       std::shared_ptr<const Model> model = nullptr);
 
 /// The way to fill gaps of joints by a network of Mall et al. 2017 (their EBD), for
-/// `FillSettings::learned`. None ships: `kinemend-train paper --network ebd --head pose` makes
+/// `FillModels::recurrent`. None ships: `kinemend-train paper --network ebd --head pose` makes
 /// one. The root, joints that the model does not know, joints that turn farther from its mean than
 /// rotation vectors can say, and takes at another rate than the model's are left out. Errors:
 /// `ErrorKind::usage` for a model that fills no gaps, and, of a call, for a take with too few of
@@ -216,6 +219,11 @@ struct RecurrentFillOptions {
 };
 LearnedFill make_recurrent_fill(const RecurrentFillOptions& options,
                                 std::shared_ptr<const Model> model = nullptr);
+
+/// The same by the network of `make_learned`, for `FillModels::learned`. It fills rotations of any
+/// skeleton. Takes that are shorter than half a second, or slower than 20 Hz, are left out.
+LearnedFill make_learned_fill(const LearnedOptions& options = {},
+                              std::shared_ptr<const Model> model = nullptr);
 
 /// Kalman filter or smoother with system matrices learned from clips (Lou & Chai 2010, section
 /// 4.2). No model ships.

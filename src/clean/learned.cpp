@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "base/progress.hpp"
-#include "base/quantiles.hpp"
 #include "clean/auto_scale.hpp"
 #include "clean/learned_body.hpp"
+#include "clean/learned_errors.hpp"
+#include "clean/learned_live.hpp"
+#include "clean/live_cleaning.hpp"
 #include "clean/motion_channels.hpp"
 #include "clean/pieces.hpp"
 #include "clean/prior_cleaning.hpp"
@@ -17,6 +19,7 @@
 #include "kinemend/experimental/representation.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/options.hpp"
+#include "priors/motion/live_motion_steps.hpp"
 #include "priors/motion/measured_smoothing.hpp"
 #include "priors/motion/motion_filter.hpp"
 
@@ -24,68 +27,20 @@ namespace kinemend {
 
 namespace {
 
-// Of what the network has learned from.
-constexpr double shortest_take_s = 0.5, lowest_rate_hz = 20;
-
 const OptionTable<LearnedOptions>& learned_table() {
   static const auto options =
       OptionTable<LearnedOptions>()
           .text(&LearnedOptions::model, "model",
                 "model file made by kinemend-train learned; empty: the model that ships")
           .text(&LearnedOptions::map, "map",
-                "file that maps names in the take to names in the model");
+                "file that maps names in the take to names in the model")
+          .flag(&LearnedOptions::live, "live", "live form: looks an eighth of a second ahead");
   return options;
 }
 
-// Mean squares per axis of a track, degrees squared.
-struct TrackError {
-  double removed = 0, left = 0;
-  double quick = 0;        ///< of what was removed, what is not the same a little later
-  double correlation = 0;  ///< of what was removed, from frame to frame
-
-  double all() const { return removed + left; }
-};
-
-TrackError track_error(const MotionTake& take, const MotionResult& result, std::size_t track) {
-  constexpr double a_little_s = 0.04;
-  const auto later = static_cast<std::size_t>(std::ceil(a_little_s * take.frame_rate_hz));
-  TrackError error;
-  const auto change = [&](std::size_t i) {
-    return static_cast<double>(result.values[i] - take.values[i]);
-  };
-  double samples = 0;  // of axes that move
-  for (std::size_t f = 0; f < take.frames; ++f) {
-    for (std::size_t c = 3 * track; c < 3 * track + 3; ++c) {
-      const std::size_t i = f * take.channels + c;
-      if (result.deviation[i] == 0) continue;
-      samples += 1;
-      error.removed += change(i) * change(i);
-      error.left += static_cast<double>(result.deviation[i]) * result.deviation[i];
-      if (f < later) continue;
-      const double difference = change(i) - change(i - later * take.channels);
-      error.quick += 0.5 * difference * difference;
-    }
-  }
-  samples = std::max(samples, 1.0);
-  error.removed /= samples, error.left /= samples, error.quick /= samples;
-  if (error.removed > error.quick)
-    error.correlation = std::pow(1 - error.quick / error.removed, 1 / static_cast<double>(later));
-  return error;
-}
-
-// Of the middle track, degrees per axis; 0 where errors are small or show from frame to frame.
-double slow_noise(const std::vector<TrackError>& errors) {
-  constexpr double least_deg = 1, most_quick_share = 0.25;
-  std::vector<double> sizes, quick;
-  for (const TrackError& error : errors) {
-    if (error.left == 0) continue;
-    sizes.push_back(std::sqrt(error.all()));
-    quick.push_back(error.quick / error.all());
-  }
-  if (sizes.empty()) return 0;
-  const double size = median_of(sizes);
-  return size >= least_deg && median_of(quick) <= most_quick_share ? size : 0;
-}
+constexpr const char* live_needs =
+    "learned runs live in its live form (--live), an eighth of a second behind; without it, the "
+    "whole take is seen first";
 
 class Learned final : public Cleaner {
  public:
@@ -97,7 +52,7 @@ class Learned final : public Cleaner {
   CleanTrace clean(const TakeView& view, const TrackSink& sink,
                    const std::function<void(double)>& tell) const override {
     CleanTrace trace;
-    if (const std::string reason = why_not(view); !reason.empty())
+    if (const std::string reason = why_not_learned(view); !reason.empty())
       return clean_by_auto(view, reason, sink, tell);
     ShareProgress progress(tell);
     progress.begin_part(0.3, 1);
@@ -118,6 +73,9 @@ class Learned final : public Cleaner {
     progress.step();
     return trace;
   }
+  LiveSupport live_support(double) const override {
+    return {LiveSupport::Kind::none, 0, 0, live_needs};
+  }
 
  private:
   // How bodies travel through the world is nothing that the network has learned from: places of
@@ -134,13 +92,6 @@ class Learned final : public Cleaner {
         }
       }
     }
-  }
-
-  static std::string why_not(const TakeView& view) {
-    if (static_cast<double>(view.frames) < shortest_take_s * view.frame_rate_hz)
-      return "the take is shorter than half a second";
-    if (view.frame_rate_hz < lowest_rate_hz) return "the frame rate is below 20 Hz";
-    return {};
   }
 
   static CleanTrace clean_by_auto(const TakeView& view, const std::string& reason,
@@ -212,6 +163,35 @@ class Learned final : public Cleaner {
   MotionNetwork network_;
 };
 
+// The same network, none of whose layers looks ahead.
+class LiveLearned final : public Cleaner {
+ public:
+  LiveLearned(const LearnedOptions& options, std::shared_ptr<const Model> model)
+      : model_(std::move(model)),
+        names_(name_map_at(options.map)),
+        network_(live_form(motion_network_of(*model_))) {}
+
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>& progress) const override {
+    if (take.frame_rate_hz < lowest_learned_rate_hz)
+      throw Error(ErrorKind::usage, "learned runs live at 20 Hz and more");
+    return clean_as_live(*this, take, sink, progress);
+  }
+  LiveSupport live_support(double frame_rate_hz) const override {
+    if (frame_rate_hz < lowest_learned_rate_hz)
+      return {LiveSupport::Kind::none, 0, 0, "learned runs live at 20 Hz and more"};
+    return {LiveSupport::Kind::delayed, 0, live_motion_ahead(frame_rate_hz), {}};
+  }
+  std::unique_ptr<DelayedFilter> make_delayed_filter(const TakeView& like) const override {
+    return make_learned_live(network_, model_->layout, names_, like);
+  }
+
+ private:
+  std::shared_ptr<const Model> model_;
+  NameMap names_;
+  MotionNetwork network_;
+};
+
 }  // namespace
 
 Method learned_method() {
@@ -226,7 +206,9 @@ Method learned_method() {
 std::unique_ptr<Cleaner> make_learned(const LearnedOptions& options,
                                       std::shared_ptr<const Model> model) {
   learned_table().validate(options);
-  return std::make_unique<Learned>(options, model_for("learned", options.model, std::move(model)));
+  model = model_for("learned", options.model, std::move(model));
+  if (options.live) return std::make_unique<LiveLearned>(options, std::move(model));
+  return std::make_unique<Learned>(options, std::move(model));
 }
 
 }  // namespace kinemend

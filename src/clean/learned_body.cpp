@@ -24,7 +24,24 @@ bool is_tame(const BodyChannels& body, std::size_t part) {
   return true;
 }
 
+void see_everywhere(const MotionTracks& tracks, Clip& clip) {
+  const std::size_t joints = clip.joint_count(), positions = 1 + clip.translated_joints.size();
+  for (const std::size_t number : tracks.numbers) {
+    const bool turns = number < joints;
+    std::vector<std::uint8_t>& observed = turns ? clip.observed : clip.observed_positions;
+    const std::size_t width = turns ? joints : positions, at = turns ? number : number - joints;
+    for (std::size_t i = at; i < observed.size(); i += width) observed[i] = 1;
+  }
+}
+
 }  // namespace
+
+std::string why_not_learned(const TakeView& view) {
+  if (static_cast<double>(view.frames) < shortest_learned_take_s * view.frame_rate_hz)
+    return "the take is shorter than half a second";
+  if (view.frame_rate_hz < lowest_learned_rate_hz) return "the frame rate is below 20 Hz";
+  return {};
+}
 
 std::optional<KnownBody> known_body(const BodyLayout& layout, const NameMap& names,
                                     const TakeView& view, const MotionTracks& tracks) {
@@ -45,6 +62,9 @@ std::optional<KnownBody> known_body(const BodyLayout& layout, const NameMap& nam
       set_track(body.clip, tracks.numbers[n], steady.positions);
     }
   }
+  // Bridges count as measured: channels would hold the last sample before a gap, and the network
+  // has learned from bridges.
+  see_everywhere(tracks, body.clip);
   body.channels = encode_body(body.clip, layout, body.match);
   const std::size_t parts = body.channels.poses.channels / 3;
   body.track_of.assign(parts, -1);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "clean/motion_channels.hpp"
@@ -12,6 +13,12 @@
 
 // The joints of a take that the model of `learned` knows, as channels of its body, and back.
 namespace kinemend {
+
+/// Of what the network has learned from.
+inline constexpr double shortest_learned_take_s = 0.5, lowest_learned_rate_hz = 20;
+
+/// Why the method has no say in a take; empty: it has one.
+std::string why_not_learned(const TakeView& view);
 
 struct KnownBody {
   BodyMatch match;

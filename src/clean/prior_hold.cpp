@@ -17,7 +17,7 @@ constexpr double most_deviations = 1;  // of the noise, from what `auto` makes o
 // A measurement is far from another result beyond so many medians of its channel's distances, and
 // beyond so much.
 constexpr double far_medians = 8, least_far_deg = 8;
-constexpr double dense_share = 0.02;  // a share that `auto` does not repair well
+constexpr double crowded_share = 0.02;  // a share that `auto` does not repair well
 
 // What is to be added to a channel: at held samples as given, between them on the straight line,
 // and nothing where none is held.
@@ -99,7 +99,7 @@ double suspect_share(const PriorWork& work, const PoseMatrix& result) {
 }
 
 void settle_needs(PriorWork& work, PriorHold hold) {
-  if (hold == PriorHold::nothing || suspect_share(work, work.fallback) > dense_share) {
+  if (hold == PriorHold::nothing || suspect_share(work, work.fallback) > crowded_share) {
     work.is_whole = true;
     std::fill(work.needs.begin(), work.needs.end(), 1.0);
   } else if (hold == PriorHold::white_noise && !work.is_white) {

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "clean/live_cleaning.hpp"
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
 #include "clean/prior_fall_backs.hpp"

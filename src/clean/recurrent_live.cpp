@@ -7,8 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/progress.hpp"
-#include "clean/pieces.hpp"
 #include "clean/recurrent_networks.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/representation.hpp"
@@ -183,33 +181,6 @@ std::unique_ptr<DelayedFilter> make_recurrent_live(const FilterNetwork& network,
                             network.rate_hz, like.frame_rate_hz));
   }
   return std::make_unique<RecurrentLive>(network, layout, names, like);
-}
-
-CleanTrace clean_as_live(const Cleaner& cleaner, const TakeView& take, const TrackSink& sink,
-                         const std::function<void(double)>& tell) {
-  const auto filter = cleaner.make_delayed_filter(take);
-  std::vector<std::size_t> turning;
-  for (std::size_t n = 0; n < take.owners; ++n) {
-    if (take.tracks[n].selected) turning.push_back(n);
-  }
-  std::vector<std::vector<Quat>> results(take.tracks.size());
-  for (const std::size_t n : turning) results[n].reserve(take.frames);
-  Frame out;
-  const auto keep = [&] {
-    for (const std::size_t n : turning) results[n].push_back(out.rotations[n]);
-  };
-  ShareProgress progress(tell);
-  progress.begin_part(1, take.frames);
-  for (std::size_t f = 0; f < take.frames; ++f) {
-    if (filter->push(frame_of(take, f), out)) keep();
-    progress.step();
-  }
-  while (filter->flush(out)) keep();
-  for (const std::size_t n : turning) {
-    if (results[n] != rotations_of(take.tracks[n]))
-      sink(n, assemble({n, 0, std::move(results[n]), observed_of(take.tracks[n]), {}}));
-  }
-  return {};
 }
 
 }  // namespace kinemend

@@ -18,8 +18,4 @@ std::unique_ptr<DelayedFilter> make_recurrent_live(const FilterNetwork& network,
                                                    const BodyLayout& layout, const NameMap& names,
                                                    const TakeView& like);
 
-/// Runs such a filter over a take, and hands over the joints that may change.
-CleanTrace clean_as_live(const Cleaner& cleaner, const TakeView& take, const TrackSink& sink,
-                         const std::function<void(double)>& tell);
-
 }  // namespace kinemend

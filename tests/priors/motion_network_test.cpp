@@ -37,6 +37,10 @@ MotionTake swinging(std::size_t frames, double rate_hz, double noise_deg) {
   return take;
 }
 
+MotionChannels told_of(const MotionReader& reader) {
+  return {reader.take().slots, reader.strengths().is_alive};
+}
+
 TEST(SmootherBank, KeepsStraightLinesUpToTheirEnds) {
   for (const double rate_hz : {25.0, 60.0, 120.0, 240.0}) {
     const SmootherBank bank(rate_hz);
@@ -99,7 +103,8 @@ TEST(MotionNetwork, AgreesWithLibTorchOnTheSameWeights) {
   const MotionReader reader(take);
   const std::vector<double>& expected = model.tensors.at("outputs").values;
   const std::size_t steps = expected.size() / take.channels / motion_outputs;
-  const std::vector<float> outputs = run(motion_network_of(model), reader, reader.steps(0, steps));
+  const std::vector<float> outputs =
+      run(motion_network_of(model), told_of(reader), reader.steps(0, steps));
   ASSERT_EQ(outputs.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i)
     ASSERT_NEAR(outputs[i], expected[i], 1e-3) << "number " << i;
@@ -133,10 +138,10 @@ TEST(MotionFilter, MakesTheSameOfPartsAsOfTheWhole) {
   const MotionNetwork network = motion_network_of(small_motion_model());
   const MotionTake take = swinging(4000, 120, 1);
   const MotionReader reader(take);
-  const std::vector<float> whole = run(network, reader, reader.steps(0, 800));
+  const std::vector<float> whole = run(network, told_of(reader), reader.steps(0, 800));
   const std::size_t first = 300, count = 100, reach = network.reach();
   const std::vector<float> part =
-      run(network, reader, reader.steps(first - reach, count + 2 * reach));
+      run(network, told_of(reader), reader.steps(first - reach, count + 2 * reach));
   for (std::size_t c = 0; c < take.channels; ++c) {
     for (std::size_t s = 0; s < count; ++s) {
       for (std::size_t i = 0; i < motion_outputs; ++i) {

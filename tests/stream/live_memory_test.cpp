@@ -10,6 +10,7 @@
 #include "kinemend/experimental/synth.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/stream.hpp"
+#include "priors/motion_support.hpp"
 #include "priors/random_filter_model.hpp"
 
 namespace kinemend::test {
@@ -90,6 +91,23 @@ TEST(RecurrentMemory, TakesNoneOnceItIsWarm) {
     for (std::size_t f = half; f < frames.size(); ++f) stream->push(frames[f], out);
     EXPECT_EQ(memory_taken, before);
   }
+}
+
+TEST(LearnedMemory, TakesNoneOnceItIsWarm) {
+  const Clip clip = synthesize({.motion = "walk", .duration_s = 6, .frame_rate_hz = 120});
+  const TakeView view = view_of(clip);
+  const auto cleaner =
+      make_learned({.live = true}, std::make_shared<const Model>(small_motion_model()));
+  const auto stream = make_stream(*cleaner, clip);
+  Frame out;
+  std::size_t before = 0;
+  for (std::size_t f = 0; f < view.frames; ++f) {
+    const Frame frame = frame_of(view, f);
+    const std::size_t outset = memory_taken;
+    stream->push(frame, out);
+    if (f >= view.frames / 2) before += memory_taken - outset;
+  }
+  EXPECT_EQ(before, 0u);
 }
 
 #endif

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
-#include "nn/activation_kernel.hpp"
+#include "priors/motion/motion_mixes.hpp"
 
 namespace kinemend {
 
@@ -13,49 +13,13 @@ namespace {
 
 constexpr std::size_t steps_filtered_together = 256;
 
-// Of every channel and step: the weights of the levels (C x steps x `motion_levels`), the
-// correction and the deviation.
-struct Mixes {
-  std::vector<float> levels, corrections, deviations;
-};
-
-Mixes mixes_of(std::vector<float> outputs, const MotionSteps& steps) {
-  const std::size_t count = outputs.size() / motion_outputs;
-  Mixes mixes{std::vector<float>(count * motion_levels), std::vector<float>(count),
-              std::vector<float>(count)};
-  for (std::size_t i = 0; i < count; ++i) {
-    float* const own = outputs.data() + i * motion_outputs;
-    const float* const scales = steps.scales.data() + i * motion_scales;
-    for (std::size_t n = 0; n < motion_scales; ++n)
-      mixes.corrections[i] += 0.5F * own[motion_smoothers + n] * scales[n];
-    const float most = *std::max_element(own, own + motion_smoothers);
-    for (std::size_t n = 0; n < motion_smoothers; ++n) own[n] -= most;
-    mixes.deviations[i] = 0.5F * std::clamp(own[motion_outputs - 1], -12.0F, 8.0F);
-  }
-  nn::exp_of(outputs.data(), outputs.size());
-  nn::exp_of(mixes.deviations.data(), count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const float* const weights = outputs.data() + i * motion_outputs;
-    float* const levels = mixes.levels.data() + i * motion_levels;
-    float sum = 0;
-    for (std::size_t n = 0; n < motion_smoothers; ++n) sum += weights[n];
-    for (std::size_t n = 0; n < bank_levels; ++n) levels[n] = weights[n] / sum;
-    levels[bank_levels] = weights[motion_smoothers - 1] / sum;
-    for (std::size_t n = bank_levels; n + 1 < motion_smoothers; ++n) {
-      const std::size_t level = n - bank_levels + 1;
-      levels[level] += 2 * weights[n] / sum;
-      levels[level + 1] -= weights[n] / sum;
-    }
-  }
-  return mixes;
-}
-
 // Frames [first, last) lie between the first and the last of the steps.
 void put_frames(const MotionReader& reader, const MotionSteps& steps, std::vector<float> outputs,
                 std::size_t first, std::size_t last, MotionResult& result) {
   const MotionTake& take = reader.take();
   const std::size_t channels = take.channels, count = last - first;
-  const Mixes mixes = mixes_of(std::move(outputs), steps);
+  MotionMixes mixes;
+  mix(outputs, steps, mixes);
   std::vector<float> level(count * channels);
   const std::vector<float>& measured = take.measured.empty() ? take.values : take.measured;
   for (std::size_t n = 0; n < motion_levels; ++n) {
@@ -108,7 +72,8 @@ MotionResult filtered(const MotionNetwork& network, const MotionTake& take) {
       return std::min(take.frames, static_cast<std::size_t>(std::ceil(frame - 1e-9)));
     };
     const std::size_t end = last + 1 == steps ? take.frames : frame_at(last);
-    put_frames(reader, part, run(network, reader, part), frame_at(first), end, result);
+    put_frames(reader, part, run(network, {take.slots, reader.strengths().is_alive}, part),
+               frame_at(first), end, result);
   });
   return result;
 }

@@ -31,19 +31,21 @@ std::size_t step_reach_of(const nn::Convolution& layer) {
 // What the steps of the take become on their way.
 struct Pass {
   const MotionNetwork& network;
-  const MotionReader& reader;
+  const MotionChannels& told;
   const MotionSteps& steps;
-  std::size_t channels = reader.take().channels, count = steps.count;
+  std::size_t channels = told.slots.size(), count = steps.count;
 
-  bool is_alive(std::size_t channel) const { return reader.strengths().is_alive[channel] != 0; }
+  bool is_alive(std::size_t channel) const { return told.is_alive[channel] != 0; }
 
   // C x steps x encoded; zero where a channel is not alive.
   std::vector<float> encoded() const {
     const std::size_t width = network.encoded();
     std::vector<float> result(channels * count * width, 0.0F), first(count * width);
-    std::vector<float> of_take(channels * width);
-    nn::run(network.of_take, matrix_of(reader.strengths().features, channels, motion_take_features),
-            rows_of(of_take, channels, width));
+    const std::size_t rows = steps.take_features.size() / motion_take_features;
+    const std::size_t rows_of_channel = rows / channels;  // one, or one of each step
+    std::vector<float> of_take(rows * width);
+    nn::run(network.of_take, matrix_of(steps.take_features, rows, motion_take_features),
+            rows_of(of_take, rows, width));
     for (std::size_t c = 0; c < channels; ++c) {
       if (!is_alive(c)) continue;
       const MatrixViewF features{steps.features.data() + c * count * motion_features, count,
@@ -52,7 +54,8 @@ struct Pass {
       for (std::size_t s = 0; s < count; ++s) {
         for (std::size_t i = 0; i < width; ++i) {
           float& value = first[s * width + i];
-          value = std::max(0.0F, value + of_take[c * width + i]);
+          const std::size_t row = c * rows_of_channel + s % rows_of_channel;
+          value = std::max(0.0F, value + of_take[row * width + i]);
         }
       }
       float* const own = result.data() + c * count * width;
@@ -62,54 +65,16 @@ struct Pass {
     return result;
   }
 
-  // steps x D (encoded + 2): the channels of the body, in its order.
-  std::vector<float> body_input(const std::vector<float>& encoded) const {
-    const std::size_t width = network.encoded(), row = network.slots * (width + 2);
-    std::vector<float> result(count * row, 0.0F);
-    for (std::size_t c = 0; c < channels; ++c) {
-      if (reader.take().slots[c] < 0 || !is_alive(c)) continue;
-      const auto slot = static_cast<std::size_t>(reader.take().slots[c]);
-      for (std::size_t s = 0; s < count; ++s) {
-        const float* const own = encoded.data() + (c * count + s) * width;
-        std::copy(own, own + width, result.data() + s * row + slot * width);
-        const std::size_t at = (c * count + s) * motion_levels;
-        const float pose = (steps.levels[at + 3] - network.mean[slot]) / network.deviation[slot];
-        const float speed = steps.changes[at + 4] / network.speed[slot];
-        result[s * row + network.slots * width + slot] = pose;
-        result[s * row + network.slots * (width + 1) + slot] =
-            std::clamp(speed, -most_pace, most_pace);
-      }
-    }
-    return result;
-  }
-
-  // steps x 2 encoded: means and mean squares over the channels that are alive.
-  std::vector<float> pooled(const std::vector<float>& encoded) const {
-    const std::size_t width = network.encoded();
-    std::vector<float> result(count * 2 * width, 0.0F);
-    float alive = 0;
-    for (std::size_t c = 0; c < channels; ++c) {
-      if (!is_alive(c)) continue;
-      alive += 1;
-      for (std::size_t s = 0; s < count; ++s) {
-        const float* const own = encoded.data() + (c * count + s) * width;
-        float* const sums = result.data() + s * 2 * width;
-        for (std::size_t i = 0; i < width; ++i) {
-          sums[i] += own[i];
-          sums[width + i] += own[i] * own[i];
-        }
-      }
-    }
-    for (float& value : result) value /= std::max(1.0F, alive);
-    return result;
-  }
-
   std::vector<float> trunk(const std::vector<float>& encoded) const {
     const std::size_t width = network.body.outputs();
     std::vector<float> h(count * width), pool(h.size()), taps, added(h.size());
-    const std::vector<float> body = body_input(encoded);
+    std::vector<float> body(count * network.body.inputs()), means(count * network.pool.inputs());
+    for (std::size_t s = 0; s < count; ++s)
+      fill_body_input(network, told, steps, s, encoded,
+                      std::span(body).subspan(s * network.body.inputs(), network.body.inputs()));
+    fill_pooled(network, told, encoded, count, means);
     nn::run(network.body, matrix_of(body, count, network.body.inputs()), rows_of(h, count, width));
-    nn::run(network.pool, matrix_of(pooled(encoded), count, network.pool.inputs()),
+    nn::run(network.pool, matrix_of(means, count, network.pool.inputs()),
             rows_of(pool, count, width));
     for (std::size_t i = 0; i < h.size(); ++i) h[i] = std::max(0.0F, h[i] + pool[i]);
     for (const MotionNetwork::Block& block : network.blocks) {
@@ -154,7 +119,7 @@ struct Pass {
     for (std::size_t c = 0; c < channels; ++c) {
       if (c % 3 == 0) track_mean(encoded, c / 3, mean);
       if (!is_alive(c)) continue;
-      const std::int32_t slot = reader.take().slots[c];
+      const std::int32_t slot = told.slots[c];
       const auto at = static_cast<std::size_t>(std::max(0, slot));
       for (std::size_t s = 0; s < count; ++s) {
         float* const to = input.data() + s * row;
@@ -245,9 +210,59 @@ MotionNetwork motion_network_of(const Model& model) {
   return network;
 }
 
-std::vector<float> run(const MotionNetwork& network, const MotionReader& reader,
+void fill_body_input(const MotionNetwork& network, const MotionChannels& channels,
+                     const MotionSteps& steps, std::size_t step, std::span<const float> encoded,
+                     std::span<float> result) {
+  const std::size_t width = network.encoded();
+  std::fill(result.begin(), result.end(), 0.0F);
+  for (std::size_t c = 0; c < channels.slots.size(); ++c) {
+    if (channels.slots[c] < 0 || channels.is_alive[c] == 0) continue;
+    const auto slot = static_cast<std::size_t>(channels.slots[c]);
+    const std::size_t at = c * steps.count + step;
+    std::copy_n(encoded.data() + at * width, width, result.data() + slot * width);
+    const float* const levels = steps.levels.data() + at * motion_levels;
+    const float* const changes = steps.changes.data() + at * motion_levels;
+    const std::size_t poses = network.slots * width, paces = poses + network.slots;
+    result[poses + slot] = (levels[3] - network.mean[slot]) / network.deviation[slot];
+    result[paces + slot] = std::clamp(changes[4] / network.speed[slot], -most_pace, most_pace);
+  }
+}
+
+void fill_pooled(const MotionNetwork& network, const MotionChannels& channels,
+                 std::span<const float> encoded, std::size_t steps, std::span<float> result) {
+  const std::size_t width = network.encoded();
+  std::fill(result.begin(), result.end(), 0.0F);
+  float alive = 0;
+  for (std::size_t c = 0; c < channels.slots.size(); ++c) {
+    if (channels.is_alive[c] == 0) continue;
+    alive += 1;
+    for (std::size_t s = 0; s < steps; ++s) {
+      const float* const own = encoded.data() + (c * steps + s) * width;
+      float* const sums = result.data() + s * 2 * width;
+      for (std::size_t i = 0; i < width; ++i) {
+        sums[i] += own[i];
+        sums[width + i] += own[i] * own[i];
+      }
+    }
+  }
+  for (float& value : result) value /= std::max(1.0F, alive);
+}
+
+MotionNetwork live_form(const MotionNetwork& network) {
+  MotionNetwork live = network;
+  const auto look_back = [](nn::Convolution& layer) {
+    layer.taps.resize(layer.taps.size() / 2 + 1);
+    layer.is_causal = true;
+  };
+  look_back(live.encoder);
+  look_back(live.second_encoder);
+  for (MotionNetwork::Block& block : live.blocks) look_back(block.convolution);
+  return live;
+}
+
+std::vector<float> run(const MotionNetwork& network, const MotionChannels& channels,
                        const MotionSteps& steps) {
-  const Pass pass{network, reader, steps};
+  const Pass pass{network, channels, steps};
   const std::vector<float> encoded = pass.encoded();
   return pass.outputs(encoded, pass.trunk(encoded));
 }

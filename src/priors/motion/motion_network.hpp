@@ -52,9 +52,27 @@ struct MotionNetwork {
 /// fit.
 MotionNetwork motion_network_of(const Model& model);
 
+/// The network as it runs live: no layer looks ahead, beyond what the features of a step see.
+MotionNetwork live_form(const MotionNetwork& network);
+
+/// What a network is told of the channels of a take.
+struct MotionChannels {
+  std::span<const std::int32_t> slots;     ///< C, as of `MotionTake`
+  std::span<const std::uint8_t> is_alive;  ///< C
+};
+
+/// Into the trunk, of one step: D (encoded + 2), the encoded channels of the body in its order,
+/// then their poses and paces. `encoded`: C x steps x encoded.
+void fill_body_input(const MotionNetwork& network, const MotionChannels& channels,
+                     const MotionSteps& steps, std::size_t step, std::span<const float> encoded,
+                     std::span<float> result);
+/// steps x 2 encoded: means and mean squares over the channels that are alive.
+void fill_pooled(const MotionNetwork& network, const MotionChannels& channels,
+                 std::span<const float> encoded, std::size_t steps, std::span<float> result);
+
 /// C x steps x `motion_outputs`. Channels that are not alive have no say; their outputs mean
 /// nothing.
-std::vector<float> run(const MotionNetwork& network, const MotionReader& reader,
+std::vector<float> run(const MotionNetwork& network, const MotionChannels& channels,
                        const MotionSteps& steps);
 
 }  // namespace kinemend

@@ -377,13 +377,13 @@ MotionSample random_motion_sample(const TrainingSequences& sequences, const Body
                                   std::span<const MotionPair> pairs, const MotionSampling& sampling,
                                   Random random) {
   const bool is_pair = !pairs.empty() && random.chance(sampling.pair_share);
-  // Live, no noise is measured.
-  const bool is_measured = !random.chance(sampling.live_share);
+  const bool is_live = random.chance(sampling.live_share);
   MotionSample sample =
       is_pair ? random_pair(drawn_pair(pairs, random), sequences.layout.channel_count(), sampling,
                             random.fork(1))
               : random_damage(sequences, mirror, sampling, random.fork(1));
-  if (is_measured) add_measured_smoothing(sample.take);
+  sample.is_live = is_live;
+  if (!is_live) add_measured_smoothing(sample.take);
   return sample;
 }
 

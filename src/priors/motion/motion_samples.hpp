@@ -17,6 +17,7 @@ namespace kinemend {
 struct MotionSample {
   MotionTake take;
   std::vector<float> truth;  ///< F x C
+  bool is_live = false;      ///< to be read frame by frame; no noise is measured
 };
 
 /// Of each channel of the body over the sequences: mean, deviation (at least 1 degree), and
@@ -40,7 +41,7 @@ struct MotionSampling {
   std::size_t steps = 128;     ///< of a sample
   double pair_share = 0.25;    ///< of samples that are pairs, where there are some
   double clean_share = 0.2;    ///< of them that are clean
-  double live_share = 0.15;    ///< of samples whose noise is not measured
+  double live_share = 0.2;     ///< of samples that are read live
   bool has_slow_noise = true;  ///< low-passed noise, and takes filtered after they were damaged
 };
 

@@ -11,6 +11,12 @@
 namespace kinemend {
 
 inline constexpr double motion_steps_hz = 30;
+/// Changes are told per this part of a second.
+inline constexpr double motion_change_rate_hz = 120;
+/// The frame that a step looks at, where the take is that long.
+std::size_t frame_of_motion_step(std::size_t step, double frame_rate_hz);
+/// Steps of a take: every frame lies between two of them.
+std::size_t motion_step_count(std::size_t frames, double frame_rate_hz);
 
 /// A take as channels. Three belong to a track: the axes of a rotation vector, or of a position.
 struct MotionTake {
@@ -24,7 +30,7 @@ struct MotionTake {
   std::vector<std::int32_t> slots;
   std::vector<std::uint8_t> is_position;  ///< C
 
-  std::size_t steps() const;
+  std::size_t steps() const { return motion_step_count(frames, frame_rate_hz); }
   /// The frame that a step looks at.
   std::size_t frame_of_step(std::size_t step) const;
   bool is_missing(std::size_t frame, std::size_t channel) const {
@@ -62,10 +68,16 @@ struct MotionStrengths {
 /// Some steps of a take.
 struct MotionSteps {
   std::size_t first = 0, count = 0;
+  /// C x motion_take_features of the whole take; live C x count x motion_take_features, of what was
+  /// there at each step.
+  std::vector<float> take_features;
   std::vector<float> features;  ///< C x count x motion_features
   std::vector<float> levels;    ///< C x count x motion_levels, at the step's frame
   std::vector<float> changes;   ///< the same: to the next frame, degrees per 1/120 s
   std::vector<float> scales;    ///< C x count x motion_scales
+
+  /// All but `take_features`.
+  void resize(std::size_t channels, std::size_t steps);
 };
 
 /// A take with what is needed to make steps of it. The take outlives it.
@@ -80,9 +92,10 @@ class MotionReader {
   MotionSteps steps(std::size_t first, std::size_t count) const;
 
  private:
-  // Levels about some steps, and the mean squares of the bands at each.
-  struct Block;
-  Block block(std::size_t first, std::size_t count) const;
+  std::vector<std::ptrdiff_t> frames_of(std::size_t first, std::size_t count) const;
+  void read_taken_out(std::size_t frame, const std::vector<float>& weights,
+                      std::vector<float>& result) const;
+  float missing_share(std::size_t frame, std::size_t channel) const;
 
   const MotionTake& take_;
   SmootherBank bank_;

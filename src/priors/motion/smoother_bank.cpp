@@ -57,25 +57,28 @@ ExtendedChannels SmootherBank::extended(std::span<const float> values, std::size
   // Steps pool energies over a few frames beyond the ends.
   result.reach = reach_ + static_cast<std::size_t>(std::ceil(frame_rate_hz_ / 10)) + 2;
   result.values.resize((result.frames + 2 * result.reach) * channels);
-  std::copy(values.begin(), values.end(),
-            result.values.begin() + static_cast<std::ptrdiff_t>(result.reach * channels));
-  const std::size_t fit =
-      std::clamp<std::size_t>(static_cast<std::size_t>(line_s * frame_rate_hz_),
-                              std::min<std::size_t>(3, result.frames), result.frames);
+  float* const first = result.values.data() + result.reach * channels;
+  float* const last = first + (result.frames - 1) * channels;
+  std::copy(values.begin(), values.end(), first);
   const auto width = static_cast<std::ptrdiff_t>(channels);
+  extend(first, -width, channels, result.frames, result.reach);
+  extend(last, width, channels, result.frames, result.reach);
+  return result;
+}
+
+void SmootherBank::extend(float* end, std::ptrdiff_t row, std::size_t channels, std::size_t frames,
+                          std::size_t rows) const {
+  const std::size_t fit = std::clamp<std::size_t>(static_cast<std::size_t>(line_s * frame_rate_hz_),
+                                                  std::min<std::size_t>(3, frames), frames);
   for (std::size_t c = 0; c < channels; ++c) {
-    const float* const first = values.data() + c;
-    const float* const last = first + (result.frames - 1) * channels;
-    const double before = fitted_end(first, width, fit), behind = fitted_end(last, -width, fit);
-    for (std::size_t k = 1; k <= result.reach; ++k) {
-      const std::size_t from = std::min(k, result.frames - 1);
-      result.values[(result.reach - k) * channels + c] =
-          static_cast<float>(2 * before - first[from * channels]);
-      result.values[(result.reach + result.frames - 1 + k) * channels + c] =
-          static_cast<float>(2 * behind - *(last - from * channels));
+    float* const own = end + c;
+    const double twice = 2 * fitted_end(own, -row, fit);
+    for (std::size_t k = 1; k <= rows; ++k) {
+      const auto from = static_cast<std::ptrdiff_t>(std::min(k, frames - 1));
+      own[static_cast<std::ptrdiff_t>(k) * row] =
+          static_cast<float>(twice - static_cast<double>(own[-from * row]));
     }
   }
-  return result;
 }
 
 void SmootherBank::level(const ExtendedChannels& input, std::size_t level, std::ptrdiff_t first,

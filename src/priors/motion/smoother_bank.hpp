@@ -36,6 +36,10 @@ class SmootherBank {
   std::size_t reach() const noexcept { return reach_; }
   /// `values`: F x C, at least one frame.
   ExtendedChannels extended(std::span<const float> values, std::size_t channels) const;
+  /// Continues channels beyond their end: writes `rows` rows, `row` numbers apart, behind the one
+  /// at `end`, which is the outermost of `frames`.
+  void extend(float* end, std::ptrdiff_t row, std::size_t channels, std::size_t frames,
+              std::size_t rows) const;
   /// Level 0 to `bank_levels` - 1 of frames [first, first + count), which may lie beyond the ends
   /// by what `input.reach` has over `reach()`: count x C.
   void level(const ExtendedChannels& input, std::size_t level, std::ptrdiff_t first,

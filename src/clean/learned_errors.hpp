@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "priors/motion/motion_filter.hpp"
+
+// How wrong a take was, as far as the learned cleaner can say.
+namespace kinemend {
+
+/// Mean squares per axis of a track, degrees squared.
+struct TrackError {
+  double removed = 0, left = 0;
+  double quick = 0;        ///< of what was removed, what is not the same a little later
+  double correlation = 0;  ///< of what was removed, from frame to frame
+
+  double all() const { return removed + left; }
+};
+
+/// Of channels 3 `track` to 3 `track` + 2.
+TrackError track_error(const MotionTake& take, const MotionResult& result, std::size_t track);
+
+/// Slow noise of the middle one of these tracks, degrees per axis; 0 where errors are small or show
+/// from frame to frame.
+double slow_noise(std::span<const TrackError> errors);
+
+}  // namespace kinemend
