@@ -149,7 +149,8 @@ std::vector<Flag> fill_flags() {
       fill_file_flag("model", "Work",
                      "network for --method recurrent, made by kinemend-train paper",
                      "--network ebd --head pose trains one that fills gaps; none is included. Also "
-                     "used for rows of a --plan with that method, and for --preview."),
+                     "used for rows of a --plan with that method, and for --preview. With --method "
+                     "learned: another network than the one that is included."),
       fill_file_flag("map", "Work", "names in the take for those of --model",
                      "Lines NAME IN THE MODEL,NAME IN THE TAKE.")};
   append(flags, reading_flags("a repair or a refused gap becomes an error"));
@@ -164,7 +165,8 @@ Command fill_command() {
   command.summary = "fill the gaps of a take from the take itself";
   command.description =
       "Fills missing markers, and rotations and positions of joints, without a trained model "
-      "(except --method recurrent). A filled span joins its neighbours in value and velocity. "
+      "(except --method recurrent and learned). A filled span joins its neighbours in value and "
+      "velocity. "
       "Observed samples keep their bytes. The method auto tests the others on artificial gaps of "
       "the same length in the take and uses the best.\n\n"
       "Each method has rules for the gaps that it fills. A refused gap is listed with the reason "

@@ -45,19 +45,31 @@ FillSettings settings_of(const Arguments& arguments) {
   return settings;
 }
 
-/// The model of the method recurrent, or of a plan's rows and of --preview.
-LearnedFill learned_of(const Arguments& arguments) {
+/// The network that ships, read when a gap asks for it.
+LearnedFilling fill_by_shipped(const Clip& clip) {
+  static const LearnedFill fill = make_learned_fill();
+  return fill(clip);
+}
+
+/// The models of the method that is asked for, or of a plan's rows and of --preview, where a model
+/// that is named is that of `recurrent`.
+FillModels models_of(const Arguments& arguments) {
   const std::string model = arguments.text("model"), map = arguments.text("map");
-  const bool may_need = arguments.text("method") == "recurrent" || arguments.given("plan") ||
-                        arguments.flag("preview");
+  const std::string method = arguments.text("method");
+  if (method == "learned") return {{}, make_learned_fill({model, map})};
+  const bool takes_any = arguments.given("plan") || arguments.flag("preview");
+  FillModels models;
+  if (takes_any) models.learned = fill_by_shipped;
   if (model.empty()) {
     if (!map.empty()) throw Error(ErrorKind::usage, "fill: --map needs --model");
-    return {};
+    return models;
   }
-  if (!may_need)
-    throw Error(ErrorKind::usage,
-                "fill: --model is used by --method recurrent, --plan and --preview only");
-  return make_recurrent_fill({model, map});
+  if (!takes_any && method != "recurrent")
+    throw Error(
+        ErrorKind::usage,
+        "fill: --model is used by --method recurrent and learned, --plan and --preview only");
+  models.recurrent = make_recurrent_fill({model, map});
+  return models;
 }
 
 /// A plan says these of each gap.
@@ -111,14 +123,14 @@ PlannedFill fill_clip(AnyClip& clip, const FillSettings& settings, const FillRun
   if (!run.plan) return fill_with_plan(clip, settings, check);
   const auto plan = parse_plan(run.plan->first, run.plan->second, clip);
   if constexpr (std::is_same_v<AnyClip, Clip>)
-    return fill_with_plan(clip, plan, check, settings.learned);
+    return fill_with_plan(clip, plan, check, settings.models);
   else
     return fill_with_plan(clip, plan, check);
 }
 
 void preview_plan(const Clip& before, std::vector<PlannedGap>& plan, const FillSettings& settings,
                   const FillCheck& check) {
-  preview_methods(before, plan, check, settings.learned);
+  preview_methods(before, plan, check, settings.models);
 }
 void preview_plan(const MarkerClip& before, std::vector<PlannedGap>& plan,
                   const FillSettings& /*settings*/, const FillCheck& check) {
@@ -127,7 +139,7 @@ void preview_plan(const MarkerClip& before, std::vector<PlannedGap>& plan,
 
 GapCurves curves_in_plan(const Clip& clip, std::span<const PlannedGap> plan, std::size_t row,
                          const FillSettings& settings, const FillCheck& check) {
-  return preview_curves(clip, plan, row, check, settings.learned);
+  return preview_curves(clip, plan, row, check, settings.models);
 }
 GapCurves curves_in_plan(const MarkerClip& clip, std::span<const PlannedGap> plan, std::size_t row,
                          const FillSettings& /*settings*/, const FillCheck& check) {
@@ -182,7 +194,7 @@ FillRun fill_run_of(const Arguments& arguments) {
   if (const std::string range = arguments.text("range"); !range.empty())
     run.range = parse_range(range);
   run.settings = settings_of(arguments);
-  run.settings.learned = learned_of(arguments);
+  run.settings.models = models_of(arguments);
   if (arguments.given("max_error_mm")) run.max_error_mm = arguments.number("max_error_mm");
   const bool has_limit = run.max_error_mm || run.settings.max_error_deg > 0;
   if (has_limit && run.settings.fill_all)

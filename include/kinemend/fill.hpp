@@ -21,10 +21,19 @@ struct LearnedFilling {
   std::vector<Quat> rotations;  ///< F x J, local; entries for observed samples are ignored
   std::vector<std::string>
       left_out;  ///< J: why the model does not fill gaps of the joint; empty: it does
+  /// What the model makes of observed samples stands among `rotations`, too: its fillings do not
+  /// meet the ends of their gaps yet, and are moved to.
+  bool is_guess = false;
 };
 /// Such a model. It gets a take without its calibration pose and is called from several threads at
-/// once. `make_recurrent_fill` (kinemend/methods.hpp) makes one.
+/// once.
 using LearnedFill = std::function<LearnedFilling(const Clip& clip)>;
+
+/// The models of the learned methods, by the method's name; an empty one is not there.
+struct FillModels {
+  LearnedFill recurrent = {};  ///< `make_recurrent_fill` (kinemend/methods.hpp) makes it
+  LearnedFill learned = {};    ///< `make_learned_fill` makes it
+};
 
 struct FillSettings {
   std::string method = "auto";     ///< an entry of `fill_methods()`
@@ -40,7 +49,7 @@ struct FillSettings {
   bool unlabelled = false;
   /// First and last frame, from 0: gaps that do not lie within stay, and are not listed.
   std::optional<std::pair<std::size_t, std::size_t>> range;
-  LearnedFill learned = {};  ///< of the method `recurrent`, which needs it
+  FillModels models = {};  ///< a learned method needs its own
 };
 
 /// What became of one gap.

@@ -2,8 +2,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "base/measure.hpp"
 #include "fill/doubt.hpp"
@@ -63,26 +65,30 @@ JointGaps gaps_of(const Clip& clip, const RequestOf& request_of, std::size_t fir
   return found;
 }
 
-// A model that is to fill some of the gaps, if any.
-const LearnedFill* model_of(const std::vector<OpenGap>& gaps) {
+// What each model that is to fill some of the gaps makes of the whole take.
+using LearnedFillings = std::map<const LearnedFill*, LearnedFilling>;
+
+LearnedFillings fillings_of(const Clip& clip, const std::vector<OpenGap>& gaps) {
+  LearnedFillings found;
   for (const OpenGap& gap : gaps) {
     const GapRequest& request = *gap.request;
-    if (request.method->about.learned && !request.refusal) return request.learned;
+    if (!request.method->about.learned || request.refusal || found.contains(request.learned))
+      continue;
+    found.emplace(request.learned, (*request.learned)(clip));
   }
-  return nullptr;
+  return found;
 }
 
 // Each gap is filled by itself, from what was observed.
 class JointTake : public GappedTake {
  public:
-  // `model`: null where none is asked for.
-  JointTake(Clip& clip, const std::vector<Source>& sources, const LearnedFill* model)
+  JointTake(Clip& clip, const std::vector<Source>& sources, LearnedFillings learned)
       : clip_(clip),
         sources_(sources),
         poses_(clip),
         context_{clip.frame_rate_hz, poses_, body_height(clip.skeleton)},
         tracks_(sources.size()),
-        model_(model) {
+        learned_(std::move(learned)) {
     frames = clip.frame_count();
     frame_rate_hz = clip.frame_rate_hz;
     never_seen = "none of its samples is observed";
@@ -91,7 +97,6 @@ class JointTake : public GappedTake {
       tracks_[i] = sources[i].is_position ? position_track(clip, sources[i].index)
                                           : rotation_track(clip, sources[i].index);
     });
-    if (model_ != nullptr) learned_ = (*model_)(clip);
   }
 
   Track around(const OpenGap& gap) const override {
@@ -137,7 +142,7 @@ class JointTake : public GappedTake {
   std::string left_to_auto(const OpenGap& gap) const {
     if (!gap.request->method->about.learned) return "";
     if (gap.is_position) return "the model fills no positions";
-    return learned_.left_out[gap.gap.track];
+    return learned_.at(gap.request->learned).left_out[gap.gap.track];
   }
 
   Filling by_take(const Track& own, FrameSpan span, const OpenGap& gap) const {
@@ -147,11 +152,17 @@ class JointTake : public GappedTake {
     }
     const Track other = without_span(own, span, frame_rate_hz);
     Filling filling = chosen_of(other, span, gap);
-    for (std::size_t i = 0; !own.is_position && i < filling.values.size(); ++i) {
-      const std::size_t f = span.first + i;
-      filling.values[i] = own.chart.vector_of(f, other.chart.rotation_of(f, filling.values[i]));
-    }
+    if (!own.is_position) say_in(own, other, span, filling.values);
     return filling;
+  }
+
+  // Vectors of a track as another has them.
+  static void say_in(const Track& own, const Track& other, FrameSpan span,
+                     std::vector<Vec3>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::size_t f = span.first + i;
+      values[i] = own.chart.vector_of(f, other.chart.rotation_of(f, values[i]));
+    }
   }
 
   // Samples beside the gap that are doubted are missing to the model, too: it then sees the take
@@ -161,14 +172,10 @@ class JointTake : public GappedTake {
     filling.reason = gap.request->fill_all ? "" : too_long(*gap.request->method, gap);
     if (!filling.reason.empty()) return filling;
     const std::size_t joint = gap.gap.track;
-    const RotationChart& chart = tracks_[gap.track].chart;
-    const auto take_over = [&](const LearnedFilling& learned, std::size_t first) {
-      for (std::size_t f = span.first; f <= span.last; ++f)
-        filling.values.push_back(
-            chart.vector_of(f, learned.rotations[(f - first) * clip_.joint_count() + joint]));
-    };
+    const LearnedFill& model = *gap.request->learned;
+    const Track& own = tracks_[gap.track];
     if (span.length() == gap.gap.length()) {
-      take_over(learned_, 0);
+      filling.values = said_of(own, span, learned_.at(&model), 0);
       return filling;
     }
     const auto around = static_cast<std::size_t>(around_model_s * frame_rate_hz) + 1;
@@ -177,8 +184,30 @@ class JointTake : public GappedTake {
     Clip part = slice(clip_, first, last + 1);
     for (std::size_t f = span.first; f <= span.last; ++f)
       part.observed[(f - first) * clip_.joint_count() + joint] = 0;
-    take_over((*model_)(part), first);
+    const Track other = without_span(own, span, frame_rate_hz);
+    filling.values = said_of(other, span, model(part), first);
+    say_in(own, other, span, filling.values);
     return filling;
+  }
+
+  // What a model has made of the joint; `first`: the frame of the take that it begins with.
+  std::vector<Vec3> said_of(Track track, FrameSpan span, const LearnedFilling& learned,
+                            std::size_t first) const {
+    const auto value_at = [&](std::size_t f) {
+      return track.chart.vector_of(
+          f, learned.rotations[(f - first) * clip_.joint_count() + track.joint]);
+    };
+    Guess guess{span.first, {}};
+    if (!learned.is_guess) {
+      for (std::size_t f = span.first; f <= span.last; ++f) guess.values.push_back(value_at(f));
+      return guess.values;
+    }
+    const CurveSettings settings = context_.curve();
+    const auto [from, to] = surroundings(span, {}, velocity_window(settings), frames);
+    guess.first_frame = from;
+    for (std::size_t f = from; f <= to; ++f) guess.values.push_back(value_at(f));
+    place_guess(track, span, guess, settings);
+    return values_in(track, span);
   }
 
   // The best that fills the span and may. Where none does, the reason of the best tells most.
@@ -259,15 +288,14 @@ class JointTake : public GappedTake {
   JointContext context_;
   std::vector<const Method*> all_methods_ = joint_methods();
   std::vector<Track> tracks_;
-  const LearnedFill* model_;
-  LearnedFilling learned_;  // of the whole take
+  LearnedFillings learned_;
 };
 
 std::vector<FilledGap> fill_motion(Clip& clip, const RequestOf& request_of, std::size_t first,
                                    const Check& check) {
   const JointGaps found = gaps_of(clip, request_of, first);
   if (found.gaps.empty()) return {};
-  JointTake take(clip, found.sources, model_of(found.gaps));
+  JointTake take(clip, found.sources, fillings_of(clip, found.gaps));
   return fill_take(take, found.gaps, check);
 }
 

@@ -125,7 +125,19 @@ constexpr std::array methods = {
              "or 1 s at an end of the take. auto fills the rest: the root, positions, joints "
              "that the model does not know, takes at other rates",
              no, yes, yes},
-        .joint_rules = {.longest_s = 5.0, .longest_at_end_s = 1.0, .positions = false}},
+        .joint_rules = {.longest_s = 5.0, .longest_at_end_s = 1.0, .positions = false},
+        .model = &FillModels::recurrent},
+    Method{.about =
+               {"learned",
+                "network of the cleaner of this name, which reads the whole take; moved to meet "
+                "both ends",
+                "",
+                "rotations; the take lasts half a second at least, at 20 Hz or more; at most 2 s, "
+                "or 1 s at an end of the take. auto fills the rest: positions, shorter and "
+                "slower takes",
+                no, yes, yes},
+           .joint_rules = {.longest_s = 2.0, .longest_at_end_s = 1.0, .positions = false},
+           .model = &FillModels::learned},
 };
 
 }  // namespace
@@ -167,13 +179,19 @@ const Method& find_method(std::string_view name, bool of_joints) {
                           of_joints ? "joints" : "markers", fmt::join(known, ", "), name));
 }
 
-void check_model(const Method& method, const LearnedFill& learned) {
-  if (!method.about.learned || learned) return;
+void check_model(const Method& method, const FillModels& models) {
+  if (method.model == nullptr || models.*method.model) return;
+  if (method.model == &FillModels::learned)
+    throw Error(ErrorKind::usage, "fill: the method learned needs its model: FillModels::learned");
   throw Error(ErrorKind::usage,
               fmt::format("fill: the method {0} needs a model that fills gaps: --model FILE; none "
                           "ships, and kinemend-train paper --network ebd --head pose makes one of "
                           "takes without gaps",
                           method.about.name));
+}
+
+const LearnedFill* model_of(const Method& method, const FillModels& models) {
+  return method.model == nullptr ? nullptr : &(models.*method.model);
 }
 
 bool fill_joint(const Method& method, Track& track, FrameSpan span, const JointContext& context) {

@@ -48,6 +48,7 @@ struct Method {
   bool (*fill_joint)(Track& track, FrameSpan span, const JointContext& context) = nullptr;
   FillMarkerGap fill_marker = nullptr;
   JointRules joint_rules = {};
+  LearnedFill FillModels::*model = nullptr;  ///< of a learned method
 };
 
 /// All but `auto` that fill joints, by their place.
@@ -55,7 +56,9 @@ std::vector<const Method*> joint_methods();
 /// Errors: `ErrorKind::usage` for a name that is none of this kind of track.
 const Method& find_method(std::string_view name, bool of_joints);
 /// Errors: `ErrorKind::usage` for a learned method without its model.
-void check_model(const Method& method, const LearnedFill& learned);
+void check_model(const Method& method, const FillModels& models);
+/// The model of a learned method; null for any other.
+const LearnedFill* model_of(const Method& method, const FillModels& models);
 
 bool fill_joint(const Method& method, Track& track, FrameSpan span, const JointContext& context);
 Filling fill_marker(const Method& method, const Samples& samples, const MarkerGap& gap,

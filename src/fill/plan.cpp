@@ -57,8 +57,8 @@ FilledBySettings fill_by_settings(AnyClip& clip, const FillSettings& settings,
   check_limits(settings);
   GapRequest request;
   request.method = &fill::find_method(settings.method, fill::is_joints(clip));
-  fill::check_model(*request.method, settings.learned);
-  request.learned = &settings.learned;
+  fill::check_model(*request.method, settings.models);
+  request.learned = fill::model_of(*request.method, settings.models);
   const std::vector<std::uint8_t> named =
       names_meant(names_of(clip), settings.names, fill::is_joints(clip) ? "joint" : "marker");
   std::vector<std::uint8_t> chosen = named;
@@ -120,9 +120,9 @@ PlannedFill plan_by_settings(AnyClip& clip, const FillSettings& settings, const 
 
 template <class AnyClip>
 PlannedFill apply_plan(AnyClip& clip, std::span<const PlannedGap> plan, const FillCheck& check,
-                       const LearnedFill& learned) {
+                       const FillModels& models) {
   clip.validate();
-  fill::PlanRows rows(clip, &learned);
+  fill::PlanRows rows(clip, &models);
   std::map<fill::GapKey, const PlannedGap*> by_gap;
   for (std::size_t i = 0; i < plan.size(); ++i) {
     if (const std::string problem = rows.add(plan[i]); !problem.empty())
@@ -167,8 +167,8 @@ PlannedFill fill_with_plan(MarkerClip& clip, const FillSettings& settings, const
   return plan_by_settings(clip, settings, check);
 }
 PlannedFill fill_with_plan(Clip& clip, std::span<const PlannedGap> plan, const FillCheck& check,
-                           const LearnedFill& learned) {
-  return apply_plan(clip, plan, check, learned);
+                           const FillModels& models) {
+  return apply_plan(clip, plan, check, models);
 }
 PlannedFill fill_with_plan(MarkerClip& clip, std::span<const PlannedGap> plan,
                            const FillCheck& check) {

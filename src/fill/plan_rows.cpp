@@ -21,14 +21,14 @@ std::string told(const Error& error) {
 
 }  // namespace
 
-PlanRows::PlanRows(const Clip& clip, const LearnedFill* learned)
-    : learned_(learned), names_(clip.skeleton.names), first_number_(first_frame_number(clip)) {
+PlanRows::PlanRows(const Clip& clip, const FillModels* models)
+    : models_(models), names_(clip.skeleton.names), first_number_(first_frame_number(clip)) {
   add_gaps(open_gaps(clip));
 }
 
-PlanRows::PlanRows(const MarkerClip& clip, const LearnedFill* learned)
+PlanRows::PlanRows(const MarkerClip& clip, const FillModels* models)
     : markers_(&clip),
-      learned_(learned),
+      models_(models),
       names_(clip.names),
       first_number_(first_frame_number(clip)) {
   add_gaps(open_gaps(clip));
@@ -50,14 +50,14 @@ std::string PlanRows::add(const PlannedGap& row) {
   try {
     request.method = &find_method(row.method, markers_ == nullptr);
     if (markers_ != nullptr) request.donor = donor_of(*markers_, row.donor);
-    if (learned_ != nullptr && row.verdict != GapVerdict::refuse)
-      check_model(*request.method, *learned_);
+    if (models_ != nullptr && row.verdict != GapVerdict::refuse)
+      check_model(*request.method, *models_);
   } catch (const Error& error) {
     return told(error);
   }
   if (row.method == "pattern" && row.donor.empty() && row.verdict != GapVerdict::refuse)
     return "the method pattern needs a donor";
-  request.learned = learned_;
+  if (models_ != nullptr) request.learned = model_of(*request.method, *models_);
   request.longest_gap_s = row.longest_gap_s;
   request.fill_all = row.verdict == GapVerdict::force;
   if (row.verdict == GapVerdict::refuse) {

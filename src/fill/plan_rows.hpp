@@ -16,9 +16,9 @@ namespace kinemend::fill {
 /// The gaps of a take, and what rows of a plan ask for them.
 class PlanRows {
  public:
-  /// `learned`: the model of rows with a learned method; null: they are read, not run.
-  explicit PlanRows(const Clip& clip, const LearnedFill* learned = nullptr);
-  explicit PlanRows(const MarkerClip& clip, const LearnedFill* learned = nullptr);
+  /// `models`: of rows with a learned method; null: they are read, not run.
+  explicit PlanRows(const Clip& clip, const FillModels* models = nullptr);
+  explicit PlanRows(const MarkerClip& clip, const FillModels* models = nullptr);
 
   /// Takes a row up. Says what is wrong with it; empty: nothing.
   std::string add(const PlannedGap& row);
@@ -37,7 +37,7 @@ class PlanRows {
   void add_gaps(const std::vector<OpenGap>& gaps);
 
   const MarkerClip* markers_ = nullptr;  // of a take of markers
-  const LearnedFill* learned_;
+  const FillModels* models_;
   const std::vector<std::string>& names_;
   std::int64_t first_number_;
   std::map<GapKey, std::optional<GapRequest>> requests_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fill/gap_keys.hpp"
+#include "fill/methods.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/gap_plan.hpp"
 
@@ -67,21 +68,23 @@ PlannedGap with_method(const PlannedGap& row, std::string_view method) {
 }
 
 template <class AnyClip>
-std::vector<std::string> methods_of(const AnyClip& clip, const LearnedFill& learned) {
+std::vector<std::string> methods_of(const AnyClip& clip, const FillModels& models) {
   std::vector<std::string> names;
   for (const FillMethod& method : fill_methods()) {
-    if (method.learned && !learned) continue;
-    if (fill::is_joints(clip) ? method.joints : method.markers) names.emplace_back(method.name);
+    if (!(fill::is_joints(clip) ? method.joints : method.markers)) continue;
+    const LearnedFill* model =
+        method.learned ? fill::model_of(fill::find_method(method.name, true), models) : nullptr;
+    if (!method.learned || *model) names.emplace_back(method.name);
   }
   return names;
 }
 
 PlannedFill filled_as_planned(Clip& clip, std::span<const PlannedGap> plan, const FillCheck& check,
-                              const LearnedFill& learned) {
-  return fill_with_plan(clip, plan, check, learned);
+                              const FillModels& models) {
+  return fill_with_plan(clip, plan, check, models);
 }
 PlannedFill filled_as_planned(MarkerClip& clip, std::span<const PlannedGap> plan,
-                              const FillCheck& check, const LearnedFill& /*learned*/) {
+                              const FillCheck& check, const FillModels& /*models*/) {
   return fill_with_plan(clip, plan, check);
 }
 
@@ -92,9 +95,9 @@ struct Tried {
   std::map<fill::GapKey, GapOutcome> outcomes = {};
 
   Tried(const AnyClip& gapped, std::span<const PlannedGap> plan, const FillCheck& check,
-        const LearnedFill& learned)
+        const FillModels& models)
       : clip(gapped) {
-    for (GapOutcome& gap : filled_as_planned(clip, plan, check, learned).report.gaps)
+    for (GapOutcome& gap : filled_as_planned(clip, plan, check, models).report.gaps)
       outcomes.emplace(fill::key_of(gap.gap, gap.is_position), std::move(gap));
   }
 };
@@ -112,14 +115,14 @@ GapPreview compared(std::string_view method, const Tried<AnyClip>& own, const Tr
 
 template <class AnyClip>
 void preview(const AnyClip& clip, std::vector<PlannedGap>& plan, const FillCheck& check,
-             const LearnedFill& learned) {
+             const FillModels& models) {
   for (PlannedGap& row : plan) row.previews.clear();
-  const Tried own(clip, plan, check, learned);
-  for (const std::string& method : methods_of(clip, learned)) {
+  const Tried own(clip, plan, check, models);
+  for (const std::string& method : methods_of(clip, models)) {
     std::vector<PlannedGap> asked;
     asked.reserve(plan.size());
     for (const PlannedGap& row : plan) asked.push_back(with_method(row, method));
-    const Tried other(clip, asked, check, learned);
+    const Tried other(clip, asked, check, models);
     for (PlannedGap& row : plan) row.previews.push_back(compared(method, own, other, row));
   }
 }
@@ -174,7 +177,7 @@ Values values_of(const MarkerClip& clip, const PlannedGap& row, std::size_t firs
 
 template <class AnyClip>
 GapCurves curves_of(const AnyClip& clip, std::span<const PlannedGap> plan, std::size_t row,
-                    const FillCheck& check, const LearnedFill& learned) {
+                    const FillCheck& check, const FillModels& models) {
   constexpr double around_s = 0.5;
   constexpr std::size_t least_around = 8;  // frames
   if (row >= plan.size())
@@ -186,22 +189,22 @@ GapCurves curves_of(const AnyClip& clip, std::span<const PlannedGap> plan, std::
   made.first_frame = gap.first_frame - std::min(gap.first_frame, around);
   made.last_frame = std::min(clip.frame_count() - 1, gap.last_frame + around);
   made.axes = axes_of(clip, plan[row]);
-  const Tried own(clip, plan, check, learned);
+  const Tried own(clip, plan, check, models);
   std::vector<PlannedGap> asked(plan.begin(), plan.end());
   const auto add = [&](const Tried<AnyClip>& other, GapPreview preview) {
     made.curves.push_back({std::move(preview), other.outcomes.at(key_of(plan[row])).expected_error,
                            values_of(other.clip, plan[row], made.first_frame, made.last_frame)});
   };
-  for (const std::string& method : methods_of(clip, learned)) {
+  for (const std::string& method : methods_of(clip, models)) {
     asked[row] = with_method(plan[row], method);
-    const Tried other(clip, asked, check, learned);
+    const Tried other(clip, asked, check, models);
     GapPreview preview = compared(method, own, other, plan[row]);
     if (preview.filled || asked[row].verdict == GapVerdict::refuse) {
       add(other, std::move(preview));
       continue;
     }
     asked[row].verdict = GapVerdict::force;
-    const Tried forced(clip, asked, check, learned);
+    const Tried forced(clip, asked, check, models);
     // Where the method can make nothing at all, another would be forced in its place.
     const bool is_own = method == "auto" || forced.outcomes.at(key_of(plan[row])).method == method;
     add(is_own ? forced : other, std::move(preview));
@@ -212,8 +215,8 @@ GapCurves curves_of(const AnyClip& clip, std::span<const PlannedGap> plan, std::
 }  // namespace
 
 void preview_methods(const Clip& clip, std::vector<PlannedGap>& plan, const FillCheck& check,
-                     const LearnedFill& learned) {
-  preview(clip, plan, check, learned);
+                     const FillModels& models) {
+  preview(clip, plan, check, models);
 }
 void preview_methods(const MarkerClip& clip, std::vector<PlannedGap>& plan,
                      const FillCheck& check) {
@@ -221,8 +224,8 @@ void preview_methods(const MarkerClip& clip, std::vector<PlannedGap>& plan,
 }
 
 GapCurves preview_curves(const Clip& clip, std::span<const PlannedGap> plan, std::size_t row,
-                         const FillCheck& check, const LearnedFill& learned) {
-  return curves_of(clip, plan, row, check, learned);
+                         const FillCheck& check, const FillModels& models) {
+  return curves_of(clip, plan, row, check, models);
 }
 GapCurves preview_curves(const MarkerClip& clip, std::span<const PlannedGap> plan, std::size_t row,
                          const FillCheck& check) {

@@ -47,7 +47,7 @@ std::shared_ptr<const Model> adding(const Clip& clip, double degrees,
 FillReport filled(Clip& clip, std::shared_ptr<const Model> model) {
   FillSettings settings;
   settings.method = "recurrent";
-  settings.learned = make_recurrent_fill({}, std::move(model));
+  settings.models.recurrent = make_recurrent_fill({}, std::move(model));
   return fill_gaps(clip, settings);
 }
 

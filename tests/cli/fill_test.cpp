@@ -25,6 +25,19 @@ TEST_F(Fill, FillsTheGapsOfASideFile) {
   EXPECT_EQ(changed, 11u);
 }
 
+TEST_F(Fill, FillsByTheNetworkThatShips) {
+  synth("walk.bvh", "walk", "2");
+  put(folder / "gaps.csv", "LeftArm,20,40\n");
+  const Ran ran = run({"fill", "walk.bvh", "--gaps", "gaps.csv", "-m", "learned", "-o",
+                       "filled.bvh", "--plan-out", "plan.csv"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("1 filled, 0 refused"));
+  const Ran again =
+      run({"fill", "walk.bvh", "--gaps", "gaps.csv", "--plan", "plan.csv", "-o", "again.bvh"});
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(contents(folder / "again.bvh"), contents(folder / "filled.bvh"));
+}
+
 TEST_F(Fill, WritesTheSameBytesWhereThereIsNoGap) {
   put(folder / "hand.bvh", hand_take());
   const Ran ran = run({"fill", "hand.bvh", "-o", "same.bvh"});

@@ -35,7 +35,7 @@ LearnedFilling same_everywhere(const Clip& clip) {
 FillSettings by_model() {
   FillSettings settings;
   settings.method = "recurrent";
-  settings.learned = same_everywhere;
+  settings.models.recurrent = same_everywhere;
   return settings;
 }
 
@@ -88,7 +88,7 @@ TEST(LearnedFilling, ComesAgainByThePlanOfItsRun) {
   const PlannedFill made = fill_with_plan(clip, by_model());
   EXPECT_EQ(made.plan[0].method, "recurrent");
   const std::string text = plan_csv(gapped(), made.plan);
-  fill_with_plan(again, parse_plan(text, "plan.csv", gapped()), {}, same_everywhere);
+  fill_with_plan(again, parse_plan(text, "plan.csv", gapped()), {}, {same_everywhere});
   EXPECT_EQ(again.local_rotations, clip.local_rotations);
   EXPECT_EQ(again.observed, clip.observed);
 }
@@ -105,10 +105,10 @@ TEST(LearnedFilling, StandsInPreviewsWhereThereIsAModel) {
   };
   preview_methods(gapped(), plan);
   EXPECT_THAT(by_recurrent(), IsEmpty());
-  preview_methods(gapped(), plan, {}, same_everywhere);
+  preview_methods(gapped(), plan, {}, {same_everywhere});
   ASSERT_EQ(by_recurrent().size(), 1u);
   EXPECT_TRUE(by_recurrent()[0].filled);
-  EXPECT_EQ(preview_curves(gapped(), plan, 0, {}, same_everywhere).curves.back().preview.method,
+  EXPECT_EQ(preview_curves(gapped(), plan, 0, {}, {same_everywhere}).curves.back().preview.method,
             "recurrent");
 }
 
@@ -123,7 +123,7 @@ TEST(LearnedFilling, IsNotMadeFromASpikeBesideTheGap) {
   // This model knows the motion, but where a spike leads it astray.
   FillSettings settings = by_model();
   std::size_t whole_frames = 0;
-  settings.learned = [&](const Clip& seen) {
+  settings.models.recurrent = [&](const Clip& seen) {
     LearnedFilling filling{seen.local_rotations, {}};
     filling.left_out.assign(seen.joint_count(), "");
     const bool is_whole = seen.frame_count() == frames;
@@ -139,6 +139,70 @@ TEST(LearnedFilling, IsNotMadeFromASpikeBesideTheGap) {
   EXPECT_EQ(whole_frames, 1u);
   for (std::size_t f = first; f <= last; ++f)
     EXPECT_LT(angle_between(clip.rotation(f, joint), truth.rotation(f, joint)), 1e-6) << f;
+}
+
+// A model that knows the motion but for a turn, which grows over the take.
+LearnedFill drifting(const Clip& truth) {
+  return [&truth](const Clip& seen) {
+    LearnedFilling filling{truth.local_rotations, {}, true};
+    filling.left_out.assign(seen.joint_count(), "");
+    for (std::size_t i = 0; i < filling.rotations.size(); ++i) {
+      const auto frame = static_cast<double>(i / seen.joint_count());
+      filling.rotations[i] = filling.rotations[i] * exp(Vec3{0.02 + 0.00004 * frame, 0, 0});
+    }
+    return filling;
+  };
+}
+
+TEST(GuessedFilling, IsMovedToMeetTheSamplesBesideTheGap) {
+  const Clip truth = test::moving_chain(6, 500);
+  Clip clip = truth;
+  hide(clip, "joint3", 300, 400);
+  FillSettings settings;
+  settings.method = "learned";
+  settings.models.learned = drifting(truth);
+  const FillReport report = fill_gaps(clip, settings);
+  ASSERT_EQ(report.filled(), 1u);
+  EXPECT_EQ(report.gaps[0].method, "learned");
+  const std::size_t joint = track_of(clip, "joint3");
+  for (std::size_t f = 300; f <= 400; ++f)
+    EXPECT_LT(angle_between(clip.rotation(f, joint), truth.rotation(f, joint)), 0.01) << f;
+  for (std::size_t f = 0; f < truth.frame_count(); ++f) {
+    for (std::size_t j = 0; j < truth.joint_count(); ++j) {
+      if (j == joint && f >= 300 && f <= 400) continue;
+      EXPECT_EQ(clip.rotation(f, j), truth.rotation(f, j)) << f << " " << j;
+    }
+  }
+}
+
+TEST(GuessedFilling, IsRefusedInGapsOfMoreThanTwoSeconds) {
+  const Clip truth = test::moving_chain(6, 500);
+  Clip clip = truth;
+  hide(clip, "joint1", 100, 299);
+  hide(clip, "joint3", 100, 300);
+  FillSettings settings;
+  settings.method = "learned";
+  settings.models.learned = drifting(truth);
+  const FillReport report = fill_gaps(clip, settings);
+  EXPECT_TRUE(report.gaps[0].filled);
+  EXPECT_FALSE(report.gaps[1].filled);
+  EXPECT_THAT(report.gaps[1].reason, HasSubstr("is longer than the 2 s that learned may fill"));
+}
+
+TEST(GuessedFilling, StandsBesideAnotherModelInOnePlan) {
+  const Clip truth = test::moving_chain(6, 500);
+  Clip clip = gapped();
+  std::vector<PlannedGap> plan = fill_with_plan(clip, by_model()).plan;
+  ASSERT_EQ(plan.size(), 3u);
+  plan[1].method = "learned";
+  Clip both = gapped();
+  const FillReport report =
+      fill_with_plan(both, plan, {}, {same_everywhere, drifting(truth)}).report;
+  EXPECT_EQ(report.gaps[0].method, "recurrent");
+  EXPECT_EQ(report.gaps[1].method, "learned");
+  const std::size_t first = track_of(clip, "joint1"), second = track_of(clip, "joint3");
+  EXPECT_LT(angle_between(both.rotation(230, first), said), 1e-9);
+  EXPECT_LT(angle_between(both.rotation(310, second), truth.rotation(310, second)), 0.02);
 }
 
 TEST(LearnedFilling, NeedsAModelAndSaysHowToMakeOne) {

@@ -71,18 +71,18 @@ PlannedFill fill_with_plan(MarkerClip& clip, const FillSettings& settings,
                            const FillCheck& check = {});
 /// Fills the gaps that rows name as these say, all in one run, and leaves others alone. Errors:
 /// `ErrorKind::usage` for a row that names no gap of the take, a gap that another row names, a
-/// method or a donor that there is not, a learned method without `learned`.
+/// method or a donor that there is not, a learned method without its model.
 PlannedFill fill_with_plan(Clip& clip, std::span<const PlannedGap> plan,
-                           const FillCheck& check = {}, const LearnedFill& learned = {});
+                           const FillCheck& check = {}, const FillModels& models = {});
 PlannedFill fill_with_plan(MarkerClip& clip, std::span<const PlannedGap> plan,
                            const FillCheck& check = {});
 
 /// Fills `previews` of each row: what every method of this kind of take (`pattern` where the row
-/// names a donor, a learned one where there is `learned`), by its rules, would make of the gap if
+/// names a donor, a learned one where there is its model), by its rules, would make of the gap if
 /// it had to fill all gaps of the plan. `clip` is the take before it is filled. Errors: as of
 /// `fill_with_plan`.
 void preview_methods(const Clip& clip, std::vector<PlannedGap>& plan, const FillCheck& check = {},
-                     const LearnedFill& learned = {});
+                     const FillModels& models = {});
 void preview_methods(const MarkerClip& clip, std::vector<PlannedGap>& plan,
                      const FillCheck& check = {});
 
@@ -110,7 +110,7 @@ struct GapCurves {
 /// `clip` is the take before it is filled. Errors: as of `fill_with_plan`; `ErrorKind::usage` for a
 /// row that there is not.
 GapCurves preview_curves(const Clip& clip, std::span<const PlannedGap> plan, std::size_t row,
-                         const FillCheck& check = {}, const LearnedFill& learned = {});
+                         const FillCheck& check = {}, const FillModels& models = {});
 GapCurves preview_curves(const MarkerClip& clip, std::span<const PlannedGap> plan, std::size_t row,
                          const FillCheck& check = {});
 
