@@ -117,6 +117,8 @@ int motion_program(int count, char** values) {
       ->capture_default_str();
   app.add_option("--pair-share", training.sampling.pair_share, "of samples that are pairs")
       ->capture_default_str();
+  app.add_option("--live-share", training.sampling.live_share, "of samples that are read live")
+      ->capture_default_str();
   app.add_flag("!--no-slow-noise", training.sampling.has_slow_noise,
                "no low-passed noise, no filtered takes");
   app.add_flag("!--no-trunk", training.shape.has_trunk, "every channel by itself");

@@ -14,7 +14,16 @@
 namespace kinemend::papers {
 namespace {
 
-const std::vector<std::string> methods_compared{"auto", "wiener", "learned"};
+struct Compared {
+  std::string label, method;
+  OptionValues options{};
+
+  Clip made_of(const Clip& clip) const { return cleaned(clip, method, options); }
+};
+const std::vector<Compared> methods_compared{{"auto", "auto"},
+                                             {"wiener", "wiener"},
+                                             {"learned", "learned"},
+                                             {"learned live", "learned", {{"live", true}}}};
 
 // Kept aside by tools/training_clips.py.
 std::vector<std::string> kept_takes(const Arguments& arguments) {
@@ -122,12 +131,12 @@ void every_noise(const Arguments& arguments) {
         errors[method] += error / count;
       };
       add("untouched", clip);
-      for (const std::string& method : methods_compared) add(method, cleaned(clip, method));
+      for (const Compared& method : methods_compared) add(method.label, method.made_of(clip));
     }
     for (const auto& [method, share] : shares) {
       table.add({kind.name, method, fmt::format("{}", names.size()), figure(share),
                  figure(errors[method])});
-      fmt::print("{:22} {:10} {:.3f}  {:.3f} deg\n", kind.name, method, share, errors[method]);
+      fmt::print("{:22} {:12} {:.3f}  {:.3f} deg\n", kind.name, method, share, errors[method]);
     }
   }
   table.close();
@@ -142,8 +151,8 @@ void white_and_spikes(const Arguments& arguments) {
     const Clip truth = load_take(arguments, name + ".bvh", {.motion = name}).clip;
     const Clip clip = noisy(truth, 1.5, 0.004, 1);
     table.add({name, "untouched", figure(rms_deg(truth, clip))});
-    for (const std::string& method : methods_compared)
-      table.add({name, method, figure(rms_deg(truth, cleaned(clip, method)))});
+    for (const Compared& method : methods_compared)
+      table.add({name, method.label, figure(rms_deg(truth, method.made_of(clip)))});
   }
   table.close();
 }
@@ -158,18 +167,18 @@ void clean_takes(const Arguments& arguments) {
     if (name.find('_') != std::string::npos) names.push_back(name);
   }
   if (arguments.quick || names.empty()) names = {"walk"};
-  for (const std::string& method : methods_compared) {
+  for (const Compared& method : methods_compared) {
     std::vector<double> changes;
     for (const std::string& name : names) {
       const Clip clip = load_take(arguments, name + ".bvh", {.motion = name}).clip;
-      changes.push_back(geodesic_rms_deg(clip, cleaned(clip, method)));
+      changes.push_back(geodesic_rms_deg(clip, method.made_of(clip)));
     }
     const auto worst = std::max_element(changes.begin(), changes.end());
     const std::string& worst_name = names[static_cast<std::size_t>(worst - changes.begin())];
     const double most = *worst, median = upper_median_of(changes);
-    fmt::print("clean: {:10} median {:.4f} deg, most {:.3f} ({})\n", method, median, most,
+    fmt::print("clean: {:12} median {:.4f} deg, most {:.3f} ({})\n", method.label, median, most,
                worst_name);
-    table.add({method, fmt::format("{}", names.size()), figure(median), figure(most)});
+    table.add({method.label, fmt::format("{}", names.size()), figure(median), figure(most)});
   }
   table.close();
 }

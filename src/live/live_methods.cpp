@@ -28,9 +28,12 @@ bool runs_live(const Method& method, const OptionValues& options) {
 std::vector<LiveMethod> live_methods() {
   std::vector<LiveMethod> list;
   for (const Method& method : methods()) {
-    // A learned method runs live on bodies that its model knows only, by its option `live`. To make
-    // one reads a model, which takes long.
-    if (is_learned(method)) continue;
+    // To make a learned method reads a model, which takes long. Of those that run live, by their
+    // option, one cleans any body.
+    if (is_learned(method)) {
+      if (method.name == "learned") list.push_back({method.name, {{"live", true}}});
+      continue;
+    }
     if (runs_live(method, {})) {
       list.push_back({method.name, {}});
       continue;

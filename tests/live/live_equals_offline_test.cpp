@@ -97,7 +97,7 @@ TEST(LiveMethods, AreAllThatRunLiveWithWhatMakesThem) {
   }
   EXPECT_THAT(names,
               testing::IsSupersetOf({"bilateral", "nonlocal", "gaussian", "butterworth", "median",
-                                     "hampel", "weighted-mean", "kalman", "one-euro"}));
+                                     "hampel", "weighted-mean", "kalman", "one-euro", "learned"}));
   EXPECT_THAT(names, testing::Not(testing::Contains("wavelet")));
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <variant>
 #include <vector>
@@ -25,10 +26,13 @@ MotionSample drawn(const MotionSampling& sampling, std::uint64_t seed) {
   return random_motion_sample(walks(), mirror_of(walks().layout), {}, sampling, Random(seed));
 }
 
+// Of what was measured.
 double size_of_damage(const MotionSample& sample) {
   double square = 0;
-  for (std::size_t i = 0; i < sample.truth.size(); ++i)
+  for (std::size_t i = 0; i < sample.truth.size(); ++i) {
+    if (!sample.take.missing.empty() && sample.take.missing[i] != 0) continue;
     square += std::pow(static_cast<double>(sample.take.values[i] - sample.truth[i]), 2);
+  }
   return std::sqrt(square / static_cast<double>(sample.truth.size()));
 }
 
@@ -56,6 +60,54 @@ TEST(MotionSamples, AreDamagedButForTheShareThatIsClean) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     EXPECT_EQ(size_of_damage(drawn({.clean_share = 1}, seed)), 0);
     EXPECT_GT(size_of_damage(drawn({.clean_share = 0}, seed)), 1e-3);
+  }
+}
+
+TEST(MotionSamples, HaveGapsWhereTheyAreCleanToo) {
+  std::size_t with_gaps = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const MotionSample sample = drawn({.clean_share = 1}, seed);
+    const auto& missing = sample.take.missing;
+    with_gaps += std::count(missing.begin(), missing.end(), 1) > 0 ? 1 : 0;
+  }
+  EXPECT_GT(with_gaps, 8u);
+  EXPECT_LT(with_gaps, 28u);
+}
+
+TEST(MotionSamples, ShowTheReferenceOfAPairInTheShareThatIsClean) {
+  MotionPair pair;
+  MotionTake& take = pair.sample.take;
+  take.frames = 900;
+  take.channels = 6;
+  take.frame_rate_hz = 60;
+  take.slots.assign(6, -1);
+  take.is_position.assign(6, 0);
+  take.missing.assign(900 * 6, 1);
+  for (std::size_t i = 0; i < 900 * 6; ++i) {
+    const auto x = static_cast<float>(10 * std::sin(0.01 * static_cast<double>(i)));
+    pair.sample.truth.push_back(x);
+    take.values.push_back(x + (i % 2 == 0 ? 1 : -1));
+  }
+  const std::vector<MotionPair> pairs{pair};
+  for (const double share : {0.0, 1.0}) {
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+      const MotionSample sample =
+          random_motion_sample(walks(), mirror_of(walks().layout), pairs,
+                               {.pair_share = 1, .clean_share = share}, Random(seed));
+      EXPECT_EQ(sample.take.values == sample.truth, share == 1);
+      EXPECT_EQ(sample.take.missing.empty(), share == 1);
+    }
+  }
+}
+
+TEST(MotionSamples, AreReadLiveInTheShareThatIsAndThenNoNoiseIsMeasured) {
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    const MotionSample live = drawn({.live_share = 1}, seed),
+                       whole = drawn({.live_share = 0}, seed);
+    EXPECT_TRUE(live.is_live);
+    EXPECT_TRUE(live.take.measured.empty());
+    EXPECT_FALSE(whole.is_live);
+    EXPECT_EQ(whole.take.measured.size(), whole.take.values.size());
   }
 }
 

@@ -117,12 +117,15 @@ struct DamagedStretch {
       apply("outliers",
             {{"share", log_uniform(random, 0.001, 0.02)}, {"std_deg", random.uniform(5, 30)}},
             random);
-    if (random.chance(0.15))
-      apply("gaps",
-            {{"start_probability", log_uniform(random, 0.001, 0.01)},
-             {"mean_length_s", log_uniform(random, 0.02, 1.5)},
-             {"scope", std::string("joint")}},
-            random);
+    if (random.chance(0.15)) open_gaps(random);
+  }
+
+  void open_gaps(Random& random) {
+    apply("gaps",
+          {{"start_probability", log_uniform(random, 0.001, 0.01)},
+           {"mean_length_s", log_uniform(random, 0.02, 1.5)},
+           {"scope", std::string("joint")}},
+          random);
   }
 
   void damage(const MotionSampling& sampling, Random& random) {
@@ -252,7 +255,13 @@ MotionSample random_damage(const TrainingSequences& sequences, const BodyMirror&
   MotionSample sample;
   sample.truth.assign(poses.values.begin(), poses.values.end());
   DamagedStretch damaged{sequences.layout, rate_hz, std::move(poses), {}};
-  if (!random.chance(sampling.clean_share)) damaged.damage(sampling, random);
+  if (!random.chance(sampling.clean_share)) {
+    damaged.damage(sampling, random);
+  } else if (random.chance(0.4)) {
+    // What is clean has gaps, too.
+    damaged.open_gaps(random);
+    bridge_lost(damaged.poses, damaged.observed);
+  }
   MotionTake& take = sample.take;
   take.frames = damaged.poses.frames;
   take.channels = channels;

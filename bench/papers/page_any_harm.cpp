@@ -1,0 +1,133 @@
+// Figures of docs/methods/learned.md: what is left of motion that cleaning must not take away, on
+// motions that its model has not seen.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "kinemend/rotation.hpp"
+#include "page.hpp"
+
+namespace kinemend::papers {
+namespace {
+
+struct Method {
+  std::string label, name;
+  OptionValues options{};
+};
+const std::vector<Method> methods_tried{
+    {"auto", "auto"}, {"learned", "learned"}, {"learned live", "learned", {{"live", true}}}};
+
+std::size_t joint_named(const Clip& clip, const std::string& name) {
+  const auto joint = clip.skeleton.find(name);
+  if (!joint) throw Error(ErrorKind::usage, "no joint is named " + name);
+  return static_cast<std::size_t>(*joint);
+}
+
+// Of the joints that turn by 200 degrees a second and more, the least share of the peak speed that
+// is left.
+double peak_left(const Clip& truth, const Clip& result) {
+  const auto before = peak_angular_speed_deg_s(truth), after = peak_angular_speed_deg_s(result);
+  double least = 1e9;
+  for (std::size_t j = 0; j < before.size(); ++j) {
+    if (before[j] >= 200) least = std::min(least, after[j] / before[j]);
+  }
+  return least;
+}
+
+// By how much the rotations of a joint of `result` swing with those of `truth`.
+double swing_left(const Clip& truth, const Clip& result, std::size_t joint) {
+  const Quat reference = truth.rotation(0, joint);
+  const auto vectors_of = [&](const Clip& clip) {
+    std::vector<Vec3> vectors;
+    Vec3 mean;
+    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+      vectors.push_back(log(conjugate(reference) * clip.rotation(f, joint)));
+      mean = mean + (1 / static_cast<double>(clip.frame_count())) * vectors.back();
+    }
+    for (Vec3& v : vectors) v = v - mean;
+    return vectors;
+  };
+  const std::vector<Vec3> x = vectors_of(truth), y = vectors_of(result);
+  double xx = 0, xy = 0;
+  for (std::size_t f = 0; f < x.size(); ++f) xx += dot(x[f], x[f]), xy += dot(x[f], y[f]);
+  return xy / xx;
+}
+
+struct Oscillation {
+  std::string name, joint;
+  double frequency_hz, amplitude_deg;
+};
+const std::vector<Oscillation> oscillations{{"tremor", "LeftForeArm", 6, 1},
+                                            {"drum roll", "LeftHand", 9, 5},
+                                            {"breathing", "Spine", 0.25, 1}};
+
+double phase_at(const Oscillation& motion, const Clip& clip, std::size_t frame) {
+  return 2 * std::numbers::pi * motion.frequency_hz * static_cast<double>(frame) /
+         clip.frame_rate_hz;
+}
+
+Clip with(const Oscillation& motion, Clip clip) {
+  const std::size_t joint = joint_named(clip, motion.joint);
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    const double angle =
+        radians_per_degree * motion.amplitude_deg * std::sin(phase_at(motion, clip, f));
+    clip.rotation(f, joint) = clip.rotation(f, joint) * exp(Vec3{angle, 0, 0});
+  }
+  return clip;
+}
+
+// The share of the oscillation that `result` still has over `clip`, which is without.
+double oscillation_left(const Oscillation& motion, const Clip& clip, const Clip& result) {
+  const std::size_t joint = joint_named(clip, motion.joint);
+  double xx = 0, xy = 0;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    const double x = std::sin(phase_at(motion, clip, f));
+    const Vec3 turn = log(conjugate(clip.rotation(f, joint)) * result.rotation(f, joint));
+    xx += x * x;
+    xy += x * degrees_per_radian * turn.x;
+  }
+  return xy / xx / motion.amplitude_deg;
+}
+
+void experiment(const Arguments& arguments) {
+  Table table(arguments, "any_harm.csv", "motion,noise_deg,method,share_left");
+  const auto each = [&](const std::string& motion, double noise_deg,
+                        const std::function<double(const Method&)>& share_left) {
+    for (const Method& method : methods_tried) {
+      const double share = share_left(method);
+      fmt::print("{:12} {:.1f} deg  {:12} {:.3f}\n", motion, noise_deg, method.label, share);
+      table.add({motion, figure(noise_deg), method.label, figure(share)});
+    }
+  };
+  for (const std::string name : {"punch", "clap", "landing"}) {
+    const Clip truth = synthesize({.motion = name, .duration_s = 4, .frame_rate_hz = 120});
+    for (const double noise_deg : {0.0, 0.5}) {
+      const Clip clip = noisy(truth, noise_deg, 0, 6);
+      each(name, noise_deg, [&](const Method& method) {
+        return peak_left(truth, cleaned(clip, method.name, method.options));
+      });
+    }
+  }
+  const Clip walk = load_take(arguments, "35_01.bvh", {.motion = "walk"}).clip;
+  for (const double noise_deg : {0.0, 1.5}) {
+    const Clip clip = noisy(walk, noise_deg, 0, 6);
+    each("arm swing", noise_deg, [&](const Method& method) {
+      return swing_left(walk, cleaned(clip, method.name, method.options),
+                        joint_named(walk, "LeftArm"));
+    });
+  }
+  const Clip still = load_take(arguments, "49_17.bvh", {.motion = "still"}).clip;
+  for (const Oscillation& motion : oscillations) {
+    const Clip clip = with(motion, still);
+    each(motion.name, 0, [&](const Method& method) {
+      return oscillation_left(motion, still, cleaned(clip, method.name, method.options));
+    });
+  }
+  table.close();
+}
+
+const Registration registration("page_any_harm", experiment);
+
+}  // namespace
+}  // namespace kinemend::papers
