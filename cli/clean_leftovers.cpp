@@ -159,7 +159,7 @@ std::vector<Leftover> reasons_unchanged(const Take& take, const CleanReport& rep
   add(
       FindingKind::spike,
       [](const Found& found) { return counted(found.count, "spike") + " left"; },
-      plan.method == "auto" ? listing : "--method auto repairs them");
+      plan.method == "auto" || plan.method == "learned" ? listing : "--method auto repairs them");
   const bool is_joints = std::holds_alternative<Clip>(take);
   add(
       FindingKind::slide,

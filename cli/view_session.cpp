@@ -55,7 +55,7 @@ const Method* method_of(const std::vector<AskedFlag>& flags) {
     if (const auto set = settings.values.find("method"); set != settings.values.end())
       method = std::get<std::string>(set->second);
   }
-  return method_called(method.empty() ? "auto" : method);
+  return method_called(method.empty() ? "learned" : method);
 }
 
 bool is_option(const Method* method, std::string_view name) {

@@ -46,7 +46,7 @@ double mean_of(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-const std::vector<std::string> learned_and_auto{"auto", "wiener"};
+const std::vector<std::string> learned_and_auto{"auto", "wiener", "learned"};
 
 // One noise: the errors of all methods on all takes. Of the Gaussians the one that is best over
 // all takes stands for the best constant one.

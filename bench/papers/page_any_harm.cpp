@@ -20,8 +20,8 @@ const std::vector<Method> methods_tried{
 
 std::size_t joint_named(const Clip& clip, const std::string& name) {
   const auto joint = clip.skeleton.find(name);
-  if (!joint) throw Error(ErrorKind::usage, "no joint is named " + name);
-  return static_cast<std::size_t>(*joint);
+  if (joint < 0) throw Error(ErrorKind::usage, "no joint is named " + name);
+  return static_cast<std::size_t>(joint);
 }
 
 // Of the joints that turn by 200 degrees a second and more, the least share of the peak speed that

@@ -6,6 +6,7 @@
 #include <map>
 #include <variant>
 
+#include "base/quantiles.hpp"
 #include "clean/motion_channels.hpp"
 #include "clean/pieces.hpp"
 #include "kinemend/experimental/model.hpp"
@@ -90,11 +91,27 @@ Errors share_of(const Errors& errors, const Errors& before) {
           errors.fast / before.fast};
 }
 
+struct Compared {
+  std::string label, method;
+  OptionValues options{};
+};
+const std::vector<Compared> methods_compared{
+    {"auto", "auto"}, {"learned", "learned"}, {"learned live", "learned", {{"live", true}}}};
+
 struct Source {
   std::size_t takes = 0;
   double within = 0;  ///< summed over takes
   std::map<std::string, Errors> shares;
+  // Of each method, what it does to the references, which are clean: degrees, of each take.
+  std::map<std::string, std::vector<double>> reference_changes;
 };
+
+double root_mean_square_of_difference(const std::vector<float>& a, const std::vector<float>& b) {
+  double square = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    square += static_cast<double>(a[i] - b[i]) * static_cast<double>(a[i] - b[i]);
+  return std::sqrt(square / static_cast<double>(a.size()));
+}
 
 // The share of errors that are no larger than the deviation that the network states.
 double share_within(const MotionSample& pair) {
@@ -138,10 +155,13 @@ void add_pair(const AnyClip& noisy, const AnyClip& reference, double least_deg, 
   both.take.channels = both.take.values.size() / both.take.frames;
   const MotionSample pair = mapped_pair({"", std::move(both)}, least_deg).sample;
   if (std::all_of(pair.truth.begin(), pair.truth.end(), [](float v) { return v == 0; })) return;
+  const auto channels_by = [&](const std::string& method, const OptionValues& options,
+                               AnyClip clip) {
+    clean_in_place(*make_cleaner(method, options), clip);
+    return channels_of(tracks, clip);
+  };
   const auto errors_by = [&](const std::string& method, const OptionValues& options) {
-    AnyClip result = noisy;
-    clean_in_place(*make_cleaner(method, options), result);
-    return errors_of(channels_of(tracks, result), pair);
+    return errors_of(channels_by(method, options, noisy), pair);
   };
   const Errors untouched = errors_of(pair.take.values, pair);
   const auto add = [&](const std::string& name, const Errors& errors) {
@@ -159,7 +179,12 @@ void add_pair(const AnyClip& noisy, const AnyClip& reference, double least_deg, 
   }
   add("best cut", best);
   add("butterworth", errors_by("butterworth", {}));
-  for (const char* method : {"auto", "learned"}) add(method, errors_by(method, {}));
+  const std::vector<float> clean = channels_of(tracks, reference);
+  for (const Compared& compared : methods_compared) {
+    add(compared.label, errors_by(compared.method, compared.options));
+    source.reference_changes[compared.label].push_back(root_mean_square_of_difference(
+        channels_by(compared.method, compared.options, reference), clean));
+  }
   const MotionSample seen{tracks.take, values_in(tracks, view_of(reference))};
   source.within += share_within(mapped_pair({"", seen}, least_deg).sample);
   ++source.takes;
@@ -192,6 +217,18 @@ void experiment(const Arguments& arguments) {
     }
   }
   table.close();
+  Table references(arguments, "any_references.csv", "source,method,takes,median_deg,most_deg");
+  for (const auto& [name, source] : sources) {
+    for (auto [method, changes] : source.reference_changes) {
+      const double median = upper_median_of(changes),
+                   most = *std::max_element(changes.begin(), changes.end());
+      references.add(
+          {name, method, fmt::format("{}", changes.size()), figure(median), figure(most)});
+      fmt::print("reference {:8} {:12} median {:.4f} most {:.3f} deg\n", name, method, median,
+                 most);
+    }
+  }
+  references.close();
 }
 
 const Registration registration("page_any_pairs", experiment);

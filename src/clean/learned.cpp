@@ -115,6 +115,7 @@ class Learned final : public Cleaner {
     for (std::size_t n = 0; n < tracks.numbers.size(); ++n) {
       const TrackError& error = errors[n];
       const std::size_t number = tracks.numbers[n];
+      if (!is_worth_a_change(error)) continue;
       const double unit = degrees_per_unit(view, view.tracks[number].space);
       trace.noise[number] = std::sqrt(error.removed) / unit;
       trace.left[number] = std::sqrt(error.left) / unit;
@@ -151,10 +152,28 @@ class Learned final : public Cleaner {
         }
       }
       const std::size_t number = tracks.numbers[n];
-      cleaned.noise = {
-          std::sqrt(errors[n].all()) / degrees_per_unit(view, view.tracks[number].space),
-          errors[n].correlation};
+      if (is_worth_a_change(errors[n])) {
+        cleaned.noise = {
+            std::sqrt(errors[n].all()) / degrees_per_unit(view, view.tracks[number].space),
+            errors[n].correlation};
+      } else {
+        keep_measured(view, tracks, n, cleaned);
+      }
       sink(number, std::move(cleaned));
+    }
+  }
+
+  // Only spikes and gaps of the n-th track change.
+  static void keep_measured(const TakeView& view, const MotionTracks& tracks, std::size_t n,
+                            CleanedTrack& cleaned) {
+    const Track& track = view.tracks[tracks.numbers[n]];
+    for (std::size_t f = 0; f < view.frames; ++f) {
+      if (tracks.is_spike[f * tracks.numbers.size() + n] != 0 || !track.is_observed(f)) continue;
+      if (track.space == Space::rotation) {
+        cleaned.rotations[f] = track.rotation(f);
+      } else {
+        cleaned.positions[f] = track.position(f);
+      }
     }
   }
 

@@ -40,6 +40,10 @@ std::string why_not_learned(const TakeView& view) {
   if (static_cast<double>(view.frames) < shortest_learned_take_s * view.frame_rate_hz)
     return "the take is shorter than half a second";
   if (view.frame_rate_hz < lowest_learned_rate_hz) return "the frame rate is below 20 Hz";
+  const bool is_noise_given =
+      view.noise_correlation || std::any_of(view.tracks.begin(), view.tracks.end(),
+                                            [](const Track& track) { return track.noise > 0; });
+  if (is_noise_given) return "the noise is given";
   return {};
 }
 

@@ -19,7 +19,7 @@ TrackError track_error(const MotionTake& take, const MotionResult& result, std::
   for (std::size_t f = 0; f < take.frames; ++f) {
     for (std::size_t c = 3 * track; c < 3 * track + 3; ++c) {
       const std::size_t i = f * take.channels + c;
-      if (result.deviation[i] == 0) continue;
+      if (result.deviation[i] == 0 && change(i) == 0) continue;
       samples += 1;
       error.removed += change(i) * change(i);
       error.left += static_cast<double>(result.deviation[i]) * result.deviation[i];
@@ -35,11 +35,16 @@ TrackError track_error(const MotionTake& take, const MotionResult& result, std::
   return error;
 }
 
+bool is_worth_a_change(const TrackError& error) {
+  constexpr double least_share = 0.1;
+  return error.removed > least_share * least_share * error.left;
+}
+
 double slow_noise(std::span<const TrackError> errors) {
   constexpr double least_deg = 1, most_quick_share = 0.25;
   std::vector<double> sizes, quick;
   for (const TrackError& error : errors) {
-    if (error.left == 0) continue;
+    if (error.left == 0 || !is_worth_a_change(error)) continue;
     sizes.push_back(std::sqrt(error.all()));
     quick.push_back(error.quick / error.all());
   }

@@ -20,8 +20,12 @@ struct TrackError {
 /// Of channels 3 `track` to 3 `track` + 2.
 TrackError track_error(const MotionTake& take, const MotionResult& result, std::size_t track);
 
-/// Slow noise of the middle one of these tracks, degrees per axis; 0 where errors are small or show
-/// from frame to frame.
+/// Whether a change is more than a tenth of what may be wrong anyway. A smaller one is not made: a
+/// clean track keeps its samples.
+bool is_worth_a_change(const TrackError& error);
+
+/// Slow noise of the middle one of those tracks that are worth a change, degrees per axis; 0 where
+/// errors are small or show from frame to frame.
 double slow_noise(std::span<const TrackError> errors);
 
 }  // namespace kinemend
