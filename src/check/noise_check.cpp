@@ -52,6 +52,7 @@ struct Verdict {
 void add_slow_noise(const TakeView& take, std::vector<NoiseCharacter>& found) {
   const TrackSink nowhere = [](std::size_t, const CleanedTrack&) {};
   for (const NoiseCharacter& noise : make_learned()->clean(take, nowhere, {}).characters) {
+    if (!noise.is_expected) continue;
     const auto is_known = [&](const NoiseCharacter& other) {
       return other.space == noise.space && other.strength >= 0.5 * noise.strength;
     };

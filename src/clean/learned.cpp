@@ -122,12 +122,16 @@ class Learned final : public Cleaner {
       (view.tracks[number].space == Space::rotation ? turning : moving).push_back(error);
     }
     for (const Space space : {Space::rotation, Space::position}) {
-      const double strength_deg = slow_noise(space == Space::rotation ? turning : moving);
-      if (strength_deg == 0) continue;
+      const std::vector<TrackError>& own = space == Space::rotation ? turning : moving;
+      const double slow_deg = slow_noise(own);
+      const ColouredNoise removed = removed_noise(own);
+      if (removed.strength == 0) continue;
       NoiseCharacter character;
       character.space = space;
-      character.strength = strength_deg / degrees_per_unit(view, space);
-      character.is_expected = true;
+      character.is_expected = slow_deg > 0;
+      character.strength =
+          (slow_deg > 0 ? slow_deg : removed.strength) / degrees_per_unit(view, space);
+      if (slow_deg == 0) character.correlation = removed.correlation;
       trace.characters.push_back(character);
     }
   }

@@ -40,6 +40,17 @@ bool is_worth_a_change(const TrackError& error) {
   return error.removed > least_share * least_share * error.left;
 }
 
+ColouredNoise removed_noise(std::span<const TrackError> errors) {
+  std::vector<double> strengths, correlations;
+  for (const TrackError& error : errors) {
+    if (!is_worth_a_change(error)) continue;
+    strengths.push_back(std::sqrt(error.removed));
+    correlations.push_back(error.correlation);
+  }
+  if (strengths.empty()) return {};
+  return {median_of(strengths), median_of(correlations)};
+}
+
 double slow_noise(std::span<const TrackError> errors) {
   constexpr double least_deg = 1, most_quick_share = 0.25;
   std::vector<double> sizes, quick;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <span>
 
+#include "kinemend/cleaner.hpp"
 #include "priors/motion/motion_filter.hpp"
 
 // How wrong a take was, as far as the learned cleaner can say.
@@ -23,6 +24,9 @@ TrackError track_error(const MotionTake& take, const MotionResult& result, std::
 /// Whether a change is more than a tenth of what may be wrong anyway. A smaller one is not made: a
 /// clean track keeps its samples.
 bool is_worth_a_change(const TrackError& error);
+
+/// What was taken out of the middle one of the tracks that are worth a change, degrees per axis.
+ColouredNoise removed_noise(std::span<const TrackError> errors);
 
 /// Slow noise of the middle one of those tracks that are worth a change, degrees per axis; 0 where
 /// errors are small or show from frame to frame.

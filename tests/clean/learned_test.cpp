@@ -123,15 +123,31 @@ TEST(LearnedCleaner, LeavesShortTakesAndSlowOnesToAutoAndSaysSo) {
 }
 
 TEST(LearnedCleaner, SaysHowFarItsResultIsExpectedToBeOff) {
-  const Clip clip = walk_for_networks(120);
+  const Clip noisy = with_damage(walk_for_networks(120), "gaussian", {{"std_deg", 2.0}});
   const CleanReport report =
-      clean_clip(clip, *cleaner_of(expecting(one_smoother_model(0), 0.5))).report;
-  for (const TrackSummary& track : report.tracks) {
-    if (track.left > 0) {
-      EXPECT_NEAR(track.left, 0.5, 1e-3) << track.name;
+      clean_clip(noisy, *cleaner_of(expecting(one_smoother_model(gaussian_of_50_ms), 0.5))).report;
+  for (const TrackSummary& track : report.tracks) EXPECT_NEAR(track.left, 0.5, 1e-3) << track.name;
+}
+
+TEST(LearnedCleaner, LeavesTracksAloneWhoseChangeIsSmallBesideWhatMayBeWrongAnyway) {
+  const Clip truth = walk_for_networks(120);
+  Clip clip = with_damage(truth, "gaussian", {{"std_deg", 0.2}});
+  // A spike is repaired all the same.
+  const std::size_t knee = 2, frame = 200;
+  clip.rotation(frame, knee) = clip.rotation(frame, knee) * exp(Vec3{1, 0, 0});
+  const Model smoothing = one_smoother_model(gaussian_of_50_ms);
+  const CleanResult unsure = clean_clip(clip, *cleaner_of(expecting(smoothing, 40)));
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    for (std::size_t j = 0; j < clip.joint_count(); ++j) {
+      if (f == frame && j == knee) continue;
+      ASSERT_EQ(unsure.clip.rotation(f, j), clip.rotation(f, j)) << "frame " << f;
     }
   }
-  EXPECT_GT(report.tracks[0].left, 0);
+  EXPECT_LT(angle_between(unsure.clip.rotation(frame, knee), truth.rotation(frame, knee)), 0.05);
+  EXPECT_TRUE(unsure.report.noise.empty());
+  EXPECT_EQ(unsure.report.tracks[knee].left, 0);
+  const CleanResult sure = clean_clip(clip, *cleaner_of(expecting(smoothing, 0.1)));
+  EXPECT_NE(sure.clip.rotation(100, knee), clip.rotation(100, knee));
 }
 
 // What shows from frame to frame is measurable, however large it is; and small errors are nothing
@@ -142,15 +158,18 @@ TEST(LearnedCleaner, NamesNoiseThatIsLargeAndSlowOnly) {
     const std::unique_ptr<Cleaner> cleaner =
         cleaner_of(expecting(one_smoother_model(gaussian_of_50_ms), expected_deg));
     std::vector<NoiseCharacter> noise = clean_clip(take, *cleaner).report.noise;
-    std::erase_if(noise, [](const NoiseCharacter& one) { return one.space != Space::rotation; });
+    std::erase_if(noise, [](const NoiseCharacter& one) {
+      return one.space != Space::rotation || !one.is_expected;
+    });
     return noise;
   };
   EXPECT_TRUE(characters(clip, 0.2).empty());
   EXPECT_TRUE(characters(with_damage(clip, "gaussian", {{"std_deg", 6.0}}), 2).empty());
-  const std::vector<NoiseCharacter> slow = characters(clip, 4);
+  const std::vector<NoiseCharacter> slow = characters(clip, 1.5);
   ASSERT_FALSE(slow.empty());
   EXPECT_TRUE(slow[0].is_expected);
-  EXPECT_NEAR(slow[0].strength, 4, 0.2);
+  EXPECT_GT(slow[0].strength, 1.5);
+  EXPECT_LT(slow[0].strength, 3);
 }
 
 }  // namespace

@@ -135,11 +135,11 @@ TEST_F(Clean, TheJsonHoldsTheFiguresOfTheReport) {
   const Json& take = json["takes"][0];
   EXPECT_EQ(take["input"], "walk.bvh");
   EXPECT_EQ(take["output"], "d/walk.bvh");
-  EXPECT_EQ(take["method"], "auto");
+  EXPECT_EQ(take["method"], "learned");
   EXPECT_EQ(take["frames"], 120);
   EXPECT_NEAR(take["frame_rate_hz"], 60, 1e-3);
   EXPECT_EQ(take["tracks"].size(), 31u);
-  EXPECT_EQ(take["options"]["sensitivity"], 1);
+  EXPECT_EQ(take["options"]["live"], false);
   EXPECT_TRUE(take["findings"].empty());
   EXPECT_EQ(json["takes"][1]["exit_code"], 3);
   EXPECT_THAT(json["takes"][1]["error"].get<std::string>(), testing::StartsWith("bad.bvh:"));

@@ -86,7 +86,7 @@ TEST_F(FeetNames, AMapServesTheFeetOfCleanAndBatchAsNamesDo) {
   const Json held = feet({"walk.bvh", "--contacts", "walk.contacts"});
   EXPECT_EQ(feet({"unnamed.bvh", "--contacts", "walk.contacts", "--map", "names.csv"}), held);
 
-  const Ran alone = run({"clean", "unnamed.bvh", "--map", "names.csv", "--dry-run"});
+  const Ran alone = run({"clean", "unnamed.bvh", "-m", "auto", "--map", "names.csv", "--dry-run"});
   EXPECT_EQ(alone.code, 2) << "without feet it is about the model of a method";
   fs::create_directory(folder / "raw");
   fs::copy_file(folder / "unnamed.bvh", folder / "raw/unnamed.bvh");
@@ -104,7 +104,7 @@ TEST_F(FeetNames, AMapThatNamesWhatIsNotThereIsRefused) {
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"check", "unnamed.bvh"},
         {"contacts", "unnamed.bvh"},
-        {"clean", "unnamed.bvh", "--dry-run", "--feet", "auto"}}) {
+        {"clean", "unnamed.bvh", "-m", "auto", "--dry-run", "--feet", "auto"}}) {
     auto with = [&](const std::string& map) {
       std::vector<std::string> all = words;
       all.insert(all.end(), {"--map", map});

@@ -120,7 +120,7 @@ TEST_F(Streams, APipeMayEndInAFileAndAFileInAPipe) {
   EXPECT_THAT(to_file.out, testing::StartsWith("standard input: noisy: "));
   const Ran to_pipe = run({"clean", "walk.bvh", "-o", "-"});
   EXPECT_EQ(to_pipe.out, contents(folder / "out.bvh"));
-  EXPECT_THAT(to_pipe.err, HasSubstr("method auto"));
+  EXPECT_THAT(to_pipe.err, HasSubstr("method learned"));
 }
 
 TEST_F(Streams, EveryCommandReadsStandardInput) {

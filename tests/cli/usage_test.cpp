@@ -54,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{{"clean", "a.bvh", "-m", "butterworth", "--cutoff-hz", "900"},
              "--cutoff-hz: 900 is outside 0.05 to 500 Hz"},
         Case{{"clean", "a.bvh", "--cutoff-hz", "6"},
-             "--cutoff-hz is an option of butterworth, not of auto (choose with --method)"},
+             "--cutoff-hz is an option of butterworth, not of learned (choose with --method)"},
         Case{{"clean", "a.bvh", "--preset", "gym"},
              "--preset: \"gym\" is not one of walk, sport, dance, hands, live, biomech"},
         Case{{"clean", "a.bvh", "--range", "5"},
