@@ -134,7 +134,7 @@ TEST(LearnedCleaner, LeavesTracksAloneWhoseChangeIsSmallBesideWhatMayBeWrongAnyw
   Clip clip = with_damage(truth, "gaussian", {{"std_deg", 0.2}});
   // A spike is repaired all the same.
   const std::size_t knee = 2, frame = 200;
-  clip.rotation(frame, knee) = clip.rotation(frame, knee) * exp(Vec3{1, 0, 0});
+  clip.rotation(frame, knee) = clip.rotation(frame, knee) * exp(Vec3{2, 0, 0});
   const Model smoothing = one_smoother_model(gaussian_of_50_ms);
   const CleanResult unsure = clean_clip(clip, *cleaner_of(expecting(smoothing, 40)));
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
