@@ -12,7 +12,8 @@ namespace {
 
 // Whether a part stays where its channels can say what it does.
 bool is_tame(const BodyChannels& body, std::size_t part) {
-  constexpr double most_step_deg = 60;
+  // Strong noise steps by less; a vector that goes round the other way, by about a turn.
+  constexpr double most_step_deg = 180;
   const auto vector_at = [&](std::size_t frame) {
     return Vec3{body.poses(frame, 3 * part), body.poses(frame, 3 * part + 1),
                 body.poses(frame, 3 * part + 2)};
@@ -73,13 +74,20 @@ std::optional<KnownBody> known_body(const BodyLayout& layout, const NameMap& nam
   const std::size_t parts = body.channels.poses.channels / 3;
   body.track_of.assign(parts, -1);
   // The place stays what any position is: in the body's frame it would depend on how that turns.
+  std::size_t wild = 0, tame = 0;
   for (std::size_t part = 0; part < layout.track_count(); ++part) {
     if (body.match.tracks[part] < 0) continue;
     const auto number = static_cast<std::size_t>(body.match.tracks[part]);
     const auto found = std::find(tracks.numbers.begin(), tracks.numbers.end(), number);
-    if (found == tracks.numbers.end() || !is_tame(body.channels, part)) continue;
+    if (found == tracks.numbers.end()) continue;
+    const bool fits = is_tame(body.channels, part);
+    ++(fits ? tame : wild);
+    if (!fits) continue;
     body.track_of[part] = static_cast<std::int32_t>(found - tracks.numbers.begin());
   }
+  // Half of a body misleads the network more than none.
+  constexpr double most_wild = 0.2;
+  if (static_cast<double>(wild) > most_wild * static_cast<double>(wild + tame)) return std::nullopt;
   return body;
 }
 
