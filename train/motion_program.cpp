@@ -79,6 +79,7 @@ void train(const Arguments& arguments) {
     std::string text;
     MotionSampling damaged = arguments.training.sampling;
     damaged.clean_share = damaged.live_share = 0;
+    damaged.has_slow_noise = true;  // whatever is learned from
     MotionSampling live = damaged;
     live.live_share = 1;
     MotionSampling paired = damaged;

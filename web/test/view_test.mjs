@@ -207,7 +207,7 @@ step('a preset sets the controls, and what is saved has the bytes of --preset', 
   await after(page, () => page.selectOption('[data-flag=preset]', 'hands'));
   assert.equal(await page.getAttribute('[data-flag=root_position]', 'aria-pressed'), 'false');
   await after(page, () => page.selectOption('[data-flag=preset]', ''));
-  assert.equal(await page.inputValue('[data-flag=method]:visible'), 'auto');
+  assert.equal(await page.inputValue('[data-flag=method]:visible'), 'learned');
   assert.doesNotMatch(await page.textContent('.line'), /preset=|butterworth/);
 });
 

@@ -37,6 +37,14 @@ struct Pass {
 
   bool is_alive(std::size_t channel) const { return told.is_alive[channel] != 0; }
 
+  // Of a take that knows nothing of the body, what only the body needs is not computed.
+  bool knows_body() const {
+    for (std::size_t c = 0; c < channels; ++c) {
+      if (told.slots[c] >= 0 && is_alive(c)) return true;
+    }
+    return false;
+  }
+
   // C x steps x encoded; zero where a channel is not alive.
   std::vector<float> encoded() const {
     const std::size_t width = network.encoded();
@@ -68,12 +76,19 @@ struct Pass {
   std::vector<float> trunk(const std::vector<float>& encoded) const {
     const std::size_t width = network.body.outputs();
     std::vector<float> h(count * width), pool(h.size()), taps, added(h.size());
-    std::vector<float> body(count * network.body.inputs()), means(count * network.pool.inputs());
-    for (std::size_t s = 0; s < count; ++s)
-      fill_body_input(network, told, steps, s, encoded,
-                      std::span(body).subspan(s * network.body.inputs(), network.body.inputs()));
+    if (knows_body()) {
+      std::vector<float> body(count * network.body.inputs());
+      for (std::size_t s = 0; s < count; ++s)
+        fill_body_input(network, told, steps, s, encoded,
+                        std::span(body).subspan(s * network.body.inputs(), network.body.inputs()));
+      nn::run(network.body, matrix_of(body, count, network.body.inputs()),
+              rows_of(h, count, width));
+    } else {
+      for (std::size_t s = 0; s < count; ++s)
+        std::copy(network.body.bias.begin(), network.body.bias.end(), h.data() + s * width);
+    }
+    std::vector<float> means(count * network.pool.inputs());
     fill_pooled(network, told, encoded, count, means);
-    nn::run(network.body, matrix_of(body, count, network.body.inputs()), rows_of(h, count, width));
     nn::run(network.pool, matrix_of(means, count, network.pool.inputs()),
             rows_of(pool, count, width));
     for (std::size_t i = 0; i < h.size(); ++i) h[i] = std::max(0.0F, h[i] + pool[i]);
@@ -109,10 +124,14 @@ struct Pass {
     const std::size_t wide = network.body.outputs(), head = network.head.outputs();
     const std::size_t all = network.to_slots.outputs(), row = 2 * width + units;
     const std::size_t corrections = network.slot_corrections.outputs();
-    std::vector<float> slots(count * all), body(count * corrections), shared(count * head);
-    nn::run(network.to_slots, matrix_of(trunk, count, wide), rows_of(slots, count, all));
-    nn::run(network.slot_corrections, matrix_of(trunk, count, wide),
-            rows_of(body, count, corrections));
+    std::vector<float> slots, body, shared(count * head);
+    if (knows_body()) {
+      slots.resize(count * all);
+      body.resize(count * corrections);
+      nn::run(network.to_slots, matrix_of(trunk, count, wide), rows_of(slots, count, all));
+      nn::run(network.slot_corrections, matrix_of(trunk, count, wide),
+              rows_of(body, count, corrections));
+    }
     nn::run(network.to_all, matrix_of(trunk, count, wide), rows_of(shared, count, head));
     std::vector<float> result(channels * count * motion_outputs, 0.0F);
     std::vector<float> input(count * row), hidden(count * head), mean(count * width);
@@ -126,8 +145,7 @@ struct Pass {
         const float* const own = encoded.data() + (c * count + s) * width;
         std::copy(own, own + width, to);
         std::copy(mean.data() + s * width, mean.data() + (s + 1) * width, to + width);
-        const float* const of_slot = slots.data() + s * all + at * units;
-        if (slot >= 0) std::copy(of_slot, of_slot + units, to + 2 * width);
+        if (slot >= 0) std::copy_n(slots.data() + s * all + at * units, units, to + 2 * width);
         if (slot < 0) std::fill(to + 2 * width, to + row, 0.0F);
       }
       nn::run(network.head, matrix_of(input, count, row), rows_of(hidden, count, head));
