@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -10,6 +12,7 @@
 #include "clean/motion_channels.hpp"
 #include "clean/pieces.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/convert.hpp"
 #include "kinemend/io.hpp"
 #include "motion_training.hpp"
 #include "program.hpp"
@@ -60,6 +63,24 @@ std::vector<MotionPair> pairs_of(const std::string& list) {
   return pairs;
 }
 
+// Joints of the takes, as markers. A few of the first frames may be a calibration pose.
+std::vector<MarkerMotion> marker_motions_of(const std::vector<std::string>& paths) {
+  std::vector<MarkerMotion> motions;
+  for (const std::string& path : paths) {
+    const Clip clip = read_clip(path).clip;
+    const MarkerClip markers =
+        joint_markers(slice(clip, leading_calibration_frames(clip), clip.frame_count()));
+    const TakeView view = view_of(markers);
+    std::vector<std::size_t> all(markers.marker_count());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const MotionTake take = motion_tracks_of(view, std::move(all)).take;
+    MarkerMotion motion{take.frame_rate_hz, PoseMatrix(take.frames, take.channels)};
+    std::copy(take.values.begin(), take.values.end(), motion.positions.values.begin());
+    motions.push_back(std::move(motion));
+  }
+  return motions;
+}
+
 void train(const Arguments& arguments) {
   const Run& run = arguments.run;
   TrainSettings settings;
@@ -69,12 +90,17 @@ void train(const Arguments& arguments) {
   const std::vector<MotionPair> kept = pairs_of(arguments.validation_pairs);
   fmt::print("{} takes, {} sequences, {} channels, {} pairs\n", sequences.takes,
              sequences.entries.size(), sequences.layout.channel_count(), pairs.size());
-  MotionTrainer trainer(sequences, std::move(pairs), arguments.training);
+  std::vector<MarkerMotion> markers;
+  if (arguments.training.sampling.marker_share > 0) markers = marker_motions_of(run.paths());
+  MotionTrainer trainer(sequences, std::move(pairs), std::move(markers), arguments.training);
   if (!arguments.outset.empty()) trainer.begin_with(read_model(arguments.outset));
   if (run.resume) trainer.resume(file_bytes(run.checkpoint), run.checkpoint);
   std::optional<TrainingSequences> others;
-  if (!run.validation.empty())
+  std::vector<MarkerMotion> other_markers;
+  if (!run.validation.empty()) {
     others = encode_takes(takes_of(lines_of(run.validation)), settings, rate_hz);
+    other_markers = marker_motions_of(lines_of(run.validation));
+  }
   const auto validation = [&] {
     std::string text;
     MotionSampling damaged = arguments.training.sampling;
@@ -84,14 +110,19 @@ void train(const Arguments& arguments) {
     live.live_share = 1;
     MotionSampling paired = damaged;
     paired.pair_share = 1;
-    const auto left = [&](const TrainingSequences& from, const std::vector<MotionPair>& seen,
-                          const MotionSampling& sampling) {
-      return trainer.share_left(from, seen, sampling, validation_samples, validation_seed);
+    MotionSampling of_markers = damaged;
+    of_markers.marker_share = 1;
+    const auto left = [&](const MotionSources& sources, const MotionSampling& sampling) {
+      return trainer.share_left(sources, sampling, validation_samples, validation_seed);
     };
-    if (others && others->layout.channel_count() == sequences.layout.channel_count())
-      text += fmt::format("  of the damage: takes {:.4f}, live {:.4f}", left(*others, {}, damaged),
-                          left(*others, {}, live));
-    if (!kept.empty()) text += fmt::format("  pairs {:.4f}", left(sequences, kept, paired));
+    if (others && others->layout.channel_count() == sequences.layout.channel_count()) {
+      const MotionSources joints{*others, trainer.mirror()};
+      text += fmt::format("  of the damage: takes {:.4f}, live {:.4f}, markers {:.4f}",
+                          left(joints, damaged), left(joints, live),
+                          left({*others, trainer.mirror(), {}, other_markers}, of_markers));
+    }
+    if (!kept.empty())
+      text += fmt::format("  pairs {:.4f}", left({sequences, trainer.mirror(), kept}, paired));
     return text;
   };
   run_steps({trainer.batch(), arguments.training.batches, 0.995, [&] { return trainer.step(); },
@@ -117,6 +148,9 @@ int motion_program(int count, char** values) {
   app.add_option("--steps", training.sampling.steps, "of a sample, thirty a second")
       ->capture_default_str();
   app.add_option("--pair-share", training.sampling.pair_share, "of samples that are pairs")
+      ->capture_default_str();
+  app.add_option("--marker-share", training.sampling.marker_share,
+                 "of the other samples that are of markers, where the joints are")
       ->capture_default_str();
   app.add_option("--live-share", training.sampling.live_share, "of samples that are read live")
       ->capture_default_str();

@@ -117,9 +117,10 @@ MotionBatch batch_of(const std::vector<MotionSample>& samples, std::size_t steps
 }
 
 MotionTrainer::MotionTrainer(const TrainingSequences& sequences, std::vector<MotionPair> pairs,
-                             const MotionTraining& settings)
+                             std::vector<MarkerMotion> markers, const MotionTraining& settings)
     : sequences_(sequences),
       pairs_(std::move(pairs)),
+      markers_(std::move(markers)),
       settings_(settings),
       statistics_(motion_statistics(sequences)),
       mirror_(mirror_of(sequences.layout)),
@@ -132,8 +133,8 @@ MotionBatch MotionTrainer::drawn(std::size_t batch) const {
   std::vector<MotionSample> samples;
   const Random random = Random(settings_.seed).fork(batch);
   for (std::size_t i = 0; i < settings_.batch; ++i)
-    samples.push_back(
-        random_motion_sample(sequences_, mirror_, pairs_, settings_.sampling, random.fork(i)));
+    samples.push_back(random_motion_sample({sequences_, mirror_, pairs_, markers_},
+                                           settings_.sampling, random.fork(i)));
   return batch_of(samples, settings_.sampling.steps);
 }
 
@@ -147,14 +148,11 @@ double MotionTrainer::step() {
   return loss;
 }
 
-double MotionTrainer::share_left(const TrainingSequences& sequences,
-                                 const std::vector<MotionPair>& pairs,
-                                 const MotionSampling& sampling, std::size_t samples,
-                                 std::uint64_t seed) const {
+double MotionTrainer::share_left(const MotionSources& sources, const MotionSampling& sampling,
+                                 std::size_t samples, std::uint64_t seed) const {
   double sum = 0;
   for (std::size_t i = 0; i < samples; ++i) {
-    const MotionSample sample =
-        random_motion_sample(sequences, mirror_, pairs, sampling, Random(seed).fork(i));
+    const MotionSample sample = random_motion_sample(sources, sampling, Random(seed).fork(i));
     sum += descent_.share_left(batch_of({sample}, sampling.steps), settings_.loss);
   }
   return sum / static_cast<double>(samples);

@@ -32,15 +32,16 @@ MotionBatch batch_of(const std::vector<MotionSample>& samples, std::size_t steps
 class MotionTrainer {
  public:
   MotionTrainer(const TrainingSequences& sequences, std::vector<MotionPair> pairs,
-                const MotionTraining& settings);
+                std::vector<MarkerMotion> markers, const MotionTraining& settings);
   ~MotionTrainer();
 
   std::size_t batch() const noexcept { return batch_; }
   /// One step of the descent; its loss.
   double step();
   /// Share of the damage that is left on samples that are not learned from, drawn by `seed`.
-  double share_left(const TrainingSequences& sequences, const std::vector<MotionPair>& pairs,
-                    const MotionSampling& sampling, std::size_t samples, std::uint64_t seed) const;
+  double share_left(const MotionSources& sources, const MotionSampling& sampling,
+                    std::size_t samples, std::uint64_t seed) const;
+  const BodyMirror& mirror() const noexcept { return mirror_; }
   /// What the network makes of a batch (`MotionDescent::outputs`).
   std::vector<float> outputs(const MotionBatch& batch) const { return descent_.outputs(batch); }
   /// The model as it is now. Card, takes and seconds are the caller's.
@@ -56,6 +57,7 @@ class MotionTrainer {
 
   const TrainingSequences& sequences_;
   std::vector<MotionPair> pairs_;
+  std::vector<MarkerMotion> markers_;
   MotionTraining settings_;
   MotionStatistics statistics_;
   BodyMirror mirror_;

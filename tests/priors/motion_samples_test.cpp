@@ -23,7 +23,7 @@ const TrainingSequences& walks() {
 }
 
 MotionSample drawn(const MotionSampling& sampling, std::uint64_t seed) {
-  return random_motion_sample(walks(), mirror_of(walks().layout), {}, sampling, Random(seed));
+  return random_motion_sample({walks(), mirror_of(walks().layout)}, sampling, Random(seed));
 }
 
 // Of what was measured.
@@ -92,11 +92,51 @@ TEST(MotionSamples, ShowTheReferenceOfAPairInTheShareThatIsClean) {
   for (const double share : {0.0, 1.0}) {
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
       const MotionSample sample =
-          random_motion_sample(walks(), mirror_of(walks().layout), pairs,
+          random_motion_sample({walks(), mirror_of(walks().layout), pairs},
                                {.pair_share = 1, .clean_share = share}, Random(seed));
       EXPECT_EQ(sample.take.values == sample.truth, share == 1);
       EXPECT_EQ(sample.take.missing.empty(), share == 1);
     }
+  }
+}
+
+// Two markers that travel at 2 degrees a frame; the second swings about the first.
+MarkerMotion travelling_markers() {
+  MarkerMotion motion{120, PoseMatrix(1200, 6)};
+  for (std::size_t f = 0; f < 1200; ++f) {
+    const auto t = static_cast<double>(f);
+    motion.positions(f, 0) = motion.positions(f, 3) = 2 * t;
+    motion.positions(f, 4) = 30 * std::sin(0.05 * t);
+  }
+  return motion;
+}
+
+TEST(MotionSamples, OfMarkersArePositionsOfNoKnownBody) {
+  const std::vector<MarkerMotion> markers{travelling_markers()};
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    const MotionSample sample =
+        random_motion_sample({walks(), mirror_of(walks().layout), {}, markers},
+                             {.marker_share = 1, .clean_share = 0}, Random(seed));
+    const MotionTake& take = sample.take;
+    EXPECT_EQ(take.channels, walks().layout.channel_count());
+    EXPECT_EQ(std::count(take.is_position.begin(), take.is_position.end(), 1),
+              static_cast<std::ptrdiff_t>(take.channels));
+    EXPECT_EQ(*std::max_element(take.slots.begin(), take.slots.end()), -1);
+    EXPECT_GT(size_of_damage(sample), 1e-3);
+    // What is no marker stays 0.
+    for (std::size_t f = 0; f < take.frames; ++f)
+      for (std::size_t c = 6; c < take.channels; ++c)
+        ASSERT_EQ(take.values[f * take.channels + c], 0);
+  }
+}
+
+TEST(MotionSamples, OfMarkersThatAreCleanAreShownAsTheyAreWhereTheyAreSeen) {
+  const std::vector<MarkerMotion> markers{travelling_markers()};
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    const MotionSample sample =
+        random_motion_sample({walks(), mirror_of(walks().layout), {}, markers},
+                             {.marker_share = 1, .clean_share = 1}, Random(seed));
+    EXPECT_EQ(size_of_damage(sample), 0);
   }
 }
 

@@ -3,76 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
-#include "kinemend/experimental/signal.hpp"
 #include "kinemend/rotation.hpp"
 #include "priors/motion/measured_smoothing.hpp"
+#include "priors/motion/motion_marker_samples.hpp"
+#include "priors/motion/motion_noise.hpp"
+#include "priors/motion/motion_sample_tracks.hpp"
 #include "priors/sequence_damage.hpp"
 #include "priors/warped_sequence.hpp"
 
 namespace kinemend {
 
 namespace {
-
-constexpr double least_pace = 0.7, fastest_pace = 1.4;
-
-std::vector<double> deviations_of(const PoseMatrix& poses) {
-  std::vector<double> result;
-  for (std::size_t c = 0; c < poses.channels; ++c) {
-    double sum = 0, square = 0;
-    for (std::size_t f = 0; f < poses.frames; ++f) {
-      sum += poses(f, c);
-      square += poses(f, c) * poses(f, c);
-    }
-    const auto n = static_cast<double>(poses.frames);
-    result.push_back(std::sqrt(std::max(0.0, square / n - sum * sum / (n * n))));
-  }
-  return result;
-}
-
-// Zero phase, at a frequency that the rate allows.
-void low_pass(PoseMatrix& poses, int order, double cutoff_hz, double rate_hz) {
-  filter_zero_phase(poses,
-                    butterworth_lowpass(order, std::min(cutoff_hz, 0.45 * rate_hz), rate_hz));
-}
-
-// Noise of deviation 1 in every channel: white, of the first order, or low-passed.
-PoseMatrix unit_noise(std::size_t frames, std::size_t channels, double rate_hz, bool has_slow,
-                      Random& random) {
-  PoseMatrix noise(frames, channels);
-  for (double& value : noise.values) value = random.normal();
-  const double kind = random.uniform();
-  if (kind < 0.4) return noise;
-  if (kind < 0.65 || !has_slow) {
-    const double correlation = random.uniform(0.2, 0.98),
-                 fresh = std::sqrt(1 - correlation * correlation);
-    for (std::size_t f = 1; f < frames; ++f) {
-      for (std::size_t c = 0; c < channels; ++c)
-        noise(f, c) = correlation * noise(f - 1, c) + fresh * noise(f, c);
-    }
-    return noise;
-  }
-  low_pass(noise, 1 + static_cast<int>(random.below(4)), log_uniform(random, 0.7, 12), rate_hz);
-  double square = 0;
-  for (const double value : noise.values) square += value * value;
-  const double unit = std::sqrt(static_cast<double>(noise.values.size()) / std::max(square, 1e-12));
-  for (double& value : noise.values) value *= unit;
-  return noise;
-}
-
-// Noise comes and goes: a factor of each frame.
-std::vector<double> bursts(std::size_t frames, double rate_hz, Random& random) {
-  PoseMatrix slow(frames, 1);
-  for (double& value : slow.values) value = random.normal();
-  low_pass(slow, 2, random.uniform(0.3, 1), rate_hz);
-  double square = 0;
-  for (const double value : slow.values) square += value * value;
-  const double unit = std::sqrt(static_cast<double>(frames) / std::max(square, 1e-12));
-  for (double& value : slow.values) value = std::exp(0.8 * unit * value);
-  return slow.values;
-}
 
 // A stretch that is being damaged.
 struct DamagedStretch {
@@ -87,24 +30,13 @@ struct DamagedStretch {
   }
 
   void add_noise(bool has_slow, Random& random) {
-    const std::size_t channels = poses.channels;
-    std::vector<double> strengths(channels, log_uniform(random, 0.15, 6));
+    std::vector<double> strengths(poses.channels, log_uniform(random, 0.15, 6));
     if (random.chance(0.55)) {
       const double share = log_uniform(random, 0.08, 1);
       strengths = deviations_of(poses);
       for (double& strength : strengths) strength *= share;
     }
-    if (random.chance(0.3)) {
-      for (double& strength : strengths) strength *= std::exp(0.5 * random.normal());
-    }
-    const PoseMatrix noise = unit_noise(poses.frames, channels, rate_hz, has_slow, random);
-    const std::vector<double> factors = random.chance(0.15)
-                                            ? bursts(poses.frames, rate_hz, random)
-                                            : std::vector<double>(poses.frames, 1.0);
-    for (std::size_t f = 0; f < poses.frames; ++f) {
-      for (std::size_t c = 0; c < channels; ++c)
-        poses(f, c) += factors[f] * strengths[c] * noise(f, c);
-    }
+    add_random_noise(poses, rate_hz, std::move(strengths), has_slow, random);
   }
 
   void lower_rate(Random& random) {
@@ -148,34 +80,6 @@ struct DamagedStretch {
   }
 };
 
-// Clean takes are not all alike: optical ones come low-passed too, and what a body does may be
-// regular and fast (a tremor, a drum roll, breathing).
-void vary_motion(PoseMatrix& poses, double rate_hz, Random& random) {
-  if (random.chance(0.2))
-    low_pass(poses, 1 + static_cast<int>(random.below(3)), log_uniform(random, 4, 20), rate_hz);
-  if (!random.chance(0.1)) return;
-  const double frequency_hz = log_uniform(random, 0.2, 12), share = random.uniform(0.05, 0.5);
-  const double largest_deg = log_uniform(random, 0.1, 20) / std::max(1.0, frequency_hz / 2);
-  const std::size_t frames = poses.frames, first = random.below(frames),
-                    last = first + random.below(frames - first) + 1;
-  const auto ramp = 0.3 * rate_hz;  // frames that it takes to set in
-  constexpr double turn = 2 * std::numbers::pi;
-  for (std::size_t c = 0; c < poses.channels; ++c) {
-    if (!random.chance(share)) continue;
-    const double size = largest_deg * random.uniform(0.1, 1), outset = random.uniform(0, turn);
-    for (std::size_t f = first; f < last; ++f) {
-      const auto inside = static_cast<double>(std::min(f - first, last - 1 - f));
-      poses(f, c) += size * std::min(1.0, inside / ramp) *
-                     std::sin(outset + turn * frequency_hz * static_cast<double>(f) / rate_hz);
-    }
-  }
-}
-
-// Turned axes for a track, drawn evenly.
-Quat random_turn(Random& random) {
-  return normalized(Quat{random.normal(), random.normal(), random.normal(), random.normal()});
-}
-
 void turn_axes(PoseMatrix& poses, Random& random) {
   for (std::size_t track = 0; track < poses.channels / 3; ++track) {
     const Quat turn = random_turn(random);
@@ -187,22 +91,6 @@ void turn_axes(PoseMatrix& poses, Random& random) {
   }
 }
 
-void stand_still(MotionSample& sample, std::size_t channel) {
-  for (std::size_t f = 0; f < sample.take.frames; ++f) {
-    const std::size_t at = f * sample.take.channels + channel;
-    sample.take.values[at] = sample.truth[at] = 0;
-    if (!sample.take.missing.empty()) sample.take.missing[at] = 0;
-  }
-}
-
-void lose_whole_tracks(MotionSample& sample, double share, Random& random) {
-  const std::size_t tracks = sample.take.channels / 3, kept = random.below(tracks);
-  for (std::size_t n = 0; n < tracks; ++n) {
-    if (n == kept || !random.chance(share)) continue;
-    for (std::size_t c = 3 * n; c < 3 * n + 3; ++c) stand_still(sample, c);
-  }
-}
-
 template <class Value>
 void reverse_rows(std::vector<Value>& values, std::size_t channels) {
   const std::size_t frames = channels > 0 ? values.size() / channels : 0;
@@ -210,12 +98,6 @@ void reverse_rows(std::vector<Value>& values, std::size_t channels) {
     std::swap_ranges(values.begin() + static_cast<std::ptrdiff_t>(f * channels),
                      values.begin() + static_cast<std::ptrdiff_t>((f + 1) * channels),
                      values.begin() + static_cast<std::ptrdiff_t>((frames - 1 - f) * channels));
-}
-
-std::size_t frames_of(const MotionSampling& sampling, double rate_hz) {
-  return static_cast<std::size_t>(
-             std::lround(static_cast<double>(sampling.steps - 1) * rate_hz / motion_steps_hz)) +
-         1;
 }
 
 PoseMatrix random_stretch(const TrainingSequences& sequences, double pace, std::size_t frames,
@@ -239,10 +121,9 @@ PoseMatrix random_stretch(const TrainingSequences& sequences, double pace, std::
 
 MotionSample random_damage(const TrainingSequences& sequences, const BodyMirror& mirror,
                            const MotionSampling& sampling, Random random) {
-  static constexpr std::array<double, 6> rates{25, 30, 50, 60, 100, 120};
-  const double rate_hz = random.chance(0.3) ? rates[random.below(rates.size())] : 120;
-  const double pace = random.uniform(least_pace, fastest_pace) * sequences.rate_hz / rate_hz;
-  PoseMatrix poses = random_stretch(sequences, pace, frames_of(sampling, rate_hz), random);
+  const double rate_hz = random_rate_hz(random);
+  const double pace = random_pace(random) * sequences.rate_hz / rate_hz;
+  PoseMatrix poses = random_stretch(sequences, pace, sample_frames(sampling, rate_hz), random);
   const std::size_t channels = poses.channels;
   const RecurrentForm form{random.chance(0.5), random.chance(0.5)};
   const std::vector<float> shown =
@@ -307,7 +188,7 @@ const MotionPair& drawn_pair(std::span<const MotionPair> pairs, Random& random) 
 MotionSample random_pair(const MotionPair& pair, std::size_t channels,
                          const MotionSampling& sampling, Random random) {
   const MotionTake& whole = pair.sample.take;
-  const std::size_t frames = std::min(frames_of(sampling, whole.frame_rate_hz), whole.frames);
+  const std::size_t frames = std::min(sample_frames(sampling, whole.frame_rate_hz), whole.frames);
   const std::size_t first = random.below(whole.frames - frames + 1);
   const bool is_clean = random.chance(sampling.clean_share);
   MotionSample sample;
@@ -382,15 +263,18 @@ MotionPair mapped_pair(MotionPair pair, double least_deg) {
   return pair;
 }
 
-MotionSample random_motion_sample(const TrainingSequences& sequences, const BodyMirror& mirror,
-                                  std::span<const MotionPair> pairs, const MotionSampling& sampling,
+MotionSample random_motion_sample(const MotionSources& sources, const MotionSampling& sampling,
                                   Random random) {
-  const bool is_pair = !pairs.empty() && random.chance(sampling.pair_share);
+  const std::size_t channels = sources.sequences.layout.channel_count();
+  const bool is_pair = !sources.pairs.empty() && random.chance(sampling.pair_share);
   const bool is_live = random.chance(sampling.live_share);
+  const bool is_of_markers =
+      !is_pair && !sources.markers.empty() && random.chance(sampling.marker_share);
+  const Random own = random.fork(1);
   MotionSample sample =
-      is_pair ? random_pair(drawn_pair(pairs, random), sequences.layout.channel_count(), sampling,
-                            random.fork(1))
-              : random_damage(sequences, mirror, sampling, random.fork(1));
+      is_pair         ? random_pair(drawn_pair(sources.pairs, random), channels, sampling, own)
+      : is_of_markers ? random_marker_sample(sources.markers, channels, sampling, own)
+                      : random_damage(sources.sequences, sources.mirror, sampling, own);
   sample.is_live = is_live;
   if (!is_live) add_measured_smoothing(sample.take);
   return sample;

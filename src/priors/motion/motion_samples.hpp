@@ -37,17 +37,32 @@ struct MotionPair {
 /// made constant.
 MotionPair mapped_pair(MotionPair pair, double least_deg);
 
+/// Clean motion of markers, in the degrees that their body counts as (`MotionTracks`), each from
+/// where it begins; the first is the root of the body.
+struct MarkerMotion {
+  double rate_hz = 120;
+  PoseMatrix positions;  ///< F x 3 markers
+};
+
+/// What is learned from.
+struct MotionSources {
+  const TrainingSequences& sequences;
+  const BodyMirror& mirror;
+  std::span<const MotionPair> pairs{};
+  std::span<const MarkerMotion> markers{};
+};
+
 struct MotionSampling {
   std::size_t steps = 128;     ///< of a sample
   double pair_share = 0.25;    ///< of samples that are pairs, where there are some
+  double marker_share = 0.25;  ///< of the others that are of markers, where there are some
   double clean_share = 0.2;    ///< of them that are clean
   double live_share = 0.2;     ///< of samples that are read live
   bool has_slow_noise = true;  ///< low-passed noise, and takes filtered after they were damaged
 };
 
-/// The same `random` gives the same sample.
-MotionSample random_motion_sample(const TrainingSequences& sequences, const BodyMirror& mirror,
-                                  std::span<const MotionPair> pairs, const MotionSampling& sampling,
+/// The same `random` gives the same sample. Its channels are those of the body of the sequences.
+MotionSample random_motion_sample(const MotionSources& sources, const MotionSampling& sampling,
                                   Random random);
 
 }  // namespace kinemend

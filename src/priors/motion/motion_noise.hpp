@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "kinemend/experimental/pose_matrix.hpp"
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/rotation.hpp"
+
+// What samples of joints and samples of markers have in common: how motion varies, and noise.
+namespace kinemend {
+
+/// Of each channel, degrees.
+std::vector<double> deviations_of(const PoseMatrix& poses);
+
+/// Butterworth, zero phase, at a frequency that the rate allows.
+void low_pass(PoseMatrix& poses, int order, double cutoff_hz, double rate_hz);
+
+/// Adds noise of one kind to all channels: white, of the first order or, with `has_slow`,
+/// low-passed; by `strengths` (degrees, one a channel), which are spread further in some samples,
+/// in bursts in some.
+void add_random_noise(PoseMatrix& poses, double rate_hz, std::vector<double> strengths,
+                      bool has_slow, Random& random);
+
+/// Clean takes are not all alike: optical ones come low-passed too, and what a body does may be
+/// regular and fast (a tremor, a drum roll, breathing).
+void vary_motion(PoseMatrix& poses, double rate_hz, Random& random);
+
+/// Of axes, drawn evenly.
+Quat random_turn(Random& random);
+
+/// 120 mostly, else 25 to 120.
+double random_rate_hz(Random& random);
+/// At which a motion is shown.
+double random_pace(Random& random);
+
+}  // namespace kinemend
