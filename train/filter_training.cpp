@@ -189,7 +189,8 @@ FilterTrainer::Sample FilterTrainer::sample_of(const Clip& clip, Random random) 
   Sample sample;
   sample.truth = filter_take_of(encode_body(clip, layout_, match), layout_).values;
   Clip damaged = clip;
-  for (const std::vector<FilterDamage>* choices : {&settings_.noise, &settings_.gaps}) {
+  for (const std::vector<FilterDamage>* choices :
+       {&settings_.noise, &settings_.bias, &settings_.gaps}) {
     if (choices->empty()) continue;
     const FilterDamage& damage = (*choices)[random.below(choices->size())];
     Random own = random.fork(random.next());

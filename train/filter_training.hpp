@@ -33,6 +33,7 @@ struct FilterTraining {
   bool sees_roughness = true;       ///< beside the paper's inputs (`FilterInputs`)
   bool is_augmented = true;         ///< chunks in a mirror and backwards too
   std::vector<FilterDamage> noise;  ///< one of these is drawn for each take
+  std::vector<FilterDamage> bias;   ///< and one of these on top of it; empty: none
   std::vector<FilterDamage> gaps;   ///< and one of these; empty: none
   double rate = 5e-4;               ///< of learning, at its highest; at 2e-3 layers saturate
   DescentSettings descent;

@@ -18,7 +18,7 @@ namespace {
 
 struct Arguments {
   Run run;
-  std::vector<std::string> noise, gaps;
+  std::vector<std::string> noise, bias, gaps;
   std::string start;
   FilterTraining training;
 };
@@ -59,6 +59,7 @@ void train(Arguments arguments) {
   const Run& run = arguments.run;
   for (const std::string& text : arguments.noise)
     arguments.training.noise.push_back(damage_of(text));
+  for (const std::string& text : arguments.bias) arguments.training.bias.push_back(damage_of(text));
   for (const std::string& text : arguments.gaps) arguments.training.gaps.push_back(damage_of(text));
   const std::vector<std::string> paths = run.paths();
   FilterTrainer trainer(read_takes(paths), arguments.training);
@@ -93,6 +94,9 @@ int paper_program(int count, char** values) {
   app.add_option("--noise", arguments.noise,
                  "damage of the takes, NAME:OPTION=VALUE,...; of several one is drawn for a take; "
                  "none: as it is")
+      ->expected(1)
+      ->take_all();
+  app.add_option("--bias", arguments.bias, "damage likewise, on top of the noise")
       ->expected(1)
       ->take_all();
   app.add_option("--gaps", arguments.gaps, "gaps likewise; the network then fills them")

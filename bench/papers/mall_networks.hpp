@@ -4,6 +4,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "experiment.hpp"
 #include "kinemend/experimental/body.hpp"
@@ -59,6 +61,23 @@ inline Clip by_network(const PaperNetwork& paper, const Clip& clip) {
   Clip result = clip;
   decode_body(channels, paper.layout, match, result, chosen);
   return result;
+}
+
+/// The take of a hold-out, or a synthetic one where there is no data.
+inline Clip take_of(const Arguments& arguments, const HeldOut& take) {
+  return load_take(arguments, take.name + ".bvh", {.motion = take.name, .duration_s = 2}).clip;
+}
+
+/// The takes of some hold-outs ("12345"); of the quick form and without data two synthetic ones.
+inline std::vector<HeldOut> takes_of_hold_outs(const Arguments& arguments,
+                                               std::string_view holdouts) {
+  std::vector<HeldOut> takes;
+  if (arguments.quick || arguments.data.empty()) return {{"walk", "walk", 1}, {"run", "run", 1}};
+  for (const HeldOut& take : hold_outs_of(arguments)) {
+    if (holdouts.find(static_cast<char>('0' + take.holdout)) != std::string_view::npos)
+      takes.push_back(take);
+  }
+  return takes;
 }
 
 }  // namespace kinemend::papers
