@@ -115,8 +115,8 @@ std::string joints_with_gaps(const Clip& clip) {
 
 // The methods' errors of one take, a number of gaps each.
 void fill_long_gaps(const Clip& truth, const LongGap& gap, const PaperNetwork& ebd,
-                    std::uint64_t first_seed, std::uint64_t draws,
-                    std::map<std::string, Sums>& errors) {
+                    const std::vector<std::string>& methods, std::uint64_t first_seed,
+                    std::uint64_t draws, std::map<std::string, Sums>& errors) {
   for (std::uint64_t draw = 0; draw < draws; ++draw) {
     const Clip clip = damaged(
         truth, "long-gap",
@@ -126,9 +126,8 @@ void fill_long_gaps(const Clip& truth, const LongGap& gap, const PaperNetwork& e
       errors[method].error += gap_error(truth, clip, result);
       ++errors[method].count;
     };
-    for (const char* method : {"slerp", "spline", "cyclic", "pca", "auto"})
-      add(method, filled_by(clip, method));
-    add("example", cleaned(clip, "example"));
+    for (const std::string& method : methods)
+      add(method, method == "example" ? cleaned(clip, method) : filled_by(clip, method));
     add("ebd", filled_by_ebd(ebd, clip));
   }
 }
@@ -146,37 +145,45 @@ void long_gaps(const Arguments& arguments, const std::vector<HeldOut>& takes,
     for (std::size_t i = 0; i < takes.size(); ++i) {
       const Clip truth = take_of(arguments, takes[i]);
       if (static_cast<double>(truth.frame_count()) >= 1.2 * gap.length_s * truth.frame_rate_hz)
-        fill_long_gaps(truth, gap, ebd, i, arguments.quick ? 1 : 5, errors);
+        fill_long_gaps(truth, gap, ebd, {"slerp", "spline", "cyclic", "pca", "auto", "example"}, i,
+                       arguments.quick ? 1 : 5, errors);
     }
     if (!errors.empty()) write(table, gap.words, errors);
   }
   table.close();
 }
 
-// Gaps of 2 and 5 s: the longest take of the hold-out, and longer takes of CMU than EBD has learned
-// from, of which the first 20 s count.
-void five_second_gaps(const Arguments& arguments, const PaperNetwork& ebd) {
-  constexpr double most_s = 20;
+// Takes that EBD has not learned from and that are longer than those that it has, with the longest
+// take of the hold-out: 20 s of each, and parts that are hardly longer than the gap. Methods of
+// `fill` alone.
+void gaps_of_other_takes(const Arguments& arguments, const PaperNetwork& ebd) {
+  struct Case {
+    std::string words;
+    LongGap gap;
+    double take_s;
+    std::size_t parts;
+  };
   Table table(arguments, "mall_gaps_takes.csv", "damage,method,clips,rms_deg,of_straight_lines");
-  for (const LongGap& gap : std::vector<LongGap>{{"a joint, 2 s", "joint", 2},
-                                                 {"a joint, 5 s", "joint", 5},
-                                                 {"a limb, 5 s", "limb", 5}}) {
+  for (const Case& c : std::vector<Case>{{"a joint, 2 s of 3.5 s", {"", "joint", 2}, 3.5, 4},
+                                         {"a limb, 2 s of 3.5 s", {"", "limb", 2}, 3.5, 4},
+                                         {"a joint, 2 s of 20 s", {"", "joint", 2}, 20, 1},
+                                         {"a limb, 2 s of 20 s", {"", "limb", 2}, 20, 1},
+                                         {"a joint, 5 s of 20 s", {"", "joint", 5}, 20, 1},
+                                         {"a limb, 5 s of 20 s", {"", "limb", 5}, 20, 1}}) {
     std::map<std::string, Sums> all;
     std::uint64_t seed = 0;
     for (const char* name :
          {"10_01", "02_06", "06_13", "13_30", "14_20", "36_05", "49_21", "131_09", "135_09"}) {
       const Clip whole = take_of(arguments, {name, "", 1});
-      const auto most = static_cast<std::size_t>(most_s * whole.frame_rate_hz);
-      std::map<std::string, Sums> own;
-      fill_long_gaps(slice(whole, 0, std::min(most, whole.frame_count())), gap, ebd, seed++, 5,
-                     own);
-      write(table, fmt::format("{}, {}", gap.words, name), own);
-      for (const auto& [method, sums] : own) {
-        all[method].error += sums.error;
-        all[method].count += sums.count;
+      const std::size_t length =
+          std::min(static_cast<std::size_t>(c.take_s * whole.frame_rate_hz), whole.frame_count());
+      for (std::size_t part = 0; part < c.parts; ++part) {
+        const std::size_t first = (whole.frame_count() - length) * part / c.parts;
+        fill_long_gaps(slice(whole, first, first + length), c.gap, ebd, {"slerp", "pca", "auto"},
+                       seed++, 4 / c.parts, all);
       }
     }
-    write(table, gap.words + ", all", all);
+    write(table, c.words, all);
   }
   table.close();
 }
@@ -241,7 +248,7 @@ void experiment(const Arguments& arguments) {
   noise_and_gaps(arguments, takes, *ebd);
   long_gaps(arguments, takes, *ebd);
   if (arguments.quick || arguments.data.empty()) return;
-  five_second_gaps(arguments, *ebd);
+  gaps_of_other_takes(arguments, *ebd);
   gap_curves(arguments, *ebd);
 }
 
