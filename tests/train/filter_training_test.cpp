@@ -97,6 +97,19 @@ TEST(FilterTraining, LeavesLessErrorTheLongerItGoesOn) {
   EXPECT_LT(trainer.share_left(walks()), 0.9 * before);
 }
 
+TEST(FilterTraining, LearnsABiasThatIsOnTopOfTheNoise) {
+  FilterTraining training = tiny("nn", "biased");
+  training.epochs = 40;
+  training.rate = 2e-2;
+  training.noise = {{"gaussian-channels", {{"k", 0.02}}}};
+  training.bias = {{"bias", {{"bias_deg", 2.0}, {"axis", std::string("x")}}}};
+  FilterTrainer trainer(walks(), training);
+  const double before = trainer.share_left(walks());
+  for (int i = 0; i < 120; ++i) trainer.step();
+  // No filter takes a constant away.
+  EXPECT_LT(trainer.share_left(walks()), 0.8 * before);
+}
+
 TEST(SequenceNetwork, OfLstmLayersIsTheSameWhetherItIsTrainedOrRun) {
   BidirectionalShape shape;
   shape.inputs = 5;
