@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/quantiles.hpp"
+#include "kept_takes.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "kinemend/rotation.hpp"
 #include "page.hpp"
@@ -24,19 +25,6 @@ const std::vector<Compared> methods_compared{{"auto", "auto"},
                                              {"wiener", "wiener"},
                                              {"learned", "learned"},
                                              {"learned live", "learned", {{"live", true}}}};
-
-// Kept aside by tools/training_clips.py.
-std::vector<std::string> kept_takes(const Arguments& arguments) {
-  if (arguments.quick || arguments.data.empty()) return {"walk"};
-  return {"01_13",  "02_05",  "02_10", "05_14", "06_11", "08_08", "09_03",
-          "131_07", "135_09", "16_24", "35_01", "35_14", "49_17"};
-}
-
-Clip kept_take(const Arguments& arguments, const std::string& name) {
-  const Clip whole = load_take(arguments, name + ".bvh", {.motion = name}).clip;
-  constexpr std::size_t most_frames = 1201;
-  return slice(whole, 0, std::min(whole.frame_count(), most_frames));
-}
 
 double gaussian_error(const Clip& truth, const Clip& clip, double width_s) {
   return rms_deg(truth, cleaned(clip, "gaussian", {{"width_s", width_s}}));

@@ -64,6 +64,7 @@ class Learned final : public Cleaner {
     progress.begin_part(1, 1);
     add_measured_smoothing(tracks.take);
     MotionResult result = filtered(network_, tracks.take);
+    join_measured(tracks.take, result);
     if (view.joints != nullptr) smooth_places(view, tracks, result);
     std::vector<TrackError> errors;
     for (std::size_t n = 0; n < tracks.numbers.size(); ++n)

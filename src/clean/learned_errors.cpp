@@ -9,8 +9,7 @@
 namespace kinemend {
 
 TrackError track_error(const MotionTake& take, const MotionResult& result, std::size_t track) {
-  constexpr double a_little_s = 0.04;
-  const auto later = static_cast<std::size_t>(std::ceil(a_little_s * take.frame_rate_hz));
+  const std::size_t later = frames_of_quick_noise(take.frame_rate_hz);
   TrackError error;
   const auto change = [&](std::size_t i) {
     return static_cast<double>(result.values[i] - take.values[i]);

@@ -1,5 +1,7 @@
 #include "priors/motion/measured_smoothing.hpp"
 
+#include <algorithm>
+
 #include "tracks/track_cleaning.hpp"
 #include "tracks/vector_tracks.hpp"
 
@@ -36,7 +38,48 @@ void smooth_together(const std::vector<std::size_t>& numbers, TrackKind kind, Mo
   }
 }
 
+// What an estimate takes out of a track, and how much of that is quick: sums over what is seen.
+struct TakenOut {
+  double all = 0, quick = 0;
+};
+
+TakenOut taken_out(const MotionTake& take, const std::vector<float>& estimate, std::size_t track) {
+  const std::size_t later = frames_of_quick_noise(take.frame_rate_hz);
+  TakenOut sums;
+  const auto change = [&](std::size_t i) {
+    return static_cast<double>(estimate[i] - take.values[i]);
+  };
+  for (std::size_t f = 0; f < take.frames; ++f) {
+    for (std::size_t c = 3 * track; c < 3 * track + 3; ++c) {
+      if (take.is_missing(f, c)) continue;
+      const std::size_t i = f * take.channels + c;
+      sums.all += change(i) * change(i);
+      if (f < later || take.is_missing(f - later, c)) continue;
+      const double difference = change(i) - change(i - later * take.channels);
+      sums.quick += 0.5 * difference * difference;
+    }
+  }
+  return sums;
+}
+
 }  // namespace
+
+void join_measured(const MotionTake& take, MotionResult& result) {
+  if (take.measured.empty()) return;
+  for (std::size_t track = 0; track < take.channels / 3; ++track) {
+    const TakenOut by_measure = taken_out(take, take.measured, track);
+    if (by_measure.all == 0) continue;
+    const double by_network = taken_out(take, result.values, track).all;
+    const double quick = std::min(1.0, by_measure.quick / by_measure.all);
+    const auto share =
+        static_cast<float>(quick * quick * by_measure.all / (by_measure.all + by_network));
+    for (std::size_t f = 0; f < take.frames; ++f) {
+      for (std::size_t i = f * take.channels + 3 * track; i < f * take.channels + 3 * track + 3;
+           ++i)
+        result.values[i] += share * (take.measured[i] - result.values[i]);
+    }
+  }
+}
 
 void add_measured_smoothing(MotionTake& take) {
   take.measured = take.values;

@@ -13,6 +13,10 @@ constexpr std::size_t steps_read_together = 512;
 
 }  // namespace
 
+std::size_t frames_of_quick_noise(double frame_rate_hz) {
+  return static_cast<std::size_t>(std::ceil(0.04 * frame_rate_hz));
+}
+
 std::size_t motion_step_count(std::size_t frames, double frame_rate_hz) {
   return static_cast<std::size_t>(
              static_cast<double>(frames - 1) * motion_steps_hz / frame_rate_hz + 1e-9) +

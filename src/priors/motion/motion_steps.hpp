@@ -15,6 +15,9 @@ inline constexpr double motion_steps_hz = 30;
 inline constexpr double motion_change_rate_hz = 120;
 /// The frame that a step looks at, where the take is that long.
 std::size_t frame_of_motion_step(std::size_t step, double frame_rate_hz);
+/// A 25th of a second, in frames: noise is quick if it is another so much later.
+std::size_t frames_of_quick_noise(double frame_rate_hz);
+
 /// Steps of a take: every frame lies between two of them.
 std::size_t motion_step_count(std::size_t frames, double frame_rate_hz);
 

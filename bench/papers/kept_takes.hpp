@@ -1,0 +1,26 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "experiment.hpp"
+
+// Takes that neither `learned` nor `wiener`, as they ship, have seen.
+namespace kinemend::papers {
+
+/// Kept aside by tools/training_clips.py.
+inline std::vector<std::string> kept_takes(const Arguments& arguments) {
+  if (arguments.quick || arguments.data.empty()) return {"walk"};
+  return {"01_13",  "02_05",  "02_10", "05_14", "06_11", "08_08", "09_03",
+          "131_07", "135_09", "16_24", "35_01", "35_14", "49_17"};
+}
+
+/// Ten seconds of one of them.
+inline Clip kept_take(const Arguments& arguments, const std::string& name) {
+  const Clip whole = load_take(arguments, name + ".bvh", {.motion = name}).clip;
+  constexpr std::size_t most_frames = 1201;
+  return slice(whole, 0, std::min(whole.frame_count(), most_frames));
+}
+
+}  // namespace kinemend::papers
