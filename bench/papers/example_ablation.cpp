@@ -39,8 +39,9 @@ std::vector<Variant> variants() {
     add(fmt::format("welsch_deviations {}", p),
         [=](Variant& v) { v.tuning.welsch_deviations = p; });
   }
-  add("many_suspects always", [](Variant& v) { v.tuning.many_suspects = -1; });
-  add("many_suspects never", [](Variant& v) { v.tuning.many_suspects = 1; });
+  for (const double p : {0.5, 2.0, 3.0}) {
+    add(fmt::format("rest_deviations {}", p), [=](Variant& v) { v.tuning.rest_deviations = p; });
+  }
   for (const double frames : {1.0, 10.0}) {
     add(fmt::format("rest_memory_frames {}", frames),
         [=](Variant& v) { v.tuning.rest_memory_frames = frames; });

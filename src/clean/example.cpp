@@ -117,10 +117,11 @@ class ExampleCleaning {
     if (!tuning_.starts_expressible || is_papers()) cleaned = std::move(guess);
     guess = {};
     WindowBases bases = bases_at_rate_of(channels);
-    const ExampleWeights weights = weights_for(noise, suspects, bases);
+    const ExampleWeights weights = weights_for(noise, bases);
     example_filter(cleaned, channels.poses, channels.observed, std::move(bases), mean, weights,
                    settings_for(work));
-    finish(work, {weights.welsch, noise, strange, suspects}, cleaned);
+    release_if_crowded(work, suspects);
+    finish(work, {weights.welsch, noise, strange}, cleaned);
     work.channels.poses = std::move(cleaned);
   }
 
@@ -148,7 +149,6 @@ class ExampleCleaning {
     std::span<const double> welsch;
     const std::vector<double>& noise;
     double strangeness;
-    double suspects;  // share
   };
 
   // What the paper does not have: motion outside of the bases.
@@ -165,25 +165,20 @@ class ExampleCleaning {
       work.rejected[i] = channels.observed[i] != 0 && counts.values[i] < rejected_weight ? 1 : 0;
     if (smooths) smooth_rest(work, counts, expressed, found.noise, cleaned);
     if (options_.lambda > 0 || options_.welsch_deg > 0) return;
-    // What the bases are wrong about.
-    if (tuning_.leaves_biased) fall_back_where_biased(work, found.noise, cleaned);
-    // Many outliers make any take look strange, and `auto` can do least with them.
-    if (tuning_.leaves_strange && found.suspects <= tuning_.many_suspects)
-      fall_back(work, found.strangeness, cleaned);
+    // What the bases are wrong about; not among so many outliers that some make the median.
+    if (tuning_.leaves_biased && !work.is_whole) fall_back_where_biased(work, found.noise, cleaned);
+    if (tuning_.leaves_strange) fall_back(work, found.strangeness, cleaned);
   }
 
   bool is_papers() const { return options_.solver == "paper"; }
 
-  ExampleWeights weights_for(const std::vector<double>& noise, double suspects,
-                             const WindowBases& bases) const {
+  ExampleWeights weights_for(const std::vector<double>& noise, const WindowBases& bases) const {
     ExampleWeights weights = probable_weights(prior_, bases, noise, tuning_.welsch_deviations);
     if (!tuning_.knows_variances) weights.coefficients.clear();
-    const double deviations =
-        suspects > tuning_.many_suspects ? tuning_.narrow_deviations : tuning_.welsch_deviations;
     for (std::size_t c = 0; c < noise.size(); ++c) {
       weights.prior[c] /= tuning_.rest_memory_frames;
-      weights.welsch[c] =
-          std::hypot(weights.welsch[c], deviations * std::sqrt(prior_.bases.residual[c]));
+      weights.welsch[c] = std::hypot(weights.welsch[c],
+                                     tuning_.rest_deviations * std::sqrt(prior_.bases.residual[c]));
     }
     if (options_.lambda > 0) {
       std::fill(weights.data.begin(), weights.data.end(), 1.0);

@@ -10,11 +10,9 @@
 namespace kinemend {
 
 struct ExampleTuning {
-  /// p, in deviations of the noise and of what the bases leave; where more of the samples are
-  /// suspects, p is narrower against these.
+  /// p, in deviations of the noise and in those of what the bases leave.
   double welsch_deviations = 3;
-  double many_suspects = 0.005;
-  double narrow_deviations = 1;
+  double rest_deviations = 1;
   /// What the bases leave lasts: it says something new in one frame of so many.
   double rest_memory_frames = 3;
   bool guesses_suspects = true;    ///< starts from what `auto` made of spikes

@@ -5,6 +5,7 @@
 
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
+#include "clean/prior_hold.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
 #include "priors/linear_dynamics.hpp"
@@ -54,11 +55,14 @@ void filter_learned(PriorWork& work, const KalmanLearnedOptions& options,
   if (options.noise_deg > 0) std::fill(noise.begin(), noise.end(), options.noise_deg);
   const LinearDynamics dynamics = at_rate(learned, channels.frame_rate_hz);
   const MeasurementFacts facts{channels.observed, noise};
+  PoseMatrix filtered = channels.poses;
   if (options.smoother) {
-    smooth_with_dynamics(channels.poses, facts, dynamics);
+    smooth_with_dynamics(filtered, facts, dynamics);
   } else {
-    filter_with_dynamics(channels.poses, facts, dynamics);
+    filter_with_dynamics(filtered, facts, dynamics);
   }
+  release_if_crowded(work, suspect_share(work, filtered));
+  channels.poses = std::move(filtered);
 }
 
 }  // namespace

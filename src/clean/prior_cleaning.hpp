@@ -30,7 +30,7 @@ struct PriorWork {
   /// D / 3: how much of the filter's result each part wants, by its noise: 0 where `auto` finds it
   /// clean, to 1.
   std::vector<double> needs;
-  /// Nothing holds the filter back (`settle_needs`).
+  /// Nothing holds the filter back (`settle_needs`, `release_if_crowded`).
   bool is_whole = false;
   std::string why_no_need = "auto finds little or no noise in them";
   bool is_white = true;  ///< the noise, and every frame is a measurement, as far as `auto` can tell

@@ -108,6 +108,10 @@ void settle_needs(PriorWork& work, PriorHold hold) {
   }
 }
 
+void release_if_crowded(PriorWork& work, double outliers) {
+  if (outliers > crowded_share) work.is_whole = true;
+}
+
 void hold_to_needs(PriorWork& work) {
   PoseMatrix& poses = work.channels.poses;
   const std::size_t frames = poses.frames;

@@ -19,6 +19,11 @@ double suspect_share(const PriorWork& work, const PoseMatrix& result);
 /// lower rate, as `auto` sees it (the filter may fill gaps); otherwise `work.needs` stays.
 void settle_needs(PriorWork& work, PriorHold hold);
 
+/// From a filter that finds this share of the measurements to be outliers: where that is more than
+/// one in fifty, what `auto` makes of the take is no measure of the filter's result, as it may have
+/// taken the outliers for noise. Parts that need nothing of the filter stay `auto`'s.
+void release_if_crowded(PriorWork& work, double outliers);
+
 /// Puts what `auto` makes of the take in the place of what the filter made of it, by 1 - need for
 /// each part (`work.needs`): a part in which `auto` finds nothing stays as it is. What the filter
 /// put into gaps moves with the samples beside them. A sample that is farther from

@@ -7,6 +7,7 @@
 #include "base/quantiles.hpp"
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
+#include "clean/prior_hold.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
 #include "priors/wiener_guard.hpp"
@@ -122,7 +123,9 @@ void filter(PriorWork& work, const WienerOptions& options, const WienerPrior& kn
   if (options.despike && may_have_dense_outliers(work, noise)) {
     WienerOutliers found = dense_outliers(
         prior, {poses, work.fallback, work.channels.observed, work.suspect, noise, rate_hz});
-    if (share_of(found.suspect, work) > dense_share) {
+    const double share = share_of(found.suspect, work);
+    if (share > dense_share) {
+      release_if_crowded(work, share);
       outliers = std::move(found);
       noise = noise_of(work, outliers.suspect, options);
     }

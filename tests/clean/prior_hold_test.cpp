@@ -76,6 +76,24 @@ TEST(HoldToNeeds, DoesNotHoldWhereManySamplesAreFarFromAutos) {
   }
 }
 
+TEST(HoldToNeeds, DoesNotHoldAFilterThatFindsMoreThanOneOutlierInFifty) {
+  for (const auto& [outliers, farthest] : {std::pair{0.019, std::sqrt(3)}, {0.021, 20.0}}) {
+    PriorWork work = leaping(20);
+    settle_needs(work, PriorHold::white_noise);
+    release_if_crowded(work, outliers);
+    hold_to_needs(work);
+    EXPECT_NEAR(leap(work), farthest, 1e-12) << outliers;
+  }
+}
+
+TEST(HoldToNeeds, LeavesAPartThatNeedsNothingToAutoEvenThen) {
+  PriorWork work = leaping(20);
+  work.needs = {0};
+  release_if_crowded(work, 0.2);
+  hold_to_needs(work);
+  EXPECT_EQ(leap(work), 0);
+}
+
 TEST(HoldToNeeds, DoesNotHoldAFilterThatIsToldWhatToDo) {
   PriorWork work = leaping(20);
   work.needs = {0.5};
