@@ -179,6 +179,7 @@ FilterTrainer::FilterTrainer(std::vector<Clip> takes, const FilterTraining& sett
     chunks_of_epoch_ *= 2;
   }
   shape_ = shape_of(settings_.kind, head_, clean.front().channels, inputs());
+  shape_.weight_bound = settings_.weight_bound;
   if (head_ == FilterHead::gaussian || head_ == FilterHead::biased)
     shape_.outset = best_constants();
   network_ = std::make_unique<SequenceNetwork>(shape_, settings_.descent, settings_.seed);

@@ -35,6 +35,7 @@ struct FilterTraining {
   std::vector<FilterDamage> noise;  ///< one of these is drawn for each take
   std::vector<FilterDamage> bias;   ///< and one of these on top of it; empty: none
   std::vector<FilterDamage> gaps;   ///< and one of these; empty: none
+  double weight_bound = 0;          ///< `BidirectionalShape`; the paper's is 0.5
   double rate = 5e-4;               ///< of learning, at its highest; at 2e-3 layers saturate
   DescentSettings descent;
 };

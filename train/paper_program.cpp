@@ -112,6 +112,8 @@ int paper_program(int count, char** values) {
                "chunks in a mirror and backwards too");
   app.add_flag("--roughness,!--no-roughness", training.sees_roughness,
                "shows how rough each channel is; the paper's networks do not see it");
+  app.add_option("--weight-bound", training.weight_bound,
+                 "weights of dense layers are drawn within this; 0: by the width of their layers");
   app.add_option("--rate", training.rate, "of learning, at its highest")->capture_default_str();
   int exit_code = 0;
   if (!parse(app, count, values, arguments.run, exit_code)) return exit_code;

@@ -79,19 +79,21 @@ void make(const BidirectionalShape& shape, WeightMaker& maker) {
   // Sums of as much variance as what goes in: at smaller ones every layer of ten would make the
   // signal smaller by a factor, and little but the biases would reach the outputs.
   std::size_t width = shape.inputs * (2 * shape.reach + 1);
-  for (std::size_t i = 0; i < shape.encoder.size(); ++i) {
-    maker.add_dense(fmt::format("encoder{}", i), width, shape.encoder[i]);
-    width = shape.encoder[i];
-  }
+  const auto add_dense = [&](const std::string& name, std::size_t outputs) {
+    const double by_width = std::sqrt(3.0 / static_cast<double>(width));
+    maker.add_dense(name, width, outputs,
+                    shape.weight_bound > 0 ? shape.weight_bound / by_width : 1);
+    width = outputs;
+  };
+  for (std::size_t i = 0; i < shape.encoder.size(); ++i)
+    add_dense(fmt::format("encoder{}", i), shape.encoder[i]);
   for (std::size_t i = 0; i < shape.layers; ++i) {
     for (const char* way : {"forward", "backward"})
       add_lstm(maker, fmt::format("{}{}", way, i), width, shape.units);
     width = 2 * shape.units;
   }
-  for (std::size_t i = 0; i < shape.decoder.size(); ++i) {
-    maker.add_dense(fmt::format("decoder{}", i), width, shape.decoder[i]);
-    width = shape.decoder[i];
-  }
+  for (std::size_t i = 0; i < shape.decoder.size(); ++i)
+    add_dense(fmt::format("decoder{}", i), shape.decoder[i]);
   const std::string last = fmt::format("decoder{}", shape.decoder.size());
   maker.add_dense(last, width, shape.outputs, 0);
   if (!shape.outset.empty()) maker.set(last + ".bias", shape.outset);

@@ -33,6 +33,8 @@ struct BidirectionalShape {
   std::vector<std::size_t> decoder{192, 160, 128};    ///< and `outputs`
   std::size_t reach = 0;       ///< without LSTM layers: frames on either side of a window
   std::vector<double> outset;  ///< of the outputs before training; empty: 0
+  double weight_bound = 0;     ///< of the dense layers but the last, before training, uniform; 0:
+                               ///< by their width
 };
 
 class SequenceNetwork {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <span>
 
 #include "mall_errors.hpp"
 #include "mall_networks.hpp"
@@ -92,6 +93,101 @@ double bias_of(const PaperNetwork& paper, const Clip& clip) {
   return std::sqrt(square / static_cast<double>(take.frames * take.channels));
 }
 
+// How a network with Gaussian filters decides, on some takes with noise.
+struct NetworkFacts {
+  double over_time = 0;         // deviation of a channel's logarithms of widths
+  double between_channels = 0;  // deviation of the channels' means
+  double saturated = 0;         // share of the encoder's values beyond 0.95
+  double code_dimensions = 0;   // over how many the variance of the code is spread
+};
+
+// The code of a network: what its encoder makes of a take, frames x size.
+std::vector<float> code_of(FilterNetwork network, std::span<const float> features) {
+  network.recurrent.clear();
+  network.decoder.clear();
+  return run(network, features);
+}
+
+// Sum of the variances squared over the sum of squared covariances: n where n directions vary
+// alike.
+double dimensions_of(const std::vector<float>& codes, std::size_t size) {
+  const std::size_t rows = codes.size() / size;
+  std::vector<double> means(size);
+  for (std::size_t i = 0; i < codes.size(); ++i)
+    means[i % size] += static_cast<double>(codes[i]) / static_cast<double>(rows);
+  double trace = 0, squares = 0;
+  for (std::size_t a = 0; a < size; ++a) {
+    for (std::size_t b = 0; b < size; ++b) {
+      double covariance = 0;
+      for (std::size_t r = 0; r < rows; ++r)
+        covariance += (static_cast<double>(codes[r * size + a]) - means[a]) *
+                      (static_cast<double>(codes[r * size + b]) - means[b]);
+      trace += a == b ? covariance : 0;
+      squares += covariance * covariance;
+    }
+  }
+  return squares > 0 ? trace * trace / squares : 0;
+}
+
+NetworkFacts facts_of(const PaperNetwork& paper, const std::vector<Clip>& clips) {
+  const FilterNetwork& network = paper.network;
+  NetworkFacts facts;
+  std::vector<float> codes;
+  for (const Clip& clip : clips) {
+    const FilterTake take = filter_take_of(
+        encode_body(clip, paper.layout, match_body(paper.layout, clip)), paper.layout);
+    const std::vector<float> features = filter_features(take, network.statistics, network.inputs);
+    const std::vector<float> outputs = run(network, features);
+    const auto frames = static_cast<double>(take.frames);
+    const auto channels = static_cast<double>(take.channels);
+    double within = 0, sum = 0, square = 0;
+    for (std::size_t c = 0; c < take.channels; ++c) {
+      double mean = 0, own = 0;
+      for (std::size_t f = 0; f < take.frames; ++f) {
+        const auto width = static_cast<double>(outputs[f * take.channels + c]);
+        mean += width / frames;
+        own += width * width / frames;
+      }
+      within += std::max(0.0, own - mean * mean) / channels;
+      sum += mean / channels;
+      square += mean * mean / channels;
+    }
+    const auto share = 1 / static_cast<double>(clips.size());
+    facts.over_time += share * std::sqrt(within);
+    facts.between_channels += share * std::sqrt(std::max(0.0, square - sum * sum));
+    if (network.encoder.empty()) continue;
+    const std::vector<float> code = code_of(network, features);
+    codes.insert(codes.end(), code.begin(), code.end());
+    double saturated = 0;
+    for (const float value : code) saturated += std::abs(value) > 0.95F ? 1 : 0;
+    facts.saturated += share * saturated / static_cast<double>(code.size());
+  }
+  if (!codes.empty())
+    facts.code_dimensions = dimensions_of(codes, network.encoder.back().outputs());
+  return facts;
+}
+
+void network_facts(const Arguments& arguments, const std::vector<StudyNetwork>& networks) {
+  Table table(arguments, "ablation_mall_networks.csv",
+              "network,left_out,seed,over_time,between_channels,saturated_percent,code_dimensions");
+  std::vector<Clip> clips;
+  for (const HeldOut& take : takes_of_hold_outs(arguments, "1"))
+    clips.push_back(damaged(take_of(arguments, take), "gaussian-channels", {{"k", 0.5}}, 100));
+  for (const StudyNetwork& own : networks) {
+    if (own.left_out != "1" || own.paper.network.head != FilterHead::gaussian) continue;
+    const NetworkFacts facts = facts_of(own.paper, clips);
+    table.add({own.network, own.left_out, own.seed, figure(facts.over_time),
+               figure(facts.between_channels), figure(100 * facts.saturated),
+               figure(facts.code_dimensions)});
+    fmt::print(
+        "{:10} seed {}: log widths over time {:.3f}, between channels {:.3f}; code: {:.1f} "
+        "% saturated, {:.1f} dimensions\n",
+        own.network, own.seed, facts.over_time, facts.between_channels, 100 * facts.saturated,
+        facts.code_dimensions);
+  }
+  table.close();
+}
+
 // Of one method, from take to error: the mean over draws, degrees.
 using ByTake = std::map<std::size_t, double>;
 // Methods are called "bf" (seed 1), "bf 2" (seed 2), "gaussian 58 ms".
@@ -125,7 +221,8 @@ Tried try_half_noise(const Arguments& arguments, const std::vector<HeldOut>& tak
       for (const StudyNetwork& own : networks) {
         const bool is_of_action = own.left_out == take.action;
         if (!is_of_action && own.left_out != std::to_string(take.holdout)) continue;
-        if (std::set<std::string>{"ebf", "bf", "nn", "ebd"}.count(own.network) == 0) continue;
+        if (std::set<std::string>{"ebf", "bf", "nn", "ebd", "ebfbound"}.count(own.network) == 0)
+          continue;
         add(is_of_action ? words_of(own) + " without the action" : words_of(own),
             by_network(own.paper, clip));
         if (own.network == "ebf" && own.seed == "1" && !is_of_action)
@@ -152,7 +249,7 @@ struct StudyGroup {
 };
 
 std::vector<StudyGroup> study_groups() {
-  std::vector<StudyGroup> groups{{"all hold-outs", [](const HeldOut&) { return true; }}};
+  std::vector<StudyGroup> groups{{"all trained", [](const HeldOut&) { return true; }}};
   for (const char* action : {"walk", "jog", "run", "jump", "kick"})
     groups.push_back({action, [action](const HeldOut& take) { return take.action == action; }});
   for (const int holdout : {1, 2, 3, 4, 5})
@@ -210,8 +307,8 @@ void write_pairs(Table& table, const std::string& joints, const StudyErrors& err
                  const std::vector<HeldOut>& takes) {
   if (errors.count("ebf") == 0) return;
   const ByTake& ebf = errors.at("ebf");
-  for (const char* other :
-       {"bf", "nn", "ebd", "ebf, widths held", "ebf without the action", "gaussian 58 ms"}) {
+  for (const char* other : {"bf", "nn", "ebd", "ebfbound", "ebf, widths held",
+                            "ebf without the action", "gaussian 58 ms"}) {
     if (errors.count(other) == 0) continue;
     std::vector<double> by_take;
     std::map<int, std::vector<double>> by_holdout;
@@ -240,8 +337,23 @@ void write_pairs(Table& table, const std::string& joints, const StudyErrors& err
   }
 }
 
+// Those for which each of the three networks is there.
+std::string trained_hold_outs(const std::vector<StudyNetwork>& networks) {
+  std::string found;
+  for (const char* holdout : {"1", "2", "3", "4", "5"}) {
+    const auto is_there = [&](const char* name) {
+      return std::any_of(networks.begin(), networks.end(), [&](const StudyNetwork& own) {
+        return own.network == name && own.left_out == holdout && own.seed == "1";
+      });
+    };
+    if (is_there("ebf") && is_there("bf") && is_there("nn")) found += holdout;
+  }
+  return found;
+}
+
 void ablations(const Arguments& arguments, const std::vector<StudyNetwork>& networks) {
-  const std::vector<HeldOut> takes = takes_of_hold_outs(arguments, "12345");
+  const std::vector<HeldOut> takes = takes_of_hold_outs(arguments, trained_hold_outs(networks));
+  if (takes.empty()) return;
   const Tried tried = try_half_noise(arguments, takes, networks);
   Table means(arguments, "ablation_mall.csv", "joints,group,method,takes,rms_deg,of_gaussian_58");
   Table pairs(arguments, "ablation_mall_pairs.csv",
@@ -329,6 +441,7 @@ void experiment(const Arguments& arguments) {
     return;
   }
   ablations(arguments, networks);
+  network_facts(arguments, networks);
   other_noises(arguments, networks);
 }
 
