@@ -120,18 +120,23 @@ struct Shown {
   Clip clip;
 };
 
-// Figure 3 and 4: all channels of the truth, the noisy take and the result; figures 5 and 6b: the
-// knee's first channel, of these and of every method of the table.
+std::size_t knee_of(const Clip& clip) {
+  return static_cast<std::size_t>(std::max(0, clip.skeleton.find("RightLeg")));
+}
+
+// Figure 3 and 4: all channels of the truth, the noisy take and the result, at three strengths;
+// figures 5 and 6: the knee's first channel, of these and of every method of the table, under every
+// noise.
 void curves(const Arguments& arguments, const std::vector<Shown>& shown) {
   Table all(arguments, "dean_channels.csv", "noise,version,frame,channel,value"),
       one(arguments, "dean_channel.csv", "noise,version,frame,value");
   for (const auto& [noise, version, clip] : shown) {
-    const auto knee = static_cast<std::size_t>(std::max(0, clip.skeleton.find("RightLeg")));
     const bool whole =
-        version == "truth" || version == "noisy" || version.starts_with("NLPM (best");
+        (noise == "1 sigma" || noise == "30 sigma" || noise == "75 sigma") &&
+        (version == "truth" || version == "noisy" || version.starts_with("NLPM (best"));
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-      one.add(
-          {noise, version, fmt::format("{}", f), fmt::format("{:.5g}", log_at(clip, f, knee).x)});
+      one.add({noise, version, fmt::format("{}", f),
+               fmt::format("{:.5g}", log_at(clip, f, knee_of(clip)).x)});
       for (std::size_t j = 0; whole && j < clip.joint_count(); ++j) {
         const Vec3 v = log_at(clip, f, j);
         for (const auto& [axis, value] : {std::pair{0, v.x}, {1, v.y}, {2, v.z}})
@@ -142,6 +147,20 @@ void curves(const Arguments& arguments, const std::vector<Shown>& shown) {
   }
   all.close();
   one.close();
+}
+
+// What figure 6 shows, as a number: how far the knee's first channel is from that of the truth,
+// root mean square in degrees of rotation.
+void knee(const Arguments& arguments, const Clip& truth, const std::vector<Shown>& shown) {
+  Table table(arguments, "dean_knee.csv", "noise,version,rms_deg");
+  for (const auto& [noise, version, clip] : shown) {
+    double sum = 0;
+    for (std::size_t f = 0; f < clip.frame_count(); ++f)
+      sum += std::pow(log_at(clip, f, knee_of(clip)).x - log_at(truth, f, knee_of(truth)).x, 2);
+    const double rms = std::sqrt(sum / static_cast<double>(clip.frame_count()));
+    table.add({noise, version, fmt::format("{:.4g}", 2 * degrees_per_radian * rms)});
+  }
+  table.close();
 }
 
 void add_row(Table& table, const std::string& name,
@@ -182,24 +201,20 @@ void experiment(const Arguments& arguments) {
   Table table(arguments, "dean_psnr.csv", header);
   add_row(table, "(noisy)", [&](std::size_t n) { return psnr_db(take.clip, noisy[n]); });
   std::vector<Shown> shown;
-  const auto is_shown = [](std::size_t n) {
-    return noises[n].name == "1 sigma" || noises[n].name == "30 sigma" ||
-           noises[n].name == "75 sigma";
-  };
   for (std::size_t n = 0; n < noises.size(); ++n) {
-    if (!is_shown(n)) continue;
     shown.push_back({noises[n].name, "truth", take.clip});
     shown.push_back({noises[n].name, "noisy", noisy[n]});
   }
   for (const Row& row : rows(arguments.quick)) {
     add_row(table, row.name, [&](std::size_t n) {
       Best best = best_of(take.clip, noisy[n], row);
-      if (is_shown(n)) shown.push_back({noises[n].name, row.name, std::move(best.clip)});
+      shown.push_back({noises[n].name, row.name, std::move(best.clip)});
       return best.psnr_db;
     });
   }
   table.close();
   curves(arguments, shown);
+  knee(arguments, take.clip, shown);
 }
 
 const Registration registration("dean_psnr", experiment);

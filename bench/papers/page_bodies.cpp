@@ -109,17 +109,34 @@ void formats(const Arguments& arguments, Table& table) {
   table.add({"two formats", fmt::format("{}", takes), figure(worst)});
 }
 
-// The largest mean of a channel of trunk, legs and upper arms, in the channels of a CMU walk.
+struct NamedMotion {
+  std::string name;
+  Clip clip;
+};
+
+// Walks by other makers; without data, other walks of the generator.
+std::vector<NamedMotion> other_walks(const Arguments& arguments) {
+  std::vector<NamedMotion> walks;
+  if (!std::filesystem::is_directory(arguments.data / "bvh-other")) {
+    for (const char* motion : {"turn", "stroll"})
+      walks.push_back({motion, body_test::walk(motion)});
+    return walks;
+  }
+  for (const char* path :
+       {"bvh-other/bvh-python/test_freebvh.bvh", "bvh-other/Mocap-Data-Utilities/Male1_B3_Walk.bvh",
+        "bvh-other/bandai-namco/dataset-1_walk_normal_001.bvh",
+        "bvh-other/pybvh/bvh_data_bvh_example.bvh", "paired/S02-Trial-Walk-1-xsens.bvh"})
+    walks.push_back(
+        {std::filesystem::path(path).stem().string(), motion_of(arguments.data / path)});
+  return walks;
+}
+
+// The largest mean of a channel of trunk, legs and upper arms, in the channels of one walk.
 void makers(const Arguments& arguments) {
   Table table(arguments, "page_body_makers.csv", "take,channel,mean_deg");
-  const BodyLayout layout = layout_of(motion_of(arguments.data / "cmu/bvh/35_01.bvh"));
-  for (const auto& [name, path] :
-       {std::pair{"test_freebvh", "bvh-other/bvh-python/test_freebvh.bvh"},
-        {"Male1_B3_Walk", "bvh-other/Mocap-Data-Utilities/Male1_B3_Walk.bvh"},
-        {"dataset-1_walk_normal_001", "bvh-other/bandai-namco/dataset-1_walk_normal_001.bvh"},
-        {"bvh_data_bvh_example", "bvh-other/pybvh/bvh_data_bvh_example.bvh"},
-        {"S02-Trial-Walk-1-xsens", "paired/S02-Trial-Walk-1-xsens.bvh"}}) {
-    const BodyChannels channels = channels_of(layout, motion_of(arguments.data / path));
+  const BodyLayout layout = layout_of(load_take(arguments, "35_01.bvh", {}).clip);
+  for (const auto& [name, clip] : other_walks(arguments)) {
+    const BodyChannels channels = channels_of(layout, clip);
     double most = 0;
     std::size_t channel = 0;
     for (const char* joint : {"Hips", "LeftUpLeg", "LeftLeg", "RightUpLeg", "RightLeg", "LowerBack",
@@ -167,9 +184,9 @@ void experiment(const Arguments& arguments) {
   if (find_take(arguments.data, "85_12.c3d")) {
     formats(arguments, table);
     table.add({"without arms", "1", figure(armless_deg(arguments))});
-    makers(arguments);
   }
   table.close();
+  makers(arguments);
 }
 
 const Registration registration("page_bodies", experiment);

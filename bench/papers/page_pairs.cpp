@@ -4,6 +4,7 @@
 #include <cmath>
 #include <variant>
 
+#include "made_pairs.hpp"
 #include "page.hpp"
 
 namespace kinemend::papers {
@@ -24,15 +25,26 @@ Errors errors_of(const MarkerClip& reference, const MarkerClip& noisy, const Mar
   return {all.rms, all.velocity_rms, all.above_6_hz.value()};
 }
 
-void experiment(const Arguments& arguments) {
+// Without data: walks with the noise of such systems.
+std::vector<MarkerPair> pairs_of(const Arguments& arguments) {
+  std::vector<MarkerPair> pairs;
   const std::filesystem::path folder = arguments.data / "real";
+  if (arguments.data.empty() || !std::filesystem::is_directory(folder)) {
+    for (const char* family : {"video", "depth"}) pairs.push_back(made_pair("walk", 30, family));
+    return pairs;
+  }
   const auto half_of = [&](const std::string& pair, const std::string& half) {
     return std::get<MarkerClip>(read_take(folder / (pair + "." + half + ".trc")).take);
   };
-  if (arguments.data.empty() || !std::filesystem::is_directory(folder)) return;
-  const std::vector<std::string> pairs{
-      "video-regular_FULL",   "video-regular_HEAVY", "video-regular_LITE", "video-60fps_01_FULL",
-      "video-60fps_01_HEAVY", "video-60fps_01_LITE", "depth-CTK",          "depth-RTK"};
+  for (const char* pair :
+       {"video-regular_FULL", "video-regular_HEAVY", "video-regular_LITE", "video-60fps_01_FULL",
+        "video-60fps_01_HEAVY", "video-60fps_01_LITE", "depth-CTK", "depth-RTK"})
+    pairs.push_back({half_of(pair, "reference"), half_of(pair, "noisy")});
+  return pairs;
+}
+
+void experiment(const Arguments& arguments) {
+  const std::vector<MarkerPair> pairs = pairs_of(arguments);
   Errors automatic, white, best;
   const auto add = [&](Errors& sum, const Errors& is, const Errors& was) {
     const auto count = static_cast<double>(pairs.size());
@@ -40,8 +52,7 @@ void experiment(const Arguments& arguments) {
     sum.velocity += is.velocity / was.velocity / count;
     sum.fast += is.fast / was.fast / count;
   };
-  for (const std::string& pair : pairs) {
-    const MarkerClip reference = half_of(pair, "reference"), noisy = half_of(pair, "noisy");
+  for (const auto& [reference, noisy] : pairs) {
     const auto errors_by = [&](const std::string& method, const OptionValues& options,
                                const CleanSettings& settings) {
       return errors_of(reference, noisy,

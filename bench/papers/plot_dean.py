@@ -56,17 +56,23 @@ figure.suptitle("Dean 2016, figures 3 and 4: all channels")
 save(figure, "dean_channels.png")
 
 single = curves("dean_channel.csv")
-figure, panels = plt.subplots(2, 1, figsize=(10, 9), sharex=True)
+noises = list(dict.fromkeys(noise for noise, _, _ in single))
+figure, panels = plt.subplots(len(noises), 2, figsize=(14, 3.5 * len(noises)), sharex=True, squeeze=False)
 for (noise, version, _), values in single.items():
-    if noise != "30 sigma":
-        continue
+    left, right = panels[noises.index(noise)]
     if version in versions:
-        panels[0].plot(values, label=version, linewidth=1)
+        left.plot(values, label=version, linewidth=1)
     if version != "noisy":
-        panels[1].plot(values, label=version, linewidth=2 if version == "truth" else 0.8)
-panels[0].set_title("Dean 2016, figure 5: one channel of a knee, 30 sigma")
-panels[1].set_title("figure 6: every method of table I")
-for panel in panels:
-    panel.legend(fontsize=7)
-    panel.grid(alpha=0.3)
+        right.plot(values, label=version, linewidth=2 if version == "truth" else 0.8)
+for noise, (left, right) in zip(noises, panels):
+    left.set_title(f"Dean 2016, figure 5: one channel of a knee, {noise}", fontsize=9)
+    right.set_title(f"figure 6: every method of table I, {noise}", fontsize=9)
+    # Noise would hide what the methods leave.
+    truth = single[noise, "truth", ""]
+    margin = 0.5 * (max(truth) - min(truth))
+    right.set_ylim(min(truth) - margin, max(truth) + margin)
+    for panel in (left, right):
+        panel.grid(alpha=0.3)
+panels[0][0].legend(fontsize=7)
+panels[0][1].legend(fontsize=6)
 save(figure, "dean_channel.png")

@@ -7,6 +7,7 @@
 #include "experiment.hpp"
 #include "kinemend/experimental/corrupt.hpp"
 #include "kinemend/experimental/signal.hpp"
+#include "made_pairs.hpp"
 #include "noise_measures.hpp"
 
 namespace kinemend::papers {
@@ -37,10 +38,9 @@ PoseMatrix matrix_of(const std::vector<Series>& channels) {
   return matrix;
 }
 
-/// Markers [first, last) of a file; missing samples on straight lines.
-std::vector<Series> read_tracks(const std::filesystem::path& path, std::size_t first,
-                                std::size_t last, Pair& pair) {
-  const MarkerClip clip = std::get<MarkerClip>(read_take(path).take);
+/// Markers [first, last); missing samples on straight lines.
+std::vector<Series> tracks_of(const MarkerClip& clip, std::size_t first, std::size_t last,
+                              Pair& pair) {
   const double scale = clip.unit == "m" ? 1000 : 1;
   last = std::min(last, clip.marker_count());
   PoseMatrix values(clip.frame_count(), 3 * (last - first));
@@ -59,6 +59,11 @@ std::vector<Series> read_tracks(const std::filesystem::path& path, std::size_t f
   pair.names.assign(clip.names.begin() + static_cast<std::ptrdiff_t>(first),
                     clip.names.begin() + static_cast<std::ptrdiff_t>(last));
   return channels_of(values);
+}
+
+std::vector<Series> read_tracks(const std::filesystem::path& path, std::size_t first,
+                                std::size_t last, Pair& pair) {
+  return tracks_of(std::get<MarkerClip>(read_take(path).take), first, last, pair);
 }
 
 /// What is left of a channel when the reference, times a gain plus an offset, is taken off.
@@ -284,6 +289,23 @@ std::vector<Line> lines_of(const Arguments& arguments) {
   return lines;
 }
 
+/// Without data: a walk with the noise of a family of systems.
+std::vector<Line> made_lines() {
+  std::vector<Line> lines;
+  for (const char* family : {"video", "depth"}) {
+    const MarkerPair made = made_pair("walk", 30, family, 99);
+    Pair pair;
+    pair.noisy = tracks_of(made.noisy, 0, 1000, pair);
+    pair.reference = tracks_of(made.reference, 0, 1000, pair);
+    lines.push_back({family,
+                     {std::move(pair)},
+                     [](std::size_t) { return true; },
+                     5,
+                     {{"kind", std::string(family)}}});
+  }
+  return lines;
+}
+
 void families(const Arguments& arguments) {
   std::string header = "option";
   for (const auto& family : corrupt::system_families()) header += "," + std::string(family.name);
@@ -299,15 +321,12 @@ void families(const Arguments& arguments) {
 
 void experiment(const Arguments& arguments) {
   families(arguments);
-  if (!std::filesystem::is_directory(arguments.data / "real")) {
-    fmt::print("no pairs of real takes: nothing to measure\n");
-    return;
-  }
+  const bool has_pairs = std::filesystem::is_directory(arguments.data / "real");
   Table table(arguments, "system_noise.csv",
               "noise,source,lag_1,lag_2,lag_4,lag_8,below_2,from_2_to_6,from_6_to_15,rms,fast_rms,"
               "kurtosis,correlation");
   Table spectra(arguments, "system_spectra.csv", "noise,source,frequency_hz,density");
-  for (const Line& line : lines_of(arguments)) {
+  for (const Line& line : has_pairs ? lines_of(arguments) : made_lines()) {
     Figures real, made;
     for (const Pair& pair : line.pairs) {
       measure(line, pair, pair.noisy, real);
