@@ -57,10 +57,18 @@ inline std::vector<MarkerClip> xiao_takes(const Arguments& arguments,
   return clips;
 }
 
+/// A damaged take.
+struct XiaoDamaged {
+  MarkerClip clip;
+  /// F x M, 1 for the markers that eq. 6 counts: Gaussian noise touches all, outliers those of
+  /// which they change an entry.
+  std::vector<std::uint8_t> noisy;
+};
+
 /// The data matrix is taken to be that of positions from the root, which do not depend on where the
 /// laboratory has its origin: the power of the signal is theirs, and an outlier is 1.4 times an
 /// entry of it.
-inline MarkerClip xiao_noise(MarkerClip clip, const XiaoNoise& noise, std::uint64_t seed) {
+inline XiaoDamaged xiao_noise(MarkerClip clip, const XiaoNoise& noise, std::uint64_t seed) {
   const std::size_t markers = clip.marker_count();
   const MarkerClip truth = clip;
   const auto from_root = [&](std::size_t i) {
@@ -72,13 +80,16 @@ inline MarkerClip xiao_noise(MarkerClip clip, const XiaoNoise& noise, std::uint6
   const double deviation =
       noise.snr_db > 0 ? std::sqrt(power / std::pow(10, noise.snr_db / 10)) : 0;
   Random random(seed);
+  std::vector<std::uint8_t> noisy(clip.positions.size(), noise.snr_db > 0 ? 1 : 0);
   for (std::size_t i = 0; i < clip.positions.size(); ++i) {
     const Vec3 local = from_root(i);
     const auto outlier = [&] { return random.chance(noise.share) ? 0.4 : 0.0; };
-    clip.positions[i] += Vec3{outlier() * local.x, outlier() * local.y, outlier() * local.z};
+    const Vec3 change{outlier() * local.x, outlier() * local.y, outlier() * local.z};
+    if (norm(change) > 0) noisy[i] = 1;
+    clip.positions[i] += change;
     clip.positions[i] += deviation * Vec3{random.normal(), random.normal(), random.normal()};
   }
-  return clip;
+  return {std::move(clip), std::move(noisy)};
 }
 
 inline std::shared_ptr<const Model> xiao_model(const std::string& method,
@@ -91,10 +102,15 @@ inline std::shared_ptr<const Model> xiao_model(const std::string& method,
 }
 
 /// Mean and deviation over frames of eq. 6, metres.
+inline MeanAndDeviation xiao_error(const MarkerClip& truth, const XiaoDamaged& damaged,
+                                   const MarkerClip& filtered) {
+  return rmse_per_marker(truth.positions, filtered.positions, truth.marker_count(), damaged.noisy);
+}
 inline MeanAndDeviation xiao_error(const Cleaner& cleaner, const MarkerClip& truth,
-                                   MarkerClip noisy) {
-  clean_in_place(cleaner, noisy);
-  return rmse_per_marker(truth.positions, noisy.positions, truth.marker_count());
+                                   const XiaoDamaged& damaged) {
+  MarkerClip filtered = damaged.clip;
+  clean_in_place(cleaner, filtered);
+  return xiao_error(truth, damaged, filtered);
 }
 
 inline std::vector<std::string> numbered(const std::string& subject, int first, int last) {
@@ -117,7 +133,7 @@ inline std::vector<XiaoGroup> xiao_groups(const Arguments& arguments) {
                          const std::vector<std::string>& training,
                          const std::vector<std::string>& tests) {
     return XiaoGroup{name, xiao_takes(arguments, training, motion, 1, arguments.quick ? 360 : 3000),
-                     xiao_takes(arguments, tests, motion, 101, arguments.quick ? 150 : 300)};
+                     xiao_takes(arguments, tests, motion, 101, 150)};
   };
   if (arguments.quick) return {group("run", "run", {"quick_1", "quick_2", "quick_4"}, {"quick_3"})};
   return {
@@ -125,11 +141,11 @@ inline std::vector<XiaoGroup> xiao_groups(const Arguments& arguments) {
             joined({numbered("09", 5, 9),
                     numbered("35", 17, 21),
                     {"16_35", "16_36", "16_45", "16_46", "38_03", "49_04"}}),
-            {"09_04", "35_24", "16_55", "02_03"}),
+            {"09_04", "35_24"}),
       group("dance", "walk",
             joined(
                 {numbered("05", 2, 8), numbered("60", 1, 5), {"05_10", "05_11", "05_12", "49_09"}}),
-            {"05_16", "60_08", "05_18", "49_14"}),
+            {"05_16", "60_08"}),
       group("basketball", "walk", joined({numbered("06", 3, 7), numbered("06", 9, 12), {"06_15"}}),
             {"06_13", "06_14"})};
 }

@@ -1,217 +1,201 @@
 // The comparison of Xiao et al. 2015, Sparse motion bases selection for human motion denoising:
-// figures 6 and 7 and table 1 (noise, outliers, both). Each method has the settings that are best
-// on two clips of the training, by models that have not seen these two.
-#include <functional>
+// figures 6 to 8 and table 1 (noise, outliers, both). Each method has the settings that are best on
+// two clips of the training, by models that have not seen these two.
+#include <map>
+#include <set>
 
-#include "xiao.hpp"
+#include "xiao_methods.hpp"
 
 namespace kinemend::papers {
 namespace {
 
-/// What the learned methods know: `example` with windows of several lengths.
-struct Models {
-  std::shared_ptr<const Model> sparse;
-  std::vector<std::shared_ptr<const Model>> example;
-};
+constexpr double far_m = 0.08;    // figure 8 marks such markers
+constexpr double bound_m = 0.05;  // "usually less" below 20 % of outliers
+constexpr std::size_t key_poses = 5;
 
-/// A method with the settings that it is tuned over.
-struct Method {
-  std::string name;
-  struct Setting {
-    std::string name;
-    std::function<std::unique_ptr<Cleaner>(const Models&)> make;
-  };
-  std::vector<Setting> settings;
+std::string centimetres(double metres) { return fmt::format("{:.3f}", 100 * metres); }
 
-  template <class Make>
-  void add(const std::string& setting, const Make& make) {
-    settings.push_back({setting, make});
-  }
-};
-
-std::vector<double> window_lengths_s(const Arguments& arguments) {
-  return arguments.quick ? std::vector<double>{0.5} : std::vector<double>{1.0 / 3, 2.0 / 3, 1};
+// Eq. 6 of one frame, metres; nothing where no marker is noisy.
+std::optional<double> frame_error(const MarkerClip& truth, const XiaoDamaged& damaged,
+                                  const MarkerClip& filtered, std::size_t frame) {
+  const std::size_t markers = truth.marker_count(), first = frame * markers;
+  const std::span<const std::uint8_t> noisy(damaged.noisy.data() + first, markers);
+  if (std::ranges::find(noisy, 1) == noisy.end()) return std::nullopt;
+  return rmse_per_marker({truth.positions.data() + first, markers},
+                         {filtered.positions.data() + first, markers}, markers, noisy)
+      .mean;
 }
 
-Models models_of(const Arguments& arguments, const std::vector<MarkerClip>& clips) {
-  Models models{xiao_model("sparse", clips, xiao_training(arguments)), {}};
-  for (const double window_s : window_lengths_s(arguments))
-    models.example.push_back(xiao_model("example", clips, {{"window_s", window_s}}));
-  return models;
+std::size_t far_markers(const MarkerClip& truth, const MarkerClip& filtered, std::size_t frame) {
+  std::size_t count = 0;
+  for (std::size_t m = 0; m < truth.marker_count(); ++m)
+    count += norm(filtered.position(frame, m) - truth.position(frame, m)) > far_m ? 1 : 0;
+  return count;
 }
 
-Method gaussian_method() {
-  Method method{"gaussian", {}};
-  for (const double width_s : {0.005, 0.008, 0.012, 0.016, 0.022, 0.03, 0.05, 0.08})
-    method.add(fmt::format("{} s", width_s),
-               [=](const Models&) { return make_gaussian({width_s}); });
-  return method;
-}
-
-Method wavelet_method() {
-  Method method{"wavelet", {}};
-  for (const char* family : {"db4", "sym8"}) {
-    for (const char* threshold : {"sure", "universal"}) {
-      for (const char* shrinkage : {"soft", "hard"})
-        method.add(fmt::format("{} {} {}", family, threshold, shrinkage), [=](const Models&) {
-          return make_wavelet({family, threshold, shrinkage});
-        });
-    }
-  }
-  return method;
-}
-
-// The paper's is causal; with the smoother it is stronger.
-Method kalman_method() {
-  Method method{"kalman", {}};
-  for (const char* model : {"position", "velocity"}) {
-    for (const bool smoother : {false, true}) {
-      for (const double agility : {0.05, 0.2, 1.0, 4.0})
-        method.add(fmt::format("{} {} {}", model, smoother ? "smoother" : "filter", agility),
-                   [=](const Models&) {
-                     return make_kalman({.model = model, .smoother = smoother, .agility = agility});
-                   });
-    }
-  }
-  return method;
-}
-
-// The paper's parameters are the window, K and p; by default the last two come from noise and
-// model.
-Method example_method(const Arguments& arguments) {
-  Method method{"example", {}};
-  for (std::size_t w = 0; w < window_lengths_s(arguments).size(); ++w) {
-    const std::string window = fmt::format("{:.2f} s", window_lengths_s(arguments)[w]);
-    const auto add = [&](const std::string& name, const ExampleOptions& options) {
-      method.add(window + " " + name,
-                 [=](const Models& models) { return make_example(options, models.example[w]); });
-    };
-    add("own", {});
-    for (const double welsch_deg : {1.0, 3.0, 7.0}) {
-      ExampleOptions options;
-      options.solver = "paper";
-      options.welsch_deg = welsch_deg;
-      add(fmt::format("paper p {}", welsch_deg), options);
-    }
-  }
-  return method;
-}
-
-Method sparse_method() {
-  Method method{"sparse", {}};
-  for (const char* loss : {"l2", "l1", "mixed"}) {
-    for (const double lambda : {0.02, 0.1})
-      method.add(fmt::format("{} {}", loss, lambda), [=](const Models& models) {
-        SparseOptions options;
-        options.loss = loss;
-        options.lambda = lambda;
-        return make_sparse(options, models.sparse);
-      });
-  }
-  return method;
-}
-
-std::vector<Method> methods_of(const Arguments& arguments) {
-  Method automatic{"auto", {}};
-  automatic.add("", [](const Models&) { return make_auto(); });
-  return {gaussian_method(),         wavelet_method(), kalman_method(),
-          example_method(arguments), sparse_method(),  std::move(automatic)};
-}
-
-/// The training in two: a second of two clips to choose settings by, and the others.
-struct Fold {
-  std::vector<MarkerClip> training, tuning;
-};
-
-Fold fold_of(const XiaoGroup& group) {
-  Fold fold;
-  const std::size_t count = group.training.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const MarkerClip& clip = group.training[i];
-    const bool is_held = count > 4 ? i == count / 4 || i == 3 * count / 4 : i + 1 == count;
-    if (!is_held) {
-      fold.training.push_back(clip);
-      continue;
-    }
-    const std::size_t frames = std::min<std::size_t>(120, clip.frame_count());
-    const std::size_t first = (clip.frame_count() - frames) / 2;
-    fold.tuning.push_back(slice(clip, first, first + frames));
-  }
-  return fold;
-}
-
-/// The setting with the least mean error on the clips with that noise.
-const Method::Setting& tuned(const Method& method, const Models& models,
-                             const std::vector<MarkerClip>& clips, const XiaoNoise& noise) {
-  const Method::Setting* best = &method.settings.front();
-  double least = 1e300;
-  for (const Method::Setting& setting : method.settings) {
-    if (method.settings.size() == 1) break;
-    const auto cleaner = setting.make(models);
-    double sum = 0;
-    for (std::size_t c = 0; c < clips.size(); ++c)
-      sum += xiao_error(*cleaner, clips[c], xiao_noise(clips[c], noise, 1000 + c)).mean;
-    if (sum < least) least = sum, best = &setting;
-  }
-  return *best;
-}
-
-/// Of the paper's own sequence, and the mean of all that are tried.
+// Of the paper's own sequence, and the mean of all that are tried.
 struct Errors {
   MeanAndDeviation own, all;
+  double own_under_bound = 0;  // share of frames
 };
 
-template <class ErrorOf>
-Errors errors_of(const XiaoGroup& group, const XiaoNoise& noise, const ErrorOf& error_of) {
-  Errors errors{};
-  const auto count = static_cast<double>(group.tests.size());
-  for (std::size_t t = 0; t < group.tests.size(); ++t) {
-    const MeanAndDeviation error =
-        error_of(group.tests[t], xiao_noise(group.tests[t], noise, t + 1));
-    if (t == 0) errors.own = error;
-    errors.all.mean += error.mean / count;
-    errors.all.deviation += error.deviation / count;
+// In how many columns of all actions a method has the least mean or deviation.
+class LeastErrors {
+ public:
+  void add(const std::string& column, const std::string& method, MeanAndDeviation error) {
+    columns_[column].push_back({method, error});
+    if (std::ranges::find(methods_, method) == methods_.end()) methods_.push_back(method);
   }
-  return errors;
-}
-
-void compare(const Arguments& arguments, const XiaoGroup& group, Table& table) {
-  const Fold fold = fold_of(group);
-  const Models tuning = models_of(arguments, fold.training);
-  const Models models = models_of(arguments, group.training);
-  for (const XiaoNoise& noise : xiao_noises()) {
-    const auto add = [&](const std::string& name, const std::string& setting,
-                         const Errors& errors) {
-      const auto cm = [](double metres) { return fmt::format("{:.3f}", 100 * metres); };
-      table.add({noise.name, name, cm(errors.own.mean), cm(errors.own.deviation),
-                 cm(errors.all.mean), cm(errors.all.deviation)});
-      fmt::print("{:<11}{:<7}{:<10}{:9.5f}{:9.5f}{:9.5f}{:9.5f}  {}\n", group.name, noise.name,
-                 name, errors.own.mean, errors.own.deviation, errors.all.mean, errors.all.deviation,
-                 setting);
-      std::fflush(stdout);
-    };
-    add("(noisy)", "",
-        errors_of(group, noise, [](const MarkerClip& truth, const MarkerClip& noisy) {
-          return rmse_per_marker(truth.positions, noisy.positions, truth.marker_count());
-        }));
-    for (const Method& method : methods_of(arguments)) {
-      const Method::Setting& setting = tuned(method, tuning, fold.tuning, noise);
-      const auto cleaner = setting.make(models);
-      add(method.name, setting.name,
-          errors_of(group, noise, [&](const MarkerClip& truth, const MarkerClip& noisy) {
-            return xiao_error(*cleaner, truth, noisy);
-          }));
+  void write(const Arguments& arguments) const {
+    Table table(arguments, "xiao_least.csv",
+                "method,columns,mean_of_five,deviation_of_five,mean_of_all,deviation_of_all");
+    for (const std::string& method : methods_) {
+      const auto counted = [&](bool of_five, bool is_mean) {
+        const bool is_own = of_five && !five_.contains(method);
+        return is_own ? std::string() : std::to_string(wins(method, of_five, is_mean));
+      };
+      table.add({method, std::to_string(columns_.size()), counted(true, true), counted(true, false),
+                 counted(false, true), counted(false, false)});
     }
-  }
-}
-
-void experiment(const Arguments& arguments) {
-  for (const XiaoGroup& group : xiao_groups(arguments)) {
-    Table table(arguments, "xiao_" + group.name + ".csv",
-                "noise,method,own_mean_cm,own_deviation_cm,mean_cm,deviation_cm");
-    compare(arguments, group, table);
     table.close();
   }
+
+ private:
+  struct Entry {
+    std::string method;
+    MeanAndDeviation error;
+  };
+
+  std::size_t wins(const std::string& method, bool of_five, bool is_mean) const {
+    const auto value = [&](const Entry& entry) {
+      return is_mean ? entry.error.mean : entry.error.deviation;
+    };
+    std::size_t count = 0;
+    for (const auto& [column, entries] : columns_) {
+      const Entry* best = nullptr;
+      for (const Entry& entry : entries) {
+        if (of_five && !five_.contains(entry.method)) continue;
+        if (best == nullptr || value(entry) < value(*best)) best = &entry;
+      }
+      count += best != nullptr && best->method == method ? 1 : 0;
+    }
+    return count;
+  }
+
+  const std::set<std::string> five_{"gaussian", "wavelet", "kalman", "example", "sparse"};
+  std::map<std::string, std::vector<Entry>> columns_;
+  std::vector<std::string> methods_;
+};
+
+class Comparison {
+ public:
+  explicit Comparison(const Arguments& arguments)
+      : arguments_(arguments),
+        curves_(arguments, "xiao_curves.csv", "motion,noise,method,frame,rmse_cm"),
+        far_(arguments, "xiao_far.csv",
+             "motion,method,markers,far_per_pose,pose_1,pose_2,pose_3,pose_4,pose_5") {}
+
+  void compare(const XiaoGroup& group) {
+    Table table(arguments_, "xiao_" + group.name + ".csv",
+                "noise,method,setting,own_mean_cm,own_deviation_cm,own_under_5_cm,mean_cm,"
+                "deviation_cm");
+    const XiaoFold fold = xiao_fold(group);
+    const XiaoPaperSizes sizes = xiao_paper_sizes(arguments_, fold);
+    const XiaoModels tuning = xiao_models(arguments_, fold.training, sizes);
+    const XiaoModels models = xiao_models(arguments_, group.training, sizes);
+    for (const XiaoNoise& noise : xiao_noises()) {
+      const auto add = [&](const std::string& name, const std::string& setting,
+                           const XiaoFilter& filter, bool is_slow) {
+        const Errors errors = errors_of(group, noise, name, filter, is_slow ? 1 : 1000);
+        std::vector<std::string> line{noise.name,
+                                      name,
+                                      setting,
+                                      centimetres(errors.own.mean),
+                                      centimetres(errors.own.deviation),
+                                      fmt::format("{:.3f}", errors.own_under_bound)};
+        for (const double metres : {errors.all.mean, errors.all.deviation})
+          line.push_back(is_slow ? std::string() : centimetres(metres));
+        table.add(line);
+        fmt::print("{:<11}{:<7}{:<19}{:9.5f}{:9.5f}{:9.5f}{:9.5f}  {}\n", group.name, noise.name,
+                   name, errors.own.mean, errors.own.deviation, errors.all.mean,
+                   errors.all.deviation, setting);
+        std::fflush(stdout);
+        if (name != "(noisy)" && name != "paper true frames")
+          least_.add(group.name + noise.name, name, errors.own);
+      };
+      add(
+          "(noisy)", "", [](const MarkerClip& noisy, const MarkerClip&) { return noisy; }, false);
+      for (const XiaoMethod& method : xiao_methods(arguments_, sizes)) {
+        const XiaoSetting setting = xiao_tuned(method, tuning, fold.tuning, noise);
+        add(method.name, setting.name, setting.make(models), method.is_slow);
+      }
+    }
+    table.close();
+  }
+
+  void close() {
+    curves_.close();
+    far_.close();
+    least_.write(arguments_);
+  }
+
+ private:
+  Errors errors_of(const XiaoGroup& group, const XiaoNoise& noise, const std::string& name,
+                   const XiaoFilter& filter, std::size_t most_clips) {
+    Errors errors{};
+    const std::size_t clips = std::min(most_clips, group.tests.size());
+    for (std::size_t t = 0; t < clips; ++t) {
+      const MarkerClip& truth = group.tests[t];
+      const XiaoDamaged damaged = xiao_noise(truth, noise, t + 1);
+      const MarkerClip filtered = filter(damaged.clip, truth);
+      const MeanAndDeviation error = xiao_error(truth, damaged, filtered);
+      errors.all.mean += error.mean / static_cast<double>(clips);
+      errors.all.deviation += error.deviation / static_cast<double>(clips);
+      if (t > 0) continue;
+      errors.own = error;
+      errors.own_under_bound = add_curve(group.name, noise.name, name, truth, damaged, filtered);
+      if (noise.name == "mixed") add_far(group.name, name, truth, filtered);
+    }
+    return errors;
+  }
+
+  // Returns the share of frames below the paper's bound.
+  double add_curve(const std::string& motion, const std::string& noise, const std::string& name,
+                   const MarkerClip& truth, const XiaoDamaged& damaged,
+                   const MarkerClip& filtered) {
+    double frames = 0, under = 0;
+    for (std::size_t f = 0; f < truth.frame_count(); ++f) {
+      const std::optional<double> error = frame_error(truth, damaged, filtered, f);
+      if (!error) continue;
+      frames += 1, under += *error < bound_m ? 1 : 0;
+      curves_.add({motion, noise, name, std::to_string(f), centimetres(*error)});
+    }
+    return under / frames;
+  }
+
+  void add_far(const std::string& motion, const std::string& name, const MarkerClip& truth,
+               const MarkerClip& filtered) {
+    const std::size_t frames = truth.frame_count();
+    double sum = 0;
+    for (std::size_t f = 0; f < frames; ++f)
+      sum += static_cast<double>(far_markers(truth, filtered, f));
+    std::vector<std::string> line{motion, name, std::to_string(truth.marker_count()),
+                                  fmt::format("{:.2f}", sum / static_cast<double>(frames))};
+    for (std::size_t k = 0; k < key_poses; ++k)
+      line.push_back(
+          std::to_string(far_markers(truth, filtered, (2 * k + 1) * frames / (2 * key_poses))));
+    far_.add(line);
+  }
+
+  const Arguments& arguments_;
+  Table curves_, far_;
+  LeastErrors least_;
+};
+
+void experiment(const Arguments& arguments) {
+  Comparison comparison(arguments);
+  for (const XiaoGroup& group : xiao_groups(arguments)) comparison.compare(group);
+  comparison.close();
 }
 
 const Registration registration("xiao_sparse", experiment);

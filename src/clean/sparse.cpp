@@ -8,7 +8,9 @@
 #include "clean/example_rest.hpp"
 #include "clean/method_list.hpp"
 #include "clean/prior_cleaning.hpp"
+#include "clean/prior_fall_backs.hpp"
 #include "clean/prior_hold.hpp"
+#include "clean/sparse_tuning.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
 #include "priors/sparse_filter.hpp"
@@ -20,6 +22,11 @@ namespace {
 
 constexpr double outlier_deviations = 5;  // of the noise of a channel
 constexpr double many_outliers = 0.02;
+// Mean square of what the atoms miss, in those of the noise, from which on it counts; and how much
+// of `auto` the result has at most.
+constexpr double usual_rest = 0.1, most_of_auto = 0.5;
+// Of the root from the mean of the training, in all but a few frames.
+constexpr double far_root_deg = 70, mostly = 0.98;
 constexpr double least_channel_noise_deg = 0.05;
 constexpr double least_point_noise = 2e-4;  // body heights
 
@@ -78,6 +85,13 @@ std::vector<double> point_noise(const PoseMatrix& positions, const PoseMatrix& g
   return noise;
 }
 
+// Markers of a capture have about the same noise. Where they differ, outliers move the guide of
+// those far from the body's middle, which must not make them count less.
+void level(std::vector<double>& noise) {
+  std::vector<double> levels = noise;
+  noise.assign(noise.size(), median_of(levels));
+}
+
 double share_beyond(const PoseMatrix& positions, const PoseMatrix& guide,
                     const std::vector<double>& noise, double deviations) {
   double count = 0;
@@ -90,8 +104,9 @@ double share_beyond(const PoseMatrix& positions, const PoseMatrix& guide,
 
 // Of each channel: as `auto` measures it, but no more than what is measured scatters about what the
 // atoms express. Where many samples are outliers `auto` takes them for noise.
-std::vector<double> noise_about(const PriorWork& work, const PoseMatrix& cleaned) {
+std::vector<double> noise_about(const PriorWork& work, const PoseMatrix& cleaned, bool is_capped) {
   std::vector<double> noise = example_noise(work);
+  if (!is_capped) return noise;
   const std::vector<double> scatter =
       point_noise(work.channels.poses, cleaned, work.channels.observed);
   for (std::size_t c = 0; c < noise.size(); ++c)
@@ -112,12 +127,31 @@ std::vector<std::uint8_t> wanted_points(const SparsePoints& points,
   return marks;
 }
 
-// F x D. A root that is left to `auto` counts as measured: all points turn with it, so that it does
-// not matter in the local coordinates that they are compared in. Else a body that turns about a
-// level axis would have no point that was measured.
+bool is_root_left_out(const PriorWork& work) {
+  return !work.left_out.empty() && work.left_out.front() != 0;
+}
+
+// Whether the body leans out of the poses that were learned from.
+bool leans_far(const PriorWork& work) {
+  if (is_root_left_out(work)) return true;
+  std::vector<double> turns;
+  for (std::size_t f = 0; f < work.fallback.frames; ++f)
+    turns.push_back(norm(Vec3{work.fallback(f, 0), work.fallback(f, 1), work.fallback(f, 2)}));
+  return quantile_of(turns, mostly) > far_root_deg;
+}
+
+// All points turn with the root, so that the other joints are the same on a body whose root keeps
+// its mean rotation.
+PoseMatrix with_steady_root(PoseMatrix poses) {
+  for (std::size_t f = 0; f < poses.frames; ++f) std::fill_n(poses.row(f).begin(), 3, 0.0);
+  return poses;
+}
+
+// F x D. A root that is left to `auto` counts as measured: else no point of the body would have
+// been.
 std::vector<std::uint8_t> observed_with_root(const PriorWork& work) {
   std::vector<std::uint8_t> observed = work.channels.observed;
-  if (work.left_out.empty() || work.left_out.front() == 0) return observed;
+  if (!is_root_left_out(work)) return observed;
   const std::size_t width = work.channels.poses.channels;
   for (std::size_t first = 0; first < observed.size(); first += width)
     std::fill_n(observed.begin() + static_cast<std::ptrdiff_t>(first), 3, std::uint8_t{1});
@@ -126,17 +160,17 @@ std::vector<std::uint8_t> observed_with_root(const PriorWork& work) {
 
 // What the dictionaries make of the points. Where many are outliers, what `auto` makes of them is
 // no good guide, and the result is the guide of another turn.
-PoseMatrix filtered_points(const PriorWork& work, const PoseMatrix& positions,
+PoseMatrix filtered_points(const PriorWork& work, const PoseMatrix& positions, PoseMatrix guide,
                            const SparsePrior& prior, const BodyLayout& layout,
-                           const std::vector<std::uint8_t>& wanted,
-                           const SparseSettings& settings) {
-  PoseMatrix guide = points_of(prior.points, layout, work.fallback);
+                           const std::vector<std::uint8_t>& wanted, const SparseSettings& settings,
+                           const SparseTuning& tuning) {
   const std::vector<std::uint8_t> observed =
       observed_points(prior.points, layout, observed_with_root(work));
   const double rate_hz = work.channels.frame_rate_hz;
-  const std::size_t turns = settings.loss == SparseLoss::squares ? 1 : 2;
-  for (std::size_t turn = 0; turn < turns; ++turn) {
-    const std::vector<double> noise = point_noise(positions, guide, observed);
+  const bool guides_again = tuning.guides_again && settings.loss != SparseLoss::squares;
+  for (std::size_t turn = 0; turn < (guides_again ? 2 : 1); ++turn) {
+    std::vector<double> noise = point_noise(positions, guide, observed);
+    if (tuning.levels_markers && prior.points.kind == BodyKind::markers) level(noise);
     if (turn > 0 &&
         share_beyond(positions, guide, noise, settings.outlier_deviations) < many_outliers)
       break;
@@ -145,16 +179,19 @@ PoseMatrix filtered_points(const PriorWork& work, const PoseMatrix& positions,
   return guide;
 }
 
-// Spikes, and what is measured far from what the atoms express.
-void reject_outliers(PriorWork& work, const std::vector<double>& noise,
-                     const PoseMatrix& expressed) {
+// Spikes, and what is measured far from what the atoms express. Returns the latter's share.
+double reject_outliers(PriorWork& work, const std::vector<double>& noise,
+                       const PoseMatrix& expressed) {
   work.rejected.assign(expressed.values.size(), 0);
+  double far = 0, count = 0;
   for (std::size_t i = 0; i < expressed.values.size(); ++i) {
     if (work.channels.observed[i] == 0) continue;
     const double distance = std::abs(work.channels.poses.values[i] - expressed.values[i]);
     const bool is_far = distance > outlier_deviations * noise[i % expressed.channels];
     work.rejected[i] = work.suspect[i] != 0 || is_far ? 1 : 0;
+    far += is_far ? 1 : 0, count += 1;
   }
+  return far / std::max(count, 1.0);
 }
 
 // F x D, 1 for measurements that are not rejected.
@@ -165,8 +202,30 @@ PoseMatrix counted(const PriorWork& work) {
   return counts;
 }
 
+// Where the atoms miss much of the motion, the smoothed rest has errors of its own, as large as
+// those of `auto`: their mean is better than either. `cleaned` becomes it, the more the larger the
+// rest is beside the noise.
+void average_with_auto(const PriorWork& work, const PoseMatrix& expressed,
+                       const std::vector<double>& noise, PoseMatrix& cleaned) {
+  for (std::size_t first = 0; first + 2 < cleaned.channels; first += 3) {
+    double squares = 0;
+    for (std::size_t f = 0; f < cleaned.frames; ++f) {
+      for (std::size_t c = first; c < first + 3; ++c)
+        squares += std::pow((cleaned(f, c) - expressed(f, c)) / noise[c], 2);
+    }
+    const double rest = squares / (3 * static_cast<double>(cleaned.frames)) / usual_rest;
+    const double share = most_of_auto * rest * rest / (1 + rest * rest);
+    for (std::size_t f = 0; f < cleaned.frames; ++f) {
+      for (std::size_t c = first; c < first + 3; ++c) {
+        if (work.channels.observed[f * cleaned.channels + c] != 0)
+          cleaned(f, c) += share * (work.fallback(f, c) - cleaned(f, c));
+      }
+    }
+  }
+}
+
 void filter_sparse(PriorWork& work, const SparseOptions& options, const SparsePrior& prior,
-                   const BodyLayout& layout) {
+                   const BodyLayout& layout, const SparseTuning& tuning) {
   if (work.channels.poses.frames == 0) return;
   SparseSettings settings;
   settings.loss = loss_of(options);
@@ -182,21 +241,40 @@ void filter_sparse(PriorWork& work, const SparseOptions& options, const SparsePr
     }
     wanted = wanted_points(prior.points, parts);
   }
-  const PoseMatrix positions = points_of(prior.points, layout, guess_of(work, prior.points.kind));
-  PoseMatrix found = filtered_points(work, positions, prior, layout, wanted, settings);
-  PoseMatrix cleaned = channels_of(prior.points, layout, found, work.fallback);
+  const bool is_steadied = prior.points.kind == BodyKind::joints && leans_far(work);
+  const auto steadied = [&](PoseMatrix poses) {
+    return is_steadied ? with_steady_root(std::move(poses)) : std::move(poses);
+  };
+  const PoseMatrix guide = steadied(work.fallback);
+  const PoseMatrix positions =
+      points_of(prior.points, layout, steadied(guess_of(work, prior.points.kind)));
+  const PoseMatrix found = filtered_points(work, positions, points_of(prior.points, layout, guide),
+                                           prior, layout, wanted, settings, tuning);
+  PoseMatrix cleaned = channels_of(prior.points, layout, found, guide);
+  // The root itself is left to `auto`.
+  for (std::size_t f = 0; f < cleaned.frames && is_steadied; ++f)
+    std::copy_n(work.fallback.row(f).begin(), 3, cleaned.row(f).begin());
+  if (is_steadied && !is_root_left_out(work)) {
+    std::vector<double> root_alone(work.needs.size(), 0);
+    root_alone.front() = 1;
+    add_fall_back(work, "they lean farther than the poses that the model was learned from",
+                  std::move(root_alone));
+  }
   if (settings.exact) {
     work.channels.poses = std::move(cleaned);
     return;
   }
-  const std::vector<double> noise = noise_about(work, cleaned);
-  reject_outliers(work, noise, cleaned);
+  const std::vector<double> noise = noise_about(work, cleaned, tuning.caps_noise);
+  const double outliers = reject_outliers(work, noise, cleaned);
+  if (tuning.releases) release_if_crowded(work, outliers);
   // Of joints, whose noise is seldom the same about each axis, it flips between two estimates.
-  if (prior.points.kind == BodyKind::markers) {
+  if (tuning.smooths_rest && prior.points.kind == BodyKind::markers) {
     const PoseMatrix expressed = cleaned;
     smooth_rest(work, counted(work), expressed, noise, cleaned);
+    if (tuning.averages && !work.is_whole) average_with_auto(work, expressed, noise, cleaned);
   }
-  fall_back_where_biased(work, noise, cleaned);
+  // Where many samples are outliers, `auto` can do least with them.
+  if (tuning.leaves_biased && !work.is_whole) fall_back_where_biased(work, noise, cleaned);
   work.channels.poses = std::move(cleaned);
 }
 
@@ -204,13 +282,20 @@ void filter_sparse(PriorWork& work, const SparseOptions& options, const SparsePr
 
 std::unique_ptr<Cleaner> make_sparse(const SparseOptions& options,
                                      std::shared_ptr<const Model> model) {
+  return make_tuned_sparse(options, std::move(model), {});
+}
+
+std::unique_ptr<Cleaner> make_tuned_sparse(const SparseOptions& options,
+                                           std::shared_ptr<const Model> model,
+                                           const SparseTuning& tuning) {
   sparse_table().validate(options);
   model = model_for("sparse", options.model, std::move(model));
-  const PriorHold hold = options.solver == "paper" ? PriorHold::nothing : PriorHold::white_noise;
-  return make_prior_cleaner(model, options.map, options.fill, hold,
-                            [options, model, prior = sparse_prior_of(*model)](PriorWork& work) {
-                              filter_sparse(work, options, prior, model->layout);
-                            });
+  const bool is_free = options.solver == "paper" || !tuning.holds;
+  return make_prior_cleaner(
+      model, options.map, options.fill, is_free ? PriorHold::nothing : PriorHold::white_noise,
+      [options, model, tuning, prior = sparse_prior_of(*model)](PriorWork& work) {
+        filter_sparse(work, options, prior, model->layout, tuning);
+      });
 }
 
 Method sparse_method() {

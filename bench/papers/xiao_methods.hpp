@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "xiao.hpp"
+#include "xiao_paper.hpp"
+
+// The methods that the comparison of Xiao et al. 2015 tries, each with the settings that it is
+// tuned over.
+namespace kinemend::papers {
+
+/// M of `sparse`, at 60 Hz.
+inline constexpr std::array<std::int64_t, 2> xiao_sparse_windows{9, 15};
+
+/// What the learned methods know: `sparse` and `example` with windows of several lengths.
+struct XiaoModels {
+  std::vector<std::shared_ptr<const Model>> sparse;
+  std::vector<std::shared_ptr<const Model>> example;
+  std::shared_ptr<const XiaoPaper> paper;
+  std::size_t paper_hop = 1;  ///< frames from window to window of Algorithm 1; 1: all windows
+};
+
+/// Nothing but the frames of "paper true frames" comes from the ground truth.
+using XiaoFilter = std::function<MarkerClip(const MarkerClip& noisy, const MarkerClip& truth)>;
+
+struct XiaoSetting {
+  std::string name;
+  std::function<XiaoFilter(const XiaoModels&)> make;
+};
+
+struct XiaoMethod {
+  std::string name;
+  std::function<std::vector<XiaoSetting>(const XiaoNoise&)> settings;
+  bool is_slow = false;  ///< tried on the paper's own sequences only
+};
+
+/// Lengths of the windows of `example`.
+inline std::vector<double> xiao_windows_s(const Arguments& arguments) {
+  return arguments.quick ? std::vector<double>{0.5} : std::vector<double>{1.0 / 3, 2.0 / 3, 1};
+}
+
+/// The five methods of the paper, of which `sparse` is ours, then `auto`, and Algorithm 1 itself.
+std::vector<XiaoMethod> xiao_methods(const Arguments& arguments, const XiaoPaperSizes& sizes);
+
+XiaoModels xiao_models(const Arguments& arguments, const std::vector<MarkerClip>& clips,
+                       const XiaoPaperSizes& sizes);
+
+/// The training in two: a second of two clips to choose settings by, and the others.
+struct XiaoFold {
+  std::vector<MarkerClip> training, tuning;
+};
+XiaoFold xiao_fold(const XiaoGroup& group);
+
+/// The setting with the least mean error on the clips with that noise.
+XiaoSetting xiao_tuned(const XiaoMethod& method, XiaoModels models,
+                       const std::vector<MarkerClip>& clips, const XiaoNoise& noise);
+
+/// Of Algorithm 1, with the M that has the least error at 20 dB.
+XiaoPaperSizes xiao_paper_sizes(const Arguments& arguments, const XiaoFold& fold);
+
+}  // namespace kinemend::papers

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kinemend/experimental/body.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
+#include "kinemend/marker_clip.hpp"
+#include "priors/sparse_prior.hpp"
+
+// Algorithm 1 of Xiao et al. 2015 as the paper states it, without what the method `sparse` adds:
+// local coordinates of each pose, all windows, plain losses, and no step after them.
+namespace kinemend::papers {
+
+struct XiaoPaperSizes {
+  std::size_t window_frames = 15;  ///< M, at the rate of the takes
+  std::size_t atoms = 500;         ///< K
+  std::size_t windows = 10'000;    ///< that dictionaries are learned from, evenly drawn from all
+  std::size_t iterations = 10;     ///< of K-SVD
+};
+
+enum class XiaoPaperLoss : std::uint8_t {
+  squares,   ///< eq. 4
+  absolute,  ///< eq. 5
+  sequence,  ///< eq. 4 on what eq. 5 leaves
+};
+
+struct XiaoPaperSettings {
+  XiaoPaperLoss loss = XiaoPaperLoss::squares;
+  double lambda_squares = 1, lambda_absolute = 1;  ///< of eq. 4 and 5, lengths in centimetres
+};
+
+class XiaoPaper {
+ public:
+  /// Learns from clips of the same markers, in metres.
+  XiaoPaper(const std::vector<MarkerClip>& clips, const XiaoPaperSizes& sizes);
+
+  /// The filtered take, of M frames at least. Each pose goes to the local coordinates of the same
+  /// pose of `posed` and back: the paper's of the noisy take itself, or of the ground truth, as if
+  /// noise were added to local coordinates. `hop`: frames from window to window; 1: all T - M + 1
+  /// windows.
+  MarkerClip filtered(const MarkerClip& noisy, const MarkerClip& posed,
+                      const XiaoPaperSettings& settings, std::size_t hop = 1) const;
+
+  const XiaoPaperSizes& sizes() const noexcept { return sizes_; }
+
+ private:
+  void find_parts(const std::vector<MarkerClip>& clips);
+  PoseMatrix filter(const PoseMatrix& local, bool is_absolute, double lambda,
+                    std::size_t hop) const;
+
+  XiaoPaperSizes sizes_;
+  LocalPoints local_;
+  std::vector<SparsePoselet> poselets_;  // means are not used
+};
+
+}  // namespace kinemend::papers

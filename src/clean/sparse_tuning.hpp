@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+
+#include "kinemend/experimental/model.hpp"
+#include "kinemend/methods.hpp"
+
+// What `sparse` adds to the paper's method, so that each part can be left out to see what it
+// brings. Only the experiments do so (`bench/papers/xiao_ablation.cpp`).
+namespace kinemend {
+
+struct SparseTuning {
+  bool levels_markers = true;  ///< weighs all markers alike; off: by the noise of each
+  bool guides_again = true;    ///< a second pass where many samples are outliers
+  bool caps_noise = true;      ///< noise is no more than the scatter about the result
+  bool smooths_rest = true;    ///< keeps smooth motion of markers that the atoms cannot express
+  bool leaves_biased = true;   ///< takes what `auto` makes of a part where the result is biased
+  bool holds = true;           ///< changes a part no further than its noise asks for
+  bool releases = true;        ///< but as far as it wants where it finds many outliers
+  bool averages = true;        ///< with `auto` where the atoms miss much
+};
+
+/// Errors: as of `make_sparse`.
+std::unique_ptr<Cleaner> make_tuned_sparse(const SparseOptions& options,
+                                           std::shared_ptr<const Model> model,
+                                           const SparseTuning& tuning);
+
+}  // namespace kinemend
