@@ -39,7 +39,7 @@ std::vector<Variant> variants() {
     add(fmt::format("welsch_deviations {}", p),
         [=](Variant& v) { v.tuning.welsch_deviations = p; });
   }
-  for (const double p : {0.25, 1.0, 2.0}) {
+  for (const double p : {0.5, 2.0, 3.0}) {
     add(fmt::format("rest_deviations {}", p), [=](Variant& v) { v.tuning.rest_deviations = p; });
   }
   for (const double frames : {1.0, 10.0}) {

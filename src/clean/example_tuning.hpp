@@ -12,7 +12,7 @@ namespace kinemend {
 struct ExampleTuning {
   /// p, in deviations of the noise and in those of what the bases leave.
   double welsch_deviations = 3;
-  double rest_deviations = 0.5;
+  double rest_deviations = 1;
   /// What the bases leave lasts: it says something new in one frame of so many.
   double rest_memory_frames = 3;
   bool guesses_suspects = true;    ///< starts from what `auto` made of spikes
