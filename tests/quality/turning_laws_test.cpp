@@ -80,7 +80,7 @@ class OfAnyMethod : public testing::TestWithParam<std::string> {
   }
   bool is_learned() const { return find_method(GetParam()).learned; }  // and takes longer
   std::vector<Vec3> speeds() const {
-    if (is_learned()) return {{0, 60, 0}, {-20, 30, 20}};
+    if (is_learned()) return {{0, 60, 0}, {40, 0, 0}, {-20, 30, 20}};
     return {{0, 20, 0}, {0, 60, 0}, {60, 0, 0}, {-20, 30, 20}};
   }
   // What the error of the root position may grow by.
