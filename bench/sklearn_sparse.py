@@ -39,17 +39,17 @@ atoms = training[random.choice(len(training), ATOMS, replace=False)]
 atoms /= np.linalg.norm(atoms, axis=1, keepdims=True)
 # As many passes over the windows as K-SVD has, with the same pursuit.
 learning = MiniBatchDictionaryLearning(ATOMS, batch_size=256, n_iter=10 * len(training) // 256, dict_init=atoms,
-                                       transform_algorithm="omp", fit_algorithm="cd", alpha=0.05, n_jobs=2,
+                                       transform_algorithm="omp", fit_algorithm="cd", alpha=0.05, n_jobs=1,
                                        random_state=1)
 if not QUICK:
-    timed("MiniBatchDictionaryLearning, 20,000 windows", lambda: learning.fit(training))
+    timed("learn_dictionary/windows:20000", lambda: learning.fit(training))
 noisy = windows(2000, NOISE)
-timed("sparse_encode omp, 2,000 windows", lambda: sparse_encode(noisy, atoms, algorithm="omp", n_nonzero_coefs=10, n_jobs=2))
+timed("batch_omp", lambda: sparse_encode(noisy, atoms, algorithm="omp", n_nonzero_coefs=10, n_jobs=1))
 # Its lasso has half the squares.
 penalty = 0.25 * NOISE * np.sqrt(2 * np.log(ATOMS))
 for algorithm in ("lasso_cd", "lasso_lars"):
-    timed(f"sparse_encode {algorithm}, 256 windows",
-          lambda algorithm=algorithm: sparse_encode(noisy[:256], atoms, algorithm=algorithm, alpha=penalty, n_jobs=2))
+    timed(f"{algorithm}/256",
+          lambda algorithm=algorithm: sparse_encode(noisy[:256], atoms, algorithm=algorithm, alpha=penalty, n_jobs=1))
 if "--out" in sys.argv:
     with open(sys.argv[sys.argv.index("--out") + 1], "w") as file:
         json.dump({"benchmarks": measured}, file)

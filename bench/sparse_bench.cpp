@@ -66,6 +66,7 @@ BENCHMARK(learn_dictionary)
     ->ArgName("windows")
     ->Arg(20'000)
     ->Unit(benchmark::kSecond)
+    ->MeasureProcessCPUTime()
     ->UseRealTime()
     ->Iterations(1);
 
@@ -75,7 +76,11 @@ void batch_omp(benchmark::State& state) {
   for (auto _ : state)
     benchmark::DoNotOptimize(omp.code(signals, {.most_atoms = 10}).values.data());
 }
-BENCHMARK(batch_omp)->Name("sparse/batch_omp")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(batch_omp)
+    ->Name("sparse/batch_omp")
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 
 template <class Solve>
 void solve(benchmark::State& state, sparse::Loss loss, const Solve& solution) {
@@ -98,6 +103,7 @@ BENCHMARK(descend)
     ->Arg(2)
     ->Arg(1)
     ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
     ->UseRealTime();
 
 void dual(benchmark::State& state) {
@@ -110,6 +116,7 @@ BENCHMARK(dual)
     ->Arg(2)
     ->Arg(1)
     ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
     ->UseRealTime();
 
 // Windows of an arm in a noisy walk, a quarter of a window apart, as the method has them, on the
@@ -231,6 +238,7 @@ BENCHMARK(clean_take)
     ->Arg(30)
     ->Arg(120)
     ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
     ->UseRealTime();
 
 }  // namespace
