@@ -20,9 +20,9 @@ std::map<std::string, Clip> cleaned_by_all(const Arguments& arguments, const Cli
   results["gaussian 58 ms"] = cleaned(clip, "gaussian", {{"width_s", 0.058}});
   results["gaussian 125 ms"] = cleaned(clip, "gaussian", {{"width_s", 0.125}});
   results["example"] = cleaned(clip, "example");
-  for (const auto& [words, name] : {std::pair{"ebf", "ebf"}, std::pair{"ebd", "ebd-noise"}}) {
+  for (const char* name : {"ebf", "ebd"}) {
     if (const auto network = paper_network(arguments, name))
-      results[words] = by_network(*network, clip);
+      results[name] = by_network(*network, clip);
   }
   return results;
 }
@@ -125,9 +125,9 @@ std::vector<double> kernels_of(const PaperNetwork& paper, const Clip& clip) {
 }
 
 void free_shapes(const Arguments& arguments) {
-  const auto network = paper_network(arguments, "ebf-shape");
+  const auto network = paper_network(arguments, "shapes");
   if (!network) {
-    fmt::print("no shapes: {} has no ebf-shape.kmodel\n", arguments.models.string());
+    fmt::print("no shapes: {} has no shapes.kmodel\n", arguments.models.string());
     return;
   }
   Table shown(arguments, "mall_kernels.csv", "take,action,time_s,offset_ms,weight");

@@ -18,8 +18,9 @@ struct Noise {
   OptionValues options;
 };
 
-const std::vector<std::string> network_names{"ebf",         "ebf-biased", "ebf-shape",
-                                             "ebf-spatial", "bf",         "nn"};
+// EBD, which makes poses, is a denoiser here, as in the paper's figures 4 and 5.
+const std::vector<std::string> network_names{"ebf", "ebf-biased", "ebf-shape", "ebf-spatial",
+                                             "bf",  "nn",         "ebd"};
 const std::vector<std::string> other_methods{"auto", "example", "wiener"};
 
 std::vector<Noise> noises() {

@@ -201,6 +201,10 @@ std::string words_of(const StudyNetwork& own) {
   return own.seed == "1" ? own.network : own.network + " " + own.seed;
 }
 
+// With noise of k = 0.5 and Gaussian filters or a pose; "bound": begun with the paper's weights.
+const std::set<std::string> compared_networks{"ebf",      "bf",      "nn",     "ebd",
+                                              "ebfbound", "bfbound", "nnbound"};
+
 Tried try_half_noise(const Arguments& arguments, const std::vector<HeldOut>& takes,
                      const std::vector<StudyNetwork>& networks) {
   const std::uint64_t draws = arguments.quick ? 1 : 5;
@@ -221,8 +225,7 @@ Tried try_half_noise(const Arguments& arguments, const std::vector<HeldOut>& tak
       for (const StudyNetwork& own : networks) {
         const bool is_of_action = own.left_out == take.action;
         if (!is_of_action && own.left_out != std::to_string(take.holdout)) continue;
-        if (std::set<std::string>{"ebf", "bf", "nn", "ebd", "ebfbound"}.count(own.network) == 0)
-          continue;
+        if (compared_networks.count(own.network) == 0) continue;
         add(is_of_action ? words_of(own) + " without the action" : words_of(own),
             by_network(own.paper, clip));
         if (own.network == "ebf" && own.seed == "1" && !is_of_action)
@@ -282,7 +285,7 @@ void write_means(Table& table, const std::string& joints, const StudyErrors& err
 }
 
 // Mean of differences, with its standard error.
-void write_pair(Table& table, const std::vector<std::string>& names,
+void write_pair(Table& table, const std::vector<std::string>& names, const std::string& over,
                 const std::vector<double>& differences) {
   if (differences.size() < 2) return;
   const auto count = static_cast<double>(differences.size());
@@ -294,46 +297,59 @@ void write_pair(Table& table, const std::vector<std::string>& names,
   for (const double difference : differences) square += std::pow(difference - mean, 2);
   const double error = std::sqrt(square / (count - 1) / count);
   std::vector<std::string> cells = names;
-  for (const std::string& cell : {fmt::format("{}", differences.size()), figure(mean),
+  for (const std::string& cell : {over, fmt::format("{}", differences.size()), figure(mean),
                                   figure(error), fmt::format("{}", better)})
     cells.push_back(cell);
   table.add(cells);
-  fmt::print("{:6} {:28} less ebf, over {:9}: {:+.4f} +- {:.4f} deg, ebf better in {} of {}\n",
-             names[0], names[1], names[2], mean, error, better, differences.size());
+  fmt::print(
+      "{:6} {:28} less {:12} over {:9}: {:+.4f} +- {:.4f} deg, the latter better in {} of {}\n",
+      names[0], names[1], names[2], over, mean, error, better, differences.size());
 }
 
-// What others leave less what EBF leaves of the same takes with the same noise.
+struct StudyPair {
+  std::string method, base;
+};
+
+// What a method leaves less what another leaves of the same takes with the same noise.
 void write_pairs(Table& table, const std::string& joints, const StudyErrors& errors,
                  const std::vector<HeldOut>& takes) {
-  if (errors.count("ebf") == 0) return;
-  const ByTake& ebf = errors.at("ebf");
-  for (const char* other : {"bf", "nn", "ebd", "ebfbound", "ebf, widths held",
-                            "ebf without the action", "gaussian 58 ms"}) {
-    if (errors.count(other) == 0) continue;
+  for (const StudyPair& pair : std::vector<StudyPair>{{"bf", "ebf"},
+                                                      {"nn", "ebf"},
+                                                      {"bfbound", "ebfbound"},
+                                                      {"nnbound", "ebfbound"},
+                                                      {"ebf", "ebfbound"},
+                                                      {"bf", "ebfbound"},
+                                                      {"nn", "ebfbound"},
+                                                      {"ebd", "ebf"},
+                                                      {"ebf, widths held", "ebf"},
+                                                      {"ebfbound without the action", "ebfbound"},
+                                                      {"gaussian 58 ms", "ebf"}}) {
+    const auto own = errors.find(pair.method), base = errors.find(pair.base);
+    if (own == errors.end() || base == errors.end()) continue;
     std::vector<double> by_take;
     std::map<int, std::vector<double>> by_holdout;
-    for (const auto& [take, error] : errors.at(other)) {
-      if (ebf.count(take) == 0) continue;
-      by_take.push_back(error - ebf.at(take));
+    for (const auto& [take, error] : own->second) {
+      if (base->second.count(take) == 0) continue;
+      by_take.push_back(error - base->second.at(take));
       by_holdout[takes[take].holdout].push_back(by_take.back());
     }
     std::vector<double> means;
-    for (const auto& [holdout, own] : by_holdout) {
+    for (const auto& [holdout, differences] : by_holdout) {
       double sum = 0;
-      for (const double difference : own) sum += difference;
-      means.push_back(sum / static_cast<double>(own.size()));
+      for (const double difference : differences) sum += difference;
+      means.push_back(sum / static_cast<double>(differences.size()));
     }
-    write_pair(table, {joints, quoted(other), "takes"}, by_take);
-    write_pair(table, {joints, quoted(other), "hold-outs"}, means);
+    const std::vector<std::string> names{joints, quoted(pair.method), quoted(pair.base)};
+    write_pair(table, names, "takes", by_take);
+    write_pair(table, names, "hold-outs", means);
     std::vector<double> by_seed;
     for (const char* seed : {"", " 2", " 3"}) {
-      const auto own = errors.find(std::string(other) + seed),
-                 same = errors.find(std::string("ebf") + seed);
-      if (own == errors.end() || same == errors.end()) continue;
+      const auto first = errors.find(pair.method + seed), second = errors.find(pair.base + seed);
+      if (first == errors.end() || second == errors.end()) continue;
       const auto is_first = [&](std::size_t take) { return takes[take].holdout == 1; };
-      by_seed.push_back(mean_over(own->second, is_first) - mean_over(same->second, is_first));
+      by_seed.push_back(mean_over(first->second, is_first) - mean_over(second->second, is_first));
     }
-    write_pair(table, {joints, quoted(other), "seeds of hold-out 1"}, by_seed);
+    write_pair(table, names, "seeds", by_seed);
   }
 }
 
@@ -357,7 +373,7 @@ void ablations(const Arguments& arguments, const std::vector<StudyNetwork>& netw
   const Tried tried = try_half_noise(arguments, takes, networks);
   Table means(arguments, "ablation_mall.csv", "joints,group,method,takes,rms_deg,of_gaussian_58");
   Table pairs(arguments, "ablation_mall_pairs.csv",
-              "joints,method,over,count,more_than_ebf_deg,standard_error_deg,ebf_is_better_in");
+              "joints,method,base,over,count,difference_deg,standard_error_deg,base_is_better_in");
   for (const bool plain : {true, false}) {
     const std::string joints = plain ? "plain" : "all";
     const StudyErrors& errors = plain ? tried.plain : tried.all;
