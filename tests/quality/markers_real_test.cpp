@@ -1,4 +1,5 @@
-// The default method on optical takes of the CMU database, and on the same with known damage.
+// The methods auto and learned on optical takes of the CMU database, and on the same with known
+// damage.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -28,9 +29,11 @@ class RealMarkers : public testing::TestWithParam<const char*> {};
 
 TEST_P(RealMarkers, ComeBackAsTheyWereWhereTheyAreClean) {
   const MarkerClip truth = real_take(GetParam());
-  const MarkerClip result = cleaned_markers(truth, "auto");
-  EXPECT_LT(rms_distance(result, truth), 0.2);
-  EXPECT_EQ(result.observed, truth.observed);
+  for (const char* method : {"auto", "learned"}) {
+    const MarkerClip result = cleaned_markers(truth, method);
+    EXPECT_LT(rms_distance(result, truth), 0.2) << method;
+    EXPECT_EQ(result.observed, truth.observed) << method;
+  }
 }
 
 TEST_P(RealMarkers, AreCleanedBestByAuto) {

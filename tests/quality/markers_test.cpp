@@ -1,4 +1,4 @@
-// The default method on markers of synthetic bodies.
+// The method auto, and learned, on markers of synthetic bodies.
 #include <gtest/gtest.h>
 
 #include "kinemend/experimental/corrupt.hpp"
@@ -39,6 +39,25 @@ TEST_P(AutoOnMarkers, LeavesOpticalNoiseAndImpactsAlone) {
   EXPECT_LT(rms_distance(result, optical), 0.2);
   EXPECT_LT(max_distance(result, truth), 2);
 }
+
+class LearnedOnMarkers : public testing::TestWithParam<const char*> {};
+
+TEST_P(LearnedOnMarkers, TakesNoiseOutAboutAsWellAsAuto) {
+  const MarkerClip truth = marker_take(GetParam(), 5);
+  for (const double noise_mm : {3.0, 15.0}) {
+    const MarkerClip noisy = test::damaged(truth, noise_mm, 0, 0, 3);
+    const double ours = rms_distance(cleaned_markers(noisy, "learned"), truth);
+    EXPECT_LT(ours, 1.25 * rms_distance(cleaned_markers(noisy, "auto"), truth)) << noise_mm;
+  }
+}
+
+TEST_P(LearnedOnMarkers, LeavesACleanTakeAlone) {
+  const MarkerClip truth = marker_take(GetParam(), 5);
+  EXPECT_LT(rms_distance(cleaned_markers(truth, "learned"), truth), 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Motions, LearnedOnMarkers, testing::Values("walk", "run", "jump", "wave"),
+                         [](const auto& motion) { return std::string(motion.param); });
 
 INSTANTIATE_TEST_SUITE_P(Motions, AutoOnMarkers,
                          testing::Values("walk", "run", "jump", "landing", "wave", "punch"),

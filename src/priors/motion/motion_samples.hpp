@@ -55,7 +55,7 @@ struct MotionSources {
 struct MotionSampling {
   std::size_t steps = 128;     ///< of a sample
   double pair_share = 0.25;    ///< of samples that are pairs, where there are some
-  double marker_share = 0.25;  ///< of the others that are of markers, where there are some
+  double marker_share = 0.33;  ///< of the others that are of markers, where there are some
   double clean_share = 0.2;    ///< of them that are clean
   double live_share = 0.2;     ///< of samples that are read live
   bool has_slow_noise = true;  ///< low-passed noise, and takes filtered after they were damaged
