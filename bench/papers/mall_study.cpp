@@ -276,7 +276,7 @@ void write_means(Table& table, const std::string& joints, const StudyErrors& err
                         [&](const auto& entry) { return counts(entry.first); }));
       if (found != wanted) continue;
       const double mean = mean_over(of_takes, counts);
-      table.add({joints, group.words, method, fmt::format("{}", found), figure(mean),
+      table.add({joints, group.words, quoted(method), fmt::format("{}", found), figure(mean),
                  figure(mean / gaussian)});
       fmt::print("{:6} {:14} {:24} {:.3f} deg, {:.3f} of the 58 ms Gaussian\n", joints, group.words,
                  method, mean, mean / gaussian);
