@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <variant>
 
 #include "base/quantiles.hpp"
@@ -114,7 +115,49 @@ void optical_takes(const Arguments& arguments) {
   table.close();
 }
 
+// Markers of the hands of a clean take that shake by 6 cm for two seconds: the share of that which
+// is left.
+void shaking_hands(const Arguments& arguments) {
+  constexpr double size_mm = 60;
+  Table table(arguments, "any_shaking.csv", "frequency_hz,method,share");
+  const MarkerClip still = in_millimetres(kept_take(arguments, kept_takes(arguments).back()));
+  for (const double frequency_hz : {3.0, 5.0, 7.0}) {
+    MarkerClip shaking = still;
+    const std::size_t markers = still.marker_count(), first = still.frame_count() / 3,
+                      last = first + static_cast<std::size_t>(2 * still.frame_rate_hz);
+    const auto shakes_at = [&](std::size_t f) {
+      const auto inside = static_cast<double>(std::min(f - first, last - 1 - f));
+      return size_mm * std::min(1.0, inside / (0.2 * still.frame_rate_hz)) *
+             std::sin(2 * std::numbers::pi * frequency_hz * static_cast<double>(f) /
+                      still.frame_rate_hz);
+    };
+    const auto is_hand = [&](std::size_t m) {
+      return still.names[m].find("Hand") != std::string::npos;
+    };
+    for (std::size_t f = first; f < std::min(last, still.frame_count()); ++f) {
+      for (std::size_t m = 0; m < markers; ++m)
+        if (is_hand(m)) shaking.positions[f * markers + m].z += shakes_at(f);
+    }
+    for (const auto& [label, options] : marker_methods) {
+      const MarkerClip result = markers_cleaned_by(label, options, shaking);
+      double left = 0, put = 0;
+      for (std::size_t f = first; f < std::min(last, still.frame_count()); ++f) {
+        for (std::size_t m = 0; m < markers; ++m) {
+          if (!is_hand(m)) continue;
+          const std::size_t i = f * markers + m;
+          left += shakes_at(f) * (result.positions[i].z - still.positions[i].z);
+          put += shakes_at(f) * shakes_at(f);
+        }
+      }
+      table.add({fmt::format("{:g}", frequency_hz), label, figure(left / put)});
+      fmt::print("hands shake at {} Hz: {:14} {:.3f} is left\n", frequency_hz, label, left / put);
+    }
+  }
+  table.close();
+}
+
 void experiment(const Arguments& arguments) {
+  shaking_hands(arguments);
   markers_under_noise(arguments);
   optical_takes(arguments);
 }

@@ -159,7 +159,8 @@ MotionSample random_marker_sample(std::span<const MarkerMotion> markers, std::si
   PoseMatrix positions = marker_stretch(markers, rate_hz, sample_frames(sampling, rate_hz), random);
   if (random.chance(0.3)) positions = from_root(std::move(positions));
   place_at_random(positions, random);
-  vary_motion(positions, rate_hz, random);
+  // A hand shakes by a hand's width.
+  vary_motion(positions, rate_hz, {0.25, 150}, random);
   MotionSample sample;
   PoseMatrix seen = positions;
   std::vector<std::uint8_t> observed;

@@ -84,12 +84,13 @@ void add_random_noise(PoseMatrix& poses, double rate_hz, std::vector<double> str
   }
 }
 
-void vary_motion(PoseMatrix& poses, double rate_hz, Random& random) {
+void vary_motion(PoseMatrix& poses, double rate_hz, const Shaking& shaking, Random& random) {
   if (random.chance(0.2))
     low_pass(poses, 1 + static_cast<int>(random.below(3)), log_uniform(random, 4, 20), rate_hz);
-  if (!random.chance(0.1)) return;
+  if (!random.chance(shaking.chance)) return;
   const double frequency_hz = log_uniform(random, 0.2, 12), share = random.uniform(0.05, 0.5);
-  const double largest_deg = log_uniform(random, 0.1, 20) / std::max(1.0, frequency_hz / 2);
+  const double largest_deg =
+      log_uniform(random, 0.1, shaking.largest_deg) / std::max(1.0, frequency_hz / 2);
   const std::size_t frames = poses.frames, first = random.below(frames),
                     last = first + random.below(frames - first) + 1;
   const auto ramp = 0.3 * rate_hz;  // frames that it takes to set in

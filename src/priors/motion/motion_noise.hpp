@@ -21,9 +21,14 @@ void low_pass(PoseMatrix& poses, int order, double cutoff_hz, double rate_hz);
 void add_random_noise(PoseMatrix& poses, double rate_hz, std::vector<double> strengths,
                       bool has_slow, Random& random);
 
-/// Clean takes are not all alike: optical ones come low-passed too, and what a body does may be
-/// regular and fast (a tremor, a drum roll, breathing).
-void vary_motion(PoseMatrix& poses, double rate_hz, Random& random);
+/// What a body does that is regular and fast: a tremor, a drum roll, a hand that shakes, breathing.
+struct Shaking {
+  double chance = 0.1;      ///< of a sample that has some
+  double largest_deg = 20;  ///< at 2 Hz and less
+};
+
+/// Clean takes are not all alike: optical ones come low-passed too, and bodies shake.
+void vary_motion(PoseMatrix& poses, double rate_hz, const Shaking& shaking, Random& random);
 
 /// Of axes, drawn evenly.
 Quat random_turn(Random& random);

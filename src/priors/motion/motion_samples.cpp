@@ -129,7 +129,7 @@ MotionSample random_damage(const TrainingSequences& sequences, const BodyMirror&
   const std::vector<float> shown =
       in_form(std::vector<float>(poses.values.begin(), poses.values.end()), form, mirror);
   poses.values.assign(shown.begin(), shown.end());
-  vary_motion(poses, rate_hz, random);
+  vary_motion(poses, rate_hz, {}, random);
   const bool is_known = random.chance(0.7);
   if (!is_known && random.chance(0.7)) turn_axes(poses, random);
 
