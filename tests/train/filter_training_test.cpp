@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -149,6 +150,26 @@ TEST(SequenceNetwork, OfLstmLayersIsTheSameWhetherItIsTrainedOrRun) {
     }
   }
   EXPECT_NEAR(norm, std::sqrt(square), 2e-3 * norm);
+}
+
+TEST(SequenceNetwork, DrawsTheWeightsOfDenseLayersWithinABoundWhereOneIsGiven) {
+  BidirectionalShape shape;
+  shape.inputs = 50;
+  shape.outputs = 4;
+  shape.weight_bound = 0.5;
+  const SequenceNetwork network(shape, {}, 1);
+  const auto largest = [&](const char* name) {
+    double most = 0;
+    for (const double value : network.state().tensors.at(name).values)
+      most = std::max(most, std::abs(value));
+    return most;
+  };
+  for (const char* layer :
+       {"weights.encoder0.weight", "weights.encoder3.weight", "weights.decoder2.weight"}) {
+    EXPECT_LE(largest(layer), 0.5) << layer;
+    EXPECT_GT(largest(layer), 0.49) << layer;
+  }
+  EXPECT_EQ(largest("weights.decoder3.weight"), 0) << "begins with the constants";
 }
 
 TEST(SequenceNetwork, LetsTheSignalThroughAllItsLayersBeforeItHasLearned) {
