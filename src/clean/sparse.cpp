@@ -179,19 +179,16 @@ PoseMatrix filtered_points(const PriorWork& work, const PoseMatrix& positions, P
   return guide;
 }
 
-// Spikes, and what is measured far from what the atoms express. Returns the latter's share.
-double reject_outliers(PriorWork& work, const std::vector<double>& noise,
-                       const PoseMatrix& expressed) {
+// Spikes, and what is measured far from what the atoms express.
+void reject_outliers(PriorWork& work, const std::vector<double>& noise,
+                     const PoseMatrix& expressed) {
   work.rejected.assign(expressed.values.size(), 0);
-  double far = 0, count = 0;
   for (std::size_t i = 0; i < expressed.values.size(); ++i) {
     if (work.channels.observed[i] == 0) continue;
     const double distance = std::abs(work.channels.poses.values[i] - expressed.values[i]);
     const bool is_far = distance > outlier_deviations * noise[i % expressed.channels];
     work.rejected[i] = work.suspect[i] != 0 || is_far ? 1 : 0;
-    far += is_far ? 1 : 0, count += 1;
   }
-  return far / std::max(count, 1.0);
 }
 
 // F x D, 1 for measurements that are not rejected.
@@ -265,8 +262,7 @@ void filter_sparse(PriorWork& work, const SparseOptions& options, const SparsePr
     return;
   }
   const std::vector<double> noise = noise_about(work, cleaned, tuning.caps_noise);
-  const double outliers = reject_outliers(work, noise, cleaned);
-  if (tuning.releases) release_if_crowded(work, outliers);
+  reject_outliers(work, noise, cleaned);
   // Of joints, whose noise is seldom the same about each axis, it flips between two estimates.
   if (tuning.smooths_rest && prior.points.kind == BodyKind::markers) {
     const PoseMatrix expressed = cleaned;
