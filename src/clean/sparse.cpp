@@ -22,6 +22,7 @@ namespace {
 
 constexpr double outlier_deviations = 5;  // of the noise of a channel
 constexpr double many_outliers = 0.02;
+constexpr double well_below = 0.7;  // of the noise that `auto` sees
 // Mean square of what the atoms miss, in those of the noise, from which on it counts; and how much
 // of `auto` the result has at most.
 constexpr double usual_rest = 0.1, most_of_auto = 0.5;
@@ -179,16 +180,24 @@ PoseMatrix filtered_points(const PriorWork& work, const PoseMatrix& positions, P
   return guide;
 }
 
-// Spikes, and what is measured far from what the atoms express.
-void reject_outliers(PriorWork& work, const std::vector<double>& noise,
-                     const PoseMatrix& expressed) {
+// Spikes, and what is measured far from what the atoms express. Returns the share of the latter
+// that `auto` has taken for noise: in channels that mostly lie nearer to what the atoms express
+// than the noise that `auto` sees. Where motion is unlike the model's, they do not.
+double reject_outliers(PriorWork& work, const std::vector<double>& noise,
+                       const PoseMatrix& expressed) {
+  const std::vector<double> by_auto = example_noise(work);
   work.rejected.assign(expressed.values.size(), 0);
+  double taken_for_noise = 0, count = 0;
   for (std::size_t i = 0; i < expressed.values.size(); ++i) {
     if (work.channels.observed[i] == 0) continue;
+    const std::size_t c = i % expressed.channels;
     const double distance = std::abs(work.channels.poses.values[i] - expressed.values[i]);
-    const bool is_far = distance > outlier_deviations * noise[i % expressed.channels];
+    const bool is_far = distance > outlier_deviations * noise[c];
     work.rejected[i] = work.suspect[i] != 0 || is_far ? 1 : 0;
+    taken_for_noise += is_far && noise[c] < well_below * by_auto[c] ? 1 : 0;
+    count += 1;
   }
+  return taken_for_noise / std::max(count, 1.0);
 }
 
 // F x D, 1 for measurements that are not rejected.
@@ -262,7 +271,8 @@ void filter_sparse(PriorWork& work, const SparseOptions& options, const SparsePr
     return;
   }
   const std::vector<double> noise = noise_about(work, cleaned, tuning.caps_noise);
-  reject_outliers(work, noise, cleaned);
+  const double taken_for_noise = reject_outliers(work, noise, cleaned);
+  if (tuning.releases) release_if_crowded(work, taken_for_noise);
   // Of joints, whose noise is seldom the same about each axis, it flips between two estimates.
   if (tuning.smooths_rest && prior.points.kind == BodyKind::markers) {
     const PoseMatrix expressed = cleaned;

@@ -16,6 +16,7 @@ struct SparseTuning {
   bool smooths_rest = true;    ///< keeps smooth motion of markers that the atoms cannot express
   bool leaves_biased = true;   ///< takes what `auto` makes of a part where the result is biased
   bool holds = true;           ///< changes a part no further than its noise asks for
+  bool releases = true;        ///< from the hold, where `auto` takes outliers for noise
   bool averages = true;        ///< with `auto` where the atoms miss much
 };
 
