@@ -79,17 +79,15 @@ TEST(Sparse, TakesStrongNoiseAndOutliersOffMarkers) {
 // has no other noise, and only a dictionary can tell which samples to believe.
 TEST(Sparse, FindsOutliersThatGrowWithTheDistanceFromTheRoot) {
   const MarkerClip truth = joint_markers(seeded_walk(4));
-  for (const double share : {0.1, 0.2}) {
-    MarkerClip noisy = truth;
-    Random random(5);
-    for (std::size_t i = 0; i < noisy.positions.size(); ++i) {
-      const Vec3 from_root = truth.positions[i] - truth.positions[i - i % truth.marker_count()];
-      if (random.chance(share)) noisy.positions[i] += 0.4 * from_root;
-    }
-    MarkerClip cleaned = noisy;
-    clean_in_place(*make_sparse({}, markers()), cleaned);
-    EXPECT_LT(distance(cleaned, truth), 0.25 * distance(noisy, truth)) << share;
+  MarkerClip noisy = truth;
+  Random random(5);
+  for (std::size_t i = 0; i < noisy.positions.size(); ++i) {
+    const Vec3 from_root = truth.positions[i] - truth.positions[i - i % truth.marker_count()];
+    if (random.chance(0.1)) noisy.positions[i] += 0.4 * from_root;
   }
+  MarkerClip cleaned = noisy;
+  clean_in_place(*make_sparse({}, markers()), cleaned);
+  EXPECT_LT(distance(cleaned, truth), 0.25 * distance(noisy, truth));
 }
 
 TEST(Sparse, BringsNoisyRotationsNearerToTheTruth) {
