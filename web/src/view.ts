@@ -86,12 +86,15 @@ function emptyPage(page: HTMLElement, session: Session, ...parts: HTMLElement[])
   page.dataset.ready = 'running';
 }
 
+/** Of the program, where neither a flag nor a preset names one. */
+const defaultMethod = 'learned';
+
 class Controls {
   readonly element = element('section', { class: 'view-controls', 'aria-label': 'Controls' });
   private command: 'clean' | 'fill' = 'clean';
   private readonly general: Record<'clean' | 'fill', Record<string, Value>> = { clean: {}, fill: {} };
   private preset: Session['presets'][number] | null = null;
-  private method = 'auto';
+  private method = defaultMethod;
   /** Labels of controls whose values are not allowed, by "clean.strength". */
   private readonly refused = new Map<string, string>();
   private readonly options: Record<string, Record<string, Value>> = {};
@@ -201,7 +204,7 @@ class Controls {
     this.later();
   }
   /** The method that is used where none is chosen. */
-  private get presetMethod(): string { return String(this.preset?.values.method ?? 'auto'); }
+  private get presetMethod(): string { return String(this.preset?.values.method ?? defaultMethod); }
 
   private fillMethods(): string[] {
     return this.session.fill_methods.filter((one) => (this.isJoints ? one.joints : one.markers)).map(({ name }) => name);
