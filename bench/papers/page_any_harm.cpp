@@ -5,18 +5,12 @@
 #include <functional>
 #include <numbers>
 
+#include "compared.hpp"
 #include "kinemend/rotation.hpp"
 #include "page.hpp"
 
 namespace kinemend::papers {
 namespace {
-
-struct Method {
-  std::string label, name;
-  OptionValues options{};
-};
-const std::vector<Method> methods_tried{
-    {"auto", "auto"}, {"learned", "learned"}, {"learned live", "learned", {{"live", true}}}};
 
 std::size_t joint_named(const Clip& clip, const std::string& name) {
   const auto joint = clip.skeleton.find(name);
@@ -93,8 +87,8 @@ double oscillation_left(const Oscillation& motion, const Clip& clip, const Clip&
 void experiment(const Arguments& arguments) {
   Table table(arguments, "any_harm.csv", "motion,noise_deg,method,share_left");
   const auto each = [&](const std::string& motion, double noise_deg,
-                        const std::function<double(const Method&)>& share_left) {
-    for (const Method& method : methods_tried) {
+                        const std::function<double(const Compared&)>& share_left) {
+    for (const Compared& method : auto_and_learned) {
       const double share = share_left(method);
       fmt::print("{:12} {:.1f} deg  {:12} {:.3f}\n", motion, noise_deg, method.label, share);
       table.add({motion, figure(noise_deg), method.label, figure(share)});
@@ -104,24 +98,22 @@ void experiment(const Arguments& arguments) {
     const Clip truth = synthesize({.motion = name, .duration_s = 4, .frame_rate_hz = 120});
     for (const double noise_deg : {0.0, 0.5}) {
       const Clip clip = noisy(truth, noise_deg, 0, 6);
-      each(name, noise_deg, [&](const Method& method) {
-        return peak_left(truth, cleaned(clip, method.name, method.options));
-      });
+      each(name, noise_deg,
+           [&](const Compared& method) { return peak_left(truth, cleaned(clip, method)); });
     }
   }
   const Clip walk = load_take(arguments, "35_01.bvh", {.motion = "walk"}).clip;
   for (const double noise_deg : {0.0, 1.5}) {
     const Clip clip = noisy(walk, noise_deg, 0, 6);
-    each("arm swing", noise_deg, [&](const Method& method) {
-      return swing_left(walk, cleaned(clip, method.name, method.options),
-                        joint_named(walk, "LeftArm"));
+    each("arm swing", noise_deg, [&](const Compared& method) {
+      return swing_left(walk, cleaned(clip, method), joint_named(walk, "LeftArm"));
     });
   }
   const Clip still = load_take(arguments, "49_17.bvh", {.motion = "still"}).clip;
   for (const Oscillation& motion : oscillations) {
     const Clip clip = with(motion, still);
-    each(motion.name, 0, [&](const Method& method) {
-      return oscillation_left(motion, still, cleaned(clip, method.name, method.options));
+    each(motion.name, 0, [&](const Compared& method) {
+      return oscillation_left(motion, still, cleaned(clip, method));
     });
   }
   table.close();

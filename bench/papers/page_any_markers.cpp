@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "base/quantiles.hpp"
+#include "compared.hpp"
 #include "kept_takes.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/methods.hpp"
@@ -27,11 +28,6 @@ const std::vector<Noise> marker_noises{{"none", 0, 0},
                                        {"correlation 0.8, 15 mm", 15, 0.8},
                                        {"correlation 0.95, 15 mm", 15, 0.95}};
 
-const std::vector<std::pair<std::string, OptionValues>> marker_methods{
-    {"auto", {}}, {"learned", {}}, {"learned live", {{"live", true}}}};
-
-std::string method_called(const std::string& label) { return label.substr(0, label.find(' ')); }
-
 MarkerClip in_millimetres(const Clip& clip) {
   const auto unit = guess_length_unit(clip.skeleton);
   return joint_markers(scale_lengths(clip, 1000 * (unit ? unit->metres : 1)));
@@ -52,9 +48,8 @@ MarkerClip with_marker_noise(MarkerClip clip, const Noise& noise, std::uint64_t 
   return clip;
 }
 
-MarkerClip markers_cleaned_by(const std::string& label, const OptionValues& options,
-                              MarkerClip clip) {
-  clean_in_place(*make_cleaner(method_called(label), options), clip);
+MarkerClip markers_cleaned_by(const Compared& compared, MarkerClip clip) {
+  clean_in_place(*make_cleaner(compared.method, compared.options), clip);
   return clip;
 }
 
@@ -78,8 +73,8 @@ void markers_under_noise(const Arguments& arguments) {
       const MarkerClip clip = with_marker_noise(truth, noise, 7);
       const auto count = static_cast<double>(names.size());
       errors["untouched"] += distance_mm(truth, clip) / count;
-      for (const auto& [label, options] : marker_methods)
-        errors[label] += distance_mm(truth, markers_cleaned_by(label, options, clip)) / count;
+      for (const Compared& compared : auto_and_learned)
+        errors[compared.label] += distance_mm(truth, markers_cleaned_by(compared, clip)) / count;
     }
     for (const auto& [method, error] : errors) {
       table.add({quoted(noise.name), method, fmt::format("{}", names.size()), figure(error)});
@@ -100,16 +95,16 @@ void optical_takes(const Arguments& arguments) {
       takes.push_back(std::get<MarkerClip>(read_take(*path).take));
   }
   if (takes.empty()) takes.push_back(in_millimetres(synthesize({.motion = "run"})));
-  for (const auto& [label, options] : marker_methods) {
+  for (const Compared& compared : auto_and_learned) {
     std::vector<double> changes;
     for (const MarkerClip& clip : takes) {
       const double metres = metres_per_unit(clip.unit);
       changes.push_back((metres > 0 ? 1000 * metres : 1) *
-                        distance_mm(clip, markers_cleaned_by(label, options, clip)));
+                        distance_mm(clip, markers_cleaned_by(compared, clip)));
     }
-    table.add({label, fmt::format("{}", takes.size()), figure(upper_median_of(changes)),
+    table.add({compared.label, fmt::format("{}", takes.size()), figure(upper_median_of(changes)),
                figure(*std::max_element(changes.begin(), changes.end()))});
-    fmt::print("optical takes: {:14} median {:.4f} mm, most {:.3f} mm\n", label,
+    fmt::print("optical takes: {:14} median {:.4f} mm, most {:.3f} mm\n", compared.label,
                upper_median_of(changes), *std::max_element(changes.begin(), changes.end()));
   }
   table.close();
@@ -138,8 +133,8 @@ void shaking_hands(const Arguments& arguments) {
       for (std::size_t m = 0; m < markers; ++m)
         if (is_hand(m)) shaking.positions[f * markers + m].z += shakes_at(f);
     }
-    for (const auto& [label, options] : marker_methods) {
-      const MarkerClip result = markers_cleaned_by(label, options, shaking);
+    for (const Compared& compared : auto_and_learned) {
+      const MarkerClip result = markers_cleaned_by(compared, shaking);
       double left = 0, put = 0;
       for (std::size_t f = first; f < std::min(last, still.frame_count()); ++f) {
         for (std::size_t m = 0; m < markers; ++m) {
@@ -149,8 +144,9 @@ void shaking_hands(const Arguments& arguments) {
           put += shakes_at(f) * shakes_at(f);
         }
       }
-      table.add({fmt::format("{:g}", frequency_hz), label, figure(left / put)});
-      fmt::print("hands shake at {} Hz: {:14} {:.3f} is left\n", frequency_hz, label, left / put);
+      table.add({fmt::format("{:g}", frequency_hz), compared.label, figure(left / put)});
+      fmt::print("hands shake at {} Hz: {:14} {:.3f} is left\n", frequency_hz, compared.label,
+                 left / put);
     }
   }
   table.close();

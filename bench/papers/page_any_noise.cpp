@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/quantiles.hpp"
+#include "compared.hpp"
 #include "kept_takes.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "kinemend/rotation.hpp"
@@ -15,12 +16,6 @@
 namespace kinemend::papers {
 namespace {
 
-struct Compared {
-  std::string label, method;
-  OptionValues options{};
-
-  Clip made_of(const Clip& clip) const { return cleaned(clip, method, options); }
-};
 const std::vector<Compared> methods_compared{{"auto", "auto"},
                                              {"wiener", "wiener"},
                                              {"learned", "learned"},
@@ -119,7 +114,7 @@ void every_noise(const Arguments& arguments) {
         errors[method] += error / count;
       };
       add("untouched", clip);
-      for (const Compared& method : methods_compared) add(method.label, method.made_of(clip));
+      for (const Compared& method : methods_compared) add(method.label, cleaned(clip, method));
     }
     for (const auto& [method, share] : shares) {
       table.add({kind.name, method, fmt::format("{}", names.size()), figure(share),
@@ -140,7 +135,7 @@ void white_and_spikes(const Arguments& arguments) {
     const Clip clip = noisy(truth, 1.5, 0.004, 1);
     table.add({name, "untouched", figure(rms_deg(truth, clip))});
     for (const Compared& method : methods_compared)
-      table.add({name, method.label, figure(rms_deg(truth, method.made_of(clip)))});
+      table.add({name, method.label, figure(rms_deg(truth, cleaned(clip, method)))});
   }
   table.close();
 }
@@ -159,7 +154,7 @@ void clean_takes(const Arguments& arguments) {
     std::vector<double> changes;
     for (const std::string& name : names) {
       const Clip clip = load_take(arguments, name + ".bvh", {.motion = name}).clip;
-      changes.push_back(geodesic_rms_deg(clip, method.made_of(clip)));
+      changes.push_back(geodesic_rms_deg(clip, cleaned(clip, method)));
     }
     const auto worst = std::max_element(changes.begin(), changes.end());
     const std::string& worst_name = names[static_cast<std::size_t>(worst - changes.begin())];

@@ -9,6 +9,7 @@
 #include "base/quantiles.hpp"
 #include "clean/motion_channels.hpp"
 #include "clean/pieces.hpp"
+#include "compared.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/experimental/representation.hpp"
 #include "kinemend/experimental/signal.hpp"
@@ -91,13 +92,6 @@ Errors share_of(const Errors& errors, const Errors& before) {
   return {errors.value / before.value, errors.velocity / before.velocity,
           errors.fast / before.fast};
 }
-
-struct Compared {
-  std::string label, method;
-  OptionValues options{};
-};
-const std::vector<Compared> methods_compared{
-    {"auto", "auto"}, {"learned", "learned"}, {"learned live", "learned", {{"live", true}}}};
 
 struct Source {
   std::size_t takes = 0;
@@ -182,7 +176,7 @@ void add_pair(const AnyClip& noisy, const AnyClip& reference, double least_deg, 
   add("best cut", best);
   add("butterworth", errors_by("butterworth", {}));
   const std::vector<float> clean = channels_of(tracks, reference);
-  for (const Compared& compared : methods_compared) {
+  for (const Compared& compared : auto_and_learned) {
     add(compared.label, errors_by(compared.method, compared.options));
     source.reference_changes[compared.label].push_back(root_mean_square_of_difference(
         channels_by(compared.method, compared.options, reference), clean));

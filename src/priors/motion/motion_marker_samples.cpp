@@ -17,13 +17,10 @@ namespace {
 
 PoseMatrix marker_stretch(std::span<const MarkerMotion> markers, double rate_hz, std::size_t frames,
                           Random& random) {
-  std::vector<double> ends;
+  std::vector<double> shares;
   for (const MarkerMotion& motion : markers)
-    ends.push_back(std::sqrt(static_cast<double>(motion.positions.frames)) +
-                   (ends.empty() ? 0 : ends.back()));
-  const double at = random.uniform() * ends.back();
-  const MarkerMotion& motion = markers[static_cast<std::size_t>(
-      std::upper_bound(ends.begin(), ends.end(), at) - ends.begin())];
+    shares.push_back(std::sqrt(static_cast<double>(motion.positions.frames)));
+  const MarkerMotion& motion = markers[drawn_index(shares, random)];
   const double pace = random_pace(random) * motion.rate_hz / rate_hz;
   const auto wanted = static_cast<std::size_t>(pace * static_cast<double>(frames)) + 3;
   const std::size_t have = motion.positions.frames, taken = std::min(wanted, have);

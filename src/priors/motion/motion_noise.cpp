@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "kinemend/experimental/signal.hpp"
 #include "kinemend/rotation.hpp"
@@ -108,6 +109,13 @@ void vary_motion(PoseMatrix& poses, double rate_hz, const Shaking& shaking, Rand
 
 Quat random_turn(Random& random) {
   return normalized(Quat{random.normal(), random.normal(), random.normal(), random.normal()});
+}
+
+std::size_t drawn_index(std::span<const double> weights, Random& random) {
+  std::vector<double> ends(weights.size());
+  std::partial_sum(weights.begin(), weights.end(), ends.begin());
+  const double at = random.uniform() * ends.back();
+  return static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), at) - ends.begin());
 }
 
 double random_rate_hz(Random& random) {

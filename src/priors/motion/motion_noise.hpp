@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "kinemend/experimental/pose_matrix.hpp"
@@ -32,6 +34,9 @@ void vary_motion(PoseMatrix& poses, double rate_hz, const Shaking& shaking, Rand
 
 /// Of axes, drawn evenly.
 Quat random_turn(Random& random);
+
+/// The index of a weight, drawn in proportion to them.
+std::size_t drawn_index(std::span<const double> weights, Random& random);
 
 /// 120 mostly, else 25 to 120.
 double random_rate_hz(Random& random);

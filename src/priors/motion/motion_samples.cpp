@@ -103,15 +103,12 @@ void reverse_rows(std::vector<Value>& values, std::size_t channels) {
 PoseMatrix random_stretch(const TrainingSequences& sequences, double pace, std::size_t frames,
                           Random& random) {
   const auto wanted = static_cast<std::size_t>(pace * static_cast<double>(frames)) + 3;
-  std::vector<double> ends;
+  std::vector<double> shares;
   for (const TrainingSequences::Entry& entry : sequences.entries) {
     const bool fits = 2 * entry.frames >= wanted;
-    const double share = fits ? entry.weight * std::sqrt(static_cast<double>(entry.frames)) : 0;
-    ends.push_back(share + (ends.empty() ? 0 : ends.back()));
+    shares.push_back(fits ? entry.weight * std::sqrt(static_cast<double>(entry.frames)) : 0);
   }
-  const double at = random.uniform() * ends.back();
-  const auto index =
-      static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), at) - ends.begin());
+  const std::size_t index = drawn_index(shares, random);
   const std::size_t have = sequences.entries[index].frames, taken = std::min(wanted, have);
   const std::size_t first = random.below(have - taken + 1);
   // A stretch that is too short is played more slowly.
@@ -172,15 +169,12 @@ MotionSample random_damage(const TrainingSequences& sequences, const BodyMirror&
 
 // In proportion to their length.
 const MotionPair& drawn_pair(std::span<const MotionPair> pairs, Random& random) {
-  std::vector<double> ends;
+  std::vector<double> seconds;
   for (const MotionPair& pair : pairs) {
     const MotionTake& take = pair.sample.take;
-    const double seconds = static_cast<double>(take.frames) / take.frame_rate_hz;
-    ends.push_back(seconds + (ends.empty() ? 0 : ends.back()));
+    seconds.push_back(static_cast<double>(take.frames) / take.frame_rate_hz);
   }
-  const double at = random.uniform() * ends.back();
-  return pairs[static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), at) -
-                                        ends.begin())];
+  return pairs[drawn_index(seconds, random)];
 }
 
 // A stretch of a pair, its channels turned over and scaled at random. In a share of them the
