@@ -73,7 +73,7 @@ async function open(name, options = {}) {
   page.on('console', (message) => assert.notEqual(message.type(), 'error', `${name}: ${message.text()}`));
   page.on('request', (request) => assert.ok(/^(file|data|blob):/.test(request.url()), `${name} fetches ${request.url()}`));
   await page.goto(pathToFileURL(join(output, name)).href);
-  await page.waitForSelector('#page[data-ready]', { timeout: 20000 });
+  await page.waitForSelector('#page[data-ready]', { timeout: 120000 });
   assert.equal(await page.getAttribute('#page', 'data-ready'), 'true', await page.textContent('#page'));
   assert.equal(await page.evaluate(() => window.broken), undefined);
   return page;
@@ -244,7 +244,7 @@ step('markers that keep their distance are linked, and named where the mouse is'
 step('the spectrum of a marker on a straight line is drawn', async () => {
   const page = await open('rod.html');
   await page.evaluate(() => window.kinemend.player.choose([3]));
-  await page.click('.curves button:has-text("Spectrum")', { timeout: 5000 });
+  await page.click('.curves button:has-text("Spectrum")');
   assert.equal(await page.locator('[data-spectrum] canvas').count(), 1);
 });
 

@@ -58,23 +58,26 @@ function status(address, { path, method = 'GET', headers = {}, body } = {}) {
 const only = process.env.STEPS ? new RegExp(process.env.STEPS) : /./;
 const browser = await chromium.launch({ executablePath, args: launchArgs });
 const pages = [];
+/** How long what is waited for may take, in milliseconds: machines that test are busy with other work. */
+const patience = 120000;
 async function open(address, options = {}) {
   const page = await browser.newPage({ viewport: { width: 1100, height: 900 }, ...options });
   pages.push(page);
+  page.setDefaultTimeout(patience);
   page.on('pageerror', (error) => assert.fail(String(error)));
   await page.goto(address);
   await ready(page);
   return page;
 }
 async function ready(page) {
-  await page.waitForSelector('#page[data-ready="true"], #page[data-ready="error"]', { timeout: 30000 });
+  await page.waitForSelector('#page[data-ready="true"], #page[data-ready="error"]');
 }
 /** Waits for the run that a change starts. */
 async function after(page, change) {
   const before = await page.getAttribute('#page', 'data-runs');
   await change();
   // The page's own rules forbid what waitForFunction needs.
-  await page.waitForSelector(`#page[data-runs]:not([data-runs="${before}"]):not([data-ready="running"])`, { timeout: 60000 });
+  await page.waitForSelector(`#page[data-runs]:not([data-runs="${before}"]):not([data-ready="running"])`);
   assert.equal(await page.getAttribute('#page', 'data-ready'), 'true', await page.textContent('.view-controls .status'));
 }
 /** Saves under the name that is proposed, or another. */
@@ -600,7 +603,7 @@ step('Ctrl-C ends it, and the page says so', async () => {
   child.removeAllListeners('exit');
   const ended = new Promise((resolve) => child.on('exit', resolve));
   child.kill('SIGINT');
-  assert.equal(await Promise.race([ended, code, new Promise((resolve) => setTimeout(resolve, 5000, 'still there'))]), 0);
+  assert.equal(await Promise.race([ended, code, new Promise((resolve) => setTimeout(resolve, 20000, 'still there'))]), 0);
   await page.fill('[data-flag=strength]:visible', '0.5');
   await page.waitForSelector('.view-controls .error:has-text("has ended")');
 });
@@ -613,7 +616,7 @@ step('Ctrl-C ends it in the midst of a fill', async () => {
   child.removeAllListeners('exit');
   const ended = new Promise((resolve) => child.on('exit', resolve));
   child.kill('SIGINT');
-  assert.equal(await Promise.race([ended, pause(8000).then(() => 'still there')]), 0);
+  assert.equal(await Promise.race([ended, pause(20000).then(() => 'still there')]), 0);
   assert.notEqual((await running).code, 200);
   console.log(`  ended ${Date.now() - begun - 400} ms after Ctrl-C`);
 });
