@@ -10,12 +10,12 @@
 #include "kinemend/clean.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/methods.hpp"
+#include "learned/core/leading_eigenvectors.hpp"
+#include "learned/example/example_filter.hpp"
+#include "learned/example/mssa.hpp"
+#include "learned/example/pattern_penalty.hpp"
 #include "nn/gemm.hpp"
 #include "noisy_walk.hpp"
-#include "priors/example_filter.hpp"
-#include "priors/leading_eigenvectors.hpp"
-#include "priors/mssa.hpp"
-#include "priors/pattern_penalty.hpp"
 
 // Example-based denoising: products of matrices, bases of 2,000 frames x 62 channels at 30 Hz
 // (window 20), and takes of 10 s and more cleaned with them.

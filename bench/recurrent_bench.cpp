@@ -6,8 +6,8 @@
 
 #include "frame_times.hpp"
 #include "kinemend/experimental/model.hpp"
-#include "priors/filter_network.hpp"
-#include "priors/live_filter_network.hpp"
+#include "learned/papers/filter_network.hpp"
+#include "learned/papers/live_filter_network.hpp"
 #ifdef KINEMEND_HAS_TRAINING
 #include "sequence_network.hpp"
 #endif

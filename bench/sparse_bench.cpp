@@ -11,13 +11,13 @@
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/methods.hpp"
+#include "learned/sparse/batch_omp.hpp"
+#include "learned/sparse/descent_solver.hpp"
+#include "learned/sparse/dual_solver.hpp"
+#include "learned/sparse/ksvd.hpp"
+#include "learned/sparse/sparse_filter.hpp"
+#include "learned/sparse/sparse_prior.hpp"
 #include "noisy_walk.hpp"
-#include "priors/sparse_filter.hpp"
-#include "priors/sparse_prior.hpp"
-#include "sparse/batch_omp.hpp"
-#include "sparse/descent_solver.hpp"
-#include "sparse/dual_solver.hpp"
-#include "sparse/ksvd.hpp"
 
 // Dictionaries and codes (bench/sklearn_sparse.py has the same jobs), and the method `sparse` on
 // takes with the model that ships.

@@ -3,7 +3,7 @@
 include(${CMAKE_CURRENT_LIST_DIR}/bytes_literal.cmake)
 file(GLOB files ${FOLDER}/*.kmodel)
 list(SORT files)
-set(text "// Made from models/*.kmodel by cmake/embed_models.cmake.\n#include \"priors/shipped_list.hpp\"\n\nnamespace kinemend {\n\nnamespace {\n\n")
+set(text "// Made from models/*.kmodel by cmake/embed_models.cmake.\n#include \"learned/core/shipped_list.hpp\"\n\nnamespace kinemend {\n\nnamespace {\n\n")
 string(APPEND text "#pragma GCC diagnostic ignored \"-Woverlength-strings\"\n\nconstexpr EmbeddedModel table[] = {\n")
 set(count 0)
 foreach(file ${files})

@@ -1,4 +1,5 @@
-# A room is one folder below src/: a static library of its own, tested by one program of its own.
+# A room is one folder below src/, or one of a wing of such folders (methods/auto): a static library of its own, tested by one
+# program of its own. The library of methods/auto is kinemend_methods_auto.
 
 set(KINEMEND_ROOMS "" CACHE INTERNAL "")
 
@@ -72,10 +73,12 @@ function(kinemend_precompiled target)
   target_precompile_headers(${target} REUSE_FROM kinemend_headers_${key})
 endfunction()
 
-# kinemend_room(<name> [USES <room>...] [LINK <target>...])
-function(kinemend_room name)
+# kinemend_room(<folder> [USES <folder>...] [LINK <target>...])
+function(kinemend_room folder)
   cmake_parse_arguments(ROOM "" "" "USES;LINK" ${ARGN})
-  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
+  string(REPLACE "/" "_" name ${folder})
+  string(REPLACE "/" "_" ROOM_USES "${ROOM_USES}")
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${folder}/*.cpp)
   add_library(kinemend_${name} STATIC ${sources})
   kinemend_compile_alone(${sources})
   add_library(kinemend::${name} ALIAS kinemend_${name})
@@ -83,10 +86,10 @@ function(kinemend_room name)
   target_include_directories(kinemend_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_compile_features(kinemend_${name} PUBLIC cxx_std_20)
   set(modes "")
-  if(name MATCHES "^(check|corrupt|live|page|report|stream|synth)$")
+  if(name MATCHES "^(check|corrupt|live|registry|report|synth)$")
     list(APPEND modes kinemend_light)
   endif()
-  kinemend_is_examined(${name} examined)
+  kinemend_is_examined(${folder} examined)
   if(examined)
     list(APPEND modes kinemend_sanitizer)
   endif()
@@ -99,7 +102,8 @@ function(kinemend_room name)
 endfunction()
 
 # The files in models/ become part of a room.
-function(kinemend_embed_models room)
+function(kinemend_embed_models folder)
+  string(REPLACE "/" "_" room ${folder})
   file(GLOB models CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/models/*.kmodel)
   set(script ${PROJECT_SOURCE_DIR}/cmake/embed_models.cmake)
   set(output ${PROJECT_BINARY_DIR}/embedded_models.cpp)

@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "kinemend/experimental/synth.hpp"
-#include "priors/training_sequences.hpp"
+#include "learned/core/training_sequences.hpp"
 
 namespace kinemend {
 

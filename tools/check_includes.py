@@ -13,35 +13,52 @@ USES = {
     "rotation": {"base"},
     "motion": {"rotation"},
     "io": {"motion"},
-    "representation": {"motion"},
+    "body": {"motion"},
+    "signal": {"base"},
+    "nn": {"base"},
     "metrics": {"motion", "signal"},
     "corrupt": {"motion"},
     "synth": {"motion"},
-    "signal": {"base"},
-    "tracks": {"rotation", "signal"},
     "fill": {"motion", "signal"},
-    "nn": {"base"},
-    "sparse": {"nn"},
-    "priors": {"representation", "tracks", "nn", "sparse", "corrupt"},
     "feet": {"motion", "metrics"},
-    "clean": {"representation", "tracks", "priors", "metrics", "fill", "feet"},
-    "check": {"clean"},
-    "stream": {"clean"},
-    "live": {"io", "stream"},
-    "report": {"check", "metrics"},
-    "page": {"report"},
+    "methods/core": {"motion", "fill"},
+    "methods/auto": {"methods/core", "signal"},
+    "methods/filters": {"methods/core", "body", "metrics"},
+    "learned/core": {"methods/auto", "body", "nn", "corrupt"},
+    "learned/example": {"learned/core"},
+    "learned/wiener": {"learned/core"},
+    "learned/sparse": {"learned/core"},
+    "learned/corrector": {"learned/core"},
+    "learned/papers": {"learned/core"},
+    "pipeline": {"methods/auto", "metrics", "fill", "feet"},
+    "check": {"pipeline", "learned/corrector"},
+    "report": {"check"},
+    "registry": {"methods/filters", "learned/example", "learned/wiener", "learned/sparse", "learned/corrector",
+                 "learned/papers"},
+    "live": {"io", "pipeline", "registry"},
 }
 
 # The room of every public header.
-PUBLIC = {
-    "error": "base", "diagnostics": "base", "random": "base", "options": "base", "pose_matrix": "base",
-    "version": "base", "json_depth": "base", "content_hash": "base", "frame_rate": "base", "rotation": "rotation", "skeleton": "motion", "clip": "motion", "take_view": "motion", "kinematics": "motion",
-    "marker_clip": "motion", "convert": "motion", "gaps": "motion", "fill": "fill", "gap_plan": "fill", "check": "check",
-    "io": "io", "representation": "representation", "metrics": "metrics", "corrupt": "corrupt",
-    "synth": "synth", "signal": "signal", "cleaner": "clean", "methods": "clean", "clean": "clean",
-    "stream": "stream", "live": "live", "tensor": "nn", "body": "representation", "model": "priors", "train": "priors",
-    "feet": "feet", "frame_numbers": "motion", "text": "base", "report": "report", "batch_rows": "report", "svg": "report", "curves": "report", "pictures": "report", "page": "page", "known_names": "motion", "subjects": "motion",
-}
+PUBLIC = {header: room for room, headers in {
+    "base": "error diagnostics random options pose_matrix version json_depth content_hash frame_rate text",
+    "rotation": "rotation",
+    "motion": "skeleton clip take_view kinematics marker_clip convert gaps frame_numbers known_names subjects",
+    "io": "io",
+    "body": "representation body",
+    "signal": "signal",
+    "nn": "tensor",
+    "metrics": "metrics",
+    "corrupt": "corrupt",
+    "synth": "synth",
+    "fill": "fill gap_plan",
+    "feet": "feet",
+    "methods/core": "cleaner methods",
+    "learned/core": "model train",
+    "pipeline": "clean stream",
+    "check": "check",
+    "report": "report batch_rows svg curves pictures page",
+    "live": "live",
+}.items() for header in headers.split()}
 
 # Folders of programs: they see include/ (and their own folder) only.
 PROGRAMS = ["cli", "examples", "tools", "python", "web"]
@@ -68,9 +85,7 @@ def room_of_include(name):
     parts = pathlib.PurePosixPath(name).parts
     if parts[0] == "kinemend":
         return PUBLIC.get(pathlib.PurePosixPath(parts[-1]).stem, "unknown")
-    if len(parts) > 1 and parts[0] in USES:
-        return parts[0]
-    return None
+    return next((room for room in ("/".join(parts[:2]), parts[0]) if len(parts) > 1 and room in USES), None)
 
 
 def check(root):
@@ -99,7 +114,8 @@ def check(root):
 
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent)
-    missing = [room.name for room in (root / "src").iterdir() if room.is_dir() and room.name not in USES]
+    folders = {path.parent.relative_to(root / "src") for path in sources(root / "src")}
+    missing = sorted(str(folder) for folder in folders if not {str(folder), *map(str, folder.parents)} & set(USES))
     problems = [f"src/{name}: no rule for this room" for name in missing] + check(root)
     print("\n".join(problems) if problems else "includes: every room looks the right way")
     return 1 if problems else 0

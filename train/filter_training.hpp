@@ -9,8 +9,8 @@
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/options.hpp"
-#include "priors/filter_network.hpp"
-#include "priors/recurrent_forms.hpp"
+#include "learned/core/recurrent_forms.hpp"
+#include "learned/papers/filter_network.hpp"
 #include "sequence_network.hpp"
 
 // Training of the networks of Mall et al. 2017 on whole takes, damaged as their tests are.

@@ -9,7 +9,7 @@
 
 #include "base/parallel.hpp"
 #include "descent.hpp"
-#include "priors/motion/motion_network.hpp"
+#include "learned/corrector/motion_network.hpp"
 
 namespace kinemend::train {
 

@@ -9,11 +9,11 @@
 #include <variant>
 
 #include "base/file_bytes.hpp"
-#include "clean/motion_channels.hpp"
-#include "clean/pieces.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/io.hpp"
+#include "learned/corrector/motion_channels.hpp"
+#include "methods/core/pieces.hpp"
 #include "motion_training.hpp"
 #include "program.hpp"
 

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "checkpoint.hpp"
+#include "learned/corrector/live_motion_steps.hpp"
+#include "learned/corrector/motion_network.hpp"
 #include "network_model.hpp"
-#include "priors/motion/live_motion_steps.hpp"
-#include "priors/motion/motion_network.hpp"
 
 namespace kinemend::train {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "kinemend/experimental/model.hpp"
+#include "learned/corrector/motion_samples.hpp"
 #include "motion_descent.hpp"
-#include "priors/motion/motion_samples.hpp"
 
 namespace kinemend::train {
 

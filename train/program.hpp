@@ -8,7 +8,7 @@
 
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/experimental/train.hpp"
-#include "priors/training_sequences.hpp"
+#include "learned/core/training_sequences.hpp"
 #include "sequence_network.hpp"
 
 // What the programs that train have in common.

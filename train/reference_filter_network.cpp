@@ -7,7 +7,7 @@
 #include <iostream>
 #include <string>
 
-#include "priors/filter_network.hpp"
+#include "learned/papers/filter_network.hpp"
 #include "reference_network.hpp"
 
 using namespace kinemend;

@@ -9,10 +9,10 @@
 
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/kinematics.hpp"
+#include "methods/auto/smooth_chart.hpp"
+#include "methods/auto/spikes.hpp"
+#include "methods/auto/track_cleaning.hpp"
 #include "page.hpp"
-#include "tracks/smooth_chart.hpp"
-#include "tracks/spikes.hpp"
-#include "tracks/track_cleaning.hpp"
 
 namespace kinemend::papers {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "clean/example_tuning.hpp"
+#include "learned/example/example_tuning.hpp"
 #include "lou.hpp"
 
 namespace kinemend::papers {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "clean/marker_takes.hpp"
 #include "kinemend/experimental/corrupt.hpp"
+#include "registry/marker_takes.hpp"
 
 // Pairs of one motion by two systems, for the quick forms of experiments on real pairs.
 namespace kinemend::papers {

@@ -7,9 +7,9 @@
 
 #include "kinemend/fill.hpp"
 #include "kinemend/rotation.hpp"
+#include "learned/papers/gap_network.hpp"
 #include "mall_networks.hpp"
 #include "page.hpp"
-#include "priors/gap_network.hpp"
 
 namespace kinemend::papers {
 namespace {

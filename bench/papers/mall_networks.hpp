@@ -10,7 +10,7 @@
 #include "experiment.hpp"
 #include "kinemend/experimental/body.hpp"
 #include "kinemend/experimental/model.hpp"
-#include "priors/filter_network.hpp"
+#include "learned/papers/filter_network.hpp"
 
 // What the programs on the networks of Mall et al. 2017 share.
 namespace kinemend::papers {

@@ -7,18 +7,18 @@
 #include <variant>
 
 #include "base/quantiles.hpp"
-#include "clean/motion_channels.hpp"
-#include "clean/pieces.hpp"
 #include "compared.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/experimental/representation.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "kinemend/rotation.hpp"
+#include "learned/corrector/measured_smoothing.hpp"
+#include "learned/corrector/motion_channels.hpp"
+#include "learned/corrector/motion_filter.hpp"
+#include "learned/corrector/motion_samples.hpp"
 #include "made_pairs.hpp"
+#include "methods/core/pieces.hpp"
 #include "page.hpp"
-#include "priors/motion/measured_smoothing.hpp"
-#include "priors/motion/motion_filter.hpp"
-#include "priors/motion/motion_samples.hpp"
 
 namespace kinemend::papers {
 namespace {

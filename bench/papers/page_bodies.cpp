@@ -7,10 +7,10 @@
 #include <set>
 #include <variant>
 
+#include "body/body_takes.hpp"
+#include "body/body_trend.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "page.hpp"
-#include "representation/body_takes.hpp"
-#include "representation/body_trend.hpp"
 
 namespace kinemend::papers {
 namespace {

@@ -2,7 +2,7 @@
 // the paper's own sequences, with the default loss and lambda.
 #include <utility>
 
-#include "clean/sparse_tuning.hpp"
+#include "learned/sparse/sparse_tuning.hpp"
 #include "xiao.hpp"
 
 namespace kinemend::papers {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/quantiles.hpp"
-#include "sparse/descent_solver.hpp"
-#include "sparse/ksvd.hpp"
+#include "learned/sparse/descent_solver.hpp"
+#include "learned/sparse/ksvd.hpp"
 
 namespace kinemend::papers {
 

@@ -8,7 +8,7 @@
 #include "kinemend/experimental/body.hpp"
 #include "kinemend/experimental/pose_matrix.hpp"
 #include "kinemend/marker_clip.hpp"
-#include "priors/sparse_prior.hpp"
+#include "learned/sparse/sparse_prior.hpp"
 
 // Algorithm 1 of Xiao et al. 2015 as the paper states it, without what the method `sparse` adds:
 // local coordinates of each pose, all windows, plain losses, and no step after them.

@@ -2,8 +2,8 @@
 
 #include "cli/program.hpp"
 #include "kinemend/experimental/synth.hpp"
-#include "priors/filter_support.hpp"
-#include "priors/random_filter_model.hpp"
+#include "learned/papers/filter_support.hpp"
+#include "learned/papers/random_filter_model.hpp"
 
 // Networks of Mall et al. from the command line: gaps filled by one, and streams cleaned by one.
 namespace kinemend::test {

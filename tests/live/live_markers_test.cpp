@@ -2,8 +2,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "clean/marker_takes.hpp"
 #include "live_run.hpp"
+#include "registry/marker_takes.hpp"
 
 namespace kinemend::test {
 namespace {

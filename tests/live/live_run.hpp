@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "clean/takes.hpp"
 #include "kinemend/experimental/live.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/methods.hpp"
+#include "registry/takes.hpp"
 
 // A live session and all that came out of it.
 namespace kinemend::test {

@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "clean/marker_takes.hpp"
 #include "kinemend/clean.hpp"
 #include "quality/quality.hpp"
+#include "registry/marker_takes.hpp"
 
 namespace kinemend::quality {
 

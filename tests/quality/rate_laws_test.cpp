@@ -9,8 +9,6 @@
 #include <ostream>
 #include <variant>
 
-#include "clean/marker_takes.hpp"
-#include "clean/takes.hpp"
 #include "counting_allocation.hpp"
 #include "kinemend/check.hpp"
 #include "kinemend/clean.hpp"
@@ -23,6 +21,8 @@
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
 #include "kinemend/stream.hpp"
+#include "registry/marker_takes.hpp"
+#include "registry/takes.hpp"
 
 namespace kinemend::test {
 namespace {

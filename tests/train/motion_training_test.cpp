@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
-#include "priors/motion/motion_network.hpp"
+#include "learned/corrector/motion_network.hpp"
 #include "synthetic_walks.hpp"
 
 namespace kinemend::train {

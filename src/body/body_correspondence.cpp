@@ -1,0 +1,100 @@
+#include "body/body_correspondence.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "body/body_names.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/experimental/text.hpp"
+
+namespace kinemend::representation {
+
+namespace {
+
+// By the whole name, else by what is left of it without case and prefixes.
+std::int32_t find_name(const std::vector<std::string>& names, std::string_view name) {
+  const auto same = std::find(names.begin(), names.end(), name);
+  if (same != names.end()) return static_cast<std::int32_t>(same - names.begin());
+  const std::string plain = plain_name(name);
+  const auto alike = std::find_if(names.begin(), names.end(), [&](const std::string& other) {
+    return !plain.empty() && plain_name(other) == plain;
+  });
+  return alike == names.end() ? -1 : static_cast<std::int32_t>(alike - names.begin());
+}
+
+std::string_view noun(const BodyLayout& layout) {
+  return layout.kind == BodyKind::joints ? "joint" : "marker";
+}
+
+}  // namespace
+
+MappedTracks mapped_tracks(const BodyLayout& layout, const std::vector<std::string>& names,
+                           const NameMap& map) {
+  MappedTracks mapped{std::vector<std::int32_t>(layout.track_count(), -1),
+                      std::vector<std::uint8_t>(layout.track_count()),
+                      std::vector<std::uint8_t>(names.size())};
+  for (const auto& [model_name, take_name] : map) {
+    const std::int32_t track = find_name(layout.names, model_name);
+    if (track < 0) {
+      throw Error(ErrorKind::usage,
+                  fmt::format("names: the model has no {} \"{}\" (it knows {})", noun(layout),
+                              printable_name(model_name), fmt::join(layout.names, ", ")));
+    }
+    mapped.settled[static_cast<std::size_t>(track)] = 1;
+    if (take_name.empty()) continue;
+    const std::int32_t index = find_name(names, take_name);
+    if (index < 0) {
+      throw Error(ErrorKind::usage,
+                  fmt::format("names: the take has no {} \"{}\" (it has {})", noun(layout),
+                              printable_name(take_name), fmt::join(names, ", ")));
+    }
+    mapped.tracks[static_cast<std::size_t>(track)] = index;
+    mapped.used[static_cast<std::size_t>(index)] = 1;
+  }
+  return mapped;
+}
+
+void check_kind(const BodyLayout& layout, BodyKind kind) {
+  if (layout.kind == kind) return;
+  throw Error(ErrorKind::usage, fmt::format("the model knows {}, the take holds {}",
+                                            to_string(layout.kind), to_string(kind)));
+}
+
+std::vector<std::uint8_t> possible_tracks(const Clip& clip) {
+  std::vector<std::uint8_t> turning(clip.joint_count());
+  for (std::size_t j = 0; j < clip.joint_count(); ++j)
+    turning[j] = clip.skeleton.rotation_order(j).count > 0 ? 1 : 0;
+  return turning;
+}
+
+std::vector<std::uint8_t> possible_tracks(const MarkerClip& clip) {
+  std::vector<std::uint8_t> positions(clip.marker_count());
+  for (std::size_t m = 0; m < clip.marker_count(); ++m)
+    positions[m] = clip.holds_positions(m) ? 1 : 0;
+  return positions;
+}
+
+void list_unmatched(const BodyLayout& layout, const std::vector<std::string>& names,
+                    const std::vector<std::uint8_t>& known, BodyMatch& match) {
+  std::vector<std::uint8_t> matched(names.size());
+  for (std::size_t i = 0; i < layout.track_count(); ++i) {
+    if (match.tracks[i] < 0)
+      match.missing.push_back(layout.names[i]);
+    else
+      matched[static_cast<std::size_t>(match.tracks[i])] = 1;
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (known[i] != 0 && matched[i] == 0) match.unknown.push_back(names[i]);
+  }
+  const std::size_t found = layout.track_count() - match.missing.size();
+  const bool rootless = layout.kind == BodyKind::joints && match.tracks[0] < 0;
+  if (2 * found >= layout.track_count() && !rootless) return;
+  throw Error(ErrorKind::usage,
+              fmt::format("the model knows {} {}s, of which the take lacks {}: {}; a file of names "
+                          "can say which of the take's are the same (kinemend models --map)",
+                          layout.track_count(), noun(layout), match.missing.size(),
+                          fmt::join(match.missing, ", ")));
+}
+
+}  // namespace kinemend::representation

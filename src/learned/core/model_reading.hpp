@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "kinemend/experimental/model.hpp"
+#include "kinemend/experimental/train.hpp"
+
+// Models for the methods that work with them. The public functions, which know all methods, are
+// in `registry/models.cpp`.
+namespace kinemend {
+
+/// The methods whose models a reader knows.
+struct KnownMethods {
+  std::span<const LearnedMethod> methods;
+  bool are_all = true;  ///< a model of another method is refused; else it is read as it stands
+};
+
+/// As `parse_model`. Errors: as there; the version of a model of an unknown method is not checked.
+Model parse_model_of(std::string_view bytes, std::string_view name, const KnownMethods& known);
+
+/// As `shipped_model`, by the entry of the method.
+std::shared_ptr<const Model> shipped_model_of(const LearnedMethod& method);
+
+/// As `model_for`, by the entry of the method.
+std::shared_ptr<const Model> model_of(const LearnedMethod& method, const std::string& path,
+                                      std::shared_ptr<const Model> given = nullptr);
+
+}  // namespace kinemend

@@ -1,0 +1,374 @@
+#include "learned/core/prior_cleaning.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "base/file_bytes.hpp"
+#include "base/quantiles.hpp"
+#include "kinemend/experimental/representation.hpp"
+#include "kinemend/experimental/signal.hpp"
+#include "kinemend/methods.hpp"
+#include "learned/core/prior_fall_backs.hpp"
+#include "learned/core/prior_hold.hpp"
+#include "methods/auto/auto_scale.hpp"
+#include "methods/auto/vector_tracks.hpp"
+#include "methods/core/pieces.hpp"
+
+namespace kinemend {
+
+namespace {
+
+// What a take is to a method with a model.
+template <class AnyClip>
+struct PriorTake {
+  const TakeView& view;
+  const AnyClip& clip;  // positions of joints without gaps
+  const BodyLayout& layout;
+  const BodyMatch& match;
+
+  // The track of a part of the layout, or of the place behind them; none of a part that the take
+  // lacks.
+  std::optional<std::size_t> track(std::size_t part) const {
+    if (part == match.tracks.size()) return view.root_track();
+    if (match.tracks[part] < 0) return std::nullopt;
+    return static_cast<std::size_t>(match.tracks[part]);
+  }
+  // With the place of the body, where the layout has one.
+  std::size_t part_count() const { return match.tracks.size() + (has_place() ? 1 : 0); }
+  bool has_place() const { return view.joints != nullptr && layout.with_place; }
+};
+
+// Which parts may change.
+template <class AnyClip>
+std::vector<std::uint8_t> chosen_parts(const PriorTake<AnyClip>& take) {
+  std::vector<std::uint8_t> chosen(take.match.tracks.size() + (take.view.joints ? 1 : 0), 0);
+  for (std::size_t part = 0; part < take.part_count(); ++part) {
+    const auto track = take.track(part);
+    if (track && take.view.tracks[*track].selected) chosen[part] = 1;
+  }
+  return chosen;
+}
+
+// Sets the marks of a part's channels in one frame.
+void mark_part(std::vector<std::uint8_t>& marks, std::size_t channels, std::size_t frame,
+               std::size_t part) {
+  for (std::size_t axis = 0; axis < 3; ++axis) marks[frame * channels + 3 * part + axis] = 1;
+}
+
+// What `auto` makes of a take, whatever is selected.
+template <class AnyClip>
+struct AutoRun {
+  AnyClip clip;
+  InPlaceTrace trace;
+
+  bool is_spike(std::size_t track, std::size_t frame) const {
+    return !trace.actions[track].empty() && trace.actions[track][frame] == Action::despiked;
+  }
+};
+
+// With what is known of the take.
+Selection all_tracks(const TakeView& view) {
+  Selection all;
+  all.body_height = view.body_height;
+  all.noise.correlation = view.noise_correlation;
+  for (std::size_t n = 0; n < view.owners; ++n) all.noise.strengths.push_back(view.tracks[n].noise);
+  return all;
+}
+
+AutoRun<Clip> run_auto(const PriorTake<Clip>& take) {
+  AutoRun<Clip> run{take.clip, {}};
+  run.trace = clean_in_place(*make_auto(), run.clip, all_tracks(take.view));
+  return run;
+}
+
+AutoRun<MarkerClip> run_auto(const PriorTake<MarkerClip>& take) {
+  AutoRun<MarkerClip> run{take.clip, {}};
+  run.trace = clean_in_place(*make_auto(), run.clip, all_tracks(take.view));
+  return run;
+}
+
+// How far `auto` smooths each track, 0 to 1: tracks that share their noise are looked at together.
+std::vector<double> needs_of(const TakeView& view, const std::vector<double>& noise) {
+  std::vector<std::size_t> together;
+  std::vector<double> levels, needs(view.tracks.size(), 0);
+  for (std::size_t n = 0; n < view.owners && !noise.empty(); ++n) {
+    if (view.joints ? !moves(view.tracks[n]) : noise[n] <= 0) continue;
+    together.push_back(n);
+    levels.push_back(view.joints ? noise[n] : degrees_per_unit(view) * noise[n]);
+  }
+  const std::vector<double> shares = smoothing_shares(levels, view.frame_rate_hz);
+  for (std::size_t i = 0; i < together.size(); ++i) needs[together[i]] = shares[i];
+  if (view.joints && !noise.empty()) {
+    const double root = degrees_per_unit(view) * noise[view.root_track()];
+    needs[view.root_track()] = smoothing_shares({root}, view.frame_rate_hz).front();
+  }
+  return needs;
+}
+
+// The take's channels in the frame of what `auto` made of it, with what `auto` says of each part's
+// samples.
+template <class AnyClip>
+PriorWork work_of(const PriorTake<AnyClip>& take, const AutoRun<AnyClip>& run) {
+  BodyChannels guide = encode_body(run.clip, take.layout, take.match);
+  PriorWork work;
+  work.match = &take.match;
+  work.channels = encode_body(take.clip, take.layout, take.match, guide);
+  work.fallback = std::move(guide.poses);
+  const std::size_t frames = work.fallback.frames, width = work.fallback.channels;
+  work.noise.assign(width, 0);
+  work.needs.assign(width / 3, 1);
+  work.suspect.assign(frames * width, 0);
+  const std::vector<double> needs = needs_of(take.view, run.trace.noise);
+  work.is_white = std::all_of(run.trace.characters.begin(), run.trace.characters.end(),
+                              [](const NoiseCharacter& noise) {
+                                return noise.correlation == 0 && noise.frames_per_sample == 1;
+                              });
+  for (std::size_t part = 0; part < take.part_count(); ++part) {
+    const auto track = take.track(part);
+    if (!track) continue;
+    work.needs[part] = needs[*track];
+    const bool turns = take.view.tracks[*track].space == Space::rotation;
+    const double unit = turns ? 1 : work.channels.degrees_per_unit;
+    for (std::size_t axis = 0; axis < 3 && !run.trace.noise.empty(); ++axis)
+      work.noise[3 * part + axis] = unit * run.trace.noise[*track];
+    for (std::size_t f = 0; f < frames; ++f) {
+      if (run.is_spike(*track, f)) mark_part(work.suspect, width, f, part);
+    }
+  }
+  return work;
+}
+
+void leave_alone(const PriorWork& work, bool fill, std::vector<std::uint8_t>& chosen) {
+  for (std::size_t part = 0; part < chosen.size(); ++part) {
+    if (chosen[part] != 0 && is_left_alone(work, part, fill)) chosen[part] = 0;
+  }
+}
+
+bool is_rejected(const PriorWork& work, std::size_t frame, std::size_t part) {
+  if (work.rejected.empty()) return false;
+  const std::size_t first = frame * work.channels.poses.channels + 3 * part;
+  return (work.rejected[first] | work.rejected[first + 1] | work.rejected[first + 2]) != 0;
+}
+
+std::string lacking(const BodyMatch& match) {
+  return fmt::format("the take lacks {} of the {} parts that the model knows: {}",
+                     match.missing.size(), match.tracks.size(), fmt::join(match.missing, ", "));
+}
+
+Vec3 turn_of(const PoseMatrix& poses, std::size_t frame, std::size_t part) {
+  return {poses(frame, 3 * part), poses(frame, 3 * part + 1), poses(frame, 3 * part + 2)};
+}
+
+// From a frame to the next; where noise is strong, in medians of that.
+constexpr double flip_deg = 60, flip_medians = 6;
+constexpr std::size_t flip_half_frames = 3;
+constexpr double most_turns = 0.98;  // a few are noise
+
+// A joint that turns away from the model's mean as far as its channels can say, or flips, is
+// nothing that the model knows: to the filter it is missing, and `auto` keeps it.
+void leave_far_turns_to_auto(PriorWork& work, const BodyLayout& layout,
+                             std::vector<std::uint8_t>& chosen) {
+  // Spikes that `auto` left go there and back; a flip stays.
+  PoseMatrix steady = work.fallback;
+  median_filter(steady, flip_half_frames);
+  work.left_out.assign(work.needs.size(), 0);
+  for (std::size_t part = 0; part < layout.track_count(); ++part) {
+    const auto is_seen = [&](std::size_t frame) {
+      return work.channels.observed[frame * steady.channels + 3 * part] != 0;
+    };
+    std::vector<double> turns, steps;
+    double fastest = 0;
+    for (std::size_t f = 0; f < steady.frames; ++f) {
+      if (!is_seen(f)) continue;
+      turns.push_back(norm(turn_of(steady, f, part)));
+      if (f == 0 || !is_seen(f - 1)) continue;
+      const auto step = [&](const PoseMatrix& poses) {
+        return norm(turn_of(poses, f, part) - turn_of(poses, f - 1, part));
+      };
+      fastest = std::max(fastest, step(steady));
+      steps.push_back(step(work.channels.poses));
+    }
+    const double flip = std::max(flip_deg, flip_medians * median_of(steps));
+    const double farthest = quantile_of(turns, most_turns);
+    if (farthest <= degrees_per_radian * tangent_limit_rad && fastest <= flip) continue;
+    chosen[part] = 0;
+    work.left_out[part] = 1;
+    for (std::size_t f = 0; f < work.fallback.frames; ++f) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        work.channels.observed[f * work.fallback.channels + 3 * part + axis] = 0;
+    }
+  }
+}
+
+// What `auto` made of the tracks that the result may need: not of parts whose every sample is the
+// filter's.
+template <class AnyClip>
+std::vector<CleanedTrack> keep_fallback(const PriorTake<AnyClip>& take, AutoRun<AnyClip> run,
+                                        const PriorWork& work,
+                                        const std::vector<std::uint8_t>& chosen, bool fill) {
+  const TakeView view = view_of(run.clip);
+  std::vector<std::uint8_t> needed(view.tracks.size(), 1);
+  for (std::size_t part = 0; part < take.match.tracks.size(); ++part) {
+    if (chosen[part] == 0 || work.needs[part] == 0) continue;
+    const std::size_t track = *take.track(part);
+    if (fill || observed_of(take.view.tracks[track]).empty()) needed[track] = 0;
+  }
+  std::vector<CleanedTrack> kept(view.tracks.size());
+  for (std::size_t n = 0; n < kept.size(); ++n) {
+    kept[n].actions = std::move(run.trace.actions[n]);
+    kept[n].noise = run.trace.coloured[n];
+    if (needed[n] == 0) continue;
+    kept[n].rotations = rotations_of(view.tracks[n]);
+    kept[n].positions = positions_of(view.tracks[n]);
+  }
+  return kept;
+}
+
+// What was done to the samples of a part that is the filter's.
+std::vector<Action> actions_of(const TakeView& view, std::size_t number, const PriorWork& work,
+                               std::size_t part, bool fill, std::vector<Action> actions) {
+  const Track& track = view.tracks[number];
+  if (actions.empty()) actions.assign(view.frames, Action::kept);
+  const bool is_own = !is_fallen_back(work, part);
+  const bool fills = track.space == Space::rotation || (fill && view.markers);
+  for (std::size_t f = 0; f < view.frames; ++f) {
+    if (number < view.owners && !track.is_observed(f)) {
+      actions[f] = fills ? Action::filled : Action::kept;
+    } else if (is_own) {
+      actions[f] = is_rejected(work, f, part) ? Action::despiked : Action::kept;
+    }
+  }
+  return actions;
+}
+
+// The samples of a part that is the filter's; where gaps are not to be filled by the model they
+// hold the bridge that `auto` laid.
+CleanedTrack filtered_track(const TakeView& view, const TakeView& filtered, std::size_t number,
+                            bool fill, const CleanedTrack& fallback) {
+  const Track& track = filtered.tracks[number];
+  CleanedTrack cleaned{rotations_of(track), positions_of(track), {}};
+  if (track.space == Space::position) return cleaned;
+  for (std::size_t f = 0; f < view.frames && !fill; ++f) {
+    if (!view.tracks[number].is_observed(f)) cleaned.rotations[f] = fallback.rotations[f];
+  }
+  return cleaned;
+}
+
+template <class AnyClip>
+CleanTrace clean_known(const PriorTake<AnyClip>& take, bool fill, PriorHold hold,
+                       const PriorFilter& filter, const TrackSink& sink) {
+  const TakeView& view = take.view;
+  std::vector<std::uint8_t> chosen = chosen_parts(take);
+  AutoRun<AnyClip> run = run_auto(take);
+  PriorWork work = work_of(take, run);
+  if (view.joints) leave_far_turns_to_auto(work, take.layout, chosen);
+  settle_needs(work, hold);
+  leave_alone(work, fill, chosen);
+  CleanTrace trace = run.trace;
+  std::vector<CleanedTrack> fallback = keep_fallback(take, std::move(run), work, chosen, fill);
+  if (std::find(chosen.begin(), chosen.end(), 1) != chosen.end()) filter(work);
+  hold_to_needs(work);
+  if (view.joints) {
+    add_fall_back(work, "they turn farther or leap more than the model can say",
+                  {work.left_out.begin(), work.left_out.end()});
+  }
+
+  AnyClip filtered = take.clip;
+  decode_body(work.channels, take.layout, take.match, filtered, chosen);
+  const TakeView result = view_of(filtered);
+  std::vector<std::uint8_t> selected(view.owners, 0);
+  for (std::size_t n = 0; n < view.tracks.size(); ++n) {
+    const Track& track = view.tracks[n];
+    const bool may_change = track.selected && (view.markers || moves(track));
+    if (n < view.owners) selected[n] = may_change ? 1 : 0;
+  }
+  std::vector<std::uint8_t> is_filtered(view.tracks.size(), 0);
+  for (std::size_t part = 0; part < take.part_count(); ++part) {
+    if (chosen[part] == 0) continue;
+    const std::size_t n = *take.track(part);
+    is_filtered[n] = 1;
+    CleanedTrack cleaned = filtered_track(view, result, n, fill, fallback[n]);
+    cleaned.noise = fallback[n].noise;
+    cleaned.actions = actions_of(view, n, work, part, fill, std::move(fallback[n].actions));
+    sink(n, std::move(cleaned));
+  }
+  for (std::size_t n = 0; n < view.tracks.size(); ++n) {
+    const bool may_change = n < view.owners ? selected[n] != 0 : view.tracks[n].selected;
+    if (may_change && is_filtered[n] == 0) sink(n, std::move(fallback[n]));
+  }
+  trace.fall_backs =
+      fall_backs_of(work, selected, take.has_place() && view.tracks[view.root_track()].selected);
+  if (!take.match.missing.empty()) trace.warnings.push_back(lacking(take.match));
+  trace.warnings.insert(trace.warnings.end(), work.warnings.begin(), work.warnings.end());
+  return trace;
+}
+
+// Gaps in the positions of joints hold their bridges.
+Clip with_bridged_positions(const TakeView& view) {
+  Clip clip = *view.joints;
+  for (std::size_t n = view.owners; n < view.tracks.size() && !clip.observed_positions.empty(); ++n)
+    set_track(clip, n, position_pieces(view, n).front().samples);
+  return clip;
+}
+
+}  // namespace
+
+CleanTrace clean_with_prior(const TakeView& take, const TrackSink& sink, const BodyLayout& layout,
+                            const NameMap& names, bool fill, PriorHold hold,
+                            const PriorFilter& filter) {
+  const BodyMatch match = take.joints ? match_body(layout, *take.joints, names)
+                                      : match_body(layout, *take.markers, names);
+  if (take.frames == 0) return {};
+  if (take.markers)
+    return clean_known<MarkerClip>({take, *take.markers, layout, match}, fill, hold, filter, sink);
+  if (take.joints->observed_positions.empty())
+    return clean_known<Clip>({take, *take.joints, layout, match}, fill, hold, filter, sink);
+  const Clip bridged = with_bridged_positions(take);
+  return clean_known<Clip>({take, bridged, layout, match}, fill, hold, filter, sink);
+}
+
+namespace {
+
+class PriorCleaner final : public Cleaner {
+ public:
+  PriorCleaner(std::shared_ptr<const Model> model, NameMap names, bool fill, PriorHold hold,
+               PriorFilter filter)
+      : model_(std::move(model)),
+        names_(std::move(names)),
+        fill_(fill),
+        hold_(hold),
+        filter_(std::move(filter)) {}
+
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>& /*progress*/) const override {
+    return clean_with_prior(take, sink, model_->layout, names_, fill_, hold_, filter_);
+  }
+
+ private:
+  std::shared_ptr<const Model> model_;
+  NameMap names_;
+  bool fill_;
+  PriorHold hold_;
+  PriorFilter filter_;
+};
+
+}  // namespace
+
+std::unique_ptr<Cleaner> make_prior_cleaner(std::shared_ptr<const Model> model,
+                                            const std::string& map, bool fill, PriorHold hold,
+                                            PriorFilter filter) {
+  return std::make_unique<PriorCleaner>(std::move(model), name_map_at(map), fill, hold,
+                                        std::move(filter));
+}
+
+NameMap name_map_at(const std::string& path) {
+  if (path.empty()) return {};
+  return parse_name_map(file_bytes(path), path);
+}
+
+}  // namespace kinemend

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "kinemend/cleaner.hpp"
+#include "kinemend/experimental/train.hpp"
+
+// The entries of `learned` in the tables of learned methods and of methods.
+namespace kinemend {
+
+LearnedMethod learned_learned();
+Method learned_method();
+
+}  // namespace kinemend

@@ -1,0 +1,240 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/progress.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/experimental/model.hpp"
+#include "kinemend/experimental/representation.hpp"
+#include "kinemend/methods.hpp"
+#include "kinemend/options.hpp"
+#include "learned/core/model_reading.hpp"
+#include "learned/core/prior_cleaning.hpp"
+#include "learned/corrector/entries.hpp"
+#include "learned/corrector/learned_body.hpp"
+#include "learned/corrector/learned_errors.hpp"
+#include "learned/corrector/learned_live.hpp"
+#include "learned/corrector/live_motion_steps.hpp"
+#include "learned/corrector/measured_smoothing.hpp"
+#include "learned/corrector/motion_channels.hpp"
+#include "learned/corrector/motion_filter.hpp"
+#include "methods/auto/auto_scale.hpp"
+#include "methods/core/live_cleaning.hpp"
+#include "methods/core/pieces.hpp"
+
+namespace kinemend {
+
+namespace {
+
+const OptionTable<LearnedOptions>& learned_table() {
+  static const auto options =
+      OptionTable<LearnedOptions>()
+          .text(&LearnedOptions::model, "model",
+                "model file made by kinemend-train learned; empty: the model that ships")
+          .text(&LearnedOptions::map, "map",
+                "file that maps names in the take to names in the model")
+          .flag(&LearnedOptions::live, "live", "live form: looks an eighth of a second ahead");
+  return options;
+}
+
+constexpr const char* live_needs =
+    "learned runs live in its live form (--live), an eighth of a second behind; without it, the "
+    "whole take is seen first";
+
+class Learned final : public Cleaner {
+ public:
+  Learned(const LearnedOptions& options, std::shared_ptr<const Model> model)
+      : model_(std::move(model)),
+        names_(name_map_at(options.map)),
+        network_(motion_network_of(*model_)) {}
+
+  CleanTrace clean(const TakeView& view, const TrackSink& sink,
+                   const std::function<void(double)>& tell) const override {
+    CleanTrace trace;
+    if (const std::string reason = why_not_learned(view); !reason.empty())
+      return clean_by_auto(view, reason, sink, tell);
+    ShareProgress progress(tell);
+    progress.begin_part(0.3, 1);
+    MotionTracks tracks = motion_tracks_of(view, changeable_tracks(view));
+    if (tracks.numbers.empty()) return trace;
+    std::optional<KnownBody> body = known_body(model_->layout, names_, view, tracks);
+    if (body) show_body(*body, tracks.take);
+    progress.step();
+    progress.begin_part(1, 1);
+    add_measured_smoothing(tracks.take);
+    MotionResult result = filtered(network_, tracks.take);
+    join_measured(tracks.take, result);
+    if (view.joints != nullptr) smooth_places(view, tracks, result);
+    std::vector<TrackError> errors;
+    for (std::size_t n = 0; n < tracks.numbers.size(); ++n)
+      errors.push_back(track_error(tracks.take, result, n));
+    say_what_was_wrong(view, tracks, errors, trace);
+    hand_over(view, tracks, body, result, errors, sink);
+    progress.step();
+    return trace;
+  }
+  LiveSupport live_support(double) const override {
+    return {LiveSupport::Kind::none, 0, 0, live_needs};
+  }
+
+ private:
+  // How bodies travel through the world is nothing that the network has learned from: places of
+  // joints are smoothed by the noise that is measured.
+  static void smooth_places(const TakeView& view, const MotionTracks& tracks,
+                            MotionResult& result) {
+    const MotionTake& take = tracks.take;
+    for (std::size_t n = 0; n < tracks.numbers.size(); ++n) {
+      if (view.tracks[tracks.numbers[n]].space != Space::position) continue;
+      for (std::size_t f = 0; f < take.frames; ++f) {
+        for (std::size_t c = 3 * n; c < 3 * n + 3; ++c) {
+          result.values[f * take.channels + c] = take.measured[f * take.channels + c];
+          result.deviation[f * take.channels + c] = 0;
+        }
+      }
+    }
+  }
+
+  static CleanTrace clean_by_auto(const TakeView& view, const std::string& reason,
+                                  const TrackSink& sink, const std::function<void(double)>& tell) {
+    CleanTrace trace = make_auto()->clean(view, sink, tell);
+    FallBack fall_back{"auto", reason, {}, {}};
+    for (const std::size_t number : changeable_tracks(view)) {
+      fall_back.tracks.push_back(view.tracks[number].owner);
+      fall_back.shares.push_back(1);
+    }
+    if (!fall_back.tracks.empty()) trace.fall_backs.push_back(std::move(fall_back));
+    return trace;
+  }
+
+  // What was taken out of each track, what is expected to be left, and noise that is mostly slow.
+  static void say_what_was_wrong(const TakeView& view, const MotionTracks& tracks,
+                                 const std::vector<TrackError>& errors, CleanTrace& trace) {
+    trace.noise.assign(view.tracks.size(), 0);
+    trace.left.assign(view.tracks.size(), 0);
+    std::vector<TrackError> turning, moving;
+    for (std::size_t n = 0; n < tracks.numbers.size(); ++n) {
+      const TrackError& error = errors[n];
+      const std::size_t number = tracks.numbers[n];
+      if (!is_worth_a_change(error)) continue;
+      const double unit = degrees_per_unit(view, view.tracks[number].space);
+      trace.noise[number] = std::sqrt(error.removed) / unit;
+      trace.left[number] = std::sqrt(error.left) / unit;
+      (view.tracks[number].space == Space::rotation ? turning : moving).push_back(error);
+    }
+    for (const Space space : {Space::rotation, Space::position}) {
+      const std::vector<TrackError>& own = space == Space::rotation ? turning : moving;
+      const double slow_deg = slow_noise(own);
+      const ColouredNoise removed = removed_noise(own);
+      if (removed.strength == 0) continue;
+      NoiseCharacter character;
+      character.space = space;
+      character.is_expected = slow_deg > 0;
+      character.strength =
+          (slow_deg > 0 ? slow_deg : removed.strength) / degrees_per_unit(view, space);
+      if (slow_deg == 0) character.correlation = removed.correlation;
+      trace.characters.push_back(character);
+    }
+  }
+
+  void hand_over(const TakeView& view, const MotionTracks& tracks, std::optional<KnownBody>& body,
+                 const MotionResult& result, const std::vector<TrackError>& errors,
+                 const TrackSink& sink) const {
+    std::vector<std::uint8_t> is_body(tracks.numbers.size());
+    if (body) {
+      decode_known_body(*body, model_->layout, tracks.take, result.values);
+      for (const std::int32_t n : body->track_of)
+        if (n >= 0) is_body[static_cast<std::size_t>(n)] = 1;
+    }
+    const TakeView decoded = body ? view_of(body->clip) : TakeView{};
+    for (std::size_t n = 0; n < tracks.numbers.size(); ++n) {
+      CleanedTrack cleaned = cleaned_track(tracks, view, n, result.values);
+      if (is_body[n] != 0) {
+        if (cleaned.positions.empty()) {
+          cleaned.rotations = rotations_of(decoded.tracks[tracks.numbers[n]]);
+        } else {
+          cleaned.positions = positions_of(decoded.tracks[tracks.numbers[n]]);
+        }
+      }
+      const std::size_t number = tracks.numbers[n];
+      if (is_worth_a_change(errors[n])) {
+        cleaned.noise = {
+            std::sqrt(errors[n].all()) / degrees_per_unit(view, view.tracks[number].space),
+            errors[n].correlation};
+      } else {
+        keep_measured(view, tracks, n, cleaned);
+      }
+      sink(number, std::move(cleaned));
+    }
+  }
+
+  // Only spikes and gaps of the n-th track change.
+  static void keep_measured(const TakeView& view, const MotionTracks& tracks, std::size_t n,
+                            CleanedTrack& cleaned) {
+    const Track& track = view.tracks[tracks.numbers[n]];
+    for (std::size_t f = 0; f < view.frames; ++f) {
+      if (tracks.is_spike[f * tracks.numbers.size() + n] != 0 || !track.is_observed(f)) continue;
+      if (track.space == Space::rotation) {
+        cleaned.rotations[f] = track.rotation(f);
+      } else {
+        cleaned.positions[f] = track.position(f);
+      }
+    }
+  }
+
+  std::shared_ptr<const Model> model_;
+  NameMap names_;
+  MotionNetwork network_;
+};
+
+// The same network, none of whose layers looks ahead.
+class LiveLearned final : public Cleaner {
+ public:
+  LiveLearned(const LearnedOptions& options, std::shared_ptr<const Model> model)
+      : model_(std::move(model)),
+        names_(name_map_at(options.map)),
+        network_(live_form(motion_network_of(*model_))) {}
+
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>& progress) const override {
+    if (take.frame_rate_hz < lowest_learned_rate_hz)
+      throw Error(ErrorKind::usage, "learned runs live at 20 Hz and more");
+    return clean_as_live(*this, take, sink, progress);
+  }
+  LiveSupport live_support(double frame_rate_hz) const override {
+    if (frame_rate_hz < lowest_learned_rate_hz)
+      return {LiveSupport::Kind::none, 0, 0, "learned runs live at 20 Hz and more"};
+    return {LiveSupport::Kind::delayed, 0, live_motion_ahead(frame_rate_hz), {}};
+  }
+  std::unique_ptr<DelayedFilter> make_delayed_filter(const TakeView& like) const override {
+    return make_learned_live(network_, model_->layout, names_, like);
+  }
+
+ private:
+  std::shared_ptr<const Model> model_;
+  NameMap names_;
+  MotionNetwork network_;
+};
+
+}  // namespace
+
+Method learned_method() {
+  return {"learned",
+          "network that reads the take itself and finds noise of every kind, slow noise too",
+          "Kinemend; damage as in Mall et al. 2017, smoothers mixed by a network",
+          learned_table().specs(),
+          [](const OptionValues& values) { return make_learned(learned_table().parse(values)); },
+          true};
+}
+
+std::unique_ptr<Cleaner> make_learned(const LearnedOptions& options,
+                                      std::shared_ptr<const Model> model) {
+  learned_table().validate(options);
+  model = model_of(learned_learned(), options.model, std::move(model));
+  if (options.live) return std::make_unique<LiveLearned>(options, std::move(model));
+  return std::make_unique<Learned>(options, std::move(model));
+}
+
+}  // namespace kinemend

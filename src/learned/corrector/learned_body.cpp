@@ -1,0 +1,123 @@
+#include "learned/corrector/learned_body.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "kinemend/error.hpp"
+#include "methods/core/pieces.hpp"
+
+namespace kinemend {
+
+namespace {
+
+// Whether a part stays where its channels can say what it does.
+bool is_tame(const BodyChannels& body, std::size_t part) {
+  // Strong noise steps by less; a vector that goes round the other way, by about a turn.
+  constexpr double most_step_deg = 180;
+  const auto vector_at = [&](std::size_t frame) {
+    return Vec3{body.poses(frame, 3 * part), body.poses(frame, 3 * part + 1),
+                body.poses(frame, 3 * part + 2)};
+  };
+  for (std::size_t f = 0; f < body.poses.frames; ++f) {
+    if (norm(vector_at(f)) > degrees_per_radian * tangent_limit_rad) return false;
+    if (f > 0 && norm(vector_at(f) - vector_at(f - 1)) > most_step_deg) return false;
+  }
+  return true;
+}
+
+void see_everywhere(const MotionTracks& tracks, Clip& clip) {
+  const std::size_t joints = clip.joint_count(), positions = 1 + clip.translated_joints.size();
+  for (const std::size_t number : tracks.numbers) {
+    const bool turns = number < joints;
+    std::vector<std::uint8_t>& observed = turns ? clip.observed : clip.observed_positions;
+    const std::size_t width = turns ? joints : positions, at = turns ? number : number - joints;
+    for (std::size_t i = at; i < observed.size(); i += width) observed[i] = 1;
+  }
+}
+
+}  // namespace
+
+std::string why_not_learned(const TakeView& view) {
+  if (static_cast<double>(view.frames) < shortest_learned_take_s * view.frame_rate_hz)
+    return "the take is shorter than half a second";
+  if (view.frame_rate_hz < lowest_learned_rate_hz) return "the frame rate is below 20 Hz";
+  const bool is_noise_given =
+      view.noise_correlation || std::any_of(view.tracks.begin(), view.tracks.end(),
+                                            [](const Track& track) { return track.noise > 0; });
+  if (is_noise_given) return "the noise is given";
+  return {};
+}
+
+std::optional<KnownBody> known_body(const BodyLayout& layout, const NameMap& names,
+                                    const TakeView& view, const MotionTracks& tracks) {
+  if (view.joints == nullptr || layout.kind != BodyKind::joints) return std::nullopt;
+  KnownBody body;
+  try {
+    body.match = match_body(layout, *view.joints, names);
+  } catch (const Error&) {
+    if (!names.empty()) throw;
+    return std::nullopt;
+  }
+  body.clip = *view.joints;
+  for (std::size_t n = 0; n < tracks.numbers.size(); ++n) {
+    const CleanedTrack steady = cleaned_track(tracks, view, n, tracks.take.values);
+    if (steady.positions.empty()) {
+      set_track(body.clip, tracks.numbers[n], steady.rotations);
+    } else {
+      set_track(body.clip, tracks.numbers[n], steady.positions);
+    }
+  }
+  // Bridges count as measured: channels would hold the last sample before a gap, and the network
+  // has learned from bridges.
+  see_everywhere(tracks, body.clip);
+  body.channels = encode_body(body.clip, layout, body.match);
+  const std::size_t parts = body.channels.poses.channels / 3;
+  body.track_of.assign(parts, -1);
+  // The place stays what any position is: in the body's frame it would depend on how that turns.
+  std::size_t wild = 0, tame = 0;
+  for (std::size_t part = 0; part < layout.track_count(); ++part) {
+    if (body.match.tracks[part] < 0) continue;
+    const auto number = static_cast<std::size_t>(body.match.tracks[part]);
+    const auto found = std::find(tracks.numbers.begin(), tracks.numbers.end(), number);
+    if (found == tracks.numbers.end()) continue;
+    const bool fits = is_tame(body.channels, part);
+    ++(fits ? tame : wild);
+    if (!fits) continue;
+    body.track_of[part] = static_cast<std::int32_t>(found - tracks.numbers.begin());
+  }
+  // Half of a body misleads the network more than none.
+  constexpr double most_wild = 0.2;
+  if (static_cast<double>(wild) > most_wild * static_cast<double>(wild + tame)) return std::nullopt;
+  return body;
+}
+
+void show_body(const KnownBody& body, MotionTake& take) {
+  for (std::size_t part = 0; part < body.track_of.size(); ++part) {
+    if (body.track_of[part] < 0) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t slot = 3 * part + axis;
+      const std::size_t c = 3 * static_cast<std::size_t>(body.track_of[part]) + axis;
+      take.slots[c] = static_cast<std::int32_t>(slot);
+      for (std::size_t f = 0; f < take.frames; ++f)
+        take.values[f * take.channels + c] = static_cast<float>(body.channels.poses(f, slot));
+    }
+  }
+}
+
+void decode_known_body(KnownBody& body, const BodyLayout& layout, const MotionTake& take,
+                       std::span<const float> values) {
+  std::vector<std::uint8_t> chosen;
+  for (std::size_t part = 0; part < body.track_of.size(); ++part) {
+    const std::int32_t n = body.track_of[part];
+    chosen.push_back(n >= 0 ? 1 : 0);
+    if (n < 0) continue;
+    for (std::size_t f = 0; f < take.frames; ++f) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        body.channels.poses(f, 3 * part + axis) =
+            static_cast<double>(values[f * take.channels + 3 * static_cast<std::size_t>(n) + axis]);
+    }
+  }
+  decode_body(body.channels, layout, body.match, body.clip, chosen);
+}
+
+}  // namespace kinemend

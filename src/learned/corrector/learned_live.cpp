@@ -1,0 +1,214 @@
+#include "learned/corrector/learned_live.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "kinemend/error.hpp"
+#include "learned/corrector/live_motion_filter.hpp"
+#include "methods/auto/auto_scale.hpp"
+
+namespace kinemend {
+
+namespace {
+
+// A joint that the model knows: its rotation in the axes of the model's body.
+struct KnownTurn {
+  Quat before, after, reference;
+};
+
+// Where the vectors of any other joint are: its rotation smoothed by what came before, and the sum
+// of the turns of that.
+struct LiveChart {
+  Quat reference;
+  Vec3 path;  // radians
+};
+
+struct StreamedTrack {
+  std::size_t place = 0;               // among the frame's rotations or positions
+  std::optional<std::size_t> owner{};  // whose marks say when it is seen; none: always
+  bool turns = true;
+  std::optional<KnownTurn> known{};
+  bool has_begun = false;
+  Quat held{};
+  Vec3 last{};    // of a known joint, radians
+  Vec3 origin{};  // of positions
+  LiveChart chart{};
+};
+
+std::optional<BodyMatch> match_of(const BodyLayout& layout, const NameMap& names,
+                                  const TakeView& like) {
+  if (like.joints == nullptr || layout.kind != BodyKind::joints) return std::nullopt;
+  Clip still;
+  still.skeleton = like.joints->skeleton;
+  still.frame_rate_hz = like.frame_rate_hz;
+  try {
+    return match_body(layout, still, names);
+  } catch (const Error&) {
+    if (!names.empty()) throw;
+    return std::nullopt;
+  }
+}
+
+class LearnedLive final : public DelayedFilter {
+ public:
+  LearnedLive(const MotionNetwork& network, const BodyLayout& layout, const NameMap& names,
+              const TakeView& like)
+      : follow_(1 - std::exp(-1 / (follow_s * like.frame_rate_hz))),
+        degrees_per_unit_(degrees_per_unit(like, Space::position)) {
+    const std::size_t rotations = like.joints != nullptr ? like.owners : 0;
+    std::vector<std::int32_t> slots;
+    std::vector<std::uint8_t> is_position;
+    for (std::size_t n = 0; n < like.tracks.size(); ++n) {
+      if (!like.tracks[n].selected) continue;
+      StreamedTrack track;
+      track.turns = n < rotations;
+      track.place = track.turns ? n : n - rotations;
+      if (track.turns || rotations == 0) track.owner = track.place;
+      tracks_.push_back(track);
+      slots.insert(slots.end(), 3, -1);
+      is_position.insert(is_position.end(), 3, track.turns ? 0 : 1);
+    }
+    if (const auto match = match_of(layout, names, like)) {
+      // How the root is turned is told from its heading over the whole take, which nobody knows.
+      for (std::size_t part = 1; part < layout.track_count(); ++part) {
+        for (std::size_t n = 0; n < tracks_.size(); ++n) {
+          if (!tracks_[n].turns ||
+              static_cast<std::int32_t>(tracks_[n].place) != match->tracks[part])
+            continue;
+          tracks_[n].known =
+              KnownTurn{match->before[part], match->after[part], layout.references[part]};
+          for (std::size_t axis = 0; axis < 3; ++axis)
+            slots[3 * n + axis] = static_cast<std::int32_t>(3 * part + axis);
+        }
+      }
+    }
+    values_.resize(slots.size());
+    result_.resize(slots.size());
+    missing_.resize(slots.size());
+    filter_ = std::make_unique<LiveMotionFilter>(network, like.frame_rate_hz, slots,
+                                                 std::move(is_position));
+    waiting_.resize(filter_->ahead() + 1);
+  }
+
+  bool push(const Frame& in, Frame& out) override {
+    Waiting& waiting = waiting_[pushed_++ % waiting_.size()];
+    waiting.frame = in;
+    waiting.charts.resize(tracks_.size());
+    for (std::size_t n = 0; n < tracks_.size(); ++n) {
+      StreamedTrack& track = tracks_[n];
+      const bool is_seen = is_seen_in(in, track);
+      const std::optional<Vec3> vector = track.turns
+                                             ? turned(track, in.rotations[track.place], is_seen)
+                                             : moved(track, in.positions[track.place], is_seen);
+      put(n, vector);
+      if (track.turns) waiting.frame.rotations[track.place] = track.held;
+      waiting.charts[n] = track.chart;
+    }
+    if (!filter_->push(values_, missing_, result_)) return false;
+    write(out);
+    return true;
+  }
+
+  bool flush(Frame& out) override {
+    if (!filter_->flush(result_)) return false;
+    write(out);
+    return true;
+  }
+
+ private:
+  static constexpr double follow_s = 0.05;
+
+  struct Waiting {
+    Frame frame;
+    std::vector<LiveChart> charts;
+  };
+
+  static bool is_seen_in(const Frame& frame, const StreamedTrack& track) {
+    return !track.owner || frame.observed.empty() || frame.observed[*track.owner] != 0;
+  }
+
+  void put(std::size_t n, const std::optional<Vec3>& vector) {
+    for (std::size_t axis = 0; axis < 3; ++axis) missing_[3 * n + axis] = vector ? 0 : 1;
+    if (!vector) return;
+    float* const own = values_.data() + 3 * n;
+    own[0] = static_cast<float>(vector->x);
+    own[1] = static_cast<float>(vector->y);
+    own[2] = static_cast<float>(vector->z);
+  }
+
+  // A sample as a vector in degrees; nothing where it is not seen, or is no rotation.
+  std::optional<Vec3> turned(StreamedTrack& track, Quat q, bool is_seen) const {
+    constexpr double near_one = 0.1;
+    if (!is_seen || !(std::abs(dot(q, q) - 1) < near_one)) return std::nullopt;
+    q = normalized(q);
+    track.held = track.has_begun ? align_hemisphere(q, track.held) : q;
+    if (track.known) {
+      const Quat shown = track.known->before * q * track.known->after;
+      track.last = near(log(conjugate(track.known->reference) * shown), track.last);
+      track.has_begun = true;
+      return degrees_per_radian * track.last;
+    }
+    LiveChart& chart = track.chart;
+    if (!std::exchange(track.has_begun, true)) chart.reference = q;
+    const Vec3 turn = follow_ * log(conjugate(chart.reference) * q);
+    chart.reference = normalized(chart.reference * exp(turn));
+    chart.path = chart.path + turn;
+    return degrees_per_radian * (chart.path + log(conjugate(chart.reference) * q));
+  }
+
+  std::optional<Vec3> moved(StreamedTrack& track, Vec3 p, bool is_seen) const {
+    if (!is_seen || !std::isfinite(norm(p))) return std::nullopt;
+    if (!std::exchange(track.has_begun, true)) track.origin = p;
+    return degrees_per_unit_ * (p - track.origin);
+  }
+
+  // Past half a turn a vector goes on, but no joint that models know has turned once round.
+  static Vec3 near(Vec3 v, Vec3 last) {
+    constexpr double farthest = 210 * radians_per_degree;
+    const Vec3 next = continue_rotation_vector(v, last);
+    return norm(next) > farthest ? v : next;
+  }
+
+  void write(Frame& out) {
+    const Waiting& waiting = waiting_[given_++ % waiting_.size()];
+    out = waiting.frame;
+    for (std::size_t n = 0; n < tracks_.size(); ++n) {
+      const StreamedTrack& track = tracks_[n];
+      const Vec3 v{result_[3 * n], result_[3 * n + 1], result_[3 * n + 2]};
+      if (!track.has_begun) continue;
+      if (!track.turns) {
+        if (is_seen_in(out, track))
+          out.positions[track.place] = track.origin + (1 / degrees_per_unit_) * v;
+        continue;
+      }
+      Quat& local = out.rotations[track.place];
+      const Vec3 turn = radians_per_degree * v;
+      const Quat cleaned =
+          track.known ? conjugate(track.known->before) * (track.known->reference * exp(turn)) *
+                            conjugate(track.known->after)
+                      : waiting.charts[n].reference * exp(turn - waiting.charts[n].path);
+      local = align_hemisphere(normalized(cleaned), local);
+    }
+  }
+
+  double follow_, degrees_per_unit_;
+  std::vector<StreamedTrack> tracks_;
+  std::vector<float> values_, result_;
+  std::vector<std::uint8_t> missing_;
+  std::unique_ptr<LiveMotionFilter> filter_;
+  std::vector<Waiting> waiting_;  // a ring: as they came, gaps held
+  std::size_t pushed_ = 0, given_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<DelayedFilter> make_learned_live(const MotionNetwork& network,
+                                                 const BodyLayout& layout, const NameMap& names,
+                                                 const TakeView& like) {
+  return std::make_unique<LearnedLive>(network, layout, names, like);
+}
+
+}  // namespace kinemend

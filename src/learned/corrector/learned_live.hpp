@@ -1,0 +1,19 @@
+#pragma once
+
+#include <memory>
+
+#include "kinemend/cleaner.hpp"
+#include "kinemend/experimental/representation.hpp"
+#include "learned/corrector/motion_network.hpp"
+
+namespace kinemend {
+
+/// The method `learned` on streams of takes like this one. `network`, a `live_form`, and `layout`
+/// outlive the filter. A skeleton is matched by its rest pose; joints that the model does not know,
+/// and markers, are cleaned by what they do themselves. Errors: as of `match_body` for names that
+/// are mapped and do not fit.
+std::unique_ptr<DelayedFilter> make_learned_live(const MotionNetwork& network,
+                                                 const BodyLayout& layout, const NameMap& names,
+                                                 const TakeView& like);
+
+}  // namespace kinemend

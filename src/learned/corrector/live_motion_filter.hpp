@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "learned/corrector/live_motion_network.hpp"
+#include "learned/corrector/live_motion_steps.hpp"
+#include "learned/corrector/motion_mixes.hpp"
+
+namespace kinemend {
+
+/// The learned cleaner frame by frame: frame t goes in, frame t - `ahead()` comes out.
+class LiveMotionFilter {
+ public:
+  /// `network`: a `live_form`, which outlives this.
+  LiveMotionFilter(const MotionNetwork& network, double frame_rate_hz,
+                   const std::vector<std::int32_t>& slots, std::vector<std::uint8_t> is_position);
+
+  std::size_t ahead() const noexcept { return steps_.ahead(); }
+  /// As of `LiveMotionSteps::push`. True when `out` (C) holds the next frame.
+  bool push(std::span<const float> values, std::span<const std::uint8_t> missing,
+            std::span<float> out);
+  /// After the last frame: gives the remaining frames one by one, then false.
+  bool flush(std::span<float> out);
+
+ private:
+  std::size_t step_before(std::size_t frame) const;
+  bool take_step();
+  void give(std::span<float> out);
+
+  double frame_rate_hz_;
+  LiveMotionSteps steps_;
+  LiveMotionNetwork network_;
+  MotionSteps step_;
+  // Of the last steps, by their number.
+  std::array<MotionMixes, 4> mixes_;
+  std::vector<float> levels_;
+  std::size_t known_ = 0, given_ = 0;  // steps, frames
+};
+
+}  // namespace kinemend

@@ -1,0 +1,10 @@
+#include "kinemend/experimental/train.hpp"
+#include "learned/corrector/entries.hpp"
+
+namespace kinemend {
+
+LearnedMethod learned_learned() {
+  return {"learned", 1, "network that cleans any take (by kinemend-train learned)", {}, nullptr};
+}
+
+}  // namespace kinemend

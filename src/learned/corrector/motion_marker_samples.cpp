@@ -1,0 +1,182 @@
+#include "learned/corrector/motion_marker_samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "kinemend/rotation.hpp"
+#include "learned/core/sequence_damage.hpp"
+#include "learned/core/warped_sequence.hpp"
+#include "learned/corrector/motion_noise.hpp"
+#include "learned/corrector/motion_sample_tracks.hpp"
+
+namespace kinemend {
+
+namespace {
+
+PoseMatrix marker_stretch(std::span<const MarkerMotion> markers, double rate_hz, std::size_t frames,
+                          Random& random) {
+  std::vector<double> shares;
+  for (const MarkerMotion& motion : markers)
+    shares.push_back(std::sqrt(static_cast<double>(motion.positions.frames)));
+  const MarkerMotion& motion = markers[drawn_index(shares, random)];
+  const double pace = random_pace(random) * motion.rate_hz / rate_hz;
+  const auto wanted = static_cast<std::size_t>(pace * static_cast<double>(frames)) + 3;
+  const std::size_t have = motion.positions.frames, taken = std::min(wanted, have);
+  const std::size_t first = random.below(have - taken + 1);
+  PoseMatrix part(taken, motion.positions.channels);
+  std::copy_n(motion.positions.row(first).begin(), part.values.size(), part.values.begin());
+  // A stretch that is too short is played more slowly.
+  return warped(part, pace * static_cast<double>(taken) / static_cast<double>(wanted), frames);
+}
+
+// From the root's, the first three channels.
+PoseMatrix from_root(PoseMatrix positions) {
+  for (std::size_t f = 0; f < positions.frames; ++f) {
+    for (std::size_t c = positions.channels; c-- > 0;) positions(f, c) -= positions(f, c % 3);
+  }
+  return positions;
+}
+
+// All together, as the laboratory lies, and as many markers as a body has more or fewer.
+void place_at_random(PoseMatrix& positions, Random& random) {
+  const Quat turn = random_turn(random);
+  const double size = log_uniform(random, 0.6, 2) * (random.chance(0.5) ? 1 : -1);
+  for (std::size_t f = 0; f < positions.frames; ++f) {
+    for (std::size_t c = 0; c < positions.channels; c += 3) {
+      const Vec3 at =
+          size * rotate(turn, {positions(f, c), positions(f, c + 1), positions(f, c + 2)});
+      positions(f, c) = at.x, positions(f, c + 1) = at.y, positions(f, c + 2) = at.z;
+    }
+  }
+}
+
+// Of one size, or in proportion to how each marker moves about the root; in some, one axis is that
+// of depth.
+std::vector<double> marker_noise(const PoseMatrix& positions, Random& random) {
+  std::vector<double> strengths(positions.channels, log_uniform(random, 0.1, 25));
+  if (random.chance(0.4)) {
+    const double share = log_uniform(random, 0.02, 0.7);
+    strengths = deviations_of(from_root(positions));
+    for (double& strength : strengths) strength = std::max(share * strength, 0.05);
+  }
+  if (random.chance(0.25)) {
+    const double further = random.uniform(2, 5);
+    for (std::size_t c = 2; c < strengths.size(); c += 3) strengths[c] *= further;
+  }
+  return strengths;
+}
+
+// Held, or on lines, between every few frames.
+void lower_marker_rate(PoseMatrix& positions, Random& random) {
+  const std::size_t step = 2 + random.below(4);
+  const bool is_held = random.chance(0.4);
+  for (std::size_t f = 0; f < positions.frames; ++f) {
+    const std::size_t before = f - f % step, after = std::min(before + step, positions.frames - 1);
+    if (f == before || after <= f) continue;
+    const double share =
+        is_held ? 0 : static_cast<double>(f - before) / static_cast<double>(after - before);
+    for (std::size_t c = 0; c < positions.channels; ++c)
+      positions(f, c) = positions(before, c) + share * (positions(after, c) - positions(before, c));
+  }
+}
+
+void add_jumps(PoseMatrix& positions, Random& random) {
+  const double share = log_uniform(random, 0.001, 0.02), size = log_uniform(random, 5, 100);
+  for (std::size_t f = 0; f < positions.frames; ++f) {
+    for (std::size_t c = 0; c < positions.channels; c += 3) {
+      if (!random.chance(share)) continue;
+      for (std::size_t axis = 0; axis < 3; ++axis) positions(f, c + axis) += size * random.normal();
+    }
+  }
+}
+
+// F x markers: what is seen. Bridged by straight lines.
+std::vector<std::uint8_t> lose_marker_samples(PoseMatrix& positions, double rate_hz,
+                                              Random& random) {
+  const std::size_t count = positions.channels / 3;
+  std::vector<std::uint8_t> observed(positions.frames * count, 1);
+  const double start = log_uniform(random, 0.001, 0.01), mean_s = log_uniform(random, 0.02, 1.5);
+  const double end = std::min(1.0, 1 / (mean_s * rate_hz));
+  for (std::size_t n = 0; n < count; ++n) {
+    bool is_lost = false;
+    for (std::size_t f = 0; f < positions.frames; ++f) {
+      is_lost = random.chance(is_lost ? 1 - end : start);
+      if (is_lost) observed[f * count + n] = 0;
+    }
+  }
+  bridge_lost(positions, observed);
+  return observed;
+}
+
+std::vector<std::uint8_t> damage_markers(PoseMatrix& positions, double rate_hz,
+                                         const MotionSampling& sampling, Random& random) {
+  add_random_noise(positions, rate_hz, marker_noise(positions, random), sampling.has_slow_noise,
+                   random);
+  std::vector<std::uint8_t> observed;
+  if (random.chance(0.2)) add_jumps(positions, random);
+  if (random.chance(0.15)) observed = lose_marker_samples(positions, rate_hz, random);
+  if (rate_hz >= 100 && random.chance(0.15)) lower_marker_rate(positions, random);
+  if (sampling.has_slow_noise && random.chance(0.3))
+    low_pass(positions, 1 + static_cast<int>(random.below(3)), random.uniform(3, 12), rate_hz);
+  return observed;
+}
+
+// F x `channels`, the first of them those of `positions`, from where the origin is.
+std::vector<float> widened(const PoseMatrix& positions, std::span<const double> origin,
+                           std::size_t channels) {
+  std::vector<float> values(positions.frames * channels);
+  const std::size_t shown = std::min(channels, positions.channels);
+  for (std::size_t f = 0; f < positions.frames; ++f) {
+    for (std::size_t c = 0; c < shown; ++c)
+      values[f * channels + c] = static_cast<float>(positions(f, c) - origin[c]);
+  }
+  return values;
+}
+
+// Of F x markers that are observed, F x `channels` that are missing.
+std::vector<std::uint8_t> missing_of(const std::vector<std::uint8_t>& observed, std::size_t frames,
+                                     std::size_t channels) {
+  if (observed.empty()) return {};
+  const std::size_t count = observed.size() / frames;
+  std::vector<std::uint8_t> missing(frames * channels);
+  for (std::size_t f = 0; f < frames; ++f) {
+    for (std::size_t c = 0; c < std::min(channels, 3 * count); ++c)
+      missing[f * channels + c] = observed[f * count + c / 3] == 0 ? 1 : 0;
+  }
+  return missing;
+}
+
+}  // namespace
+
+MotionSample random_marker_sample(std::span<const MarkerMotion> markers, std::size_t channels,
+                                  const MotionSampling& sampling, Random random) {
+  const double rate_hz = random_rate_hz(random);
+  PoseMatrix positions = marker_stretch(markers, rate_hz, sample_frames(sampling, rate_hz), random);
+  if (random.chance(0.3)) positions = from_root(std::move(positions));
+  place_at_random(positions, random);
+  // A hand shakes by a hand's width.
+  vary_motion(positions, rate_hz, {0.25, 150}, random);
+  MotionSample sample;
+  PoseMatrix seen = positions;
+  std::vector<std::uint8_t> observed;
+  if (!random.chance(sampling.clean_share)) {
+    observed = damage_markers(seen, rate_hz, sampling, random);
+  } else if (random.chance(0.4)) {
+    observed = lose_marker_samples(seen, rate_hz, random);
+  }
+  MotionTake& take = sample.take;
+  take.frames = seen.frames;
+  take.channels = channels;
+  take.frame_rate_hz = rate_hz;
+  take.slots.assign(channels, -1);
+  take.is_position.assign(channels, 1);
+  sample.truth = widened(positions, positions.row(0), channels);
+  take.values = widened(seen, positions.row(0), channels);
+  take.missing = missing_of(observed, take.frames, channels);
+  if (random.chance(0.6)) lose_whole_tracks(sample, random.uniform(0.1, 0.9), random);
+  return sample;
+}
+
+}  // namespace kinemend

@@ -1,0 +1,131 @@
+#include "learned/corrector/motion_noise.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "kinemend/experimental/signal.hpp"
+#include "kinemend/rotation.hpp"
+#include "learned/core/sequence_damage.hpp"
+
+namespace kinemend {
+
+namespace {
+
+// Noise of deviation 1 in every channel: white, of the first order, or low-passed.
+PoseMatrix unit_noise(std::size_t frames, std::size_t channels, double rate_hz, bool has_slow,
+                      Random& random) {
+  PoseMatrix noise(frames, channels);
+  for (double& value : noise.values) value = random.normal();
+  const double kind = random.uniform();
+  if (kind < 0.4) return noise;
+  if (kind < 0.65 || !has_slow) {
+    const double correlation = random.uniform(0.2, 0.98),
+                 fresh = std::sqrt(1 - correlation * correlation);
+    for (std::size_t f = 1; f < frames; ++f) {
+      for (std::size_t c = 0; c < channels; ++c)
+        noise(f, c) = correlation * noise(f - 1, c) + fresh * noise(f, c);
+    }
+    return noise;
+  }
+  low_pass(noise, 1 + static_cast<int>(random.below(4)), log_uniform(random, 0.7, 12), rate_hz);
+  double square = 0;
+  for (const double value : noise.values) square += value * value;
+  const double unit = std::sqrt(static_cast<double>(noise.values.size()) / std::max(square, 1e-12));
+  for (double& value : noise.values) value *= unit;
+  return noise;
+}
+
+// Noise comes and goes: a factor of each frame.
+std::vector<double> bursts(std::size_t frames, double rate_hz, Random& random) {
+  PoseMatrix slow(frames, 1);
+  for (double& value : slow.values) value = random.normal();
+  low_pass(slow, 2, random.uniform(0.3, 1), rate_hz);
+  double square = 0;
+  for (const double value : slow.values) square += value * value;
+  const double unit = std::sqrt(static_cast<double>(frames) / std::max(square, 1e-12));
+  for (double& value : slow.values) value = std::exp(0.8 * unit * value);
+  return slow.values;
+}
+
+}  // namespace
+
+std::vector<double> deviations_of(const PoseMatrix& poses) {
+  std::vector<double> result;
+  for (std::size_t c = 0; c < poses.channels; ++c) {
+    double sum = 0, square = 0;
+    for (std::size_t f = 0; f < poses.frames; ++f) {
+      sum += poses(f, c);
+      square += poses(f, c) * poses(f, c);
+    }
+    const auto n = static_cast<double>(poses.frames);
+    result.push_back(std::sqrt(std::max(0.0, square / n - sum * sum / (n * n))));
+  }
+  return result;
+}
+
+void low_pass(PoseMatrix& poses, int order, double cutoff_hz, double rate_hz) {
+  filter_zero_phase(poses,
+                    butterworth_lowpass(order, std::min(cutoff_hz, 0.45 * rate_hz), rate_hz));
+}
+
+void add_random_noise(PoseMatrix& poses, double rate_hz, std::vector<double> strengths,
+                      bool has_slow, Random& random) {
+  if (random.chance(0.3)) {
+    for (double& strength : strengths) strength *= std::exp(0.5 * random.normal());
+  }
+  const PoseMatrix noise = unit_noise(poses.frames, poses.channels, rate_hz, has_slow, random);
+  const std::vector<double> factors = random.chance(0.15) ? bursts(poses.frames, rate_hz, random)
+                                                          : std::vector<double>(poses.frames, 1.0);
+  for (std::size_t f = 0; f < poses.frames; ++f) {
+    for (std::size_t c = 0; c < poses.channels; ++c)
+      poses(f, c) += factors[f] * strengths[c] * noise(f, c);
+  }
+}
+
+void vary_motion(PoseMatrix& poses, double rate_hz, const Shaking& shaking, Random& random) {
+  if (random.chance(0.2))
+    low_pass(poses, 1 + static_cast<int>(random.below(3)), log_uniform(random, 4, 20), rate_hz);
+  if (!random.chance(shaking.chance)) return;
+  const double frequency_hz = log_uniform(random, 0.2, 12), share = random.uniform(0.05, 0.5);
+  const double largest_deg =
+      log_uniform(random, 0.1, shaking.largest_deg) / std::max(1.0, frequency_hz / 2);
+  const std::size_t frames = poses.frames, first = random.below(frames),
+                    last = first + random.below(frames - first) + 1;
+  const auto ramp = 0.3 * rate_hz;  // frames that it takes to set in
+  constexpr double turn = 2 * std::numbers::pi;
+  for (std::size_t c = 0; c < poses.channels; ++c) {
+    if (!random.chance(share)) continue;
+    const double size = largest_deg * random.uniform(0.1, 1), outset = random.uniform(0, turn);
+    for (std::size_t f = first; f < last; ++f) {
+      const auto inside = static_cast<double>(std::min(f - first, last - 1 - f));
+      poses(f, c) += size * std::min(1.0, inside / ramp) *
+                     std::sin(outset + turn * frequency_hz * static_cast<double>(f) / rate_hz);
+    }
+  }
+}
+
+Quat random_turn(Random& random) {
+  return normalized(Quat{random.normal(), random.normal(), random.normal(), random.normal()});
+}
+
+std::size_t drawn_index(std::span<const double> weights, Random& random) {
+  std::vector<double> ends(weights.size());
+  std::partial_sum(weights.begin(), weights.end(), ends.begin());
+  const double at = random.uniform() * ends.back();
+  return static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), at) - ends.begin());
+}
+
+double random_rate_hz(Random& random) {
+  static constexpr std::array<double, 6> rates{25, 30, 50, 60, 100, 120};
+  return random.chance(0.3) ? rates[random.below(rates.size())] : 120;
+}
+
+double random_pace(Random& random) {
+  constexpr double least = 0.7, fastest = 1.4;
+  return random.uniform(least, fastest);
+}
+
+}  // namespace kinemend

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "learned/corrector/motion_samples.hpp"
+
+// What is done to tracks of a sample, whatever it is of.
+namespace kinemend {
+
+/// The channel is 0 throughout, which is to the network as if it were not there.
+void stand_still(MotionSample& sample, std::size_t channel);
+
+/// Each track but one with this chance.
+void lose_whole_tracks(MotionSample& sample, double share, Random& random);
+
+/// Of a sample at this rate.
+std::size_t sample_frames(const MotionSampling& sampling, double rate_hz);
+
+}  // namespace kinemend

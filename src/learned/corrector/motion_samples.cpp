@@ -1,0 +1,277 @@
+#include "learned/corrector/motion_samples.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "kinemend/rotation.hpp"
+#include "learned/core/sequence_damage.hpp"
+#include "learned/core/warped_sequence.hpp"
+#include "learned/corrector/measured_smoothing.hpp"
+#include "learned/corrector/motion_marker_samples.hpp"
+#include "learned/corrector/motion_noise.hpp"
+#include "learned/corrector/motion_sample_tracks.hpp"
+
+namespace kinemend {
+
+namespace {
+
+// A stretch that is being damaged.
+struct DamagedStretch {
+  const BodyLayout& layout;
+  double rate_hz;
+  PoseMatrix poses;
+  std::vector<std::uint8_t> observed;  // F x tracks; empty: all
+
+  void apply(std::string_view name, const OptionValues& values, Random& random) {
+    Random own = random.fork(random.next());
+    damage_sequence(layout, rate_hz, poses, observed, name, values, own);
+  }
+
+  void add_noise(bool has_slow, Random& random) {
+    std::vector<double> strengths(poses.channels, log_uniform(random, 0.15, 6));
+    if (random.chance(0.55)) {
+      const double share = log_uniform(random, 0.08, 1);
+      strengths = deviations_of(poses);
+      for (double& strength : strengths) strength *= share;
+    }
+    add_random_noise(poses, rate_hz, std::move(strengths), has_slow, random);
+  }
+
+  void lower_rate(Random& random) {
+    const double lower = rate_hz / static_cast<double>(2 + random.below(4));
+    apply(random.chance(0.4) ? "held" : "upsampled", {{"rate_hz", lower}}, random);
+  }
+
+  void lose_samples(Random& random) {
+    if (random.chance(0.2))
+      apply("outliers",
+            {{"share", log_uniform(random, 0.001, 0.02)}, {"std_deg", random.uniform(5, 30)}},
+            random);
+    if (random.chance(0.15)) open_gaps(random);
+  }
+
+  void open_gaps(Random& random) {
+    apply("gaps",
+          {{"start_probability", log_uniform(random, 0.001, 0.01)},
+           {"mean_length_s", log_uniform(random, 0.02, 1.5)},
+           {"scope", std::string("joint")}},
+          random);
+  }
+
+  void damage(const MotionSampling& sampling, Random& random) {
+    const double kind = random.uniform();
+    if (kind < 0.88) {
+      add_noise(sampling.has_slow_noise, random);
+    } else {
+      static constexpr std::array<const char*, 5> systems{"video", "triangulated", "depth",
+                                                          "inertial", "optical"};
+      apply("system",
+            {{"kind", std::string(systems[random.below(systems.size())])},
+             {"strength", log_uniform(random, 0.3, 2)}},
+            random);
+    }
+    lose_samples(random);
+    bridge_lost(poses, observed);
+    if (rate_hz >= 100 && random.chance(0.15)) lower_rate(random);
+    if (sampling.has_slow_noise && random.chance(0.3))
+      low_pass(poses, 1 + static_cast<int>(random.below(3)), random.uniform(3, 12), rate_hz);
+  }
+};
+
+void turn_axes(PoseMatrix& poses, Random& random) {
+  for (std::size_t track = 0; track < poses.channels / 3; ++track) {
+    const Quat turn = random_turn(random);
+    for (std::size_t f = 0; f < poses.frames; ++f) {
+      double* const v = &poses(f, 3 * track);
+      const Vec3 turned = rotate(turn, Vec3{v[0], v[1], v[2]});
+      v[0] = turned.x, v[1] = turned.y, v[2] = turned.z;
+    }
+  }
+}
+
+template <class Value>
+void reverse_rows(std::vector<Value>& values, std::size_t channels) {
+  const std::size_t frames = channels > 0 ? values.size() / channels : 0;
+  for (std::size_t f = 0; f < frames / 2; ++f)
+    std::swap_ranges(values.begin() + static_cast<std::ptrdiff_t>(f * channels),
+                     values.begin() + static_cast<std::ptrdiff_t>((f + 1) * channels),
+                     values.begin() + static_cast<std::ptrdiff_t>((frames - 1 - f) * channels));
+}
+
+PoseMatrix random_stretch(const TrainingSequences& sequences, double pace, std::size_t frames,
+                          Random& random) {
+  const auto wanted = static_cast<std::size_t>(pace * static_cast<double>(frames)) + 3;
+  std::vector<double> shares;
+  for (const TrainingSequences::Entry& entry : sequences.entries) {
+    const bool fits = 2 * entry.frames >= wanted;
+    shares.push_back(fits ? entry.weight * std::sqrt(static_cast<double>(entry.frames)) : 0);
+  }
+  const std::size_t index = drawn_index(shares, random);
+  const std::size_t have = sequences.entries[index].frames, taken = std::min(wanted, have);
+  const std::size_t first = random.below(have - taken + 1);
+  // A stretch that is too short is played more slowly.
+  const double slower = std::min(1.0, static_cast<double>(have) / static_cast<double>(wanted));
+  return warped(sequence_at(sequences, index, first, first + taken).poses, pace * slower, frames);
+}
+
+MotionSample random_damage(const TrainingSequences& sequences, const BodyMirror& mirror,
+                           const MotionSampling& sampling, Random random) {
+  const double rate_hz = random_rate_hz(random);
+  const double pace = random_pace(random) * sequences.rate_hz / rate_hz;
+  PoseMatrix poses = random_stretch(sequences, pace, sample_frames(sampling, rate_hz), random);
+  const std::size_t channels = poses.channels;
+  const RecurrentForm form{random.chance(0.5), random.chance(0.5)};
+  const std::vector<float> shown =
+      in_form(std::vector<float>(poses.values.begin(), poses.values.end()), form, mirror);
+  poses.values.assign(shown.begin(), shown.end());
+  vary_motion(poses, rate_hz, {}, random);
+  const bool is_known = random.chance(0.7);
+  if (!is_known && random.chance(0.7)) turn_axes(poses, random);
+
+  MotionSample sample;
+  sample.truth.assign(poses.values.begin(), poses.values.end());
+  DamagedStretch damaged{sequences.layout, rate_hz, std::move(poses), {}};
+  if (!random.chance(sampling.clean_share)) {
+    damaged.damage(sampling, random);
+  } else if (random.chance(0.4)) {
+    // What is clean has gaps, too.
+    damaged.open_gaps(random);
+    bridge_lost(damaged.poses, damaged.observed);
+  }
+  MotionTake& take = sample.take;
+  take.frames = damaged.poses.frames;
+  take.channels = channels;
+  take.frame_rate_hz = rate_hz;
+  take.values.assign(damaged.poses.values.begin(), damaged.poses.values.end());
+  if (!damaged.observed.empty()) {
+    take.missing.resize(take.values.size());
+    for (std::size_t i = 0; i < take.missing.size(); ++i)
+      take.missing[i] =
+          damaged.observed[i / channels * (channels / 3) + i % channels / 3] == 0 ? 1 : 0;
+  }
+  for (std::size_t c = 0; c < channels; ++c) {
+    take.is_position.push_back(c / 3 >= sequences.layout.track_count() ? 1 : 0);
+    take.slots.push_back(is_known ? static_cast<std::int32_t>(c) : -1);
+  }
+  if (is_known && random.chance(0.2)) {
+    for (std::size_t c = 0; c < channels; c += 3) {
+      if (random.chance(0.2))
+        std::fill_n(take.slots.begin() + static_cast<std::ptrdiff_t>(c), 3, -1);
+    }
+  }
+  if (random.chance(is_known ? 0.2 : 0.7))
+    lose_whole_tracks(sample, is_known ? random.uniform(0.02, 0.5) : random.uniform(0.1, 0.9),
+                      random);
+  return sample;
+}
+
+// In proportion to their length.
+const MotionPair& drawn_pair(std::span<const MotionPair> pairs, Random& random) {
+  std::vector<double> seconds;
+  for (const MotionPair& pair : pairs) {
+    const MotionTake& take = pair.sample.take;
+    seconds.push_back(static_cast<double>(take.frames) / take.frame_rate_hz);
+  }
+  return pairs[drawn_index(seconds, random)];
+}
+
+// A stretch of a pair, its channels turned over and scaled at random. In a share of them the
+// reference is what is shown: a clean take, low-passed as optical ones are.
+MotionSample random_pair(const MotionPair& pair, std::size_t channels,
+                         const MotionSampling& sampling, Random random) {
+  const MotionTake& whole = pair.sample.take;
+  const std::size_t frames = std::min(sample_frames(sampling, whole.frame_rate_hz), whole.frames);
+  const std::size_t first = random.below(whole.frames - frames + 1);
+  const bool is_clean = random.chance(sampling.clean_share);
+  MotionSample sample;
+  MotionTake& take = sample.take;
+  take.frames = frames;
+  take.channels = channels;
+  take.frame_rate_hz = whole.frame_rate_hz;
+  take.values.assign(frames * channels, 0.0F);
+  take.slots.assign(channels, -1);
+  take.is_position.assign(channels, 0);
+  sample.truth = take.values;
+  const std::vector<float>& seen = is_clean ? pair.sample.truth : whole.values;
+  const bool has_gaps = !is_clean && !whole.missing.empty();
+  if (has_gaps) take.missing.assign(take.values.size(), 0);
+  const auto scale = static_cast<float>(std::exp(0.2 * random.normal()));
+  const std::size_t shown = std::min(whole.channels, channels);
+  for (std::size_t c = 0; c < shown; ++c) {
+    const float factor = random.chance(0.5) ? scale : -scale;
+    take.is_position[c] = whole.is_position[c];
+    for (std::size_t f = 0; f < frames; ++f) {
+      const std::size_t from = (first + f) * whole.channels + c, to = f * channels + c;
+      take.values[to] = factor * seen[from];
+      sample.truth[to] = factor * pair.sample.truth[from];
+      if (has_gaps) take.missing[to] = whole.missing[from];
+    }
+  }
+  if (random.chance(0.5)) {
+    reverse_rows(take.values, channels);
+    reverse_rows(take.missing, channels);
+    reverse_rows(sample.truth, channels);
+  }
+  return sample;
+}
+
+}  // namespace
+
+MotionStatistics motion_statistics(const TrainingSequences& sequences) {
+  constexpr double least_deviation = 1, least_speed_deg = 0.02;
+  const ChannelMoments moments = channel_moments(sequences, 1);
+  MotionStatistics result;
+  for (std::size_t c = 0; c < moments.mean.size(); ++c) {
+    const double speed = moments.change[c] * sequences.rate_hz / 120;
+    result.mean.push_back(static_cast<float>(moments.mean[c]));
+    result.deviation.push_back(static_cast<float>(std::max(least_deviation, moments.deviation[c])));
+    result.speed.push_back(static_cast<float>(std::max(least_speed_deg, speed)));
+  }
+  return result;
+}
+
+MotionPair mapped_pair(MotionPair pair, double least_deg) {
+  MotionSample& sample = pair.sample;
+  const std::size_t channels = sample.take.channels, frames = sample.take.frames;
+  const auto n = static_cast<double>(frames);
+  for (std::size_t c = 0; c < channels; ++c) {
+    double x = 0, y = 0, xx = 0, xy = 0;
+    for (std::size_t f = 0; f < frames; ++f) {
+      const double truth = sample.truth[f * channels + c],
+                   seen = sample.take.values[f * channels + c];
+      x += truth, y += seen, xx += truth * truth, xy += truth * seen;
+    }
+    const double spread = xx / n - x * x / (n * n);
+    if (std::sqrt(std::max(0.0, spread)) < least_deg) {
+      stand_still(sample, c);
+      continue;
+    }
+    const double gain = (xy / n - x * y / (n * n)) / spread, offset = (y - gain * x) / n;
+    for (std::size_t f = 0; f < frames; ++f) {
+      float& truth = sample.truth[f * channels + c];
+      truth = static_cast<float>(gain * static_cast<double>(truth) + offset);
+    }
+  }
+  return pair;
+}
+
+MotionSample random_motion_sample(const MotionSources& sources, const MotionSampling& sampling,
+                                  Random random) {
+  const std::size_t channels = sources.sequences.layout.channel_count();
+  const bool is_pair = !sources.pairs.empty() && random.chance(sampling.pair_share);
+  const bool is_live = random.chance(sampling.live_share);
+  const bool is_of_markers =
+      !is_pair && !sources.markers.empty() && random.chance(sampling.marker_share);
+  const Random own = random.fork(1);
+  MotionSample sample =
+      is_pair         ? random_pair(drawn_pair(sources.pairs, random), channels, sampling, own)
+      : is_of_markers ? random_marker_sample(sources.markers, channels, sampling, own)
+                      : random_damage(sources.sequences, sources.mirror, sampling, own);
+  sample.is_live = is_live;
+  if (!is_live) add_measured_smoothing(sample.take);
+  return sample;
+}
+
+}  // namespace kinemend

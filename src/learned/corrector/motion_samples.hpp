@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kinemend/experimental/random.hpp"
+#include "learned/core/recurrent_forms.hpp"
+#include "learned/core/training_sequences.hpp"
+#include "learned/corrector/motion_steps.hpp"
+
+// What the learned cleaner learns from: clean motion, damaged in every way that systems and
+// pipelines damage it, and motions that two systems saw.
+namespace kinemend {
+
+struct MotionSample {
+  MotionTake take;
+  std::vector<float> truth;  ///< F x C
+  bool is_live = false;      ///< to be read frame by frame; no noise is measured
+};
+
+/// Of each channel of the body over the sequences: mean, deviation (at least 1 degree), and
+/// deviation of its changes (degrees per 1/120 s, at least 0.02).
+struct MotionStatistics {
+  std::vector<float> mean, deviation, speed;
+};
+MotionStatistics motion_statistics(const TrainingSequences& sequences);
+
+/// One motion by two systems on the same frames. Gains and offsets of channels are no noise: the
+/// reference is mapped to the take by the affine map of each channel that fits best.
+struct MotionPair {
+  std::string name;
+  MotionSample sample;
+};
+/// The same with the reference mapped, and channels that hardly move (deviation below `least_deg`)
+/// made constant.
+MotionPair mapped_pair(MotionPair pair, double least_deg);
+
+/// Clean motion of markers, in the degrees that their body counts as (`MotionTracks`), each from
+/// where it begins; the first is the root of the body.
+struct MarkerMotion {
+  double rate_hz = 120;
+  PoseMatrix positions;  ///< F x 3 markers
+};
+
+/// What is learned from.
+struct MotionSources {
+  const TrainingSequences& sequences;
+  const BodyMirror& mirror;
+  std::span<const MotionPair> pairs{};
+  std::span<const MarkerMotion> markers{};
+};
+
+struct MotionSampling {
+  std::size_t steps = 128;     ///< of a sample
+  double pair_share = 0.25;    ///< of samples that are pairs, where there are some
+  double marker_share = 0.33;  ///< of the others that are of markers, where there are some
+  double clean_share = 0.2;    ///< of them that are clean
+  double live_share = 0.2;     ///< of samples that are read live
+  bool has_slow_noise = true;  ///< low-passed noise, and takes filtered after they were damaged
+};
+
+/// The same `random` gives the same sample. Its channels are those of the body of the sequences.
+MotionSample random_motion_sample(const MotionSources& sources, const MotionSampling& sampling,
+                                  Random random);
+
+}  // namespace kinemend

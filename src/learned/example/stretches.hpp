@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+
+#include "learned/example/window_bases.hpp"
+
+namespace kinemend {
+
+/// Long sequences are filtered in overlapping stretches of one length, so that memory is
+/// independent of their length. Stretches begin where windows begin; the last one may reach less
+/// than a hop beyond the end.
+class Stretches {
+ public:
+  /// Of a sequence of `frames`, at least `bases.frames`. `margin_windows`: windows at each end of a
+  /// stretch whose result is the neighbour's.
+  Stretches(const WindowBases& bases, std::size_t frames, std::size_t margin_windows);
+
+  std::size_t count() const noexcept { return count_; }
+  /// Of each.
+  std::size_t frames() const noexcept { return length_; }
+  /// The first frame of a stretch, and the end of its frames that are in the sequence.
+  std::size_t begin(std::size_t stretch) const;
+  std::size_t end(std::size_t stretch) const;
+  /// Its frames of the result: [first(s), first(s + 1)).
+  std::size_t first(std::size_t stretch) const;
+
+ private:
+  std::size_t frames_, length_, hop_, count_ = 1;
+};
+
+}  // namespace kinemend

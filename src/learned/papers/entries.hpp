@@ -1,0 +1,14 @@
+#pragma once
+
+#include "kinemend/cleaner.hpp"
+#include "kinemend/experimental/train.hpp"
+
+// The entries of the methods of this wing in the tables of learned methods and of methods.
+namespace kinemend {
+
+LearnedMethod recurrent_learned();
+Method recurrent_method();
+LearnedMethod kalman_learned_learned();
+Method kalman_learned_method();
+
+}  // namespace kinemend

@@ -1,0 +1,185 @@
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "kinemend/error.hpp"
+#include "kinemend/experimental/model.hpp"
+#include "kinemend/methods.hpp"
+#include "learned/core/model_reading.hpp"
+#include "learned/core/prior_cleaning.hpp"
+#include "learned/core/prior_fall_backs.hpp"
+#include "learned/papers/entries.hpp"
+#include "learned/papers/filter_network.hpp"
+#include "learned/papers/gap_network.hpp"
+#include "learned/papers/live_filter_network.hpp"
+#include "learned/papers/recurrent_live.hpp"
+#include "learned/papers/recurrent_networks.hpp"
+#include "methods/core/live_cleaning.hpp"
+
+namespace kinemend {
+
+namespace {
+
+const OptionTable<RecurrentOptions>& recurrent_table() {
+  static const auto options =
+      OptionTable<RecurrentOptions>()
+          .text(&RecurrentOptions::model, "model",
+                "model file made by kinemend-train paper; empty: the model that ships")
+          .text(&RecurrentOptions::map, "map",
+                "file that maps names in the take to names in the model")
+          .flag(&RecurrentOptions::fill, "fill_gaps", "fill gaps of joints that the model knows")
+          .text(&RecurrentOptions::gap_model, "gap_model",
+                "model file of a network (EBD) that fills gaps before a filter network (EBF) runs")
+          .flag(&RecurrentOptions::live, "live",
+                "live form of a filter network (EBF): looks 15 frames ahead");
+  return options;
+}
+
+// The networks of the paper that clean together.
+struct PaperNetworks {
+  FilterNetwork filter;
+  std::optional<FilterNetwork> gaps;
+};
+
+// The joints' samples that were not measured, from what is seen around them: the root, the place
+// and joints of which nothing is seen stay as `auto` bridged them.
+void fill_before_filter(const FilterNetwork& network, const BodyLayout& layout, PriorWork& work) {
+  PoseMatrix& poses = work.channels.poses;
+  const PoseMatrix filled = filled_by_network(network, layout, work.channels);
+  for (std::size_t part = 1; part < layout.track_count(); ++part) {
+    const auto is_seen = [&](std::size_t frame) {
+      return work.channels.observed[frame * poses.channels + 3 * part] != 0;
+    };
+    bool any = false;
+    for (std::size_t f = 0; f < poses.frames && !any; ++f) any = is_seen(f);
+    for (std::size_t f = 0; f < poses.frames && any; ++f) {
+      for (std::size_t c = 3 * part; c < 3 * part + 3 && !is_seen(f); ++c)
+        poses(f, c) = filled(f, c);
+    }
+  }
+}
+
+// A network of the paper filters the joints as they were measured; the root is left to `auto`, and
+// so is a take at another rate, since its filters are frames.
+void filter_as_in_the_paper(PriorWork& work, const PaperNetworks& networks,
+                            const BodyLayout& layout) {
+  const FilterNetwork& network = networks.filter;
+  PoseMatrix& poses = work.channels.poses;
+  const std::size_t parts = poses.channels / 3;
+  if (!has_rate_of(network, work.channels.frame_rate_hz)) {
+    poses = work.fallback;
+    return add_fall_back(
+        work,
+        fmt::format("the network filters takes of {:g} Hz only, and this one has {:g}",
+                    network.rate_hz, work.channels.frame_rate_hz),
+        std::vector<double>(parts, 1.0));
+  }
+  for (std::size_t i = 0; i < poses.values.size(); ++i) {
+    const bool is_measured = work.channels.observed[i] != 0 && work.suspect[i] == 0;
+    if (!is_measured) poses.values[i] = work.fallback.values[i];
+  }
+  if (networks.gaps) fill_before_filter(*networks.gaps, layout, work);
+  const std::vector<float> values = filtered(network, filter_take_of(work.channels, layout));
+  poses = work.fallback;
+  put_filtered(values, poses);
+  work.rejected = work.suspect;
+}
+
+PriorFilter filter_of(const std::shared_ptr<const Model>& model,
+                      const std::shared_ptr<const Model>& gap_model) {
+  PaperNetworks networks{filter_network_of(*model), {}};
+  if (networks.filter.inputs.has_masks)
+    throw Error(ErrorKind::usage,
+                "this model of the method recurrent fills gaps and cleans nothing: kinemend fill "
+                "--method recurrent --model, or the gap model beside one that filters");
+  if (gap_model) {
+    if (!are_same(model->layout, gap_model->layout))
+      throw Error(ErrorKind::usage,
+                  "the gap model knows another body than the model: train both on the same takes");
+    networks.gaps = gap_network_of(*gap_model);
+  }
+  auto kept = std::make_shared<const PaperNetworks>(std::move(networks));
+  return [kept, model](PriorWork& work) { filter_as_in_the_paper(work, *kept, model->layout); };
+}
+
+constexpr const char* live_needs =
+    "recurrent runs live in its live form (--live), 15 frames behind; without it, auto sees the "
+    "whole take first";
+
+// A cleaner of the whole take, which says what would run live.
+class WholeTakeRecurrent final : public Cleaner {
+ public:
+  explicit WholeTakeRecurrent(std::unique_ptr<Cleaner> cleaner) : cleaner_(std::move(cleaner)) {}
+
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>& progress) const override {
+    return cleaner_->clean(take, sink, progress);
+  }
+  LiveSupport live_support(double) const override {
+    return {LiveSupport::Kind::none, 0, 0, live_needs};
+  }
+
+ private:
+  std::unique_ptr<Cleaner> cleaner_;
+};
+
+class LiveRecurrent final : public Cleaner {
+ public:
+  LiveRecurrent(std::shared_ptr<const Model> model, const std::string& map)
+      : model_(std::move(model)), names_(name_map_at(map)), network_(filter_network_of(*model_)) {
+    LiveFilterNetwork::check(network_);
+  }
+
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>& progress) const override {
+    return clean_as_live(*this, take, sink, progress);
+  }
+  // A stream at another rate is refused when it begins.
+  LiveSupport live_support(double) const override {
+    return {LiveSupport::Kind::delayed, 0, LiveFilterNetwork::delay, {}};
+  }
+  std::unique_ptr<DelayedFilter> make_delayed_filter(const TakeView& like) const override {
+    return make_recurrent_live(network_, model_->layout, names_, like);
+  }
+
+ private:
+  std::shared_ptr<const Model> model_;
+  NameMap names_;
+  FilterNetwork network_;
+};
+
+std::unique_ptr<Cleaner> make_live(const RecurrentOptions& options,
+                                   const std::shared_ptr<const Model>& model, bool has_gap_model) {
+  if (has_gap_model)
+    throw Error(ErrorKind::usage,
+                "live, gaps are held or bridged: a gap model needs the whole take");
+  return std::make_unique<LiveRecurrent>(model, options.map);
+}
+
+}  // namespace
+
+std::unique_ptr<Cleaner> make_recurrent(const RecurrentOptions& options,
+                                        std::shared_ptr<const Model> model,
+                                        std::shared_ptr<const Model> gap_model) {
+  recurrent_table().validate(options);
+  model = model_of(recurrent_learned(), options.model, std::move(model));
+  if (!options.gap_model.empty())
+    gap_model = model_of(recurrent_learned(), options.gap_model, std::move(gap_model));
+  if (options.live) return make_live(options, model, gap_model != nullptr);
+  return std::make_unique<WholeTakeRecurrent>(make_prior_cleaner(
+      model, options.map, options.fill, PriorHold::noise, filter_of(model, gap_model)));
+}
+
+Method recurrent_method() {
+  return {
+      "recurrent",
+      "neural network that predicts a filter for each joint and frame",
+      "Mall et al. 2017",
+      recurrent_table().specs(),
+      [](const OptionValues& values) { return make_recurrent(recurrent_table().parse(values)); },
+      true};
+}
+
+}  // namespace kinemend

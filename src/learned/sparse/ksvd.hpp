@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "learned/sparse/dictionary.hpp"
+
+namespace kinemend::sparse {
+
+struct KsvdSettings {
+  std::size_t atoms = 500;      ///< K, at most the number of signals
+  std::size_t sparsity = 10;    ///< T: atoms of a signal, at most
+  std::size_t iterations = 10;  ///< of coding and update
+  /// Two atoms with a product above this are twins, of which one is replaced.
+  double most_coherence = 0.99;
+  std::size_t least_uses = 2;  ///< an atom in fewer signals is replaced
+  std::uint64_t seed = 1;
+};
+
+struct KsvdResult {
+  Dictionary dictionary;          ///< atoms of length 1
+  std::vector<double> objective;  ///< |B - D W|^2 after each iteration, which never rises
+};
+
+/// Where the iterations stand: all that the next one needs beside the signals.
+struct KsvdState {
+  Dictionary dictionary;
+  SparseCodes codes;              ///< of all signals
+  std::vector<float> left;        ///< S x n: signals less their codes
+  std::vector<double> objective;  ///< after each iteration so far
+};
+
+/// A dictionary of the signals B (S x n) by K-SVD: the minimum of
+///
+///     |B - D W|_F^2,    |w_s|_0 <= T
+///
+/// over atoms of length 1, by turns of batch OMP and of updates of one atom after the other, each
+/// by one step of a power iteration on what the others leave of its signals (Rubinstein et al.
+/// 2008, algorithm 5). A signal keeps its code where pursuit finds no better one. Atoms that are
+/// hardly used, and twins, become the signals that are coded worst; where the objective is none the
+/// better for it they stay. The result does not depend on the number of threads. Errors: none;
+/// fewer signals that are not zero than atoms give fewer atoms. `after_each` sees the state after
+/// each iteration, and ends the work where it returns false; with one as `start`, of the same
+/// signals and settings, the result is as if the iterations before had been done here.
+KsvdResult ksvd(std::span<const float> signals, std::size_t rows, const KsvdSettings& settings,
+                const std::function<bool(const KsvdState&)>& after_each = {},
+                const KsvdState* start = nullptr);
+
+}  // namespace kinemend::sparse

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemend/experimental/model.hpp"
+#include "learned/sparse/dictionary.hpp"
+#include "learned/sparse/sparse_local.hpp"
+#include "learned/sparse/sparse_points.hpp"
+
+// Prior of the method `sparse` (Xiao et al. 2015): windows of the parts of a body as sums of few
+// atoms.
+namespace kinemend {
+
+/// A part of the body and what it does.
+struct SparsePoselet {
+  std::string name;
+  std::vector<std::int32_t> points;  ///< n of the body's; a point may be in several poselets
+  std::vector<float> mean;           ///< 3 n: mean position in local coordinates, body heights
+  /// Windows less the mean, frame after frame: M x 3 n rows.
+  sparse::Dictionary dictionary;
+
+  std::size_t channels() const noexcept { return 3 * points.size(); }
+};
+
+struct SparsePrior {
+  double rate_hz = 60;
+  std::size_t window_frames = 15;  ///< M
+  SparsePoints points;
+  LocalPoints local;
+  std::vector<SparsePoselet> poselets;
+};
+
+/// Torso with head, arms and legs (section 3.1.2), without means and dictionaries, by the names of
+/// the tracks and what hangs on what; markers of names that say nothing by where they are. The
+/// joints at which arms and legs hang on the torso are in both. Parts without points are left out;
+/// `whole`: all points as one.
+std::vector<SparsePoselet> find_poselets(const BodyLayout& layout, const SparsePoints& points,
+                                         bool whole = false);
+
+/// The same as a file says it, a line each:
+///
+///     torso: Hips, Spine*, Neck, Head, *Shoulder    # a comment
+///
+/// Names of joints or markers, or shell patterns, in any poselet; a free end of a bone is where its
+/// joint is. `name` is the file's, for errors. Errors: `ErrorKind::usage`, `<name>:<line>: ...`,
+/// for a line that is none, an empty poselet, one that is there twice, and a name that the body
+/// lacks; with the names for tracks that are in no poselet.
+std::vector<SparsePoselet> parse_poselets(std::string_view text, std::string_view name,
+                                          const BodyLayout& layout, const SparsePoints& points);
+
+/// The points of section 3.1.1, by names.
+LocalPoints find_local_points(const BodyLayout& layout);
+
+/// To and from tensors of the model file; atoms in 16 bits. Errors: `ErrorKind::unreadable_input`
+/// naming the tensor that does not fit.
+void store_sparse_prior(const SparsePrior& prior, Model& model);
+SparsePrior sparse_prior_of(const Model& model);
+
+}  // namespace kinemend

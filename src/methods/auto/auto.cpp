@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/progress.hpp"
+#include "base/quantiles.hpp"
+#include "kinemend/methods.hpp"
+#include "methods/auto/auto_scale.hpp"
+#include "methods/auto/entries.hpp"
+#include "methods/auto/neighbours.hpp"
+#include "methods/auto/track_cleaning.hpp"
+#include "methods/auto/track_vectors.hpp"
+#include "methods/auto/vector_tracks.hpp"
+#include "methods/core/pieces.hpp"
+
+namespace kinemend {
+
+namespace {
+
+const OptionTable<AutoOptions>& auto_table() {
+  static const auto options =
+      OptionTable<AutoOptions>()
+          .number(&AutoOptions::sensitivity, "sensitivity", "", 0, 4,
+                  "factor on the estimated noise: above 1 smooths more, below 1 less, 0 not at all")
+          .flag(&AutoOptions::despike, "despike", "find and repair spikes");
+  return options;
+}
+
+// Nothing where no track is to be smoothed.
+std::optional<NoiseCharacter> character_of(const TakeView& take, Space space,
+                                           const CleanedTracks& verdicts) {
+  std::vector<double> strengths;
+  for (std::size_t n = 0; n < verdicts.noise.size(); ++n) {
+    if (verdicts.shares[n] > 0) strengths.push_back(verdicts.noise[n]);
+  }
+  if (strengths.empty()) return std::nullopt;
+  const double unit = 1 / degrees_per_unit(take, space);
+  return NoiseCharacter{space, unit * median_of(strengths),
+                        verdicts.spectrum.is_clear ? verdicts.spectrum.correlation : 0,
+                        verdicts.pattern.step, verdicts.pattern.join == SampleJoin::linear};
+}
+
+class Auto final : public Cleaner {
+ public:
+  explicit Auto(const AutoOptions& options) : options_(options) {}
+
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>& tell) const override {
+    CleanTrace trace;
+    std::vector<std::size_t> rotations, positions;
+    for (const std::size_t track : changeable_tracks(take))
+      (take.tracks[track].space == Space::rotation ? rotations : positions).push_back(track);
+    if (take.frames < fewest_clean_frames) {
+      keep_bridges(take, rotations, sink);
+      return trace;
+    }
+    ShareProgress progress(tell);
+    trace.noise.assign(take.tracks.size(), 0);
+    clean_together(take, rotations, sink, progress, trace);
+    clean_together(take, positions, sink, progress, trace);
+    return trace;
+  }
+
+ private:
+  // Rotations and positions apart: noise of the one says nothing of the other's.
+  void clean_together(const TakeView& take, const std::vector<std::size_t>& numbers,
+                      const TrackSink& sink, ShareProgress& progress, CleanTrace& trace) const {
+    const std::size_t frames = take.frames, count = numbers.size();
+    if (count == 0) return;
+    VectorTracks tracks(frames, count);
+    SampleMarks suspects(frames, count), gaps(frames, count);
+    progress.begin_part(0.2, count);
+    for_each_parallel(count, frames * count, [&](std::size_t n) {
+      const TrackVectors curve = vectors_of(take, numbers[n]);
+      for (std::size_t t = 0; t < frames; ++t) {
+        tracks.set(t, n, curve.vectors[t]);
+        if (!curve.suspects.empty()) suspects(t, n) = curve.suspects[t];
+        gaps(t, n) = !take.tracks[numbers[n]].is_observed(t);
+      }
+      progress.step();
+    });
+    const CleanedTracks verdicts =
+        clean_tracks(tracks, suspects, gaps, tracks_nearby(take, numbers), take.frame_rate_hz,
+                     settings_for(take, numbers), &progress);
+    if (const auto character = character_of(take, take.tracks[numbers.front()].space, verdicts))
+      trace.characters.push_back(*character);
+    progress.begin_part(1, count);
+    for_each_parallel(count, frames * count, [&](std::size_t n) {
+      const Track& track = take.tracks[numbers[n]];
+      trace.noise[numbers[n]] = verdicts.noise[n] / degrees_per_unit(take, track.space);
+      const auto spikes = verdicts.marked.track(n);
+      const bool smoothed = verdicts.shares[n] != 0;
+      const bool spiked = std::find(spikes.begin(), spikes.end(), 1) != spikes.end();
+      if (smoothed || spiked || needs_bridges(take, numbers[n])) {
+        CleanedTrack cleaned = track_of(take, numbers[n], tracks.track(n), spikes, smoothed);
+        if (smoothed && verdicts.spectrum.is_clear)
+          cleaned.noise = {trace.noise[numbers[n]], verdicts.spectrum.correlation};
+        sink(numbers[n], std::move(cleaned));
+      }
+      progress.step();
+    });
+  }
+
+  TrackCleaningSettings settings_for(const TakeView& take,
+                                     const std::vector<std::size_t>& numbers) const {
+    TrackCleaningSettings settings{options_.sensitivity, options_.despike,
+                                   kind_of(take.tracks[numbers.front()])};
+    settings.correlation = take.noise_correlation;
+    for (const std::size_t n : numbers) {
+      const Track& track = take.tracks[n];
+      settings.noise.push_back(degrees_per_unit(take, track.space) * track.noise);
+    }
+    return settings;
+  }
+
+  static TrackKind kind_of(const Track& track) {
+    return track.space == Space::rotation ? TrackKind::rotations : TrackKind::positions;
+  }
+
+  static bool needs_bridges(const TakeView& take, std::size_t number) {
+    return take.gaps == GapTreatment::bridge && !observed_of(take.tracks[number]).empty();
+  }
+
+  static void keep_bridges(const TakeView& take, const std::vector<std::size_t>& rotations,
+                           const TrackSink& sink) {
+    for (const std::size_t track : rotations) sink(track, assemble(rotation_piece(take, track)));
+  }
+
+  AutoOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Cleaner> make_auto(const AutoOptions& options) {
+  auto_table().validate(options);
+  return std::make_unique<Auto>(options);
+}
+
+Method auto_method() {
+  return {"auto",
+          "measures the noise of each joint or marker, repairs spikes, smooths by the measured "
+          "noise, and leaves clean takes unchanged",
+          "Kinemend; smoothing by evidence after Eilers 2003 and Wahba 1985", auto_table().specs(),
+          [](const OptionValues& values) { return make_auto(auto_table().parse(values)); }};
+}
+
+}  // namespace kinemend

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <span>
+
+#include "methods/auto/tuning.hpp"
+#include "rotation/rotation_chart.hpp"
+
+namespace kinemend {
+
+/// The chart of a track without gross spikes whose reference is the track's Gaussian mean, cut
+/// at 2.5 deviations and symmetrically at the ends of the take.
+/// path[0] = 0. The signs of the quaternions make no difference.
+RotationChart smooth_chart(std::span<const Quat> track, double frame_rate_hz,
+                           const ChartTuning& tuning = {});
+
+}  // namespace kinemend

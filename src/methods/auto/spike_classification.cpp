@@ -1,0 +1,237 @@
+#include "methods/auto/spike_classification.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "base/quantiles.hpp"
+
+namespace kinemend {
+
+namespace {
+
+// Interpolates a threshold between quiet tracks (share 0) and noisy ones (share 1).
+double between(double quiet, double noisy, double share) { return quiet + (noisy - quiet) * share; }
+
+// Whether a sample agrees with the extrapolation of the samples before it or of those behind it.
+// It then is one side of an impact, at which velocity changes from one frame to the next.
+bool continues_one_side(const SpikeCandidates& candidates, std::size_t t, std::size_t n) {
+  const double most = candidates.tuning.side_error_share * candidates.predictions.errors(t, n);
+  const auto frames = static_cast<std::ptrdiff_t>(candidates.marks.frames);
+  for (const std::ptrdiff_t side : {-1, 1}) {
+    const auto frame = [&](std::ptrdiff_t k) { return static_cast<std::ptrdiff_t>(t) + side * k; };
+    const auto seen = [&](std::ptrdiff_t k) {
+      const std::ptrdiff_t f = frame(k);
+      return f >= 0 && f < frames && candidates.marks(static_cast<std::size_t>(f), n) == 0 &&
+             !candidates.is_missing(static_cast<std::size_t>(f), n);
+    };
+    const auto at = [&](std::ptrdiff_t k) {
+      return candidates.measured.at(static_cast<std::size_t>(frame(k)), n);
+    };
+    if (!seen(1) || !seen(2)) continue;
+    if (norm(at(0) - (2.0 * at(1) - at(2))) < most) return true;
+    if (seen(3) && norm(at(0) - (3.0 * at(1) - 3.0 * at(2) + at(3))) < most) return true;
+  }
+  return false;
+}
+
+// The largest prediction error about a sample, its neighbours left out. On a noisy track other
+// candidates do not count; on a quiet one the largest error and its neighbours do not.
+double largest_error_about(const SpikeCandidates& candidates, std::size_t t, std::size_t n,
+                           bool quiet) {
+  const std::size_t reach = candidates.tuning.surrounding_frames;
+  const std::size_t first = t < reach ? 0 : t - reach,
+                    last = std::min(t + reach + 1, candidates.marks.frames);
+  const auto close = [](std::size_t a, std::size_t b) { return (a > b ? a - b : b - a) <= 1; };
+  std::vector<double> about;
+  for (std::size_t k = first; k < last; ++k) {
+    const bool left_out =
+        close(k, t) || candidates.is_missing(k, n) || (!quiet && candidates.marks(k, n) != 0);
+    about.push_back(left_out ? 0 : candidates.predictions.errors(k, n));
+  }
+  if (quiet) {
+    const auto largest =
+        static_cast<std::size_t>(std::max_element(about.begin(), about.end()) - about.begin());
+    for (std::size_t k = 0; k < about.size(); ++k) {
+      if (close(k, largest)) about[k] = 0;
+    }
+  }
+  return *std::max_element(about.begin(), about.end());
+}
+
+// Whether a run of at most two candidates leaves the motion and returns faster than a joint turns:
+// the fastest known rotation, a pitcher's shoulder, reaches about 7,500 degrees a second.
+bool exceeds_joint_speed(const SpikeCandidates& candidates, std::size_t t, std::size_t n) {
+  const SpikeTuning& tuning = candidates.tuning;
+  std::size_t first = t, last = t;
+  while (first > 0 && candidates.marks(first - 1, n) != 0) --first;
+  while (last + 1 < candidates.marks.frames && candidates.marks(last + 1, n) != 0) ++last;
+  if (last - first + 1 > tuning.longest_run || first == 0 || last + 1 == candidates.marks.frames)
+    return false;
+  const double error = candidates.predictions.errors(t, n);
+  const double gap =
+      norm(candidates.measured.at(last + 1, n) - candidates.measured.at(first - 1, n));
+  return error * candidates.frame_rate_hz > tuning.fastest_deg_s &&
+         gap < tuning.return_share * error;
+}
+
+// `share`: 0 applies the thresholds of quiet tracks, 1 those of noisy ones.
+bool is_isolated(const SpikeCandidates& candidates, std::size_t t, std::size_t n, double share) {
+  const SpikeTuning& tuning = candidates.tuning;
+  const double error = candidates.predictions.errors(t, n);
+  const bool quiet = share < 0.5;
+  const double clearance = between(tuning.clearance_quiet, tuning.clearance_noisy, share);
+  if (error <= clearance * largest_error_about(candidates, t, n, quiet)) return false;
+  if (continues_one_side(candidates, t, n)) return false;
+  if (!quiet) return true;
+  // An error that several joints share is motion.
+  return std::none_of(
+      candidates.nearby[n].begin(), candidates.nearby[n].end(), [&](std::size_t other) {
+        return candidates.predictions.errors(t, other) > error / tuning.nearby_ratio;
+      });
+}
+
+// Probability of at least so many events where `mean` are expected: the sum of Poisson's terms,
+// from the largest on. At most the mean are likely anyway.
+double poisson_tail(double mean, std::size_t at_least) {
+  const auto count = static_cast<double>(at_least);
+  if (count <= mean) return 1;
+  if (mean <= 0) return 0;
+  double term = std::exp(count * std::log(mean) - mean - std::lgamma(count + 1)), sum = 0;
+  for (double k = count; term > 1e-9 * sum; term *= mean / ++k) sum += term;
+  return sum;
+}
+
+// Rejects runs of spikes, at most `cluster_gap` frames apart, that are longer than Poisson chance
+// at the take's rate explains.
+void reject_clusters(const SpikeTuning& tuning, SampleMarks& marked) {
+  const auto total = std::count(marked.marks.begin(), marked.marks.end(), 1);
+  if (total == 0) return;
+  const double rate = static_cast<double>(total) / static_cast<double>(marked.marks.size());
+  for (std::size_t n = 0; n < marked.tracks; ++n) {
+    std::vector<std::size_t> frames;
+    for (std::size_t t = 0; t < marked.frames; ++t) {
+      if (marked(t, n) != 0) frames.push_back(t);
+    }
+    for (std::size_t first = 0; first < frames.size();) {
+      std::size_t last = first;
+      while (last + 1 < frames.size() && frames[last + 1] - frames[last] <= tuning.cluster_gap)
+        ++last;
+      const double expected =
+          rate * static_cast<double>(frames[last] - frames[first] + 2 * tuning.cluster_gap);
+      const std::size_t count = last - first + 1;
+      if (count > tuning.usual_cluster && poisson_tail(expected, count) <= tuning.chance) {
+        for (std::size_t i = first; i <= last; ++i) marked(frames[i], n) = 0;
+      }
+      first = last + 1;
+    }
+  }
+}
+
+// Whether the mean speed of a track's spikes is within that of joints.
+bool is_within_joint_speed(const SpikeCandidates& candidates, const SampleMarks& spikes,
+                           std::size_t n) {
+  double sum = 0, count = 0;
+  for (std::size_t t = 0; t < spikes.frames; ++t) {
+    if (spikes(t, n) == 0) continue;
+    sum += candidates.predictions.errors(t, n);
+    ++count;
+  }
+  return sum * candidates.frame_rate_hz < candidates.tuning.recurrent_deg_s * count;
+}
+
+// Tracks with more spikes than Poisson chance at the mean rate explains, those that have even more
+// left out. Such recurrent spikes are motion, for example of a toe that leaves the ground at every
+// step.
+std::vector<std::uint8_t> find_recurrent(const SpikeCandidates& candidates,
+                                         const SampleMarks& spikes) {
+  const SpikeTuning& tuning = candidates.tuning;
+  std::vector<std::uint8_t> recurrent(spikes.tracks);
+  std::vector<std::size_t> counts(spikes.tracks);
+  std::size_t total = 0;
+  for (std::size_t i = 0; i < spikes.marks.size(); ++i) {
+    counts[i / spikes.frames] += spikes.marks[i];
+    total += spikes.marks[i];
+  }
+  for (std::size_t left = spikes.tracks; left > 0; --left) {
+    const auto worst = std::max_element(counts.begin(), counts.end());
+    const auto n = static_cast<std::size_t>(worst - counts.begin());
+    const double expected = static_cast<double>(total) / static_cast<double>(left);
+    if (poisson_tail(expected, *worst) > tuning.chance) break;
+    recurrent[n] = is_within_joint_speed(candidates, spikes, n);
+    total -= *worst;
+    *worst = 0;
+  }
+  return recurrent;
+}
+
+void reject_track(std::size_t n, SampleMarks& spikes) {
+  std::ranges::fill(spikes.track(n), std::uint8_t{0});
+}
+
+// The smallest error that is a spike in a damaged take, from the spikes of the strict thresholds: a
+// much smaller error is motion, for example a fast toe.
+double smallest_spike(const SpikeCandidates& candidates, const SampleMarks& sure) {
+  const SpikeTuning& tuning = candidates.tuning;
+  std::vector<double> sizes;
+  for (std::size_t n = 0; n < sure.tracks; ++n) {
+    if (candidates.shares[n] >= 1) continue;
+    for (std::size_t t = 0; t < sure.frames; ++t) {
+      if (sure(t, n) != 0) sizes.push_back(candidates.predictions.errors(t, n));
+    }
+  }
+  return sizes.empty() ? 0 : tuning.smallest_share * quantile_of(sizes, tuning.low_quantile);
+}
+
+}  // namespace
+
+SampleMarks classify_spikes(const SpikeCandidates& candidates) {
+  const SpikeTuning& tuning = candidates.tuning;
+  const SampleMarks& marks = candidates.marks;
+  SampleMarks spikes(marks.frames, marks.tracks);
+  std::size_t quiet_samples = 0, quiet_spikes = 0;
+  const auto classify_track = [&](std::size_t n, double share) {
+    for (std::size_t t = 0; t < marks.frames; ++t) {
+      spikes(t, n) = marks(t, n) != 0 && is_isolated(candidates, t, n, share);
+    }
+  };
+  const auto keep_too_fast = [&](std::size_t n) {
+    for (std::size_t t = 0; t < marks.frames; ++t) {
+      if (spikes(t, n) != 0) spikes(t, n) = exceeds_joint_speed(candidates, t, n);
+    }
+  };
+  for (std::size_t n = 0; n < marks.tracks; ++n) classify_track(n, candidates.shares[n]);
+  const std::vector<std::uint8_t> recurrent = find_recurrent(candidates, spikes);
+  for (std::size_t n = 0; n < marks.tracks; ++n) {
+    if (recurrent[n] != 0) reject_track(n, spikes);
+    if (candidates.shares[n] >= 1) continue;
+    quiet_samples += marks.frames;
+    for (std::size_t t = 0; t < marks.frames; ++t) quiet_spikes += spikes(t, n);
+  }
+  // Few spikes in a quiet take are motion unless they exceed the speed of joints. Many are damage:
+  // quiet tracks then get the thresholds of noisy ones, and a least error.
+  const double damage =
+      std::max(tuning.damage_count, tuning.damage_share * static_cast<double>(quiet_samples));
+  const bool damaged = static_cast<double>(quiet_spikes) >= damage;
+  const double least = damaged ? smallest_spike(candidates, spikes) : 0;
+  for (std::size_t n = 0; n < marks.tracks; ++n) {
+    if (recurrent[n] != 0 || candidates.shares[n] >= 1) continue;
+    if (damaged) {
+      classify_track(n, 1);
+      for (std::size_t t = 0; t < marks.frames; ++t) {
+        if (candidates.predictions.errors(t, n) < least) spikes(t, n) = 0;
+      }
+    } else {
+      keep_too_fast(n);
+    }
+  }
+  const std::vector<std::uint8_t> late_recurrent = find_recurrent(candidates, spikes);
+  for (std::size_t n = 0; n < marks.tracks; ++n) {
+    if (late_recurrent[n] != 0) reject_track(n, spikes);
+  }
+  reject_clusters(tuning, spikes);
+  return spikes;
+}
+
+}  // namespace kinemend

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/progress.hpp"
+#include "kinemend/rotation.hpp"
+#include "methods/auto/tuning.hpp"
+#include "methods/auto/vector_tracks.hpp"
+
+namespace kinemend {
+
+/// Gross spikes of one joint: samples whose deviation from the mean of their two neighbours exceeds
+/// 6 degrees and 6 times the median deviation of the samples about them. They are replaced in
+/// `track` by that mean, so that a smooth reference can be computed. Takes under 5 frames have
+/// none. Returns F marks.
+std::vector<std::uint8_t> replace_gross_spikes(std::vector<Quat>& track,
+                                               const GrossSpikeTuning& tuning = {});
+
+/// The joints within three bones of each joint, itself left out.
+std::vector<std::vector<std::size_t>> joints_nearby(std::span<const std::int32_t> parents);
+
+struct DetectedSpikes {
+  SampleMarks marked;
+  std::vector<double> noise;  ///< of each track without its spikes, degrees
+};
+
+/// Detects spikes. Each sample is predicted from the other samples of its track by a robust
+/// smoother; samples with the largest error of their neighbourhood become candidates, and the
+/// smoother is fitted again without them until the candidates no longer change (`classify_spikes`
+/// then decides). `nearby[n]` are the tracks that move with track n; `missing` samples are bridged
+/// gaps, none of which is a spike. Spikes in `tracks` are interpolated linearly, and so are bridges
+/// that start or end at one. `progress`, if any, advances to 0.4.
+DetectedSpikes find_spikes(VectorTracks& tracks, const SampleMarks& initial_candidates,
+                           const std::vector<std::vector<std::size_t>>& nearby,
+                           double frame_rate_hz, const SampleMarks* missing = nullptr,
+                           ShareProgress* progress = nullptr, const TrackTuning& tuning = {});
+
+}  // namespace kinemend

@@ -1,0 +1,83 @@
+#include "methods/auto/track_vectors.hpp"
+
+#include <utility>
+
+#include "methods/auto/auto_scale.hpp"
+#include "methods/auto/smooth_chart.hpp"
+#include "methods/auto/spikes.hpp"
+#include "methods/core/pieces.hpp"
+
+namespace kinemend {
+
+namespace {
+
+RotationChart chart_of(std::vector<Quat> track, double frame_rate_hz,
+                       std::vector<std::uint8_t>* gross = nullptr) {
+  std::vector<std::uint8_t> marks = replace_gross_spikes(track);
+  if (gross) *gross = std::move(marks);
+  return smooth_chart(track, frame_rate_hz);
+}
+
+// A bridge follows the sample it starts at, also where that is a spike: the samples beside gaps are
+// the first to be doubted.
+std::vector<std::uint8_t> beside_gaps(const Track& track, std::size_t frames) {
+  std::vector<std::uint8_t> marks(frames);
+  for (std::size_t t = 1; t < frames; ++t) {
+    const bool before = track.is_observed(t - 1), now = track.is_observed(t);
+    if (before != now) marks[now ? t : t - 1] = 1;
+  }
+  return marks;
+}
+
+}  // namespace
+
+TrackVectors vectors_of(const TakeView& take, std::size_t number) {
+  TrackVectors curve;
+  const Track& track = take.tracks[number];
+  if (track.space == Space::rotation) {
+    const std::vector<Quat> rotations = rotation_piece(take, number).samples;
+    curve.chart = chart_of(rotations, take.frame_rate_hz, &curve.suspects);
+    for (std::size_t t = 0; t < take.frames; ++t)
+      curve.vectors.push_back(degrees_per_radian * curve.chart->vector_of(t, rotations[t]));
+    return curve;
+  }
+  const double degrees = degrees_per_unit(take);
+  if (take.markers) curve.suspects = beside_gaps(track, take.frames);
+  curve.vectors = take.markers ? whole_positions(take, number)
+                               : std::move(position_pieces(take, number).front().samples);
+  for (Vec3& vector : curve.vectors) vector = degrees * vector;
+  return curve;
+}
+
+CleanedTrack track_of(const TakeView& take, std::size_t number, std::span<const Vec3> vectors,
+                      std::span<const std::uint8_t> spikes, bool smoothed,
+                      const RotationChart* chart) {
+  const Track& track = take.tracks[number];
+  const auto is_new = [&](std::size_t t) { return smoothed || spikes[t] != 0; };
+  if (track.space == Space::rotation) {
+    Piece<Quat> piece = rotation_piece(take, number);
+    piece.actions.assign(take.frames, Action::kept);
+    RotationChart made;
+    if (!chart) {
+      made = chart_of(piece.samples, take.frame_rate_hz);
+      chart = &made;
+    }
+    for (std::size_t t = 0; t < take.frames; ++t) {
+      if (is_new(t)) piece.samples[t] = chart->rotation_of(t, radians_per_degree * vectors[t]);
+      if (spikes[t] != 0) piece.actions[t] = Action::despiked;
+    }
+    return assemble(std::move(piece));
+  }
+  std::vector<Piece<Vec3>> pieces = position_pieces(take, number);
+  for (Piece<Vec3>& piece : pieces) {
+    piece.actions.assign(piece.samples.size(), Action::kept);
+    for (std::size_t i = 0; i < piece.samples.size(); ++i) {
+      const std::size_t t = piece.first_frame + i;
+      if (is_new(t)) piece.samples[i] = (1 / degrees_per_unit(take)) * vectors[t];
+      if (spikes[t] != 0) piece.actions[i] = Action::despiked;
+    }
+  }
+  return assemble(take, number, pieces);
+}
+
+}  // namespace kinemend

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kinemend/rotation.hpp"
+#include "methods/auto/tuning.hpp"
+
+namespace kinemend {
+
+/// F frames of N tracks of vectors, one track behind the other, in degrees: rotations in their
+/// charts, or positions on the same scale. Noise is taken to have the same variance along each
+/// axis.
+struct VectorTracks {
+  std::vector<Vec3> values;  ///< N x F
+  /// N: 1 for a track that `whiten` has mapped; axes without noise remain without.
+  std::vector<std::uint8_t> is_whitened;
+
+  VectorTracks(std::size_t frames, std::size_t tracks)
+      : values(frames * tracks), is_whitened(tracks), frames_(frames) {}
+  std::size_t frames() const noexcept { return frames_; }
+  std::size_t tracks() const noexcept { return is_whitened.size(); }
+  Vec3 at(std::size_t frame, std::size_t track) const { return values[track * frames_ + frame]; }
+  void set(std::size_t frame, std::size_t track, Vec3 vector) {
+    values[track * frames_ + frame] = vector;
+  }
+  std::span<Vec3> track(std::size_t track) {
+    return std::span(values).subspan(track * frames_, frames_);
+  }
+  std::span<const Vec3> track(std::size_t track) const {
+    return std::span(values).subspan(track * frames_, frames_);
+  }
+
+ private:
+  std::size_t frames_;
+};
+
+/// One mark per sample of N tracks.
+struct SampleMarks {
+  std::size_t frames = 0;
+  std::size_t tracks = 0;
+  std::vector<std::uint8_t> marks;  ///< N x F
+
+  SampleMarks(std::size_t frame_count, std::size_t track_count)
+      : frames(frame_count), tracks(track_count), marks(frame_count * track_count) {}
+  std::uint8_t& operator()(std::size_t frame, std::size_t track) {
+    return marks[track * frames + frame];
+  }
+  std::uint8_t operator()(std::size_t frame, std::size_t track) const {
+    return marks[track * frames + frame];
+  }
+  std::span<std::uint8_t> track(std::size_t track) {
+    return std::span(marks).subspan(track * frames, frames);
+  }
+  std::span<const std::uint8_t> track(std::size_t track) const {
+    return std::span(marks).subspan(track * frames, frames);
+  }
+  friend bool operator==(const SampleMarks&, const SampleMarks&) = default;
+};
+
+/// The union of both.
+SampleMarks either(const SampleMarks& a, const SampleMarks& b);
+
+/// Interpolates the marked samples of a track linearly, and holds the nearest unmarked one at the
+/// ends; a track without unmarked samples is not changed.
+void fill_marked(std::span<Vec3> track, std::span<const std::uint8_t> marked);
+
+/// Standard deviation per axis of the white noise on each track, degrees; 0 for takes under 6
+/// frames: the smaller of the medians of the differences of order 3 and 5, both unbiased for white
+/// noise, which respond little to motion. Differences that touch a marked sample are left out. Of a
+/// whitened track it is the noise along the axes that have some.
+std::vector<double> noise_levels(const VectorTracks& tracks, const SampleMarks& marked,
+                                 const NoiseTuning& tuning = {});
+/// The same of one track, with its own marks.
+double noise_level(std::span<const Vec3> track, std::span<const std::uint8_t> marked,
+                   bool is_whitened, const NoiseTuning& tuning = {});
+
+/// Fifth differences of a track that touch no marked sample, scaled so that white noise keeps its
+/// deviation.
+std::vector<Vec3> fifth_differences(std::span<const Vec3> track,
+                                    std::span<const std::uint8_t> marked);
+/// Huber's estimate of the standard deviation of such differences along three unit vectors. 0 for
+/// no differences.
+Vec3 noise_along(std::span<const Vec3> differences, const std::array<Vec3, 3>& directions);
+
+/// How much more of motion looks like noise than at 120 Hz: 1 from there up.
+double rate_factor_of(double frame_rate_hz, const DeadZoneTuning& tuning = {});
+
+/// Share of smoothing of each track, 0 (not changed) to 1: a ramp over its noise, so that a take as
+/// clean as a good capture is not changed. The ramp starts later where the median track is quiet,
+/// and below 120 Hz, where differences respond to motion.
+std::vector<double> smoothing_shares(const std::vector<double>& noise, double frame_rate_hz,
+                                     const DeadZoneTuning& tuning = {});
+
+}  // namespace kinemend

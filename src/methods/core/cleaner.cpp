@@ -1,0 +1,101 @@
+#include "kinemend/cleaner.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "methods/core/pieces.hpp"
+
+namespace kinemend {
+
+std::string_view to_string(Action action) {
+  switch (action) {
+    case Action::kept:
+      return "kept";
+    case Action::denoised:
+      return "denoised";
+    case Action::despiked:
+      return "despiked";
+    case Action::filled:
+      return "filled";
+    case Action::foot_adjusted:
+      return "foot_adjusted";
+    case Action::refused:
+      return "refused";
+  }
+  return "unknown";
+}
+
+double NoiseCharacter::frequency_of_share(double share, double frame_rate_hz) const {
+  const double rate_hz = frame_rate_hz / frames_per_sample;
+  // The spectrum is that of noise whose samples depend on the one before.
+  return rate_hz / pi * std::atan(std::tan(share * pi / 2) * (1 - correlation) / (1 + correlation));
+}
+
+namespace {
+
+void put_back(Clip& clip, std::size_t track, const CleanedTrack& cleaned) {
+  if (!cleaned.rotations.empty()) set_track(clip, track, cleaned.rotations);
+  if (!cleaned.positions.empty()) set_track(clip, track, cleaned.positions);
+}
+
+void put_back(MarkerClip& clip, std::size_t track, const CleanedTrack& cleaned) {
+  for (std::size_t f = 0; f < cleaned.positions.size(); ++f) {
+    const std::size_t sample = f * clip.marker_count() + track;
+    if (clip.observed[sample] == 0) {
+      if (cleaned.actions.empty() || cleaned.actions[f] != Action::filled) continue;
+      clip.observed[sample] = 1;
+      if (!clip.residuals.empty()) clip.residuals[sample] = 0;
+    }
+    clip.positions[sample] = cleaned.positions[f];
+  }
+}
+
+template <class AnyClip>
+InPlaceTrace clean_view(const Cleaner& cleaner, const TakeView& take, AnyClip& clip,
+                        const std::function<void(double)>& progress) {
+  InPlaceTrace trace;
+  trace.actions.resize(take.tracks.size());
+  trace.coloured.resize(take.tracks.size());
+  const TrackSink sink = [&](std::size_t track, CleanedTrack cleaned) {
+    put_back(clip, track, cleaned);
+    trace.actions[track] = std::move(cleaned.actions);
+    trace.coloured[track] = cleaned.noise;
+  };
+  static_cast<CleanTrace&>(trace) = cleaner.clean(take, sink, progress);
+  return trace;
+}
+
+}  // namespace
+
+LiveSupport Cleaner::live_support(double) const { return {}; }
+std::unique_ptr<DelayedFilter> Cleaner::make_delayed_filter(const TakeView&) const {
+  return nullptr;
+}
+
+Frame Cleaner::clean_frame(const TakeView& window, std::size_t frame) const {
+  Frame result = frame_of(window, frame);
+  const TrackSink sink = [&](std::size_t track, const CleanedTrack& cleaned) {
+    const Track& source = window.tracks[track];
+    if (source.space == Space::rotation) {
+      result.rotations[track] = cleaned.rotations[frame];
+    } else if (window.gaps == GapTreatment::bridge || source.is_observed(frame)) {
+      position_in(window, track, result) = cleaned.positions[frame];
+    }
+  };
+  clean(window, sink, {});
+  return result;
+}
+
+std::unique_ptr<FrameFilter> Cleaner::make_frame_filter(const TakeView&) const { return nullptr; }
+
+InPlaceTrace clean_in_place(const Cleaner& cleaner, Clip& clip, const Selection& selection,
+                            const std::function<void(double)>& progress) {
+  return clean_view(cleaner, view_of(clip, selection), clip, progress);
+}
+
+InPlaceTrace clean_in_place(const Cleaner& cleaner, MarkerClip& clip, const Selection& selection,
+                            const std::function<void(double)>& progress) {
+  return clean_view(cleaner, view_of(clip, selection), clip, progress);
+}
+
+}  // namespace kinemend

@@ -1,0 +1,204 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/methods.hpp"
+#include "methods/core/inner_filter.hpp"
+#include "methods/filters/entries.hpp"
+#include "methods/filters/lanes.hpp"
+#include "methods/filters/orientation_filter.hpp"
+
+namespace kinemend {
+
+namespace {
+
+// Beyond this many standard deviations the mask is cut.
+constexpr double mask_reach = 4;
+
+const OptionTable<GaussianOptions>& gaussian_table() {
+  static const OptionTable<GaussianOptions> result =
+      OptionTable<GaussianOptions>().number(&GaussianOptions::width_s, "width_s", "s", 0, 1,
+                                            "standard deviation of the Gaussian weights");
+  return result;
+}
+
+std::size_t half_width(double sigma_frames) {
+  return static_cast<std::size_t>(std::lround(mask_reach * sigma_frames));
+}
+
+// exp(-j^2 / (2 sigma^2)) for j = -k .. k; k is no more than `most`.
+std::vector<double> gaussian_values(double sigma_frames, std::size_t most) {
+  const std::size_t k = std::min(half_width(sigma_frames), most);
+  std::vector<double> values(2 * k + 1, 1.0);
+  for (std::size_t j = 1; j <= k; ++j) {
+    const double steps = static_cast<double>(j) / sigma_frames;
+    values[k - j] = values[k + j] = std::exp(-0.5 * steps * steps);
+  }
+  return values;
+}
+
+// The mask about frame i out of `frames`: the weights of a local straight-line fit, which leave a
+// straight line as it is also where the window is cut. Where nothing is cut they are the normalised
+// Gaussian.
+std::vector<double> mask_at(std::span<const double> values, std::span<const double> observed,
+                            std::size_t i, std::size_t frames) {
+  const std::size_t k = values.size() / 2;
+  std::vector<double> mask(values.size(), 0.0);
+  double s0 = 0, s1 = 0, s2 = 0;
+  for (std::size_t m = 0; m < mask.size(); ++m) {
+    if (i + m < k || i + m >= frames + k) continue;
+    mask[m] = values[m] * (observed.empty() ? 1.0 : observed[i + m - k]);
+    const double j = static_cast<double>(m) - static_cast<double>(k);
+    s0 += mask[m];
+    s1 += mask[m] * j;
+    s2 += mask[m] * j * j;
+  }
+  const double determinant = s0 * s2 - s1 * s1;
+  const bool line = s2 > 1e-12 && determinant > 1e-9 * s0 * s2;
+  for (std::size_t m = 0; m < mask.size(); ++m) {
+    const double j = static_cast<double>(m) - static_cast<double>(k);
+    if (line) {
+      mask[m] *= (s2 - s1 * j) / determinant;
+    } else if (s0 > 0) {
+      mask[m] /= s0;
+    }
+  }
+  return mask;
+}
+
+// sum_r b_r w_{i+r}; b_r is zero where w is not there.
+Vec3 weigh_at(const VectorTrack& increments, std::span<const double> b, std::size_t i) {
+  const std::size_t k = b.size() / 2;
+  Vec3 sum;
+  for (std::size_t r = 0; r < b.size(); ++r) {
+    if (i + r >= k && i + r - k + 1 < increments.frames) sum += b[r] * increments[i + r - k];
+  }
+  return sum;
+}
+
+bool whole_window(std::span<const double> observed, std::size_t i, std::size_t k,
+                  std::size_t frames) {
+  if (i < k || i + k >= frames) return false;
+  const auto cut = [](double weight) { return weight == 0; };
+  return observed.empty() ||
+         std::none_of(observed.begin() + static_cast<std::ptrdiff_t>(i - k),
+                      observed.begin() + static_cast<std::ptrdiff_t>(i + k + 1), cut);
+}
+
+class GaussianFilter {
+ public:
+  GaussianFilter(double sigma_frames, std::size_t frames)
+      : values_(gaussian_values(sigma_frames, frames)), frames_(frames), ends_(frames) {
+    const std::size_t k = values_.size() / 2;
+    inner_ = increment_weights(mask_at(values_, {}, k, 2 * k + 1));
+    for (std::size_t i = 0; i < frames; ++i) {
+      if (!whole_window({}, i, k, frames))
+        ends_[i] = increment_weights(mask_at(values_, {}, i, frames));
+    }
+  }
+
+  bool does_nothing() const { return values_.size() == 1; }
+
+  /// Samples of weight 0 count for nothing; no weights: all are 1.
+  template <class Track>
+  void operator()(Track& track, const std::vector<double>& observed) const {
+    const VectorTrack steps = increments(track);
+    VectorTrack moves = weigh_increments(steps, inner_);
+    // Masks at the ends are the same for all tracks that were measured throughout.
+    const bool is_whole = observed.empty() && track.frames == frames_;
+    for (std::size_t i = 0; i < track.frames; ++i) {
+      if (whole_window(observed, i, values_.size() / 2, track.frames)) continue;
+      moves.set(
+          i,
+          is_whole
+              ? weigh_at(steps, ends_[i], i)
+              : weigh_at(steps, increment_weights(mask_at(values_, observed, i, track.frames)), i));
+    }
+    turn(track, moves);
+  }
+
+ private:
+  std::vector<double> values_;
+  std::size_t frames_;
+  std::vector<double> inner_;
+  std::vector<std::vector<double>> ends_;  // one a frame of the take; empty inside it
+};
+
+// The whole mask: each increment is taken once.
+template <class Sample>
+class GaussianStep {
+ public:
+  explicit GaussianStep(std::span<const double> increment_weights)
+      : weights_(increment_weights.begin(), increment_weights.end()),
+        samples_(weights_.size() + 1),
+        increments_(weights_.size()) {}
+
+  Sample step(Sample newest) {
+    const Sample before = samples_.samples().back();
+    samples_.push(newest);
+    if (weights_.empty()) return newest;
+    increments_.push(difference(before, newest));
+    Vec3 sum;
+    const auto increments = increments_.samples();
+    for (std::size_t r = 0; r < weights_.size(); ++r) sum += weights_[r] * increments[r];
+    return moved(samples_.samples()[weights_.size() / 2], sum);
+  }
+
+ private:
+  std::vector<double> weights_;
+  SlidingWindow<Sample> samples_;
+  SlidingWindow<Vec3> increments_;
+};
+
+class GaussianCleaner final : public WindowedCleaner {
+ public:
+  explicit GaussianCleaner(const GaussianOptions& options) : options_(options) {
+    gaussian_table().validate(options);
+  }
+
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>& progress) const override {
+    const GaussianFilter filter(sigma_frames(take.frame_rate_hz), take.frames);
+    if (filter.does_nothing()) return {};
+    filter_pieces(take, sink, progress, [&](auto& piece) {
+      filter_lanes(piece, [&](auto& track) { filter(track, lane_weights(piece)); });
+    });
+    return {};
+  }
+
+  LiveSupport live_support(double frame_rate_hz) const override {
+    return {LiveSupport::Kind::windowed, half_width(sigma_frames(frame_rate_hz))};
+  }
+
+  std::unique_ptr<InnerFilter> make_inner_filter(const TakeView& like) const override {
+    const double sigma = sigma_frames(like.frame_rate_hz);
+    const std::size_t k = half_width(sigma);
+    const std::vector<double> weights =
+        increment_weights(mask_at(gaussian_values(sigma, k), {}, k, 2 * k + 1));
+    return make_track_inner_filter<GaussianStep>(like, k, [&](const Track&, auto sample) {
+      return GaussianStep<decltype(sample)>(weights);
+    });
+  }
+
+ private:
+  double sigma_frames(double frame_rate_hz) const {
+    return options_.width_s * window_rate_hz(frame_rate_hz);
+  }
+
+  GaussianOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Cleaner> make_gaussian(const GaussianOptions& options) {
+  return std::make_unique<GaussianCleaner>(options);
+}
+
+Method gaussian_method() {
+  return {"gaussian", "smoothing with Gaussian weights in time, made for rotations",
+          "Lee & Shin 2002; Courty 2008, eq. 2-3", gaussian_table().specs(),
+          [](const OptionValues& values) { return make_gaussian(gaussian_table().parse(values)); }};
+}
+
+}  // namespace kinemend

@@ -1,0 +1,379 @@
+#include "kinemend/clean.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <mutex>
+#include <string_view>
+#include <utility>
+
+#include "methods/core/pieces.hpp"
+#include "motion/calibration.hpp"
+#include "pipeline/changes.hpp"
+#include "pipeline/feet_step.hpp"
+#include "pipeline/gap_step.hpp"
+#include "pipeline/selection.hpp"
+
+namespace kinemend {
+
+namespace {
+
+// Whether blending leaves something of the input.
+bool takes_part_only(const CleanSettings& settings) {
+  return settings.strength < 1 || settings.max_change_deg < 180 || settings.range;
+}
+
+// One stage of the work, told of from its beginning to its end.
+class Stage {
+ public:
+  Stage(const CleanSettings& settings, std::string_view name) : settings_(settings), name_(name) {
+    tell(0);
+  }
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+  void finish() const { tell(1); }
+  /// Says again that it goes on, so that whoever listens may end it by throwing.
+  void ask() const { tell(0); }
+  /// What the work itself may tell: nothing where nobody listens.
+  std::function<void(double)> shares() const {
+    if (!settings_.progress) return {};
+    return [this](double done) {
+      if (done < 1) tell(done);
+    };
+  }
+
+ private:
+  void tell(double done) const {
+    if (settings_.progress) settings_.progress(name_, done);
+  }
+
+  const CleanSettings& settings_;
+  std::string_view name_;
+};
+
+// How to get from what a cleaner made of a track to the result.
+struct Work {
+  const CleanSettings& settings;
+  Selection selection;
+  std::size_t first;            // frame of the motion: the number of calibration frames
+  std::vector<double> weights;  // one a frame of motion
+  ReportScale scale;
+  double least_shift = 0;  // file units
+};
+
+// The cleaner's tracks one by one, each in the place of its input as soon as it is there.
+template <class AnyClip>
+class Finisher {
+ public:
+  Finisher(const Work& work, const TakeView& take, AnyClip& clip)
+      : work_(work),
+        take_(take),
+        clip_(clip),
+        nothing_(work.weights.size(), 0.0),
+        reports_(take.tracks.size()),
+        finished_(take.tracks.size()) {}
+
+  void finish(std::size_t track, CleanedTrack cleaned) {
+    if (take_.tracks[track].space == Space::rotation) {
+      finish_rotations(track, std::move(cleaned));
+    } else {
+      finish_positions(track, std::move(cleaned));
+    }
+    finished_[track] = 1;
+  }
+
+  // What the cleaner left alone.
+  void finish_others() {
+    for_each_parallel(take_.tracks.size(), take_.tracks.size() * take_.frames, [&](std::size_t n) {
+      if (finished_[n] == 0) finish(n, as_it_stands(n));
+    });
+  }
+
+  void report(const CleanTrace& trace, CleanReport& report) {
+    if (take_.joints) report_root(report);
+    const std::vector<std::string> warnings = warnings_of(reports_, report.kind, work_.scale);
+    report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
+    for (std::size_t n = 0; n < take_.owners; ++n) {
+      TrackReport& own = reports_[n];
+      TrackSummary& summary = own.summary;
+      // A method that finds out what the noise is knows more than the measure of white noise.
+      if (!trace.noise.empty()) summary.noise = trace.noise[n];
+      if (!trace.left.empty()) summary.left = trace.left[n];
+      if (take_.markers && !take_.markers->holds_positions(n)) {
+        summary.is_position = false;
+        summary.noise = summary.left = 0;
+        summary.gaps_left = summary.frames_missing = 0;
+      }
+      report.spans.insert(report.spans.end(), own.spans.begin(), own.spans.end());
+      report.tracks.push_back(summary);
+    }
+  }
+
+ private:
+  template <class Sample>
+  TrackEdit<Sample> edit_of(std::size_t track, std::vector<Sample> before,
+                            std::vector<Sample> after, std::vector<Action> stated) const {
+    return {std::move(before), std::move(after), observed_of(take_.tracks[track]),
+            std::move(stated)};
+  }
+
+  void finish_rotations(std::size_t joint, CleanedTrack cleaned) {
+    const Track& track = take_.tracks[joint];
+    TrackEdit<Quat> edit = edit_of(joint, rotations_of(track), std::move(cleaned.rotations),
+                                   std::move(cleaned.actions));
+    // The rotation of a joint without rotation channels has no place in a file.
+    const RotationOrder order = take_.joints->skeleton.rotation_order(joint);
+    const bool may_turn = track.selected && order.count > 0;
+    const TrackChanges changes =
+        blend(edit, order, work_.settings.max_change_deg * radians_per_degree,
+              may_turn ? work_.weights : nothing_);
+    put_back(joint, edit.after, changes);
+    reports_[joint] = report_track(take_.joints->skeleton.names[joint], joint, edit, changes,
+                                   cleaned.noise, work_.scale);
+  }
+
+  void finish_positions(std::size_t number, CleanedTrack cleaned) {
+    const Track& track = take_.tracks[number];
+    TrackEdit<Vec3> edit = edit_of(number, positions_of(track), std::move(cleaned.positions),
+                                   std::move(cleaned.actions));
+    PositionLimits limits;
+    limits.gaps = take_.gaps;
+    limits.least = work_.least_shift;
+    if (take_.joints) {
+      const auto joint = static_cast<std::size_t>(std::max(track.owner, 0));
+      limits.axes = position_axes(take_.joints->skeleton.channels[joint]);
+    } else {
+      limits.most = work_.settings.max_change;
+    }
+    const TrackChanges changes = blend(edit, limits, track.selected ? work_.weights : nothing_);
+    put_back(number, edit.after, changes);
+    if (take_.markers) {
+      reports_[number] = report_track(take_.markers->names[number], number, edit, changes,
+                                      cleaned.noise, work_.scale);
+    } else if (number == take_.root_track()) {
+      root_ = changes;
+    }
+  }
+
+  void put_back(std::size_t track, const std::vector<Quat>& samples,
+                const TrackChanges&) requires std::is_same_v<AnyClip, Clip> {
+    set_track(clip_, track, samples);
+  }
+  void put_back(std::size_t, const std::vector<Quat>&,
+                const TrackChanges&) requires std::is_same_v<AnyClip, MarkerClip> {}
+  void put_back(std::size_t track, const std::vector<Vec3>& samples, const TrackChanges& changes) {
+    if constexpr (std::is_same_v<AnyClip, Clip>) {
+      set_track(clip_, track, samples);
+    } else {
+      for (std::size_t f = 0; f < samples.size(); ++f) {
+        const std::size_t sample = f * take_.owners + track;
+        const bool filled = changes.actions[f] == Action::filled && clip_.observed[sample] == 0;
+        if (clip_.observed[sample] == 0 && !filled) continue;
+        clip_.positions[sample] = samples[f];
+        if (!filled) continue;
+        clip_.observed[sample] = 1;
+        if (!clip_.residuals.empty()) clip_.residuals[sample] = 0;
+      }
+    }
+  }
+
+  CleanedTrack as_it_stands(std::size_t number) const {
+    const Track& track = take_.tracks[number];
+    if (track.space == Space::position && take_.gaps == GapTreatment::bridge)
+      return {{}, std::move(position_pieces(take_, number).front().samples), {}};
+    return {rotations_of(track), positions_of(track), {}};
+  }
+
+  void report_root(CleanReport& report) const {
+    double squares = 0;
+    for (const double change : root_.amounts) {
+      squares += change * change;
+      report.root_max_change = std::max(report.root_max_change, change);
+    }
+    if (take_.frames > 0)
+      report.root_rms_change = std::sqrt(squares / static_cast<double>(take_.frames));
+    report.spans = spans_of(-1, root_, work_.first);
+  }
+
+  const Work& work_;
+  const TakeView& take_;
+  AnyClip& clip_;
+  std::vector<double> nothing_;
+  std::vector<TrackReport> reports_;  // of joints' rotations and markers
+  TrackChanges root_;
+  std::vector<std::uint8_t> finished_;
+};
+
+// Also where the cleaner did not look at a gap.
+void state_filled(const TakeView& measured, const TakeView& filled, InPlaceTrace& trace) {
+  for (std::size_t n = 0; n < measured.owners; ++n) {
+    for (std::size_t f = 0; f < measured.frames; ++f) {
+      if (measured.tracks[n].is_observed(f) || !filled.tracks[n].is_observed(f)) continue;
+      if (trace.actions[n].empty()) trace.actions[n].assign(measured.frames, Action::kept);
+      trace.actions[n][f] = Action::filled;
+    }
+  }
+}
+
+void hold_feet(const Work& work, Clip& cleaned, InPlaceTrace& trace, CleanReport& report) {
+  const Stage stage(work.settings, "feet");
+  report.feet = feet_step(cleaned, work.selection, *work.settings.feet, work.first, trace);
+  report.warnings.insert(report.warnings.end(), report.feet->warnings.begin(),
+                         report.feet->warnings.end());
+  stage.finish();
+}
+
+void hold_feet(const Work&, MarkerClip&, InPlaceTrace&, CleanReport&) {}
+
+void keep_observed(const Clip& cleaned, Clip& motion) {
+  motion.observed = cleaned.observed;
+  motion.observed_positions = cleaned.observed_positions;
+}
+void keep_observed(const MarkerClip&, MarkerClip&) {}
+
+// Filling and holding feet look at many tracks at once: the whole motion is cleaned beside the
+// input.
+template <class AnyClip>
+void clean_whole(AnyClip& motion, const Cleaner& cleaner, const Work& work, CleanReport& report) {
+  const CleanSettings& settings = work.settings;
+  const TakeView take = view_of(motion, work.selection);
+  AnyClip cleaned = motion;
+  const Stage cleaning(settings, "cleaning");
+  InPlaceTrace trace = clean_in_place(cleaner, cleaned, work.selection, cleaning.shares());
+  report.warnings.insert(report.warnings.end(), trace.warnings.begin(), trace.warnings.end());
+  report.fall_backs = trace.fall_backs;
+  report.noise = trace.characters;
+  cleaning.finish();
+  if (settings.fill) {
+    const Stage stage(settings, "filling");
+    // Gaps are filled in several threads: one at a time asks whether anybody still waits.
+    std::mutex asking;
+    const FillCheck check = [&] {
+      const std::lock_guard lock(asking);
+      stage.ask();
+    };
+    report.fill = fill_step(motion, cleaner, work.selection, work.weights, *settings.fill, trace,
+                            cleaned, check);
+    for (GapOutcome& outcome : report.fill.gaps) {
+      outcome.gap.first_frame += work.first;
+      outcome.gap.last_frame += work.first;
+    }
+    report.warnings.insert(report.warnings.end(), report.fill.warnings.begin(),
+                           report.fill.warnings.end());
+    state_filled(take, view_of(cleaned), trace);
+    stage.finish();
+  }
+  if (settings.feet) hold_feet(work, cleaned, trace, report);
+  const TakeView result = view_of(cleaned);
+  Finisher<AnyClip> finisher(work, take, motion);
+  for_each_parallel(take.tracks.size(), take.tracks.size() * take.frames, [&](std::size_t n) {
+    finisher.finish(n, {rotations_of(result.tracks[n]), positions_of(result.tracks[n]),
+                        std::move(trace.actions[n]), trace.coloured[n]});
+  });
+  finisher.report(trace, report);
+  keep_observed(cleaned, motion);
+}
+
+// Each track takes the place of its input as soon as it is cleaned, so that there is one copy of
+// the take.
+template <class AnyClip>
+void clean_track_by_track(AnyClip& motion, const Cleaner& cleaner, const Work& work,
+                          CleanReport& report) {
+  const TakeView take = view_of(motion, work.selection);
+  Finisher<AnyClip> finisher(work, take, motion);
+  const Stage stage(work.settings, "cleaning");
+  const CleanTrace trace = cleaner.clean(
+      take,
+      [&](std::size_t track, CleanedTrack cleaned) { finisher.finish(track, std::move(cleaned)); },
+      stage.shares());
+  report.warnings.insert(report.warnings.end(), trace.warnings.begin(), trace.warnings.end());
+  report.fall_backs = trace.fall_backs;
+  report.noise = trace.characters;
+  finisher.finish_others();
+  finisher.report(trace, report);
+  stage.finish();
+}
+
+template <class AnyClip>
+void clean_motion(AnyClip& motion, const Cleaner& cleaner, Work work, CleanReport& report) {
+  work.scale.first_frame = work.first;
+  work.scale.frame_rate_hz = motion.frame_rate_hz;
+  work.scale.peak_loss_limit = work.settings.peak_loss_limit;
+  const bool holds_feet = work.settings.feet && std::is_same_v<AnyClip, Clip>;
+  if (work.settings.fill || holds_feet) {
+    clean_whole(motion, cleaner, work, report);
+  } else {
+    clean_track_by_track(motion, cleaner, work, report);
+  }
+}
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner, const CleanSettings& settings,
+                       std::string method_name) {
+  return clean_clip(Clip(clip), cleaner, settings, std::move(method_name));
+}
+
+CleanResult clean_clip(Clip&& clip, const Cleaner& cleaner, const CleanSettings& settings,
+                       std::string method_name) {
+  const Stopwatch stopwatch;
+  const std::size_t frames = clip.frame_count();
+  check_settings(settings, frames);
+  CleanResult result;
+  CleanReport& report = result.report;
+  report.method = std::move(method_name);
+  report.unit = "deg";
+  report.frames = frames;
+  report.frame_rate_hz = clip.frame_rate_hz;
+  report.calibration_frames = leading_calibration_frames(clip);
+  const std::size_t first = report.calibration_frames;
+  const Work work{settings,      selection_of(clip, settings),
+                  first,         frame_weights(settings, frames, first, clip.frame_rate_hz),
+                  joint_scale(), 1e-11 * typical_bone_length(clip.skeleton)};
+  result.clip = std::move(clip);
+  on_motion(result.clip, first, [&](Clip& motion) { clean_motion(motion, cleaner, work, report); });
+  if (report.feet && takes_part_only(settings) && !report.feet->contacts.empty())
+    report.feet->after = feet_figures(result.clip, report.feet->contacts);
+  report.seconds = stopwatch.seconds();
+  return result;
+}
+
+MarkerResult clean_markers(const MarkerClip& clip, const Cleaner& cleaner,
+                           const CleanSettings& settings, std::string method_name) {
+  const Stopwatch stopwatch;
+  const std::size_t frames = clip.frame_count();
+  check_settings(settings, frames);
+  MarkerResult result{clip, {}};
+  CleanReport& report = result.report;
+  report.kind = TakeKind::markers;
+  report.method = std::move(method_name);
+  report.unit = clip.unit;
+  report.frames = frames;
+  report.frame_rate_hz = clip.frame_rate_hz;
+  report.body_height = body_height(clip);
+  if (settings.feet && settings.feet->mode != FeetMode::off) {
+    report.warnings.emplace_back(
+        "feet: markers are measured points and stay where they are; feet are held in takes of "
+        "joints");
+  }
+  clean_motion(result.clip, cleaner,
+               {settings, selection_of(clip, settings), 0,
+                frame_weights(settings, frames, 0, clip.frame_rate_hz),
+                marker_scale(clip.unit, report.body_height), 1e-13 * report.body_height},
+               report);
+  report.seconds = stopwatch.seconds();
+  return result;
+}
+
+}  // namespace kinemend

@@ -1,0 +1,117 @@
+#include "pipeline/gap_step.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "kinemend/methods.hpp"
+
+namespace kinemend {
+
+namespace {
+
+std::unique_ptr<Cleaner> make_despiker() { return make_auto({.sensitivity = 0, .despike = true}); }
+
+bool holds_more_spikes(const InPlaceTrace& found, const InPlaceTrace& repaired) {
+  for (std::size_t n = 0; n < found.actions.size(); ++n) {
+    for (std::size_t f = 0; f < found.actions[n].size(); ++f) {
+      if (found.actions[n][f] != Action::despiked) continue;
+      if (repaired.actions[n].empty() || repaired.actions[n][f] != Action::despiked) return true;
+    }
+  }
+  return false;
+}
+
+void keep_gaps(const Clip& measured, Clip& clip) {
+  clip.observed = measured.observed;
+  clip.observed_positions = measured.observed_positions;
+}
+void keep_gaps(const MarkerClip& measured, MarkerClip& clip) { clip.observed = measured.observed; }
+
+// What the gaps are filled from: the cleaned take, or one that was cleaned without its spikes.
+template <class AnyClip>
+AnyClip evidence_of(const AnyClip& measured, const Cleaner& cleaner, const Selection& selection,
+                    const InPlaceTrace& trace, const AnyClip& cleaned) {
+  AnyClip evidence = measured;
+  if (holds_more_spikes(clean_in_place(*make_despiker(), evidence), trace))
+    clean_in_place(cleaner, evidence, selection);
+  else
+    evidence = cleaned;
+  keep_gaps(measured, evidence);
+  return evidence;
+}
+
+// Calls `take_over(i)` for the samples that were not measured, are filled, and may be.
+template <class TakeOver>
+void for_each_filled(const std::vector<std::uint8_t>& measured,
+                     const std::vector<std::uint8_t>& filled,
+                     const std::vector<std::uint8_t>& selected, const std::vector<double>& weights,
+                     const TakeOver& take_over) {
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    const bool may_change = selected[i % selected.size()] != 0 && weights[i / selected.size()] > 0;
+    if (measured[i] == 0 && filled[i] != 0 && may_change) take_over(i);
+  }
+}
+
+// The same of the root position and the translations, which are selected with their joints.
+void take_over_positions(const Clip& measured, const Clip& filled,
+                         const std::vector<std::uint8_t>& selected,
+                         const std::vector<double>& weights, Clip& clip) {
+  const std::size_t translated = clip.translated_joints.size();
+  std::vector<std::uint8_t> tracks{selected[0]};
+  for (const auto joint : clip.translated_joints)
+    tracks.push_back(selected[static_cast<std::size_t>(joint)]);
+  const auto take_over = [&](std::size_t i) {
+    const std::size_t frame = i / tracks.size(), track = i % tracks.size();
+    clip.observed_positions[i] = 1;
+    if (track == 0) {
+      clip.root_positions[frame] = filled.root_positions[frame];
+    } else {
+      const std::size_t at = frame * translated + track - 1;
+      clip.joint_translations[at] = filled.joint_translations[at];
+    }
+  };
+  for_each_filled(measured.observed_positions, filled.observed_positions, tracks, weights,
+                  take_over);
+}
+
+void drop_unselected(FillReport& report, const std::vector<std::uint8_t>& selected) {
+  std::erase_if(report.gaps,
+                [&](const GapOutcome& outcome) { return selected[outcome.gap.track] == 0; });
+}
+
+}  // namespace
+
+FillReport fill_step(const Clip& measured, const Cleaner& cleaner, const Selection& selection,
+                     const std::vector<double>& weights, const FillSettings& settings,
+                     const InPlaceTrace& trace, Clip& cleaned, const FillCheck& check) {
+  if (find_gaps(measured).empty() && find_position_gaps(measured).empty()) return {};
+  Clip filled = evidence_of(measured, cleaner, selection, trace, cleaned);
+  FillReport report = fill_with_plan(filled, settings, check).report;
+  drop_unselected(report, selection.owners);
+  for_each_filled(measured.observed, filled.observed, selection.owners, weights,
+                  [&](std::size_t i) {
+                    cleaned.local_rotations[i] = filled.local_rotations[i];
+                    cleaned.observed[i] = 1;
+                  });
+  take_over_positions(measured, filled, selection.owners, weights, cleaned);
+  return report;
+}
+
+FillReport fill_step(const MarkerClip& measured, const Cleaner& cleaner, const Selection& selection,
+                     const std::vector<double>& weights, const FillSettings& settings,
+                     const InPlaceTrace& trace, MarkerClip& cleaned, const FillCheck& check) {
+  if (find_gaps(measured).empty()) return {};
+  MarkerClip filled = evidence_of(measured, cleaner, selection, trace, cleaned);
+  FillReport report = fill_with_plan(filled, settings, check).report;
+  drop_unselected(report, selection.owners);
+  for_each_filled(measured.observed, filled.observed, selection.owners, weights,
+                  [&](std::size_t i) {
+                    cleaned.positions[i] = filled.positions[i];
+                    cleaned.observed[i] = 1;
+                    if (!cleaned.residuals.empty()) cleaned.residuals[i] = 0;
+                  });
+  return report;
+}
+
+}  // namespace kinemend

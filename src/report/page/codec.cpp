@@ -1,0 +1,173 @@
+#include "report/page/codec.hpp"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <new>
+
+namespace kinemend::page {
+
+namespace {
+
+using Words = std::vector<std::uint32_t>;
+
+// 0, 1, 2, ... for 0, -1, 1, ...
+std::uint32_t folded(std::uint32_t remainder) {
+  return (remainder << 1) ^ (0U - (remainder >> 31));
+}
+
+// How many bits the remainders need, about.
+double cost(const Words& remainders) {
+  double bits = 0;
+  for (const std::uint32_t word : remainders) bits += std::log2(1.0 + word);
+  return bits;
+}
+
+void append_coded(std::span<const Words> candidates, std::string& bytes) {
+  std::size_t best = 0;
+  for (std::size_t c = 1; c < candidates.size(); ++c) {
+    if (cost(candidates[c]) < cost(candidates[best])) best = c;
+  }
+  bytes += static_cast<char>(best);
+  for (int shift = 0; shift < 32; shift += 8) {
+    for (const std::uint32_t word : candidates[best])
+      bytes += static_cast<char>((word >> shift) & 0xFFU);
+  }
+}
+
+Words words_of(const std::vector<std::int32_t>& samples) {
+  return {samples.begin(), samples.end()};
+}
+
+Words difference(const Words& a, const Words& b) {
+  Words result(a.size());
+  std::transform(a.begin(), a.end(), b.begin(), result.begin(), std::minus<>());
+  return result;
+}
+
+void append_first(const Words& samples, std::size_t stride, std::string& bytes) {
+  std::array<Words, 3> candidates;
+  std::uint32_t last = 0, before_last = 0;
+  for (std::size_t f = 0; f < samples.size(); f += stride) {
+    const std::uint32_t sample = samples[f];
+    candidates[0].push_back(folded(sample));
+    candidates[1].push_back(folded(sample - last));
+    candidates[2].push_back(folded(sample - 2 * last + before_last));
+    before_last = f == 0 ? sample : last;
+    last = sample;
+  }
+  append_coded(candidates, bytes);
+}
+
+// The sample on the line from `a` to `b`, `part` of `stride` on, rounded down.
+std::uint32_t between(std::uint32_t a, std::uint32_t b, std::size_t part, std::size_t stride) {
+  const auto from = static_cast<std::int32_t>(a);
+  const auto way = static_cast<std::int64_t>(static_cast<std::int32_t>(b)) - from;
+  const auto scaled = static_cast<double>(way * static_cast<std::int64_t>(part));
+  return a + static_cast<std::uint32_t>(
+                 static_cast<std::int64_t>(std::floor(scaled / static_cast<double>(stride))));
+}
+
+void append_second(const Words& samples, std::size_t stride, std::string& bytes) {
+  std::array<Words, 2> candidates;
+  for (std::size_t f = 0; f < samples.size(); ++f) {
+    const std::size_t part = f % stride;
+    if (part == 0) continue;
+    const std::size_t left = f - part, right = left + stride;
+    const std::uint32_t line = right < samples.size()
+                                   ? between(samples[left], samples[right], part, stride)
+                                   : samples[left];
+    candidates[0].push_back(folded(samples[f]));
+    candidates[1].push_back(folded(samples[f] - line));
+  }
+  append_coded(candidates, bytes);
+}
+
+// How rough a track is: the size of its second differences.
+double roughness(const std::vector<std::int32_t>& samples) {
+  double sum = 0;
+  for (std::size_t f = 2; f < samples.size(); ++f)
+    sum += std::fabs(static_cast<double>(samples[f]) - 2.0 * samples[f - 1] + samples[f - 2]);
+  return sum;
+}
+
+template <class Append>
+std::string part_of(std::span<const Quantised> channels, const Append& append) {
+  std::string bytes;
+  for (const Quantised& channel : channels) {
+    if (channel.before.empty()) continue;
+    const Words before = words_of(channel.before), after = words_of(channel.after);
+    if (after.empty()) {
+      append(before, bytes);
+      continue;
+    }
+    // Noise costs most: it is told once, in the difference.
+    const bool before_first = roughness(channel.before) < roughness(channel.after);
+    bytes += static_cast<char>(before_first ? 1 : 0);
+    const Words& first = before_first ? before : after;
+    append(first, bytes);
+    append(difference(before_first ? after : before, first), bytes);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+std::vector<std::int32_t> quantised(std::span<const double> values, double quantum) {
+  std::vector<std::int32_t> result(values.size());
+  std::transform(values.begin(), values.end(), result.begin(), [&](double value) {
+    return std::isfinite(value) ? static_cast<std::int32_t>(std::llround(value / quantum)) : 0;
+  });
+  return result;
+}
+
+double quantum_for(double quantum, double largest) {
+  constexpr double most = 1 << 30;
+  return std::max(quantum, largest / most);
+}
+
+std::string first_part(std::span<const Quantised> channels, std::size_t stride) {
+  return part_of(channels, [&](const Words& samples, std::string& bytes) {
+    append_first(samples, stride, bytes);
+  });
+}
+
+std::string second_part(std::span<const Quantised> channels, std::size_t stride) {
+  if (stride <= 1) return "";
+  return part_of(channels, [&](const Words& samples, std::string& bytes) {
+    append_second(samples, stride, bytes);
+  });
+}
+
+std::string deflated(std::string_view bytes) {
+  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+  std::string result(size, '\0');
+  const int status =
+      compress2(reinterpret_cast<Bytef*>(result.data()), &size,
+                reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()), 7);
+  // The room is enough for anything: only memory can be short.
+  if (status != Z_OK) throw std::bad_alloc();
+  result.resize(size);
+  return result;
+}
+
+std::string base64(std::string_view bytes) {
+  static constexpr std::string_view digits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    }
+    for (std::size_t k = 0; k < 4; ++k)
+      text += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63U] : '=';
+  }
+  return text;
+}
+
+}  // namespace kinemend::page

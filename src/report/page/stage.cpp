@@ -1,0 +1,125 @@
+#include "report/page/stage.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "base/quantiles.hpp"
+#include "check/feet.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/kinematics.hpp"
+
+namespace kinemend::page {
+
+namespace {
+
+using check::BodyPoints, feet::along, feet::Up;
+
+// The level that nearly all of the body stays above in nearly all frames looked at.
+template <class PointAt>
+double lowest_level(std::size_t frames, std::size_t points, Up up, const PointAt& at) {
+  constexpr std::size_t looked_at = 500;
+  std::vector<double> lowest;
+  const std::size_t count = std::min(frames, looked_at);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::optional<double> low;
+    for (std::size_t p = 0; p < points; ++p) {
+      const std::optional<Vec3> point = at(i * frames / count, p);
+      if (point) low = std::min(low.value_or(along(*point, up)), along(*point, up));
+    }
+    if (low) lowest.push_back(*low);
+  }
+  return quantile_of(lowest, 0.05);
+}
+
+// Contacts and the floor that they lie on, of a body in metres. `points`: what each of its points
+// is in the take.
+void find_feet(const BodyPoints& body, const std::vector<std::size_t>& points,
+               double metres_per_unit, Stage& stage) {
+  if (body.feet.empty()) return;
+  const auto up = find_up(body);
+  if (!up) return;
+  stage.up = *up;
+  std::vector<double> levels;
+  for (const check::Contact& contact : check::find_contacts(body, *up)) {
+    StageContact& added = stage.contacts.emplace_back();
+    added.first_frame = contact.span.first;
+    added.last_frame = contact.span.last;
+    for (const std::size_t point : body.feet[contact.foot].points)
+      added.points.push_back(points[point]);
+    levels.push_back(along(contact.place, *up) / metres_per_unit);
+  }
+  if (!levels.empty()) stage.floor = median_of(levels);
+}
+
+std::vector<std::size_t> counted_up(std::size_t count) {
+  std::vector<std::size_t> result(count);
+  std::iota(result.begin(), result.end(), std::size_t{0});
+  return result;
+}
+
+double scale_of(const Clip& clip) {
+  if (clip.metres_per_unit > 0) return clip.metres_per_unit;
+  const auto guess = guess_length_unit(clip.skeleton);
+  return guess ? guess->metres : 0;
+}
+
+}  // namespace
+
+Stage stage_of(const Clip& clip) {
+  Stage stage;
+  stage.height = body_height(clip.skeleton);
+  if (!(stage.height > 0)) stage.height = 1;
+  if (clip.frame_count() == 0) return stage;
+  stage.up = {guess_up_axis(clip), 1};
+  if (const double scale = scale_of(clip); scale > 0) {
+    find_feet(check::body_points(clip, scale),
+              counted_up(clip.joint_count() + clip.skeleton.end_sites.size()), scale, stage);
+  }
+  if (!stage.contacts.empty()) return stage;
+  Pose pose;
+  std::size_t posed = clip.frame_count();
+  stage.floor = lowest_level(clip.frame_count(), clip.joint_count(), stage.up,
+                             [&](std::size_t frame, std::size_t joint) -> std::optional<Vec3> {
+                               if (posed != frame) pose = forward_kinematics(clip, frame);
+                               posed = frame;
+                               return pose.positions[joint];
+                             });
+  return stage;
+}
+
+Stage stage_of(const MarkerClip& clip) {
+  Stage stage;
+  stage.height = clip.frame_count() > 0 ? body_height(clip) : 1;
+  if (!(stage.height > 0)) stage.height = 1;
+  if (clip.frame_count() == 0) return stage;
+  stage.up = {guess_up_axis(clip), 1};
+  std::vector<std::size_t> markers;
+  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+    if (clip.holds_positions(m)) markers.push_back(m);
+  }
+  if (const double scale = metres_per_unit(clip.unit); scale > 0)
+    find_feet(check::body_points(clip, markers, scale), markers, scale, stage);
+  if (!stage.contacts.empty()) return stage;
+  stage.floor = lowest_level(clip.frame_count(), markers.size(), stage.up,
+                             [&](std::size_t frame, std::size_t i) -> std::optional<Vec3> {
+                               if (!clip.is_observed(frame, markers[i])) return std::nullopt;
+                               return clip.position(frame, markers[i]);
+                             });
+  return stage;
+}
+
+std::vector<StageContact> contacts_of(const FeetReport& report, const Clip& clip) {
+  const std::vector<Leg> legs = find_legs(clip.skeleton);
+  std::vector<StageContact> contacts;
+  for (const FootContact& contact : report.contacts) {
+    if (contact.leg >= legs.size()) continue;
+    const Leg& leg = legs[contact.leg];
+    const bool is_toe = contact.part == FootPart::toe && leg.toe >= 0;
+    contacts.push_back({{static_cast<std::size_t>(is_toe ? leg.toe : leg.ankle)},
+                        contact.first_frame,
+                        contact.last_frame});
+  }
+  return contacts;
+}
+
+}  // namespace kinemend::page

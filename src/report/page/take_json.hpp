@@ -1,0 +1,21 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "kinemend/clip.hpp"
+#include "kinemend/marker_clip.hpp"
+#include "report/page/channels.hpp"
+#include "report/page/stage.hpp"
+
+// What the page must know of a take beside its channels.
+namespace kinemend::page {
+
+using Json = nlohmann::ordered_json;
+
+/// Names, skeleton, gaps and stage. Frames count from 0 there.
+Json take_json(const Clip& before, const Clip* after, const Channels& channels, const Stage& stage);
+Json take_json(const MarkerClip& before, const MarkerClip* after, const Channels& channels,
+               const Stage& stage);
+
+}  // namespace kinemend::page

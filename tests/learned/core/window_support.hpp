@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+
+#include "learned/example/window_bases.hpp"
+#include "random_values.hpp"
+
+namespace kinemend {
+
+// M' L x K
+inline Eigen::MatrixXd matrix_of(const WindowBases& bases) {
+  return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+      bases.values.data(), bases.frames * bases.channels, bases.count);
+}
+
+// Independent, of no length in particular.
+inline WindowBases random_bases(std::size_t frames, std::size_t hop, std::size_t channels,
+                                std::size_t count, std::uint64_t seed) {
+  return {frames, hop, channels, count, test::random_values(frames * channels * count, seed),
+          false};
+}
+
+}  // namespace kinemend

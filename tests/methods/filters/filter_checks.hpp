@@ -1,0 +1,108 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "kinemend/cleaner.hpp"
+#include "kinemend/clip.hpp"
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/rotation.hpp"
+#include "registry/takes.hpp"
+#include "rotation/random_rotations.hpp"
+
+// What the tests of the orientation filters share.
+namespace kinemend::test {
+
+/// The rotations of a joint, frame by frame.
+inline std::vector<Quat> track_of(const Clip& clip, std::size_t joint) {
+  std::vector<Quat> track;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) track.push_back(clip.rotation(f, joint));
+  return track;
+}
+
+/// Distance of the quaternions, up to sign: it sees what an angle, which has no digits left near 0,
+/// does not.
+inline double difference(Quat a, Quat b) { return std::min(norm(a + -b), norm(a + b)); }
+
+inline double largest_difference(const Clip& a, const Clip& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.local_rotations.size(); ++i) {
+    largest = std::max(largest, difference(a.local_rotations[i], b.local_rotations[i]));
+  }
+  for (std::size_t i = 0; i < a.root_positions.size(); ++i) {
+    largest = std::max(largest, norm(a.root_positions[i] - b.root_positions[i]));
+  }
+  for (std::size_t i = 0; i < a.joint_translations.size(); ++i) {
+    largest = std::max(largest, norm(a.joint_translations[i] - b.joint_translations[i]));
+  }
+  return largest;
+}
+
+inline Clip cleaned(Clip clip, const Cleaner& cleaner) {
+  clean_in_place(cleaner, clip);
+  return clip;
+}
+
+/// The moving take with noise.
+inline Clip noisy_take(std::size_t frames, double rate_hz = 100, double noise_deg = 2,
+                       std::uint64_t seed = 1) {
+  Clip clip = moving_take(frames, rate_hz);
+  add_noise(clip, noise_deg, 0.5, seed);
+  return clip;
+}
+
+/// Every rotation q as a q b, with an a and b of its own for each joint.
+inline Clip in_other_frames(Clip clip, std::uint64_t seed) {
+  Random random(seed);
+  for (std::size_t j = 0; j < clip.joint_count(); ++j) {
+    const Quat a = random_rotation(random), b = random_rotation(random);
+    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+      clip.rotation(f, j) = normalized(a * clip.rotation(f, j) * b);
+    }
+  }
+  return clip;
+}
+
+inline Clip reversed(const Clip& clip) {
+  Clip result = clip;
+  const std::size_t frames = clip.frame_count();
+  for (std::size_t f = 0; f < frames; ++f) {
+    for (std::size_t j = 0; j < clip.joint_count(); ++j) {
+      result.rotation(f, j) = clip.rotation(frames - 1 - f, j);
+    }
+    result.root_positions[f] = clip.root_positions[frames - 1 - f];
+    for (std::size_t i = 0; i < clip.translated_joints.size(); ++i) {
+      const std::size_t width = clip.translated_joints.size();
+      result.joint_translations[f * width + i] =
+          clip.joint_translations[(frames - 1 - f) * width + i];
+    }
+  }
+  return result;
+}
+
+/// The take with something else in frame f.
+inline Clip changed_at(Clip clip, std::size_t f) {
+  for (std::size_t j = 0; j < clip.joint_count(); ++j) {
+    clip.rotation(f, j) = clip.rotation(f, j) * exp({0.3, -0.2, 0.1});
+  }
+  clip.root_positions[f] += {1, 2, 3};
+  return clip;
+}
+
+/// A take of one joint, held at a rotation of its own but for white noise.
+inline Clip held_take(std::size_t frames, double noise_deg, std::uint64_t seed) {
+  Clip clip;
+  clip.skeleton.add_joint("joint", -1, {0, 1, 0}, make_channels(true, parse_rotation_order("ZXY")));
+  clip.frame_rate_hz = 100;
+  clip.root_positions.assign(frames, {});
+  Random random(seed);
+  for (std::size_t f = 0; f < frames; ++f) {
+    clip.local_rotations.push_back(exp({0.4, -1, 0.2}) *
+                                   exp(random_vector(random, noise_deg * radians_per_degree)));
+  }
+  return clip;
+}
+
+}  // namespace kinemend::test

@@ -1,0 +1,183 @@
+#include "kinemend/stream.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+#include "kinemend/error.hpp"
+#include "kinemend/methods.hpp"
+#include "registry/takes.hpp"
+
+namespace kinemend::test {
+namespace {
+
+Frame frame_at(const Clip& clip, std::size_t f) { return frame_of(view_of(clip), f); }
+
+// All frames pushed and flushed; checks that every frame comes out at its time.
+std::vector<Frame> run(Stream& stream, const Clip& clip) {
+  std::vector<Frame> result;
+  Frame out;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    const bool came = stream.push(frame_at(clip, f), out);
+    EXPECT_EQ(came, f >= stream.latency_frames()) << f;
+    if (came) result.push_back(out);
+  }
+  while (stream.flush(out)) result.push_back(out);
+  EXPECT_EQ(result.size(), clip.frame_count());
+  EXPECT_FALSE(stream.flush(out));
+  return result;
+}
+
+void expect_equal(const std::vector<Frame>& live, const Clip& offline, std::size_t first = 0) {
+  ASSERT_EQ(live.size(), offline.frame_count());
+  double turn = 0, shift = 0;
+  for (std::size_t f = first; f < live.size(); ++f) {
+    for (std::size_t j = 0; j < offline.joint_count(); ++j) {
+      turn = std::max(turn, angle_between(live[f].rotations[j], offline.rotation(f, j)));
+    }
+    shift = std::max(shift, norm(live[f].positions[0] - offline.root_positions[f]));
+    const std::size_t width = live[f].positions.size() - 1;
+    for (std::size_t i = 0; i < width; ++i) {
+      shift = std::max(shift,
+                       norm(live[f].positions[i + 1] - offline.joint_translations[f * width + i]));
+    }
+  }
+  EXPECT_LT(turn, 1e-12);
+  EXPECT_LT(shift, 1e-10);  // of positions of about 100
+}
+
+struct NamedLive {
+  std::string name;
+  std::string method;
+  OptionValues options;
+
+  friend void PrintTo(const NamedLive& live, std::ostream* out) { *out << live.name; }
+};
+
+// Every method of the table that runs live as it is, and the causal forms of the others.
+std::vector<NamedLive> live_methods() {
+  std::vector<NamedLive> list;
+  for (const std::string& name : method_names()) {
+    const bool live = make_cleaner(name)->live_support(120).kind != LiveSupport::Kind::none;
+    if (live) list.push_back({camel_case(name), name, {}});
+    for (const OptionSpec& spec : find_method(name).options) {
+      if (spec.name == "causal")
+        list.push_back({camel_case(name) + "Causal", name, {{"causal", true}}});
+    }
+  }
+  list.push_back({"KalmanFilter", "kalman", {{"smoother", false}}});
+  list.push_back({"KalmanPositionFilter",
+                  "kalman",
+                  {{"smoother", false}, {"model", std::string("position")}}});
+  list.push_back({"MedianOfThree", "median", {{"window_s", 0.02}}});
+  return list;
+}
+
+class LiveMethod : public testing::TestWithParam<NamedLive> {
+ protected:
+  std::unique_ptr<Cleaner> cleaner_ = make_cleaner(GetParam().method, GetParam().options);
+
+  Clip take(std::size_t frames) const {
+    Clip clip = moving_take(frames, 120);
+    add_noise(clip, 1.5, 0.5, 1);
+    Random random(2);
+    for (std::size_t f = 0; f < frames; ++f) {
+      if (random.chance(0.05)) clip.rotation(f, 1) = clip.rotation(f, 1) * exp({0.6, 0.2, 0});
+      if (random.chance(0.05)) clip.root_positions[f] += {0, 15, 0};
+      if (random.chance(0.5)) clip.rotation(f, 2) = -clip.rotation(f, 2);
+    }
+    return clip;
+  }
+  Clip offline(Clip clip) const {
+    clean_in_place(*cleaner_, clip);
+    return clip;
+  }
+};
+
+TEST_P(LiveMethod, GivesWhatItGivesForTheWholeTake) {
+  const Clip clip = take(200);
+  expect_equal(run(*make_stream(*cleaner_, clip), clip), offline(clip));
+}
+
+TEST_P(LiveMethod, GivesTheSameForTakesShorterThanItsWindow) {
+  for (const std::size_t frames : {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 14}) {
+    const Clip clip = take(frames);
+    SCOPED_TRACE(frames);
+    expect_equal(run(*make_stream(*cleaner_, clip), clip), offline(clip));
+  }
+}
+
+TEST_P(LiveMethod, StartsAfreshWhenReset) {
+  const Clip clip = take(60);
+  const auto stream = make_stream(*cleaner_, clip);
+  const std::vector<Frame> first = run(*stream, clip);
+  stream->reset();
+  const std::vector<Frame> second = run(*stream, clip);
+  for (std::size_t f = 0; f < 60; ++f) {
+    ASSERT_EQ(first[f].rotations, second[f].rotations) << f;
+    ASSERT_EQ(first[f].positions, second[f].positions) << f;
+  }
+  stream->reset();
+  Frame out;
+  stream->push(frame_at(clip, 0), out);
+  stream->reset();  // in the middle of a take
+  const std::vector<Frame> third = run(*stream, clip);
+  EXPECT_EQ(first[59].rotations, third[59].rotations);
+}
+
+TEST_P(LiveMethod, IsDelayedByTheSameNumberOfFramesFromTheFirstOn) {
+  const Clip clip = take(50);
+  const auto stream = make_stream(*cleaner_, clip);
+  const LiveSupport support = cleaner_->live_support(120);
+  EXPECT_EQ(stream->latency_frames(), support.half_window_frames);
+  run(*stream, clip);  // checks each frame's time
+  EXPECT_EQ(stream->latency_frames(), support.half_window_frames);
+}
+
+TEST_P(LiveMethod, TakesNoNoticeOfJointsThatWereNotSeen) {
+  Clip a = take(120), b = a;
+  a.observed.assign(a.local_rotations.size(), 1);
+  for (std::size_t f = 60; f < 64; ++f) {
+    a.observed[f * a.joint_count() + 2] = 0;
+    a.rotation(f, 2) = {};
+    b.rotation(f, 2) = exp({0.1, 3, 0});
+  }
+  b.observed = a.observed;
+  const auto first = run(*make_stream(*cleaner_, a), a),
+             second = run(*make_stream(*cleaner_, b), b);
+  for (std::size_t f = 0; f < 120; ++f) {
+    ASSERT_LT(angle_between(first[f].rotations[2], second[f].rotations[2]), 1e-12) << f;
+    ASSERT_LT(angle_between(first[f].rotations[2], motion_at(2, static_cast<double>(f) / 120)), 1.2)
+        << f;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, LiveMethod, testing::ValuesIn(live_methods()),
+                         [](const auto& method) { return method.param.name; });
+
+TEST(Stream, RefusesAMethodThatNeedsTheWholeTake) {
+  const Clip clip = moving_take(5, 120);
+  const auto wavelet = make_wavelet();
+  try {
+    make_stream(*wavelet, clip);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_NE(std::string(error.what()).find("needs the whole take"), std::string::npos);
+  }
+}
+
+TEST(Stream, RefusesAFrameOfAnotherSkeleton) {
+  const Clip clip = moving_take(5, 120);
+  Frame frame = frame_at(clip, 0), out;
+  frame.rotations.pop_back();
+  for (const char* method : {"median", "one-euro"}) {
+    const auto cleaner = make_cleaner(method);
+    EXPECT_THROW(make_stream(*cleaner, clip)->push(frame, out), Error);
+  }
+}
+
+}  // namespace
+}  // namespace kinemend::test

@@ -1,0 +1,271 @@
+// Laws that every method in the table keeps, with its default options.
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+
+#include "kinemend/clean.hpp"
+#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/experimental/synth.hpp"
+#include "registry/takes.hpp"
+
+namespace kinemend::test {
+namespace {
+
+class Every : public testing::TestWithParam<std::string> {
+ protected:
+  std::unique_ptr<Cleaner> cleaner_ = make_cleaner(GetParam());
+
+  Clip cleaned(const Clip& clip, const CleanSettings& settings = {}) const {
+    return clean_clip(clip, *cleaner_, settings).clip;
+  }
+  // Follows the motion late by nature.
+  bool is_causal() const { return cleaner_->live_support(120).kind == LiveSupport::Kind::causal; }
+};
+
+Clip noisy_take() {
+  Clip clip = moving_take(240, 120);
+  add_noise(clip, 1.5, 0.5, 1);
+  return clip;
+}
+
+void expect_same(const Clip& a, const Clip& b) {
+  EXPECT_EQ(a.local_rotations, b.local_rotations);
+  EXPECT_EQ(a.root_positions, b.root_positions);
+  EXPECT_EQ(a.joint_translations, b.joint_translations);
+}
+
+TEST_P(Every, GivesAValidClipOfTheSameShape) {
+  const Clip input = noisy_take();
+  const Clip output = cleaned(input);
+  EXPECT_NO_THROW(output.validate());
+  EXPECT_EQ(output.frame_count(), input.frame_count());
+  EXPECT_EQ(output.frame_rate_hz, input.frame_rate_hz);
+  EXPECT_EQ(output.skeleton.names, input.skeleton.names);
+  EXPECT_EQ(output.observed, input.observed);
+}
+
+TEST_P(Every, KeepsATPoseAtTheStartOutOfTheMotion) {
+  const Clip motion = noisy_take();
+  Clip input = empty_take(1 + motion.frame_count(), 120);
+  std::copy(motion.local_rotations.begin(), motion.local_rotations.end(),
+            input.local_rotations.begin() + static_cast<std::ptrdiff_t>(input.joint_count()));
+  std::copy(motion.root_positions.begin(), motion.root_positions.end(),
+            input.root_positions.begin() + 1);
+  std::copy(motion.joint_translations.begin(), motion.joint_translations.end(),
+            input.joint_translations.begin() + 1);
+  ASSERT_EQ(leading_calibration_frames(input), 1U);
+  const Clip output = cleaned(input);
+  expect_same(slice(output, 0, 1), slice(input, 0, 1));
+  expect_same(slice(output, 1, output.frame_count()), cleaned(motion));
+}
+
+TEST_P(Every, DoesNotMindTheSignOfQuaternions) {
+  const Clip input = noisy_take();
+  Clip flipped = input;
+  Random random(2);
+  for (Quat& q : flipped.local_rotations) {
+    if (random.chance(0.5)) q = -q;
+  }
+  EXPECT_LT(max_angle_deg(cleaned(input), cleaned(flipped)), 1e-7);
+}
+
+// The lag is the shift d that best explains out(t) - truth(t) = -d v(t), in frames.
+double lag_frames(const Clip& truth, const Clip& output) {
+  double above = 0, below = 0;
+  for (std::size_t f = 1; f + 1 < truth.frame_count(); ++f) {
+    for (std::size_t j = 0; j < truth.joint_count(); ++j) {
+      const Quat q = truth.rotation(f, j);
+      const Vec3 velocity =
+          0.5 * log(conjugate(truth.rotation(f - 1, j)) * truth.rotation(f + 1, j));
+      above -= dot(log(conjugate(q) * output.rotation(f, j)), velocity);
+      below += dot(velocity, velocity);
+    }
+  }
+  return above / below;
+}
+
+TEST_P(Every, DoesNotShiftTheMotionInTime) {
+  const Clip truth = moving_take(240, 120);
+  const double lag = lag_frames(truth, cleaned(noisy_take()));
+  if (is_causal()) {
+    EXPECT_GT(lag, -0.1);
+  } else {
+    EXPECT_NEAR(lag, 0, 0.1);
+  }
+}
+
+TEST_P(Every, LeavesAConstantTakeByteForByte) {
+  Clip clip = empty_take(100, 120);
+  for (std::size_t f = 0; f < 100; ++f) {
+    for (std::size_t j = 0; j < clip.joint_count(); ++j) clip.rotation(f, j) = motion_at(j, 0.37);
+  }
+  expect_same(cleaned(clip), clip);
+}
+
+TEST_P(Every, LeavesJointsThatWereNotAskedForByteForByte) {
+  const Clip input = noisy_take();
+  CleanSettings settings;
+  settings.joints = {"Spine"};
+  const Clip output = cleaned(input, settings);
+  for (std::size_t f = 0; f < input.frame_count(); ++f) {
+    for (std::size_t j = 0; j < input.joint_count(); ++j) {
+      if (j == 1) continue;
+      ASSERT_EQ(output.rotation(f, j), input.rotation(f, j)) << f << " " << j;
+    }
+  }
+  EXPECT_EQ(output.root_positions, input.root_positions);
+  EXPECT_EQ(output.joint_translations, input.joint_translations);
+}
+
+TEST_P(Every, LeavesWhatIsNotSelectedAloneAlsoWithoutThePipeline) {
+  const Clip input = noisy_take();
+  Clip output = input;
+  Selection selection;
+  selection.owners = {0, 1, 0, 1, 0, 0, 0};
+  selection.root_position = false;
+  clean_in_place(*cleaner_, output, selection);
+  for (std::size_t f = 0; f < input.frame_count(); ++f) {
+    for (const std::size_t j : {0, 2, 4, 5, 6}) {
+      ASSERT_EQ(output.rotation(f, j), input.rotation(f, j)) << f << " " << j;
+    }
+  }
+  EXPECT_EQ(output.root_positions, input.root_positions);
+  EXPECT_EQ(output.joint_translations, input.joint_translations);
+}
+
+TEST_P(Every, KeepsASteadyTurnUpToBothEnds) {
+  if (is_causal()) return;
+  Clip clip = empty_take(150, 120);
+  for (std::size_t f = 0; f < 150; ++f) {
+    const double t = static_cast<double>(f) / 120;
+    clip.root_positions[f] = {100 * t, 90, -30 * t};
+    clip.rotation(f, 0) = exp((t - 0.6) * Vec3{0.5, 1.5, 0.2});
+    clip.rotation(f, 1) = exp({0.3, -0.2, 0.9}) * exp(t * Vec3{-0.7, 0.2, 0.1});
+    clip.rotation(f, 3) = from_euler({1.1 * t, 0, 0}, parse_rotation_order("X"));
+  }
+  const Clip output = cleaned(clip);
+  EXPECT_LT(max_angle_deg(output, clip), 0.05);
+  for (std::size_t f = 0; f < 150; ++f) {
+    ASSERT_LT(norm(output.root_positions[f] - clip.root_positions[f]), 0.05) << f;
+  }
+}
+
+TEST_P(Every, TakesAnyNumberOfFrames) {
+  for (const std::size_t frames : {0, 1, 2, 3, 4, 7}) {
+    Clip clip = moving_take(frames, 120);
+    add_noise(clip, 1.5, 0.5, frames);
+    const Clip output = cleaned(clip);
+    EXPECT_EQ(output.frame_count(), frames);
+    EXPECT_NO_THROW(output.validate());
+    EXPECT_LT(max_angle_deg(output, clip), 30) << frames;
+  }
+}
+
+TEST_P(Every, GivesTheSameOnAnyNumberOfThreads) {
+  Clip clip = moving_take(1500, 120);  // enough for the work to be spread
+  add_noise(clip, 1.5, 0.5, 3);
+  const auto on_threads = [&](std::size_t count) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, count);
+    return cleaned(clip);
+  };
+  expect_same(on_threads(1), on_threads(4));
+}
+
+TEST_P(Every, OfStrengthZeroIsTheIdentity) {
+  const Clip input = noisy_take();
+  CleanSettings settings;
+  settings.strength = 0;
+  expect_same(cleaned(input, settings), input);
+}
+
+TEST_P(Every, RespectsTheLargestChange) {
+  Clip input = noisy_take();
+  input.rotation(100, 2) = input.rotation(100, 2) * exp({1, 0, 0});
+  CleanSettings settings;
+  settings.max_change_deg = 0.5;
+  const Clip output = cleaned(input, settings);
+  EXPECT_LT(max_angle_deg(output, input), 0.5 + 1e-9);
+  EXPECT_GT(max_angle_deg(output, input), 0.4);
+}
+
+TEST_P(Every, TakesNoNoticeOfWhatStandsInAGap) {
+  const Clip truth = moving_take(240, 120);
+  Clip zeros = noisy_take();
+  zeros.observed.assign(zeros.local_rotations.size(), 1);
+  for (std::size_t f = 100; f < 112; ++f) {
+    zeros.observed[f * zeros.joint_count() + 2] = 0;
+    zeros.rotation(f, 2) = {};
+  }
+  Clip other = zeros;
+  for (std::size_t f = 100; f < 112; ++f) other.rotation(f, 2) = exp({2, 1, 0.3});
+  const Clip a = cleaned(zeros), b = cleaned(other);
+  for (std::size_t f = 0; f < truth.frame_count(); ++f) {
+    ASSERT_LT(angle_between(a.rotation(f, 2), b.rotation(f, 2)), 1e-9) << f;
+    if (is_causal()) continue;
+    // The chord over a tenth of a second of this motion is within 8 degrees of it.
+    ASSERT_LT(angle_between(a.rotation(f, 2), truth.rotation(f, 2)) * degrees_per_radian, 12) << f;
+  }
+}
+
+TEST_P(Every, ChangesLittleWhenRunAgain) {
+  if (is_causal()) return;  // its delay adds up
+  const Clip input = noisy_take();
+  const Clip once = cleaned(input), twice = cleaned(once);
+  EXPECT_LE(rms_angle_deg(once, twice), 0.5 * rms_angle_deg(input, once) + 1e-9);
+}
+
+TEST_P(Every, BeatsItsDamagedInputOnAWalk) {
+  SynthOptions options;
+  options.duration_s = 3;
+  const Clip truth = synthesize(options);
+  Clip damaged = truth;
+  Random random(7);
+  // Each against the damage it is made for.
+  double margin = 0.75;
+  if (GetParam() == "hampel") {
+    apply_damage(damaged, "outliers", {{"share", 0.01}, {"std_deg", 25.0}}, random);
+    margin = 0.4;
+  } else {
+    apply_damage(damaged, "gaussian", {{"std_deg", 1.5}}, random);
+  }
+  const double before = rms_angle_deg(truth, damaged);
+  const double after = rms_angle_deg(truth, cleaned(damaged));
+  EXPECT_LT(after, margin * before) << "before " << before << " degrees";
+  RecordProperty("after_over_before", std::to_string(after / before));
+}
+
+// Methods whose options are times and frequencies do the same to the same motion at every rate.
+TEST_P(Every, GoesBySecondsNotByFrames) {
+  bool timed = false;
+  for (const OptionSpec& spec : find_method(GetParam()).options) {
+    timed = timed || spec.unit == "s" || spec.unit == "Hz";
+  }
+  if (!timed || is_causal()) return;
+  const auto shaking = [](double rate_hz) {
+    Clip clip = moving_take(static_cast<std::size_t>(2 * rate_hz), rate_hz);
+    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+      const double t = static_cast<double>(f) / rate_hz;
+      clip.rotation(f, 2) = clip.rotation(f, 2) * exp({0.03 * std::sin(2 * pi * 13 * t), 0, 0});
+    }
+    return clip;
+  };
+  const Clip fast = cleaned(shaking(120)), slow = cleaned(shaking(60));
+  Clip mislabelled = shaking(60);
+  mislabelled.frame_rate_hz = 120;
+  mislabelled = cleaned(mislabelled);
+  double right = 0, wrong = 0;
+  for (std::size_t f = 0; f < slow.frame_count(); ++f) {
+    right += std::pow(angle_between(slow.rotation(f, 2), fast.rotation(2 * f, 2)), 2);
+    wrong += std::pow(angle_between(mislabelled.rotation(f, 2), fast.rotation(2 * f, 2)), 2);
+  }
+  const auto frames = static_cast<double>(slow.frame_count());
+  EXPECT_LT(std::sqrt(right / frames) * degrees_per_radian, 0.5);
+  EXPECT_LE(right, wrong);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, Every, testing::ValuesIn(method_names()),
+                         [](const auto& method) { return camel_case(method.param); });
+
+}  // namespace
+}  // namespace kinemend::test

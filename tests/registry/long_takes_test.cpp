@@ -1,0 +1,151 @@
+// What long takes need: one copy of the take, and word of how far the work is.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "counting_allocation.hpp"
+#include "kinemend/clean.hpp"
+#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/experimental/synth.hpp"
+#include "kinemend/methods.hpp"
+#include "registry/takes.hpp"
+
+namespace kinemend::test {
+namespace {
+
+using testing::ElementsAre;
+
+#if !defined(KINEMEND_SANITIZED)
+Clip noisy_stroll(double duration_s) {
+  Clip clip = synthesize({"stroll", duration_s, 120, 1});
+  Random random(7);
+  apply_damage(clip, "gaussian", {{"std_deg", 1.5}}, random);
+  apply_damage(clip, "outliers", {{"share", 0.004}}, random);
+  return clip;
+}
+
+// Beside the take itself, which is 32 bytes a rotation. What it takes: the vectors of all joints,
+// marks, and what two threads work on.
+TEST(LongTakes, AreCleanedInLittleMoreRoomThanTheyTake) {
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 2);
+  const auto cleaner = make_auto();
+  Clip clip = noisy_stroll(60);
+  const auto rotations = static_cast<double>(clip.local_rotations.size());
+  const std::size_t peak = peak_memory([&] { clip = clean_clip(std::move(clip), *cleaner).clip; });
+  EXPECT_LT(static_cast<double>(peak), 90 * rotations);
+  EXPECT_GT(static_cast<double>(peak), 10 * rotations);  // counted at all
+}
+
+// With the model that ships: what grows with the take are five vectors of its channels, the marks
+// of its samples and the copy that is handed over; the rest is for one stretch.
+TEST(LongTakes, AreCleanedByExampleInRoomThatGrowsLittle) {
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 2);
+  const auto cleaner = make_example();
+  const auto peak_of = [&](const Clip& take) {
+    Clip clip = take;
+    return static_cast<double>(
+        peak_memory([&] { clip = clean_clip(std::move(clip), *cleaner).clip; }));
+  };
+  Clip whole = noisy_stroll(50);
+  EXPECT_LT(peak_of(slice(whole, 0, 1500)), 95e6);
+  whole.frame_rate_hz = 30;
+  const double growth = peak_of(whole) - peak_of(slice(whole, 0, whole.frame_count() / 2));
+  EXPECT_LT(growth, 150 * static_cast<double>(whole.local_rotations.size() / 2));
+  // The rate of the take makes little difference: its windows are brought to the model's rate.
+  whole.frame_rate_hz = 120;
+  const double usual = peak_of(whole);
+  whole.frame_rate_hz = 1000;
+  EXPECT_LT(peak_of(whole), 1.5 * usual);
+}
+#endif
+
+struct Told {
+  std::string stage;
+  std::vector<double> shares;
+};
+
+class EveryOnLongTakes : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryOnLongTakes, TellsOfEachStageOnceFromBeginningToEnd) {
+  Clip clip = moving_take(1500, 120);
+  add_noise(clip, 1.5, 0.5, 1);
+  std::vector<Told> told;
+  CleanSettings settings;
+  settings.progress = [&](std::string_view stage, double done) {
+    if (told.empty() || told.back().stage != stage) told.push_back({std::string(stage), {}});
+    told.back().shares.push_back(done);
+  };
+  const auto cleaner = make_cleaner(GetParam());
+  const auto stages = [&] {
+    told.clear();
+    clean_clip(clip, *cleaner, settings);
+    std::vector<std::string> names;
+    for (const Told& stage : told) {
+      names.push_back(stage.stage);
+      EXPECT_EQ(stage.shares.front(), 0) << stage.stage;
+      EXPECT_EQ(stage.shares.back(), 1) << stage.stage;
+      for (std::size_t i = 1; i < stage.shares.size(); ++i)
+        EXPECT_LT(stage.shares[i - 1], stage.shares[i]) << stage.stage;
+    }
+    return names;
+  };
+  EXPECT_THAT(stages(), ElementsAre("cleaning"));
+  if (GetParam() == "auto") {
+    EXPECT_GT(told[0].shares.size(), 10U);
+  }
+  settings.fill.emplace();
+  settings.feet.emplace();
+  EXPECT_THAT(stages(), ElementsAre("cleaning", "filling", "feet"));
+}
+
+// What a cleaner hands over may take the place of its input at once.
+TEST_P(EveryOnLongTakes, ReadsNoTrackThatItHasHandedOver) {
+  Clip clip = moving_take(600, 120);
+  add_noise(clip, 1.5, 0.5, 2);
+  clip.rotation(100, 2) = clip.rotation(100, 2) * exp({1.2, 0, 0});
+  const auto cleaner = make_cleaner(GetParam());
+  Clip at_once = clip;
+  const InPlaceTrace trace = clean_in_place(*cleaner, at_once);
+  Clip afterwards = clip;
+  std::vector<CleanedTrack> tracks(2 + clip.joint_count());
+  const CleanTrace other = cleaner->clean(
+      view_of(clip), [&](std::size_t n, CleanedTrack cleaned) { tracks[n] = std::move(cleaned); },
+      {});
+  for (std::size_t n = 0; n < tracks.size(); ++n) {
+    set_track(afterwards, n, tracks[n].rotations);
+    set_track(afterwards, n, tracks[n].positions);
+    EXPECT_EQ(tracks[n].actions, trace.actions[n]);
+  }
+  EXPECT_EQ(at_once.local_rotations, afterwards.local_rotations);
+  EXPECT_EQ(at_once.root_positions, afterwards.root_positions);
+  EXPECT_EQ(at_once.joint_translations, afterwards.joint_translations);
+  EXPECT_EQ(other.noise, trace.noise);
+}
+
+TEST_P(EveryOnLongTakes, GivesTheSameOfATakeThatIsNeededNoMore) {
+  Clip clip = moving_take(300, 120);
+  add_noise(clip, 1.5, 0.5, 3);
+  for (std::size_t j = 0; j < clip.joint_count(); ++j) clip.rotation(0, j) = {};
+  ASSERT_EQ(leading_calibration_frames(clip), 1U);
+  clip.observed.assign(clip.local_rotations.size(), 1);
+  for (std::size_t f = 50; f < 55; ++f) clip.observed[f * clip.joint_count() + 1] = 0;
+  const auto cleaner = make_cleaner(GetParam());
+  const CleanResult kept = clean_clip(clip, *cleaner);
+  const std::vector<std::uint8_t> observed = clip.observed;
+  const CleanResult given = clean_clip(std::move(clip), *cleaner);
+  EXPECT_EQ(given.clip.local_rotations, kept.clip.local_rotations);
+  EXPECT_EQ(given.clip.root_positions, kept.clip.root_positions);
+  EXPECT_EQ(given.clip.joint_translations, kept.clip.joint_translations);
+  EXPECT_EQ(given.clip.observed, observed);
+  ASSERT_EQ(given.report.spans.size(), kept.report.spans.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, EveryOnLongTakes, testing::ValuesIn(method_names()),
+                         [](const auto& method) { return camel_case(method.param); });
+
+}  // namespace
+}  // namespace kinemend::test

@@ -1,0 +1,257 @@
+// Laws of a strength between 0 and 1: smoothing goes part of the way, repairs are whole.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "kinemend/clean.hpp"
+#include "pipeline/repair_checks.hpp"
+#include "registry/marker_takes.hpp"
+#include "registry/takes.hpp"
+
+namespace kinemend::test {
+namespace {
+
+class EveryAtStrength : public testing::TestWithParam<std::string> {
+ protected:
+  std::unique_ptr<Cleaner> cleaner_ = make_cleaner(GetParam());
+  bool repairs() const { return GetParam() == "auto" || GetParam() == "hampel"; }
+};
+
+TEST_P(EveryAtStrength, RepairsRotationsWhole) {
+  Clip input = moving_take(480, 120);
+  add_noise(input, 1.5, 0.5, 1);
+  const std::vector<Thrown> thrown = throw_spikes(input, {0, 1, 2, 6}, 40, 2);
+  const std::size_t repaired = expect_whole_repairs(input, thrown, *cleaner_);
+  if (repairs()) {
+    EXPECT_GT(repaired, thrown.size() / 2);
+  }
+}
+
+TEST_P(EveryAtStrength, RepairsHingesAndSaddlesWhole) {
+  Clip input = moving_take(480, 120);
+  for (const std::size_t joint : {3, 4}) {
+    const RotationOrder order = input.skeleton.rotation_order(joint);
+    for (std::size_t f = 20; f < 470; f += 50) {
+      auto angles = to_euler(input.rotation(f, joint), order);
+      angles[0] += 1.2;
+      input.rotation(f, joint) = from_euler(angles, order);
+    }
+  }
+  CleanSettings half;
+  half.strength = 0.5;
+  const CleanResult whole = clean_clip(input, *cleaner_), part = clean_clip(input, *cleaner_, half);
+  for (const ReportSpan& span : whole.report.spans) {
+    if (span.joint < 0 || span.action != Action::despiked) continue;
+    const auto joint = static_cast<std::size_t>(span.joint);
+    for (std::size_t f = span.first_frame; f <= span.last_frame; ++f) {
+      EXPECT_LT(angle_between(part.clip.rotation(f, joint), whole.clip.rotation(f, joint)), 0.12)
+          << f << " " << joint;
+    }
+  }
+}
+
+TEST_P(EveryAtStrength, RepairsPositionsWhole) {
+  const Clip truth = moving_take(480, 120);
+  Clip input = truth;
+  add_noise(input, 1.5, 0.05, 3);
+  const Vec3 off{30, -20, 10};
+  for (std::size_t f = 15; f < 470; f += 60) {
+    input.root_positions[f] += off;
+    input.joint_translations[f + 20] += off;
+  }
+  CleanSettings half;
+  half.strength = 0.5;
+  const CleanResult whole = clean_clip(input, *cleaner_), part = clean_clip(input, *cleaner_, half);
+  const double tenth = 0.1 * norm(off);
+  std::size_t repaired = 0;
+  for (std::size_t f = 15; f < 470; f += 60) {
+    // What stands within a tenth of the truth has been repaired, by whichever method.
+    const bool states = repairs();
+    if (norm(whole.clip.root_positions[f] - truth.root_positions[f]) < tenth && states) {
+      ++repaired;
+      EXPECT_LT(norm(part.clip.root_positions[f] - truth.root_positions[f]), tenth) << f;
+    }
+    const Vec3 there = truth.joint_translations[f + 20];
+    if (norm(whole.clip.joint_translations[f + 20] - there) < tenth && states) {
+      ++repaired;
+      EXPECT_LT(norm(part.clip.joint_translations[f + 20] - there), tenth) << f + 20;
+    }
+  }
+  if (repairs()) {
+    EXPECT_GT(repaired, 8U);
+  }
+}
+
+TEST_P(EveryAtStrength, RepairsMarkersWhole) {
+  const MarkerClip truth = marker_take("walk", 2);
+  MarkerClip input = damaged(truth, 2, 0, 0, 4);
+  const Vec3 off{80, -60, 0};
+  std::vector<Thrown> thrown;
+  for (std::size_t m = 0; m < input.marker_count(); m += 3) {
+    for (std::size_t f = 20 + m; f < input.frame_count(); f += 50) {
+      input.position(f, m) += off;
+      thrown.push_back({f, m});
+    }
+  }
+  CleanSettings half;
+  half.strength = 0.5;
+  const MarkerResult whole = clean_markers(input, *cleaner_),
+                     part = clean_markers(input, *cleaner_, half);
+  std::size_t repaired = 0;
+  for (const Thrown& at : thrown) {
+    if (!is_stated(whole.report.spans, at.frame, at.joint, Action::despiked)) continue;
+    ++repaired;
+    EXPECT_LT(norm(part.clip.position(at.frame, at.joint) - truth.position(at.frame, at.joint)),
+              0.1 * norm(off))
+        << at.frame << " " << at.joint;
+  }
+  if (repairs()) {
+    EXPECT_GT(repaired, thrown.size() / 4);
+  }
+}
+
+// Root mean square distance of samples from the middle of their neighbours, degrees.
+struct Roughness {
+  double repaired = 0, others = 0;
+};
+
+Roughness roughness(const Clip& clip, const std::vector<ReportSpan>& spans, std::size_t joint) {
+  double sums[2] = {0, 0}, counts[2] = {0, 0};
+  for (std::size_t f = 1; f + 1 < clip.frame_count(); ++f) {
+    const bool is_repair = is_stated(spans, f, joint, Action::despiked);
+    const Quat middle = slerp(clip.rotation(f - 1, joint), clip.rotation(f + 1, joint), 0.5);
+    sums[is_repair ? 0 : 1] +=
+        std::pow(angle_between(clip.rotation(f, joint), middle) * degrees_per_radian, 2);
+    counts[is_repair ? 0 : 1] += 1;
+  }
+  return {counts[0] > 0 ? std::sqrt(sums[0] / counts[0]) : 0, std::sqrt(sums[1] / counts[1])};
+}
+
+TEST_P(EveryAtStrength, LetsNoRepairStandOut) {
+  Clip input = moving_take(960, 120);
+  add_noise(input, 1.5, 0.5, 5);
+  throw_spikes(input, {1, 2, 6}, 40, 6);
+  for (const double strength : {0.2, 0.5, 0.8}) {
+    CleanSettings settings;
+    settings.strength = strength;
+    const CleanResult part = clean_clip(input, *cleaner_, settings);
+    for (const std::size_t joint : {1, 2, 6}) {
+      const Roughness rough = roughness(part.clip, part.report.spans, joint);
+      EXPECT_LT(rough.repaired, 1.3 * rough.others) << "strength " << strength << " " << joint;
+    }
+  }
+}
+
+TEST_P(EveryAtStrength, KeepsTheLargestChangeALimit) {
+  Clip input = moving_take(480, 120);
+  add_noise(input, 1.5, 0.5, 7);
+  throw_spikes(input, {1, 2, 6}, 40, 8);
+  CleanSettings settings;
+  settings.strength = 0.5;
+  settings.max_change_deg = 5;
+  EXPECT_LT(max_angle_deg(clean_clip(input, *cleaner_, settings).clip, input), 5 + 1e-9);
+  MarkerClip markers = damaged(marker_take("walk", 1), 2, 0.01, 100, 9);
+  settings.max_change = 4;
+  EXPECT_LT(max_distance(clean_markers(markers, *cleaner_, settings).clip, markers), 4 + 1e-9);
+}
+
+TEST_P(EveryAtStrength, OfZeroChangesNothingOfSpikesAndGapsEither) {
+  Clip input = moving_take(240, 120);
+  add_noise(input, 1.5, 0.5, 10);
+  throw_spikes(input, {1, 2}, 40, 11);
+  input.root_positions[100] += {50, 0, 0};
+  input.joint_translations[120] += {0, 50, 0};
+  input.observed.assign(input.local_rotations.size(), 1);
+  for (std::size_t f = 60; f < 70; ++f) input.observed[f * input.joint_count() + 1] = 0;
+  CleanSettings settings;
+  settings.strength = 0;
+  settings.fill.emplace();
+  const CleanResult result = clean_clip(input, *cleaner_, settings);
+  EXPECT_EQ(result.clip.local_rotations, input.local_rotations);
+  EXPECT_EQ(result.clip.root_positions, input.root_positions);
+  EXPECT_EQ(result.clip.joint_translations, input.joint_translations);
+  EXPECT_TRUE(result.report.spans.empty());
+  MarkerClip markers = damaged(marker_take("walk", 1), 2, 0.01, 100, 12);
+  lose(markers, 3, 40, 45);
+  const MarkerResult same = clean_markers(markers, *cleaner_, settings);
+  EXPECT_EQ(same.clip.positions, markers.positions);
+  EXPECT_EQ(same.clip.observed, markers.observed);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, EveryAtStrength, testing::ValuesIn(method_names()),
+                         [](const auto& method) { return camel_case(method.param); });
+
+// Moves everything, and repairs one sample of each kind on the way.
+class RepairingMover final : public Cleaner {
+ public:
+  explicit RepairingMover(const Clip& truth) : truth_(truth) {}
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>&) const override {
+    const TakeView truth = view_of(truth_);
+    for (std::size_t n = 0; n < take.tracks.size(); ++n) {
+      CleanedTrack cleaned;
+      const Track& track = truth.tracks[n];
+      for (std::size_t f = 0; f < take.frames; ++f) {
+        if (track.space == Space::rotation) {
+          cleaned.rotations.push_back(track.rotation(f) * exp(turn(f)));
+        } else {
+          cleaned.positions.push_back(track.position(f) + turn(f));
+        }
+      }
+      if (n == 1 || n >= take.owners) {
+        cleaned.actions.assign(take.frames, Action::kept);
+        for (std::size_t f = 30; f < 33; ++f) cleaned.actions[f] = Action::despiked;
+      }
+      sink(n, std::move(cleaned));
+    }
+    return {};
+  }
+  // Grows steadily.
+  static Vec3 turn(std::size_t frame) { return 0.004 * static_cast<double>(frame) * Vec3{1, 2, 0}; }
+
+ private:
+  const Clip& truth_;
+};
+
+TEST(Strength, PutsARepairWhereItsNeighboursAre) {
+  const Clip truth = moving_take(60, 120);
+  Clip input = truth;
+  for (std::size_t f = 30; f < 33; ++f) {
+    input.rotation(f, 1) = input.rotation(f, 1) * exp({0, 0, 1.5});
+    input.root_positions[f] += {70, 0, 0};
+    input.joint_translations[f] += {0, 70, 0};
+  }
+  CleanSettings settings;
+  settings.strength = 0.25;
+  const Clip output = clean_clip(input, RepairingMover(truth), settings).clip;
+  for (std::size_t f = 0; f < 60; ++f) {
+    const Vec3 quarter = 0.25 * RepairingMover::turn(f);
+    ASSERT_LT(angle_between(output.rotation(f, 1), truth.rotation(f, 1) * exp(quarter)), 1e-9) << f;
+    ASSERT_LT(norm(output.root_positions[f] - truth.root_positions[f] - quarter), 1e-9) << f;
+    ASSERT_LT(norm(output.joint_translations[f] - truth.joint_translations[f] - quarter), 1e-9)
+        << f;
+  }
+}
+
+TEST(Strength, BridgesPositionsThatWereNotObservedWhole) {
+  Clip input = moving_take(60, 120);
+  input.observed_positions.assign(60 * 2, 1);
+  for (std::size_t f = 20; f < 25; ++f) {
+    input.observed_positions[2 * f] = input.observed_positions[2 * f + 1] = 0;
+    input.root_positions[f] = input.root_positions[19];
+    input.joint_translations[f] = input.joint_translations[19];
+  }
+  const auto cleaner = make_cleaner("auto");
+  CleanSettings half;
+  half.strength = 0.5;
+  const Clip whole = clean_clip(input, *cleaner).clip,
+             part = clean_clip(input, *cleaner, half).clip;
+  for (std::size_t f = 20; f < 25; ++f) {
+    EXPECT_EQ(part.root_positions[f], whole.root_positions[f]) << f;
+    EXPECT_EQ(part.joint_translations[f], whole.joint_translations[f]) << f;
+  }
+}
+
+}  // namespace
+}  // namespace kinemend::test
