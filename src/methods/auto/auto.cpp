@@ -1,3 +1,5 @@
+// The method `auto`: cleans the rotations and the positions of a take, each by the noise that they
+// show.
 #include <algorithm>
 #include <optional>
 #include <span>

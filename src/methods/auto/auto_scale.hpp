@@ -1,3 +1,4 @@
+// The scale on which `auto` compares positions with rotations: degrees for each file unit.
 #pragma once
 
 #include "kinemend/take_view.hpp"

@@ -1,3 +1,5 @@
+// Chooses the smoother of each axis by its likelihood under coloured noise and blends the result
+// in.
 #include "methods/auto/coloured_smoothing.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Smooths tracks under noise that is correlated from frame to frame.
 #pragma once
 
 #include <span>

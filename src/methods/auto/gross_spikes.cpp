@@ -1,3 +1,4 @@
+// Replaces spikes that are so large that they would bend the reference of a track's chart.
 #include <algorithm>
 #include <array>
 #include <cmath>

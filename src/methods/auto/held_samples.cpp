@@ -1,3 +1,5 @@
+// Finds the pattern of held or interpolated samples, and brings cleaned measurements back to all
+// frames.
 #include "methods/auto/held_samples.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Recognises takes whose frames are fewer measurements than they seem: samples of a lower rate,
+// each held for some frames or joined by straight lines.
 #pragma once
 
 #include <cmath>
@@ -7,8 +9,6 @@
 #include "methods/auto/tuning.hpp"
 #include "methods/auto/vector_tracks.hpp"
 
-/// Takes whose frames are fewer measurements than they seem: samples of a lower rate, each held for
-/// some frames or joined by straight lines.
 namespace kinemend {
 
 enum class SampleJoin { none, held, linear };

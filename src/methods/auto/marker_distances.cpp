@@ -1,3 +1,5 @@
+// Compares the change of distances between tracks with the change that independent noise would
+// make.
 #include "methods/auto/marker_distances.hpp"
 
 #include <algorithm>

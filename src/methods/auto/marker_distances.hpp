@@ -1,3 +1,4 @@
+// Measures how much of a noise shows in the distances between tracks, where motion hardly shows.
 #pragma once
 
 #include "methods/auto/vector_tracks.hpp"

@@ -1,3 +1,4 @@
+// Finds neighbours by the skeleton or, of markers, by distances that hardly change.
 #include "methods/auto/neighbours.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Finds the tracks that move together with a track: nearby joints, or markers of the same segment.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,5 @@
+// Measures the white noise of tracks by differences that motion hardly changes, and how far each
+// track is to be smoothed.
 #include <algorithm>
 #include <cmath>
 #include <optional>

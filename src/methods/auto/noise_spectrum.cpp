@@ -1,3 +1,4 @@
+// Estimates colour and strength of the noise from the evidence of short windows over the take.
 #include "methods/auto/noise_spectrum.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Describes and estimates the noise of a take: its colour, and its strength on each track and axis.
 #pragma once
 
 #include <optional>

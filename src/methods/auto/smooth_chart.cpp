@@ -1,3 +1,4 @@
+// Smooths the reference of a chart by a Gaussian mean and sums up its path.
 #include "methods/auto/smooth_chart.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Turns a track of rotations into vectors about a smoothed copy of the track.
 #pragma once
 
 #include <span>

@@ -1,3 +1,4 @@
+// Classifies candidates by their neighbours, the speed of joints, and what chance explains.
 #include "methods/auto/spike_classification.hpp"
 
 #include <algorithm>

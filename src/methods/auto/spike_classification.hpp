@@ -1,3 +1,4 @@
+// Decides which candidates are spikes and which are fast motion.
 #pragma once
 
 #include <cstddef>

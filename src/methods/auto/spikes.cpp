@@ -1,3 +1,5 @@
+// Predicts each sample from the others of its track, and repeats that without the candidates until
+// they no longer change.
 #include "methods/auto/spikes.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Detects spikes in tracks and replaces them.
 #pragma once
 
 #include <span>

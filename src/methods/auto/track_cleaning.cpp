@@ -1,3 +1,5 @@
+// Runs the steps of `auto` in order: samples of a lower rate, whitening, spikes, colour of the
+// noise, smoothing.
 #include "methods/auto/track_cleaning.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// The core of the method `auto`, on tracks of vectors in degrees.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,6 @@
 #include "methods/auto/noise_spectrum.hpp"
 #include "methods/auto/vector_tracks.hpp"
 
-// The core of the method `auto`, on tracks of vectors in degrees.
 namespace kinemend {
 
 /// Takes of fewer frames are not changed.

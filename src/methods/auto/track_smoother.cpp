@@ -1,3 +1,5 @@
+// Turns tracks to the principal axes of their fast motion and smooths each axis by its likeliest
+// model.
 #include "methods/auto/track_smoother.hpp"
 
 #include <Eigen/Eigenvalues>

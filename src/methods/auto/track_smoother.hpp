@@ -1,3 +1,4 @@
+// Smooths tracks under white noise, each by the strength that its evidence asks for.
 #pragma once
 
 #include <span>

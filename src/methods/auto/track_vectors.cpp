@@ -1,3 +1,5 @@
+// Builds the vectors of a track by its chart or its scale, and assembles the cleaned track from
+// them.
 #include "methods/auto/track_vectors.hpp"
 
 #include <utility>

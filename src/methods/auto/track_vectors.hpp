@@ -1,3 +1,4 @@
+// Turns a track of a take into vectors in degrees, and back.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,6 @@
 #include "kinemend/cleaner.hpp"
 #include "rotation/rotation_chart.hpp"
 
-// A track of a take as vectors in degrees, and back.
 namespace kinemend {
 
 struct TrackVectors {

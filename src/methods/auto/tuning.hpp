@@ -1,3 +1,8 @@
+// The constants of the method `auto`, by step. They were chosen by hand; no sweep of that time is
+// kept. bench/papers/figures/auto_sweep.csv (tools/sweep) states what half, 0.8, 1.25 and 2 times
+// each of them does to the error on seven takes that no other table of `auto` uses.
+// auto_sweep_colour.csv states what half and double of those of `ColourTuning` and `HeldTuning` do.
+// docs/methods/auto-details.md sums it up.
 #pragma once
 
 #include <cstddef>
@@ -5,11 +10,6 @@
 #include "signal/evidence.hpp"
 #include "signal/leave_one_out.hpp"
 
-// The constants of the method `auto`, by step. They were chosen by hand; no sweep of that time is
-// kept. bench/papers/figures/auto_sweep.csv (tools/sweep) states what half, 0.8, 1.25 and 2 times
-// each of them does to the error on seven takes that no other table of `auto` uses,
-// auto_sweep_colour.csv states what half and double of those of `ColourTuning` and `HeldTuning` do.
-// docs/methods/auto-details.md sums it up.
 namespace kinemend {
 
 /// Of `replace_gross_spikes`.

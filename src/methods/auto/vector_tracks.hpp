@@ -1,3 +1,5 @@
+// The data that the steps of `auto` work on: tracks of vectors in degrees, marks of samples, and
+// measures of noise.
 #pragma once
 
 #include <array>

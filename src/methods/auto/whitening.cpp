@@ -1,3 +1,4 @@
+// Estimates the covariance of each track's noise robustly and applies the maps.
 #include "methods/auto/whitening.hpp"
 
 #include <Eigen/Eigenvalues>

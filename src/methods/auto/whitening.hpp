@@ -1,3 +1,4 @@
+// Maps tracks so that their noise has the same variance in all directions, and back.
 #pragma once
 
 #include <Eigen/Core>
