@@ -1,3 +1,4 @@
+// The method `bilateral`: its options, its cleaner, and its steps on a live stream.
 #include <algorithm>
 #include <cmath>
 #include <memory>

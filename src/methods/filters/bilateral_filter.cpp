@@ -1,3 +1,4 @@
+// Runs the passes of the bilateral filter in vector lanes and continues a track beyond its ends.
 #include "methods/filters/bilateral_filter.hpp"
 
 #include <algorithm>

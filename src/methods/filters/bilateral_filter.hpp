@@ -1,3 +1,4 @@
+// The bilateral filter of Courty 2008 on one track of rotations or positions.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// The method `butterworth`: forward and backward on a whole take, forward alone where it is causal.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Compares a cutoff with half the frame rate and writes the warning.
 #include "methods/filters/cutoff.hpp"
 
 #include <fmt/format.h>

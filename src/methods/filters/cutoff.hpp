@@ -1,3 +1,4 @@
+// Checks cutoffs against the Nyquist frequency and words the warning in one way for all methods.
 #pragma once
 
 #include <string>

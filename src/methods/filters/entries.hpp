@@ -1,9 +1,9 @@
+// The entries of the classical filters in the table of methods. Each file of a filter defines its
+// own.
 #pragma once
 
 #include "kinemend/cleaner.hpp"
 
-// The entries of the classical filters in the table of methods. Each file of a filter defines its
-// own.
 namespace kinemend {
 
 Method bilateral_method();

@@ -1,3 +1,5 @@
+// Gathers pieces over the same frames into blocks of channels, filters these, and takes them apart
+// again.
 #include "methods/filters/filter_channels.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Runs a linear filter on the channels of a take's tracks, several tracks side by side.
 #pragma once
 
 #include <functional>

@@ -1,3 +1,5 @@
+// The method `gaussian`: a Gaussian mean of each track, which becomes a local line fit where a
+// window is cut.
 #include <algorithm>
 #include <cmath>
 #include <vector>

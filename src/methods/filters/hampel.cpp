@@ -1,3 +1,5 @@
+// The method `hampel`: replaces samples that deviate from the median of their window, and changes
+// nothing else.
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -1,3 +1,4 @@
+// The method `kalman`: a smoother of each track that assumes steady motion, and its causal filter.
 #include <algorithm>
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// Turns pieces of tracks into one array for each component, as the vectorised filters take them.
 #pragma once
 
 #include <vector>
@@ -5,7 +6,6 @@
 #include "methods/core/pieces.hpp"
 #include "methods/filters/rotation_track.hpp"
 
-// Pieces as the vectorised filters take them: one array a component.
 namespace kinemend {
 
 inline RotationTrack to_lanes(const std::vector<Quat>& samples) {

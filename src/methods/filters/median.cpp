@@ -1,3 +1,4 @@
+// The method `median`: the L1 median of a window that moves along each track.
 #include <algorithm>
 
 #include "kinemend/experimental/frame_rate.hpp"

@@ -1,3 +1,4 @@
+// Finds medoids and L1 medians, the latter by Newton's and Weiszfeld's steps.
 #include "methods/filters/medians.hpp"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// Medians of rotations and of points. Rotations are measured by the chord of their quaternions, 2
+// |a - b| = 4 sin(angle / 4): within 0.3 % of the angle up to 30 degrees, the same in every
+// coordinate frame, and independent of signs.
 #pragma once
 
 #include <cstddef>
@@ -6,9 +9,6 @@
 
 #include "kinemend/rotation.hpp"
 
-// Medians of rotations and of points. Rotations are measured by the chord of their quaternions,
-// 2 |a - b| = 4 sin(angle / 4): within 0.3 % of the angle up to 30 degrees, the same in every
-// coordinate frame, and independent of signs.
 namespace kinemend {
 
 /// Chordal distance of two rotations, radians (for small ones): 4 sin(angle / 4).

@@ -1,3 +1,4 @@
+// The method `nonlocal`: chooses poses, bandwidth and window for the non-local means of a take.
 #include <algorithm>
 #include <cmath>
 #include <memory>

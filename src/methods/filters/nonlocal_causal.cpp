@@ -1,3 +1,4 @@
+// Keeps the last poses and their distances, and averages each new pose with those that are alike.
 #include "methods/filters/nonlocal_causal.hpp"
 
 #include <algorithm>

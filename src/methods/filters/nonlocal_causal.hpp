@@ -1,3 +1,4 @@
+// Non-local pose means that look at past frames only, for live streams.
 #pragma once
 
 #include <cstddef>

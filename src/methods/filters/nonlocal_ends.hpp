@@ -1,3 +1,4 @@
+// Extends tracks beyond their ends for the non-local means.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 #include "methods/filters/nonlocal_filter.hpp"
 #include "rotation/sample_steps.hpp"
 
-// Extension of tracks beyond their ends for the non-local means.
 namespace kinemend {
 
 /// Index of the sample at i, which may be beyond the ends.

@@ -1,3 +1,5 @@
+// Measures distances of patches block by block, turns them into weights, and averages poses by
+// these.
 #include "methods/filters/nonlocal_filter.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Non-local pose means of a whole take (Dean 2016), and the bandwidth of the least expected error.
 #pragma once
 
 #include <cstddef>

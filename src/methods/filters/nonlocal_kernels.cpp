@@ -1,3 +1,4 @@
+// The loops of the non-local means, compiled once for each instruction set.
 #include "methods/filters/nonlocal_kernels.hpp"
 
 #undef HWY_TARGET_INCLUDE

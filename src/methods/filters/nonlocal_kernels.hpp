@@ -1,3 +1,5 @@
+// The vectorised loops of the non-local means. All of them work on whole vectors: arrays and tracks
+// have `lane_room` behind their last element, and what is written there is not used.
 #pragma once
 
 #include <cstddef>
@@ -5,8 +7,6 @@
 
 #include "methods/filters/rotation_track.hpp"
 
-// The vectorised loops of the non-local means. All of them work on whole vectors: arrays and tracks
-// have `lane_room` behind their last element, and what is written there is not used.
 namespace kinemend {
 
 /// sums[i] += |Log(q_{a+i}^-1 q_{b+i})|^2 for i < count.

@@ -1,3 +1,4 @@
+// The method `one-euro`: a causal low-pass filter whose cutoff grows with the speed.
 #include "kinemend/methods.hpp"
 #include "methods/core/causal.hpp"
 #include "methods/filters/cutoff.hpp"

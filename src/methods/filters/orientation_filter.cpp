@@ -1,3 +1,4 @@
+// Takes increments of a track, weighs them by a mask, and turns the track by the sums.
 #include "methods/filters/orientation_filter.hpp"
 
 #undef HWY_TARGET_INCLUDE

@@ -1,3 +1,4 @@
+// Linear filters on orientations, built from the increments between neighbouring frames.
 #pragma once
 
 #include <cstddef>

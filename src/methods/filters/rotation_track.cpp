@@ -1,3 +1,4 @@
+// Makes tracks with room for whole vectors behind their last frame.
 #include "methods/filters/rotation_track.hpp"
 
 namespace kinemend {

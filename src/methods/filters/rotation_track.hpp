@@ -1,3 +1,4 @@
+// Tracks of rotations and of vectors with one array for each component, padded for vector loads.
 #pragma once
 
 #include <cstddef>

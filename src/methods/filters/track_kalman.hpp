@@ -1,3 +1,7 @@
+// Kalman filter and Rauch-Tung-Striebel smoother of one track of rotations or points. The state is
+// the sample x and its velocity w (rotations: in the joint's own frame), the error state a vector
+// of three and its rate. Noise is alike in all directions, so that one 2 x 2 covariance stands for
+// each of the three axes.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +12,6 @@
 
 #include "kinemend/rotation.hpp"
 
-// Kalman filter and Rauch-Tung-Striebel smoother of one track of rotations or points. The state is
-// the sample x and its velocity w (rotations: in the joint's own frame), the error state a vector
-// of three and its rate. Noise is alike in all directions, so that one 2 x 2 covariance stands for
-// each of the three axes.
 namespace kinemend {
 
 struct KalmanModel {

@@ -1,3 +1,4 @@
+// The method `wavelet`: shrinks the wavelet coefficients of a take's channels.
 #include "kinemend/experimental/signal.hpp"
 #include "kinemend/methods.hpp"
 #include "methods/filters/entries.hpp"

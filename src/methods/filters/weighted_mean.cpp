@@ -1,3 +1,4 @@
+// The method `weighted-mean`: repeated means of neighbouring samples.
 #include "kinemend/experimental/representation.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "kinemend/methods.hpp"
