@@ -1,3 +1,4 @@
+// Counts the values of each channel in bins of a quarter degree and reads quantiles off the counts.
 #include "learned/core/channel_ranges.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Collects the values of channels over many takes and answers which value a share of them stays
+// below.
 #pragma once
 
 #include <cstddef>

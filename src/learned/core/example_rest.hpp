@@ -1,10 +1,10 @@
+// Treats what a take does that the learned bases do not express: it is smoothed, or left to `auto`.
 #pragma once
 
 #include <vector>
 
 #include "learned/core/prior_cleaning.hpp"
 
-// What a take does that the filter bases do not know.
 namespace kinemend {
 
 /// Standard deviation of each channel's noise (D, degrees, at least 0.05): as `auto` measures it;

@@ -1,3 +1,4 @@
+// Chooses between the Lanczos solver and the full one, and fixes the signs of the vectors.
 #include "learned/core/leading_eigenvectors.hpp"
 
 #include <Spectra/MatOp/DenseSymMatProd.h>

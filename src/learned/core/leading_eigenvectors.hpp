@@ -1,3 +1,4 @@
+// Finds the leading eigenvectors of large symmetric matrices.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Looks up numbers and tensors of a model, with errors that name what is missing.
 #include "kinemend/experimental/model.hpp"
 
 #include <fmt/format.h>

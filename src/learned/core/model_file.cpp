@@ -1,3 +1,5 @@
+// Reads and writes models as safetensors files with a checksum. docs/models.md describes the
+// layout.
 #include <fast_float/fast_float.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,7 +18,6 @@
 #include "kinemend/experimental/model.hpp"
 #include "learned/core/model_reading.hpp"
 
-// Models as files. docs/models.md describes the layout.
 namespace kinemend {
 
 namespace {

@@ -1,3 +1,5 @@
+// Reads models for the methods that work with them. The public functions, which know all methods,
+// are in `registry/models.cpp`.
 #pragma once
 
 #include <memory>
@@ -8,8 +10,6 @@
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/experimental/train.hpp"
 
-// Models for the methods that work with them. The public functions, which know all methods, are
-// in `registry/models.cpp`.
 namespace kinemend {
 
 /// The methods whose models a reader knows.

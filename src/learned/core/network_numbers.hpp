@@ -1,3 +1,5 @@
+// What readers of networks ask of a model file. All of these functions throw
+// `ErrorKind::unreadable_input`.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +8,6 @@
 
 #include "kinemend/experimental/model.hpp"
 
-// What readers of networks ask of a model file. Errors of all: `ErrorKind::unreadable_input`.
 namespace kinemend {
 
 [[noreturn]] void refuse_network(const std::string& what);

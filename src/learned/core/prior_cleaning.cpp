@@ -1,3 +1,5 @@
+// Runs `auto` on the take, encodes it, calls the filter of the method, and assembles the cleaned
+// tracks.
 #include "learned/core/prior_cleaning.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// What the methods with a learned model share: a take becomes channels of a body, the method
+// filters them, and they go back into the take.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +12,6 @@
 #include "kinemend/experimental/body.hpp"
 #include "kinemend/experimental/model.hpp"
 
-// What the methods with a learned model share: a take becomes channels, the method filters them,
-// and they go back into the take.
 namespace kinemend {
 
 /// Parts whose result is not the filter's but what `auto` makes of the take.

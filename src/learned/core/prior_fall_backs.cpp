@@ -1,3 +1,4 @@
+// Sums up the parts that were left to `auto`, by reason and by joint or marker.
 #include "learned/core/prior_fall_backs.hpp"
 
 #include <utility>

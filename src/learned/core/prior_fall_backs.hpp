@@ -1,3 +1,4 @@
+// Notes which parts of a take a learned model did not decide, and why.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +7,6 @@
 
 #include "learned/core/prior_cleaning.hpp"
 
-// What of a take a learned model had no say in, and why.
 namespace kinemend {
 
 /// Notes that so much of each part (`shares`, D / 3, 0..1) is now what `auto` makes of it; what was

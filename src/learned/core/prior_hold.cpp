@@ -1,3 +1,4 @@
+// Decides how much of the filter each part needs and blends the rest with what `auto` makes of it.
 #include "learned/core/prior_hold.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Holds a learned model back: it changes a part no further than the noise of the part asks for.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +7,6 @@
 
 #include "learned/core/prior_cleaning.hpp"
 
-// Hands off what is clean: a learned model changes a part no further than its noise asks for.
 namespace kinemend {
 
 /// Share of the measurements that `auto` takes for spikes, or that are far from `result` (F x D)

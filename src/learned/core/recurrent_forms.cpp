@@ -1,3 +1,4 @@
+// Finds which tracks change places in a mirror and turns values into that form.
 #include "learned/core/recurrent_forms.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Makes further training data from a motion: the same in a mirror and backwards.
 #pragma once
 
 #include <cstddef>
@@ -5,7 +6,6 @@
 
 #include "kinemend/experimental/body.hpp"
 
-// The same motion in a mirror and backwards: more to learn from.
 namespace kinemend {
 
 /// How tracks look in a mirror.

@@ -1,3 +1,4 @@
+// Passes a sequence to the damages of `corrupt` and bridges the samples that are lost.
 #include "learned/core/sequence_damage.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Damages sequences of a body's channels, for trainings that learn from known faults.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,5 @@
+// Finds the model for a method: the one given, the one of a file, or the one compiled into the
+// program.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
+// The models that cmake/embed_models.cmake compiles into the program from the files in models/.
 #pragma once
 
 #include <cstddef>
 
-// What cmake/embed_models.cmake makes of the files in models/.
 namespace kinemend {
 
 struct EmbeddedModel {

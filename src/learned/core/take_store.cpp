@@ -1,3 +1,4 @@
+// Moves the frames of takes to a spool and back.
 #include "learned/core/take_store.hpp"
 
 #include <type_traits>

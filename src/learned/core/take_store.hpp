@@ -1,3 +1,4 @@
+// Stores many takes in bounded memory while a model is trained.
 #pragma once
 
 #include <cstddef>

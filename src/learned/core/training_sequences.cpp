@@ -1,3 +1,5 @@
+// Learns the layout of the takes, encodes them, brings them to one rate, and hands the stretches
+// out again.
 #include "learned/core/training_sequences.hpp"
 
 #include <algorithm>

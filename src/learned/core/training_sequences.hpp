@@ -1,3 +1,5 @@
+// The input of every fit of a model: takes as stretches of channels at the model's rate, read and
+// encoded once.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +12,6 @@
 #include "kinemend/experimental/pose_matrix.hpp"
 #include "kinemend/experimental/train.hpp"
 
-// Input of every fit of a model: takes as stretches of channels at the model's rate, read and
-// encoded once.
 namespace kinemend {
 
 /// Motion without gaps.

@@ -1,3 +1,4 @@
+// Keeps the state of a training that may be interrupted, so that it can be resumed.
 #pragma once
 
 #include <chrono>
@@ -14,7 +15,6 @@
 
 #include "kinemend/experimental/train.hpp"
 
-// What is kept of a training that may be broken off.
 namespace kinemend {
 
 /// The state of a stage, value by value.

@@ -1,3 +1,4 @@
+// Reads a cubic through the frames of a sequence at another pace.
 #include "learned/core/warped_sequence.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Plays a sequence faster or slower.
 #pragma once
 
 #include <cstddef>

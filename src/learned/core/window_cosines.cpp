@@ -1,3 +1,4 @@
+// Builds the matrix of cosines and the places of windows.
 #include "learned/core/window_cosines.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Cuts takes into overlapping windows and transforms a window over time by cosines (DCT).
 #pragma once
 
 #include <Eigen/Core>
