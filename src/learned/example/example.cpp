@@ -1,3 +1,4 @@
+// The method `example` (Lou & Chai 2010): its options, and what it does with a take.
 #include <algorithm>
 #include <cmath>
 #include <memory>

@@ -1,3 +1,4 @@
+// Minimises the objective of the filter by weighted least squares, in stretches of bounded memory.
 #include "learned/example/example_filter.hpp"
 
 #include <tbb/blocked_range.h>

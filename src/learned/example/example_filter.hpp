@@ -1,3 +1,5 @@
+// Finds the motion that stays close to what was measured and follows learned patterns (Lou & Chai
+// 2010, sections 3.1 to 3.5).
 #pragma once
 
 #include <cstddef>
@@ -9,8 +11,6 @@
 #include "learned/example/pattern_penalty.hpp"
 #include "learned/example/window_bases.hpp"
 
-// Motion that stays close to what was measured and follows learned patterns (Lou & Chai 2010,
-// sections 3.1 to 3.5).
 namespace kinemend {
 
 /// The linear filter of eq. 7 on all sliding windows: each frame becomes the mean of the

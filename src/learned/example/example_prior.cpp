@@ -1,3 +1,4 @@
+// Stores and reads the model and derives the most probable weights for a given noise.
 #include "learned/example/example_prior.hpp"
 
 #include <algorithm>

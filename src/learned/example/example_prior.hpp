@@ -1,3 +1,4 @@
+// The model of the method `example`, its tensors in a file, and the weights that follow from it.
 #pragma once
 
 #include <span>

@@ -1,3 +1,4 @@
+// Trains the method `example`: the options of the training, the bases, and their cross-validation.
 #include <algorithm>
 #include <array>
 #include <cmath>

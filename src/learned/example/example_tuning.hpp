@@ -1,3 +1,6 @@
+// The parts and constants of `example`, so that each part can be left out and each constant moved
+// to see what it brings. Only the experiment that does so sets them
+// (`bench/papers/example_ablation.cpp`).
 #pragma once
 
 #include <memory>
@@ -5,8 +8,6 @@
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
 
-// What `example` is made of, so that each part can be left out and each constant moved, to see what
-// it brings. Nobody but the bench that does so (`bench/papers/example_ablation.cpp`) sets these.
 namespace kinemend {
 
 struct ExampleTuning {

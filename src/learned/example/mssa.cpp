@@ -1,3 +1,4 @@
+// Sums up the covariance of all windows of the training and finds its leading eigenvectors.
 #include "learned/example/mssa.hpp"
 
 #include <algorithm>

@@ -1,3 +1,7 @@
+// Multi-channel singular spectrum analysis (Lou & Chai 2010, section 3.1). A window of M frames x L
+// channels is one vector of M L numbers, frame after frame: a stretch of a PoseMatrix as it lies in
+// memory. The paper orders its columns by channels instead, which changes only the order of a
+// basis's entries.
 #pragma once
 
 #include <cstddef>
@@ -6,11 +10,6 @@
 
 #include "kinemend/experimental/pose_matrix.hpp"
 
-// Multi-channel singular spectrum analysis (Lou & Chai 2010, section 3.1).
-//
-// A window of M frames x L channels is one vector of M L numbers, frame after frame: a stretch of a
-// PoseMatrix as it lies in memory. The paper orders its columns by channels instead, which changes
-// only the order of a basis's entries.
 namespace kinemend {
 
 /// The grand lag covariance matrix (eq. 3-5) of any number of sequences, which are not kept. The

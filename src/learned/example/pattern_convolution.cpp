@@ -1,3 +1,4 @@
+// Transforms blocks of rows, multiplies at each frequency, and transforms back.
 #include "learned/example/pattern_convolution.hpp"
 
 #include <tbb/blocked_range.h>

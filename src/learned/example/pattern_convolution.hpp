@@ -1,3 +1,4 @@
+// Multiplies a sequence with the projection on the patterns of all its windows, by frequencies.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Applies the quadratic form of the patterns by windows or by frequencies, whichever is quicker.
 #include "learned/example/pattern_penalty.hpp"
 
 #include <tbb/parallel_for.h>

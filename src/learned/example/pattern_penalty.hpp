@@ -1,3 +1,4 @@
+// The distance of a sequence from the learned patterns, as a quadratic form.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Finds the length and the margins of stretches.
 #include "learned/example/stretches.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Cuts a long sequence into overlapping stretches, so that memory does not grow with its length.
 #pragma once
 
 #include <cstddef>

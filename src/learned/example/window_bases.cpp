@@ -1,3 +1,4 @@
+// Interpolates the bases of a model at the rate of a clip by a cubic spline.
 #include "learned/example/window_bases.hpp"
 
 #include <Eigen/Dense>

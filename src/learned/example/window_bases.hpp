@@ -1,3 +1,4 @@
+// Filter bases as functions of time, sampled at a clip's frames.
 #pragma once
 
 #include <cstddef>
