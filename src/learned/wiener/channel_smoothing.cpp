@@ -1,3 +1,4 @@
+// Scales channels to the same noise, smooths them as tracks, and scales them back.
 #include "learned/wiener/channel_smoothing.hpp"
 
 #include <vector>

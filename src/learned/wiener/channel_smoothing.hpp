@@ -1,3 +1,4 @@
+// Smooths channels of a body as `auto` smooths tracks; `wiener` mixes its own result with that.
 #pragma once
 
 #include <cstdint>

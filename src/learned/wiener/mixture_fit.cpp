@@ -1,3 +1,4 @@
+// Clusters the points by k-means and refines the clusters by expectation maximisation.
 #include "learned/wiener/mixture_fit.hpp"
 
 #include <Eigen/Cholesky>

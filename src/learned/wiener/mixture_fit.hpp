@@ -1,3 +1,4 @@
+// Fits a mixture of Gaussians to points in many dimensions.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// The method `wiener`: its options, and what it does with a take.
 #include <algorithm>
 #include <cmath>
 #include <numeric>

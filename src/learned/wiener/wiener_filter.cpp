@@ -1,3 +1,4 @@
+// Estimates the windows of a take under the mixture, rejects outliers, and adds the windows up.
 #include "learned/wiener/wiener_filter.hpp"
 
 #include <tbb/parallel_for.h>

@@ -1,3 +1,4 @@
+// The posterior mean of a take under the prior of `wiener`, window by window.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Sums up the moments of windows, finds the basis, draws windows, and fits the mixture to them.
 #include "learned/wiener/wiener_fit.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Fits the prior of `wiener` to sequences of motion in two passes.
 #pragma once
 
 #include <Eigen/Core>

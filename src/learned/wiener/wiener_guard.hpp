@@ -1,3 +1,5 @@
+// Guards `wiener` against motion unlike its training: simple smoothers take over where their
+// estimated risk is smaller.
 #pragma once
 
 #include "learned/wiener/wiener_filter.hpp"

@@ -1,3 +1,4 @@
+// Filters the take repeatedly and bridges the samples that lie far from the result.
 #include "learned/wiener/wiener_outliers.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Detects outliers that are so dense that a filter takes them for noise.
 #pragma once
 
 #include <cstdint>

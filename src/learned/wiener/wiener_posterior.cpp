@@ -1,3 +1,4 @@
+// Computes means and evidence of each component and weights them.
 #include "learned/wiener/wiener_posterior.hpp"
 
 #include <tbb/parallel_for.h>

@@ -1,3 +1,4 @@
+// The posterior of the mixture for windows with the same noise and the same missing samples.
 #pragma once
 
 #include <Eigen/Core>

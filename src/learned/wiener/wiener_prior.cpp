@@ -1,3 +1,4 @@
+// Stores and reads the prior, and adapts it to other rates and to rotated channels.
 #include "learned/wiener/wiener_prior.hpp"
 
 #include <Eigen/Cholesky>

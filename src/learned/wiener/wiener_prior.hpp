@@ -1,3 +1,4 @@
+// The prior of the method `wiener`: the distribution of short windows of motion.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,7 +7,6 @@
 
 #include "kinemend/experimental/model.hpp"
 
-// Prior of the method `wiener`: the distribution of short windows of motion.
 namespace kinemend {
 
 /// Windows of `window_s` of D channels as DCT coefficients (`window_cosines`), channel-major: entry

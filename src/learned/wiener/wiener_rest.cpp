@@ -1,3 +1,4 @@
+// Learns the spectrum of the rest and shrinks coefficients by their evidence at each scale.
 #include "learned/wiener/wiener_rest.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Models what a take does outside of the learned patterns, from the take itself.
 #pragma once
 
 #include <Eigen/Core>

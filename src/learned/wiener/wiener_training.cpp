@@ -1,3 +1,4 @@
+// Trains the method `wiener`: the options of the training, and its passes over the takes.
 #include <cstdint>
 #include <span>
 #include <string>

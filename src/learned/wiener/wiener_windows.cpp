@@ -1,3 +1,4 @@
+// Groups windows by their missing samples and computes what the samples tell of the coefficients.
 #include "learned/wiener/wiener_windows.hpp"
 
 #include <Eigen/LU>

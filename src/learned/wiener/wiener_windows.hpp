@@ -1,3 +1,4 @@
+// The likelihood of the coefficients of a take's windows, with missing samples.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +9,6 @@
 #include "kinemend/experimental/pose_matrix.hpp"
 #include "learned/wiener/wiener_prior.hpp"
 
-// Likelihood of the coefficients of a take's windows, with missing samples.
 namespace kinemend {
 
 /// Windows of one take with the same missing samples.

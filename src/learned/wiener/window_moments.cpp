@@ -1,3 +1,4 @@
+// Adds windows up, finds their leading directions, and cross-validates what lies outside of these.
 #include "learned/wiener/window_moments.hpp"
 
 #include "learned/core/leading_eigenvectors.hpp"

@@ -1,3 +1,4 @@
+// Means, covariances and leading directions of many windows.
 #pragma once
 
 #include <Eigen/Core>
