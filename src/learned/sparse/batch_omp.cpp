@@ -1,3 +1,4 @@
+// Chooses atoms one by one by the Gram matrix, with a Cholesky factor that grows with them.
 #include "learned/sparse/batch_omp.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Orthogonal matching pursuit for many signals: a sparse code of each in a dictionary.
 #pragma once
 
 #include <cstddef>

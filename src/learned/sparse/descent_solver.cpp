@@ -1,3 +1,4 @@
+// Descends for batches of signals and takes atoms into use whose slope asks for it.
 #include "learned/sparse/descent_solver.hpp"
 
 #include <Eigen/Core>

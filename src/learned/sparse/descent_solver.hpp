@@ -1,3 +1,4 @@
+// Solves sparse problems quickly, by coordinate descent on the atoms in use.
 #pragma once
 
 #include "learned/sparse/dual_solver.hpp"

@@ -1,3 +1,4 @@
+// Dictionaries of atoms, and sparse codes of signals in them.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Iterates the dual augmented Lagrangian method and measures the gap of each signal.
 #include "learned/sparse/dual_batch.hpp"
 
 #include <Eigen/Cholesky>

@@ -1,3 +1,4 @@
+// The inner loop of the exact solver: a few signals on the atoms that matter to them.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Solves batches of signals on working sets of atoms that grow until no constraint is broken.
 #include "learned/sparse/dual_solver.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Solves the l2/l1 and l1/l1 problems of Xiao et al. 2015 to a proven gap.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,5 @@
+// Codes the signals, updates the atoms one after the other, and replaces those that are hardly
+// used.
 #include "learned/sparse/ksvd.hpp"
 
 #include <Eigen/Core>

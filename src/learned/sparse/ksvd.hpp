@@ -1,3 +1,4 @@
+// Learns dictionaries from signals by K-SVD.
 #pragma once
 
 #include <cstddef>

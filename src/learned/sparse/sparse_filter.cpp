@@ -1,3 +1,4 @@
+// Cuts poses into windows for each part of the body, codes them, and averages what comes back.
 #include "learned/sparse/sparse_filter.hpp"
 
 #include <Eigen/Core>

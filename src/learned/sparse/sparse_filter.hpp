@@ -1,3 +1,4 @@
+// Filters the points of a body by the dictionaries of its parts.
 #pragma once
 
 #include <cstddef>

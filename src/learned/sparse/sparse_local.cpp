@@ -1,3 +1,4 @@
+// Finds the local frame of each pose and moves points to it and back.
 #include "learned/sparse/sparse_local.hpp"
 
 #include <Eigen/Geometry>

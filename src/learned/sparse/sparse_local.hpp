@@ -1,3 +1,4 @@
+// The local coordinates of Xiao et al. 2015, section 3.1.1.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +7,6 @@
 #include "kinemend/experimental/pose_matrix.hpp"
 #include "kinemend/rotation.hpp"
 
-// The local coordinates of Xiao et al. 2015, section 3.1.1.
 namespace kinemend {
 
 /// The points that a pose's frame is taken from; -1: the body has none. Without a root poses stay

@@ -1,3 +1,4 @@
+// Places joints and free ends of bones, and turns joints so that bones point at given points.
 #include "learned/sparse/sparse_points.hpp"
 
 #include <Eigen/Geometry>

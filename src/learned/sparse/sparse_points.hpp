@@ -1,3 +1,4 @@
+// The points of a body that the method `sparse` knows, from a body's channels and back.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +9,6 @@
 #include "kinemend/experimental/pose_matrix.hpp"
 #include "kinemend/rotation.hpp"
 
-// The points of a body that the method `sparse` knows, from a body's channels and back.
 namespace kinemend {
 
 /// P points, in body heights. Of joints the first N are the joints themselves, on a body whose

@@ -1,3 +1,4 @@
+// Reads a file that names the parts of a body.
 #include <fmt/format.h>
 
 #include <algorithm>

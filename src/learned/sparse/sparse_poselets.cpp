@@ -1,3 +1,4 @@
+// Divides a body into torso, arms and legs by the names of its joints or markers.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,3 +1,4 @@
+// Stores the prior in a model file and reads it.
 #include "learned/sparse/sparse_prior.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// The prior of the method `sparse` (Xiao et al. 2015): windows of the parts of a body as sums of
+// few atoms.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +13,6 @@
 #include "learned/sparse/sparse_local.hpp"
 #include "learned/sparse/sparse_points.hpp"
 
-// Prior of the method `sparse` (Xiao et al. 2015): windows of the parts of a body as sums of few
-// atoms.
 namespace kinemend {
 
 /// A part of the body and what it does.

@@ -1,3 +1,5 @@
+// Trains the method `sparse`: the options of the training, its windows, and a dictionary for each
+// part.
 #include <tbb/task_group.h>
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// What `sparse` adds to the paper's method, so that each part can be left out to see what it
+// brings. Only the experiments set these (`bench/papers/xiao_ablation.cpp`).
 #pragma once
 
 #include <memory>
@@ -5,8 +7,6 @@
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
 
-// What `sparse` adds to the paper's method, so that each part can be left out to see what it
-// brings. Only the experiments do so (`bench/papers/xiao_ablation.cpp`).
 namespace kinemend {
 
 struct SparseTuning {
