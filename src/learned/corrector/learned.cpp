@@ -1,3 +1,4 @@
+// The method `learned`: its options, its cleaner of whole takes, and its live form.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Matches a take with the body of the model and leaves out parts that its channels cannot describe.
 #include "learned/corrector/learned_body.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The joints of a take that the model of `learned` knows, as channels of its body, and back.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,6 @@
 #include "kinemend/experimental/representation.hpp"
 #include "learned/corrector/motion_channels.hpp"
 
-// The joints of a take that the model of `learned` knows, as channels of its body, and back.
 namespace kinemend {
 
 /// Of what the network has learned from.

@@ -1,3 +1,4 @@
+// Adds up what was removed and what is expected to be left, for each track and for a take.
 #include "learned/corrector/learned_errors.hpp"
 
 #include <algorithm>

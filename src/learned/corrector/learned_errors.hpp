@@ -1,3 +1,4 @@
+// Measures how wrong a take was, as far as the learned cleaner can say.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +7,6 @@
 #include "kinemend/cleaner.hpp"
 #include "learned/corrector/motion_filter.hpp"
 
-// How wrong a take was, as far as the learned cleaner can say.
 namespace kinemend {
 
 /// Mean squares per axis of a track, degrees squared.

@@ -1,3 +1,4 @@
+// Fills gaps of joints by the network of the method `learned`, for the room `fill`.
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -17,7 +18,6 @@
 #include "learned/corrector/motion_filter.hpp"
 #include "methods/core/pieces.hpp"
 
-// Gaps of joints filled by the network of the method `learned`.
 namespace kinemend {
 
 namespace {

@@ -1,3 +1,4 @@
+// Turns the samples of a stream into channels of the network and the cleaned channels back.
 #include "learned/corrector/learned_live.hpp"
 
 #include <cmath>

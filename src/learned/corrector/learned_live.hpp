@@ -1,3 +1,4 @@
+// Runs the method `learned` on a stream of frames.
 #pragma once
 
 #include <memory>

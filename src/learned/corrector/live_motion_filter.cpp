@@ -1,3 +1,4 @@
+// Takes frames in, runs the network at each step, and mixes the frames that are due.
 #include "learned/corrector/live_motion_filter.hpp"
 
 #include <algorithm>

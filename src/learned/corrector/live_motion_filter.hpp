@@ -1,3 +1,4 @@
+// The learned cleaner on channels, frame by frame.
 #pragma once
 
 #include <array>

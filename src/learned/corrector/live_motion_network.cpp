@@ -1,3 +1,4 @@
+// Computes one step of each layer from the inputs that are kept.
 #include "learned/corrector/live_motion_network.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Runs the live form of the network step by step, with the last inputs of each layer kept.
 #pragma once
 
 #include <cstddef>

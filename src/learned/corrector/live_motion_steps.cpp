@@ -1,3 +1,4 @@
+// Keeps the last frames, bridges gaps, extends the end, and reads one step after the other.
 #include "learned/corrector/live_motion_steps.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Makes the steps that the network sees from frames as they come in.
 #pragma once
 
 #include <cstddef>

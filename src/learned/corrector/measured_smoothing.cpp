@@ -1,3 +1,4 @@
+// Smooths channels by their measured noise and joins both estimates for each track.
 #include "learned/corrector/measured_smoothing.hpp"
 
 #include <algorithm>

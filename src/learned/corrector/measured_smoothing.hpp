@@ -1,3 +1,4 @@
+// Adds to the learned cleaner what `auto` makes of a take by the noise that it measures.
 #pragma once
 
 #include "learned/corrector/motion_filter.hpp"

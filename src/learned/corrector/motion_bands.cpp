@@ -1,3 +1,4 @@
+// Pools the energies of frequency bands about a step and writes the features of each channel.
 #include "learned/corrector/motion_bands.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The parts that the features of a step are made of, for whole takes and for live ones.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +9,6 @@
 #include "learned/corrector/motion_steps.hpp"
 #include "learned/corrector/smoother_bank.hpp"
 
-// The parts that the features of a step are made of, whether a whole take is read or a live one.
 namespace kinemend {
 
 /// Weights of the frames about a step from the middle outwards, for quick bands and for slow ones.

@@ -1,3 +1,4 @@
+// Removes spikes from tracks, turns them into channels, and assembles the cleaned tracks.
 #include "learned/corrector/motion_channels.hpp"
 
 #include <utility>

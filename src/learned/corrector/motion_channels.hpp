@@ -1,3 +1,5 @@
+// Tracks of any take as channels of the learned cleaner, and back: rotations as vectors about a
+// smoothed reference, positions in body heights, both in degrees.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +11,6 @@
 #include "learned/corrector/motion_steps.hpp"
 #include "rotation/rotation_chart.hpp"
 
-// Tracks of any take as channels of the learned cleaner, and back: rotations as vectors about a
-// smoothed reference, positions in body heights, both in degrees.
 namespace kinemend {
 
 struct MotionTracks {

@@ -1,3 +1,4 @@
+// Reads blocks of steps, runs the network on them, and mixes the smoothed levels for each frame.
 #include "learned/corrector/motion_filter.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Runs the network of the learned cleaner over a take.
 #pragma once
 
 #include <vector>

@@ -1,3 +1,4 @@
+// The entry of `learned` in the table of learned methods; kinemend-train trains its network.
 #include "kinemend/experimental/train.hpp"
 #include "learned/corrector/entries.hpp"
 

@@ -1,3 +1,4 @@
+// Places markers at random and damages them as cameras and optical systems do.
 #include "learned/corrector/motion_marker_samples.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Draws samples of markers for the training of the learned cleaner.
 #pragma once
 
 #include <cstddef>

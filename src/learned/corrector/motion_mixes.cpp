@@ -1,3 +1,4 @@
+// Normalises the weights and scales the corrections of each channel and step.
 #include "learned/corrector/motion_mixes.hpp"
 
 #include <algorithm>

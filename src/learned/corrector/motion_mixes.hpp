@@ -1,3 +1,4 @@
+// Turns outputs of the network into weights of levels, corrections and expected errors.
 #pragma once
 
 #include <span>

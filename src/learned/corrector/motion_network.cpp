@@ -1,3 +1,4 @@
+// Reads the network from a model, makes its live form, and runs it on steps.
 #include "learned/corrector/motion_network.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// The network of the learned cleaner, for inference.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,6 @@
 #include "learned/corrector/motion_steps.hpp"
 #include "nn/layers.hpp"
 
-// The network of the learned cleaner, for inference.
 namespace kinemend {
 
 /// What a step says of a channel: the logarithm of the weight of each smoother (the levels of the

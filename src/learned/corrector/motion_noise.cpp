@@ -1,3 +1,4 @@
+// Draws noise of many colours and strengths, and varies clean motion.
 #include "learned/corrector/motion_noise.hpp"
 
 #include <algorithm>

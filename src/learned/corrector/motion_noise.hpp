@@ -1,3 +1,4 @@
+// What samples of joints and samples of markers have in common: how motion varies, and noise.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +9,6 @@
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/rotation.hpp"
 
-// What samples of joints and samples of markers have in common: how motion varies, and noise.
 namespace kinemend {
 
 /// Of each channel, degrees.

@@ -1,3 +1,4 @@
+// Empties channels, loses whole tracks, and finds the length of a sample.
 #include "learned/corrector/motion_sample_tracks.hpp"
 
 #include <cmath>

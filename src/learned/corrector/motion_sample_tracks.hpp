@@ -1,8 +1,8 @@
+// What is done to the tracks of a training sample, of joints or of markers.
 #pragma once
 
 #include "learned/corrector/motion_samples.hpp"
 
-// What is done to tracks of a sample, whatever it is of.
 namespace kinemend {
 
 /// The channel is 0 throughout, which is to the network as if it were not there.

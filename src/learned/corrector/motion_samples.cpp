@@ -1,3 +1,4 @@
+// Draws a stretch, varies and damages it, or takes a pair of recordings.
 #include "learned/corrector/motion_samples.hpp"
 
 #include <algorithm>

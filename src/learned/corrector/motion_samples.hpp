@@ -1,3 +1,5 @@
+// What the learned cleaner learns from: clean motion, damaged in every way that systems and
+// pipelines damage it, and motions that two systems recorded.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +12,6 @@
 #include "learned/core/training_sequences.hpp"
 #include "learned/corrector/motion_steps.hpp"
 
-// What the learned cleaner learns from: clean motion, damaged in every way that systems and
-// pipelines damage it, and motions that two systems saw.
 namespace kinemend {
 
 struct MotionSample {

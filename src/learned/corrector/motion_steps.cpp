@@ -1,3 +1,4 @@
+// Reads steps of a whole take from its bank of smoothers.
 #include "learned/corrector/motion_steps.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// A take as the network of the learned cleaner sees it: features of each channel, thirty times a
+// second whatever the frame rate.
 #pragma once
 
 #include <cstddef>
@@ -6,8 +8,6 @@
 
 #include "learned/corrector/smoother_bank.hpp"
 
-// A take as the network of the learned cleaner sees it: features of each channel, thirty times a
-// second whatever the frame rate.
 namespace kinemend {
 
 inline constexpr double motion_steps_hz = 30;

@@ -1,3 +1,4 @@
+// Builds the kernels at a frame rate, extends channels beyond their ends, and smooths them.
 #include "learned/corrector/smoother_bank.hpp"
 
 #include <algorithm>

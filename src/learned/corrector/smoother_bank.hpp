@@ -1,3 +1,4 @@
+// Gaussian means of a take's channels over a range of widths, which the learned cleaner mixes.
 #pragma once
 
 #include <array>
@@ -5,7 +6,6 @@
 #include <span>
 #include <vector>
 
-// Gaussian means of a take's channels over a range of widths: what the learned cleaner mixes.
 namespace kinemend {
 
 /// The channel itself, and its means over Gaussians of these deviations, seconds: each band between

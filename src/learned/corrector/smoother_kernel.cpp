@@ -1,3 +1,4 @@
+// Sums weighted rows, compiled once for each instruction set.
 #include "learned/corrector/smoother_kernel.hpp"
 
 #include "base/simd.hpp"

@@ -1,3 +1,4 @@
+// The inner loop of the bank of smoothers.
 #pragma once
 
 #include <cstddef>
