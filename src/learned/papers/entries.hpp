@@ -1,9 +1,9 @@
+// The entries of the methods of this wing in the tables of learned methods and of methods.
 #pragma once
 
 #include "kinemend/cleaner.hpp"
 #include "kinemend/experimental/train.hpp"
 
-// The entries of the methods of this wing in the tables of learned methods and of methods.
 namespace kinemend {
 
 LearnedMethod recurrent_learned();

@@ -1,3 +1,4 @@
+// Reads such a network from a model, makes its features, and runs it on a take.
 #include "learned/papers/filter_network.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// The networks of Mall et al. 2017, for inference: EBF, its ablations BF and NN, and EBD.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,6 @@
 #include "learned/papers/predicted_filter.hpp"
 #include "nn/recurrent_layers.hpp"
 
-// The networks of Mall et al. 2017, for inference: EBF, its ablations BF and NN, and EBD.
 namespace kinemend {
 
 /// A take as these networks see it: F frames of the C channels of all joints but the root.

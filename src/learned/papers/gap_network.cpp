@@ -1,3 +1,4 @@
+// Runs the network at its own rate and joins what it adds with the ends of each gap.
 #include "learned/papers/gap_network.hpp"
 
 #include <algorithm>

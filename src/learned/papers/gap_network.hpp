@@ -1,3 +1,4 @@
+// Fills gaps of joints by a network of Mall et al. (EBD).
 #pragma once
 
 #include "learned/papers/filter_network.hpp"

@@ -1,3 +1,4 @@
+// The method `kalman-learned`: its options, and what it does with a take.
 #include <algorithm>
 #include <cmath>
 #include <utility>

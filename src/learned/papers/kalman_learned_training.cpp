@@ -1,3 +1,4 @@
+// Trains the method `kalman-learned`: the options of the training and the fit of its dynamics.
 #include <cstdint>
 
 #include "kinemend/error.hpp"

@@ -1,3 +1,4 @@
+// Fits the dynamics, brings them to another rate, and stores them in a model.
 #include "learned/papers/linear_dynamics.hpp"
 
 #include <Eigen/Cholesky>

@@ -1,3 +1,4 @@
+// Motion as a linear dynamical system that is learned from clips (Lou & Chai 2010, section 4.2).
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +8,6 @@
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/experimental/pose_matrix.hpp"
 
-// Motion as a linear dynamical system that is learned from clips (Lou & Chai 2010, section 4.2).
 namespace kinemend {
 
 /// A linear model of poses at `rate_hz`, driven by white noise. With the channels less their mean,

@@ -1,3 +1,4 @@
+// Runs the forward pass in segments of bounded memory and the backward pass over them.
 #include "learned/papers/linear_smoother.hpp"
 
 #include <Eigen/Cholesky>

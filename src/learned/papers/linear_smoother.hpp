@@ -1,3 +1,4 @@
+// Kalman filter and smoother of a linear dynamical system.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +7,6 @@
 #include "kinemend/experimental/pose_matrix.hpp"
 #include "learned/papers/linear_dynamics.hpp"
 
-// Kalman filter and smoother of a linear dynamical system.
 namespace kinemend {
 
 /// The measurements in a pose matrix.

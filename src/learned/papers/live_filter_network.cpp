@@ -1,3 +1,4 @@
+// Keeps the last frames and states, and spreads each backward pass over the frames that come in.
 #include "learned/papers/live_filter_network.hpp"
 
 #include <algorithm>

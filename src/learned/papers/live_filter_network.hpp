@@ -1,3 +1,4 @@
+// Runs a filter network of Mall et al. frame by frame, with a fixed delay.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Applies predicted filters of each kind to a frame, and computes their adjoints.
 #include "learned/papers/predicted_filter.hpp"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// What the outputs of a network of Mall et al. 2017 do to a take, with the adjoint that training
+// needs. Training and cleaning use the same functions; F frames of C channels in degrees, in
+// floats.
 #pragma once
 
 #include <cstddef>
@@ -6,8 +9,6 @@
 #include <span>
 #include <vector>
 
-// What the outputs of a network of Mall et al. 2017 do to a take, with the adjoint that training
-// needs. One path for training and cleaning; F frames of C channels in degrees, in floats.
 namespace kinemend {
 
 /// Frames on either side of a frame that a predicted filter sees: 31 in all, at 120 Hz.

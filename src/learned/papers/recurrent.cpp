@@ -1,3 +1,5 @@
+// The method `recurrent` (Mall et al. 2017): its options, its cleaner of whole takes, and its live
+// form.
 #include <fmt/format.h>
 
 #include <optional>

@@ -1,3 +1,4 @@
+// Fills gaps of joints by a network of Mall et al. 2017 (EBD), for the room `fill`.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +18,6 @@
 #include "learned/papers/recurrent_networks.hpp"
 #include "methods/core/pieces.hpp"
 
-// Gaps of joints filled by a network of Mall et al. 2017 (EBD).
 namespace kinemend {
 
 namespace {

@@ -1,3 +1,4 @@
+// Runs the filter networks of Mall et al. on a stream of frames.
 #pragma once
 
 #include <memory>
@@ -6,7 +7,6 @@
 #include "kinemend/experimental/model.hpp"
 #include "learned/papers/filter_network.hpp"
 
-// The networks of Mall et al. that filter, on streams.
 namespace kinemend {
 
 /// A filter network of a model on takes like this one, at its own rate. Joints that the model knows

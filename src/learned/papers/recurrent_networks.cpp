@@ -1,3 +1,4 @@
+// Checks that a model fills gaps, has a given body, and fits the rate of a take.
 #include "learned/papers/recurrent_networks.hpp"
 
 #include <cmath>

@@ -1,9 +1,9 @@
+// What the uses of the networks of Mall et al. share.
 #pragma once
 
 #include "kinemend/experimental/model.hpp"
 #include "learned/papers/filter_network.hpp"
 
-// What the uses of the networks of Mall et al. share.
 namespace kinemend {
 
 /// A network that fills gaps. Errors: `ErrorKind::usage` for a model of the method that cleans.

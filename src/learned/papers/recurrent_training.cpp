@@ -1,3 +1,4 @@
+// The entry of `recurrent` in the table of learned methods; kinemend-train trains its networks.
 #include "kinemend/experimental/train.hpp"
 #include "learned/papers/entries.hpp"
 
