@@ -1,3 +1,4 @@
+// Finds the direction of each bone at rest and the least turn that brings it to the layout's.
 #include "body/body_alignment.hpp"
 
 #include <cmath>

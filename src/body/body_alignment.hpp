@@ -1,3 +1,4 @@
+// Turns the frames of a take's joints into those of a layout, by the bones of both.
 #pragma once
 
 #include "body/body_rest.hpp"

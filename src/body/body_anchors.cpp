@@ -1,3 +1,4 @@
+// Fits the shape of a layout to the anchors of each frame and finds heading, place and floor.
 #include "body/body_anchors.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The frame of a body of markers, found from the markers that keep their distances (anchors).
 #pragma once
 
 #include <cstddef>
@@ -8,7 +9,6 @@
 
 #include "kinemend/experimental/body.hpp"
 
-// The frame of a body of markers: where its steady markers stand.
 namespace kinemend::representation {
 
 /// A marker where it is seen, and where it is in the body's shape; any axes and one unit.

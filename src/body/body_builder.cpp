@@ -1,3 +1,4 @@
+// Learns a layout from takes: the first take decides whether it is one of joints or of markers.
 #include <fmt/format.h>
 
 #include <cmath>

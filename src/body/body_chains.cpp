@@ -1,3 +1,4 @@
+// Tells trunk and neck by what hangs on them, or by their names.
 #include "body/body_chains.hpp"
 
 #include <algorithm>

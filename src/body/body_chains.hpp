@@ -1,3 +1,4 @@
+// Finds the joints of trunk and neck, which files name in many ways.
 #pragma once
 
 #include <cstddef>

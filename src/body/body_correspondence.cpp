@@ -1,3 +1,4 @@
+// Applies a name map, checks a layout against a take, and lists what has no counterpart.
 #include "body/body_correspondence.hpp"
 
 #include <fmt/format.h>

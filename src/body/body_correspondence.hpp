@@ -1,3 +1,4 @@
+// Which joints or markers of a take are the tracks of a layout.
 #pragma once
 
 #include <cstdint>

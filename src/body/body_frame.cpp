@@ -1,3 +1,4 @@
+// Follows the root of a body of joints, smooths its heading and place, and finds the floor.
 #include "body/body_frame.hpp"
 
 #include <algorithm>

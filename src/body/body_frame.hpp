@@ -1,3 +1,4 @@
+// The frame of the body from one frame of a take to the next: floor, heading and place.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +8,6 @@
 
 #include "kinemend/experimental/body.hpp"
 
-// The frame of the body, from one frame of a take to the next.
 namespace kinemend::representation {
 
 /// The joint of the first track in the take's axes turned upright, frame by frame.

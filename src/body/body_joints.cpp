@@ -1,3 +1,4 @@
+// Turns a clip into the channels of a layout of joints, and back.
 #include <cmath>
 #include <vector>
 

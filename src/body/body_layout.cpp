@@ -1,3 +1,4 @@
+// Names the channels of a layout and checks the rules that it has to keep.
 #include <fmt/format.h>
 
 #include <array>

@@ -1,3 +1,4 @@
+// What is summed up over many takes to learn a layout.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +9,6 @@
 #include "kinemend/experimental/body.hpp"
 #include "rotation/leading_eigenvector.hpp"
 
-// What is summed up of a set of takes on the way to a layout.
 namespace kinemend::representation {
 
 class JointLearning {

@@ -1,3 +1,5 @@
+// Learns a layout of joints: which joints turn, their mean rotations, and the usual place of the
+// root.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Learns a layout of markers: mean positions, the shape of the body, and its anchors.
 #include <algorithm>
 #include <array>
 #include <cctype>

@@ -1,3 +1,4 @@
+// Turns a take of markers into the channels of a layout of markers, and back.
 #include <vector>
 
 #include "body/body_anchors.hpp"

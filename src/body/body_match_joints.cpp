@@ -1,3 +1,4 @@
+// Finds the joints of a layout in a clip, by name and then by topology.
 #include <algorithm>
 #include <utility>
 #include <vector>

@@ -1,3 +1,4 @@
+// Finds the markers of a layout in a take, by name, and the person that most of them belong to.
 #include <fmt/format.h>
 
 #include <algorithm>

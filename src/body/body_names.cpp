@@ -1,3 +1,4 @@
+// Splits names into words and interprets each beside the names of its neighbours.
 #include "body/body_names.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Reads what part of the body a joint is from its name, however a file spells it.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// Chooses a standing pose, turns it upright, and measures the body height by the legs.
 #include "body/body_rest.hpp"
 
 #include <algorithm>

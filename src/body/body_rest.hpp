@@ -1,3 +1,4 @@
+// The rest pose of a skeleton, which way is up, and how tall the body is.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// Turns rotations into the layout's frames and continues vectors past half a turn.
 #include "body/body_rotations.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The rotations of a track in the frames of a layout, and continuous rotation vectors of them.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Removes spikes by a running median and fits parabolas with Gaussian weights.
 #include "body/body_trend.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The slow part of a track: the trend of heading and place that a body's frame follows.
 #pragma once
 
 #include <span>

@@ -1,3 +1,5 @@
+// Reads and writes mapping files, which say what the joints or markers of a take are called in a
+// model.
 #include <fmt/format.h>
 
 #include <algorithm>

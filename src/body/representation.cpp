@@ -1,3 +1,4 @@
+// Turns rotations and positions of a clip into a matrix of channels without a body, and back.
 #include "kinemend/experimental/representation.hpp"
 
 #include <algorithm>

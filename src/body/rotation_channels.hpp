@@ -1,3 +1,4 @@
+// Turns one track of rotations into channels and back.
 #pragma once
 
 #include <cstddef>
@@ -5,7 +6,6 @@
 
 #include "kinemend/experimental/representation.hpp"
 
-// One track of rotations as channels, and back.
 namespace kinemend {
 
 /// Channels of one joint in an encoding.
