@@ -1,3 +1,4 @@
+// Blends rotations and positions with their input within the limits of the settings.
 #include "pipeline/changes.hpp"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// What the pipeline does with a track (a joint's rotations, or positions) once the cleaner is done:
+// it blends the track with its input and reports on it. Frames are those of the motion, without
+// calibration.
 #pragma once
 
 #include <array>
@@ -12,8 +15,6 @@
 #include "kinemend/cleaner.hpp"
 #include "kinemend/clip.hpp"
 
-// What the pipeline does with a track (a joint's rotations, or positions) once the cleaner is done:
-// blend it with its input, and report on it. Frames are those of the motion, without calibration.
 namespace kinemend {
 
 /// What became of every sample of a track.

@@ -1,3 +1,4 @@
+// The main path of `clean`: runs a cleaner on a take, fills gaps, holds feet, blends, and reports.
 #include "kinemend/clean.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Lets the room `feet` hold feet within the selection and states which samples changed.
 #include "pipeline/feet_step.hpp"
 
 #include <algorithm>

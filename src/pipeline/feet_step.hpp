@@ -1,3 +1,4 @@
+// The step of the pipeline that stops feet from sliding.
 #pragma once
 
 #include <cstddef>
@@ -5,7 +6,6 @@
 #include "kinemend/cleaner.hpp"
 #include "kinemend/feet.hpp"
 
-// The step of the pipeline that stops feet from sliding.
 namespace kinemend {
 
 /// Holds feet in place as far as the selection lets legs and root move. `motion` begins with frame

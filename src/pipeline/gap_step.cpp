@@ -1,3 +1,4 @@
+// Fills gaps from the cleaned take, or from one without spikes where the cleaner left some.
 #include "pipeline/gap_step.hpp"
 
 #include <algorithm>

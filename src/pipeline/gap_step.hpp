@@ -1,3 +1,4 @@
+// The step of the pipeline that fills gaps after the cleaner; filled samples are no measurements.
 #pragma once
 
 #include <vector>
@@ -8,7 +9,6 @@
 #include "kinemend/fill.hpp"
 #include "kinemend/marker_clip.hpp"
 
-// The step of the pipeline that fills gaps, behind the cleaner: what it fills is no measurement.
 namespace kinemend {
 
 /// Fills the gaps of the selected joints or markers in the frames of weight above 0. `measured` is

@@ -1,3 +1,4 @@
+// Interpolates the residuals of measured neighbours for each repaired sample.
 #include "pipeline/repairs.hpp"
 
 #include <algorithm>

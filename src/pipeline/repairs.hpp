@@ -1,3 +1,4 @@
+// Decides what becomes of repaired samples where cleaning goes only part of the way.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +9,6 @@
 #include "kinemend/cleaner.hpp"
 #include "kinemend/rotation.hpp"
 
-// What becomes of repaired samples where cleaning goes only part of the way.
 namespace kinemend {
 
 /// What the input of a sample is worth.

@@ -1,3 +1,4 @@
+// Writes what the report says of each track: its summary, its spans, lost peaks and large changes.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Matches the patterns of the settings with the names of a take.
 #include "pipeline/selection.hpp"
 
 #include <fmt/format.h>

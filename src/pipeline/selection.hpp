@@ -1,3 +1,4 @@
+// Checks the settings of `clean` and finds which joints or markers they select.
 #pragma once
 
 #include <cstddef>
