@@ -1,3 +1,4 @@
+// The table of all methods, in the order in which they are listed.
 #include "kinemend/methods.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// The tables of methods that have models, and the steps that all trainings share.
 #include "kinemend/experimental/train.hpp"
 
 #include <fmt/format.h>
