@@ -1,3 +1,5 @@
+// Checks the body as a whole: feet that slide or sink, and a frame rate at which it would fall too
+// fast or too slowly.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Finds the points of a body and its feet, for skeletons and for markers.
 #include <algorithm>
 #include <array>
 #include <cctype>

@@ -1,3 +1,4 @@
+// Runs all checks on a take and puts their findings in order.
 #include "kinemend/check.hpp"
 
 #include <fmt/format.h>

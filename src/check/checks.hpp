@@ -1,3 +1,5 @@
+// One function per check. Each adds to a report whose `tracks` are named already; frames count from
+// the first frame of the clip it is given.
 #pragma once
 
 #include <string>
@@ -7,8 +9,6 @@
 #include "kinemend/check.hpp"
 #include "kinemend/experimental/subjects.hpp"
 
-// One function per check. Each adds to a report whose `tracks` are named already; frames count from
-// the first frame of the clip it is given.
 namespace kinemend::check {
 
 /// `gap_list` is of all tracks; `track_of[n]` is the row of joint or marker n in the report, -1 for

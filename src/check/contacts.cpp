@@ -1,3 +1,4 @@
+// Finds the spans in which a foot stands and those in which the body is in the air.
 #include <algorithm>
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// Finds jumps of Euler angles in a file: whole turns, other branches, and gimbal lock.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,3 +1,4 @@
+// Feet of a take in metres, their contacts with the floor, and flights, for the checks of the body.
 #pragma once
 
 #include <cstddef>

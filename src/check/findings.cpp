@@ -1,3 +1,4 @@
+// Names kinds of findings and sorts findings by how much they matter.
 #include "check/findings.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The order of findings in a report.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Finds frames that repeat or hold nothing but zeros, and the rate that repeats indicate.
 #include <fmt/format.h>
 
 #include <algorithm>

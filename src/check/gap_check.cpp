@@ -1,3 +1,4 @@
+// Reports the gaps of each track.
 #include <algorithm>
 
 #include "check/checks.hpp"

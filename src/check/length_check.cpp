@@ -1,3 +1,5 @@
+// Finds bones that change their length, and markers that change their distance to those of their
+// segment.
 #include <fmt/format.h>
 
 #include <algorithm>

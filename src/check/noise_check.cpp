@@ -1,3 +1,5 @@
+// Reports noise and spikes. The verdicts are those of the method `auto`, so that what is found here
+// is what it would repair.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,7 +11,6 @@
 #include "check/checks.hpp"
 #include "kinemend/methods.hpp"
 
-// The verdicts are those of the method `auto`, so that what is found here is what it would repair.
 namespace kinemend::check {
 
 namespace {

@@ -1,3 +1,4 @@
+// Compares each run with how often its track and the other tracks are flagged.
 #include "check/runs.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Finds runs of flagged frames, and which of them chance does not explain.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Finds frozen spans and spans on straight lines, which were not measured.
 #include <fmt/format.h>
 
 #include <algorithm>

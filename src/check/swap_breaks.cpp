@@ -1,3 +1,4 @@
+// Extrapolates tracks across gaps and jumps, pairs the breaks, and asks nearby markers.
 #include "check/swap_breaks.hpp"
 
 #include <algorithm>

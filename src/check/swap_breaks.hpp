@@ -1,3 +1,4 @@
+// Finds places at which two markers may have exchanged their labels.
 #pragma once
 
 #include <cstddef>

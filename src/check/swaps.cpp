@@ -1,3 +1,4 @@
+// Decides which exchanges of labels are real, undoes them, and reports them.
 #include <fmt/format.h>
 
 #include <algorithm>

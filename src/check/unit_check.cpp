@@ -1,3 +1,4 @@
+// Finds out whether the unit of a take fits a person.
 #include <fmt/format.h>
 
 #include <algorithm>
