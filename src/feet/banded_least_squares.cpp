@@ -1,3 +1,4 @@
+// Factorises the banded normal matrix and solves for the unknowns.
 #include "feet/banded_least_squares.hpp"
 
 #include <algorithm>

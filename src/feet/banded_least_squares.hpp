@@ -1,3 +1,4 @@
+// Solves least-squares problems whose squares each hold neighbouring unknowns only.
 #pragma once
 
 #include <array>

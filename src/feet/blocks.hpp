@@ -1,3 +1,4 @@
+// Splits a range of frames into blocks that run in parallel.
 #pragma once
 
 #include <tbb/blocked_range.h>

@@ -1,3 +1,4 @@
+// Finds the axis along which a body stands above its feet.
 #include "feet/body_points.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The points of a body that touch the floor, and which way is up.
 #pragma once
 
 #include <cstddef>

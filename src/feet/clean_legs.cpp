@@ -1,3 +1,4 @@
+// The steps that stop feet from sliding, in the order of Kovar 2002, and `clean_feet` around them.
 #include "feet/clean_legs.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Cleans the legs of a motion within given limits.
 #pragma once
 
 #include <cstddef>

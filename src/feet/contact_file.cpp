@@ -1,3 +1,4 @@
+// Reads and writes contacts as text.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Finds the contacts of feet with the floor and checks contacts that are given.
 #include <fmt/format.h>
 
 #include <algorithm>

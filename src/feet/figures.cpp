@@ -1,3 +1,4 @@
+// Measures slides, depths and knee pops of a motion.
 #include "feet/figures.hpp"
 
 #include <algorithm>

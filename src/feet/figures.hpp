@@ -1,3 +1,4 @@
+// Figures of the feet in a motion, for the report.
 #pragma once
 
 #include <vector>

@@ -1,3 +1,4 @@
+// Fits a plane to the places, with small weights for outliers.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>

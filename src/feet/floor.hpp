@@ -1,3 +1,4 @@
+// Finds the floor under the places where feet stand.
 #pragma once
 
 #include <vector>

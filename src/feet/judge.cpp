@@ -1,3 +1,4 @@
+// Judges each stand by its travel, its path, the other feet and the motion of the body.
 #include "feet/judge.hpp"
 
 #include <fmt/format.h>

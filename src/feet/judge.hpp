@@ -1,3 +1,4 @@
+// Decides which slides are errors and which are intended.
 #pragma once
 
 #include <string>

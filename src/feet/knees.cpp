@@ -1,3 +1,4 @@
+// Minimises the curvature of knee angles by Gauss-Newton steps over time.
 #include "feet/knees.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Changes what contacts leave free so that knees do not pop.
 #pragma once
 
 #include <vector>

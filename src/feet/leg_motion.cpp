@@ -1,3 +1,4 @@
+// Models each leg from the skeleton and computes its pose in every frame.
 #include "feet/leg_motion.hpp"
 
 #include <algorithm>

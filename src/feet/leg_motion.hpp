@@ -1,3 +1,4 @@
+// The legs of a clip, frame by frame, as the steps of cleaning see them.
 #pragma once
 
 #include <array>

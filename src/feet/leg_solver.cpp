@@ -1,3 +1,4 @@
+// Bends the knee, turns the hip and the ankle, and keeps joints to their channels.
 #include "feet/leg_solver.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Solves the rotations of a leg in closed form for a target of its foot.
 #pragma once
 
 #include <vector>

@@ -1,3 +1,4 @@
+// Finds legs and their sides by names and by the tree of joints.
 #include "feet/legs.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Finds the ankles of a skeleton by the names of its joints.
 #pragma once
 
 #include <cstddef>

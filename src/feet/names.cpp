@@ -1,3 +1,4 @@
+// The names of the parts of a foot.
 #include "kinemend/feet.hpp"
 
 namespace kinemend {

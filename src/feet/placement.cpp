@@ -1,3 +1,4 @@
+// Gives each contact a place, fades the corrections beside it, and makes targets of the feet.
 #include "feet/placement.hpp"
 
 #include <algorithm>

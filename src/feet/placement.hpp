@@ -1,3 +1,4 @@
+// Where heels and toes belong while they are in contact, and how corrections fade.
 #pragma once
 
 #include <cstdint>

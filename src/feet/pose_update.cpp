@@ -1,3 +1,4 @@
+// Solves for the most likely turns of root and legs in each frame.
 #include "feet/pose_update.hpp"
 
 #include <Eigen/Dense>

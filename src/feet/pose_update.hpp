@@ -1,3 +1,4 @@
+// Corrects the whole body by what its standing feet tell about its errors.
 #pragma once
 
 #include <cstddef>

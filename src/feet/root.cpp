@@ -1,3 +1,4 @@
+// Finds the least way down in each frame and smooths it over time.
 #include "feet/root.hpp"
 
 #include <algorithm>

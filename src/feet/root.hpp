@@ -1,3 +1,4 @@
+// Lowers the body where held feet are out of reach.
 #pragma once
 
 #include <vector>

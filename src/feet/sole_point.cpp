@@ -1,3 +1,4 @@
+// Smooths a point, finds its standing level, and marks the frames in which it touches.
 #include "feet/sole_point.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// One point of a foot over time, and when it is low and slow.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Smooths heels and toes as much as their noise asks.
 #include "feet/soles.hpp"
 
 #include <tbb/parallel_for.h>

@@ -1,3 +1,4 @@
+// Heels and toes of a motion, from which contacts are found.
 #pragma once
 
 #include <cstddef>
