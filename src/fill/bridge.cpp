@@ -1,3 +1,4 @@
+// Weights the errors beside a gap by a Gaussian process.
 #include "fill/bridge.hpp"
 
 #include <Eigen/Cholesky>

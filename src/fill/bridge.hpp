@@ -1,3 +1,4 @@
+// Carries the errors that a guess has beside a gap into the gap, so that it meets both ends.
 #pragma once
 
 #include <cstddef>

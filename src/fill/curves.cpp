@@ -1,3 +1,4 @@
+// Fills spans by lines, splines, PCHIP and Hermite curves, with robust velocities at their ends.
 #include "fill/curves.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Curves through a track's own samples, and guesses moved to meet the ends of a gap.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Compares the surroundings of a gap with every lag and averages the best cycles.
 #include "fill/cycles.hpp"
 
 #include <algorithm>

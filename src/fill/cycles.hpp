@@ -1,3 +1,4 @@
+// Finds other times of a take at which a track moves as it does around a gap.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Compares the second differences beside a gap with the usual ones.
 #include "fill/doubt.hpp"
 
 #include <algorithm>

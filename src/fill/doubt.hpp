@@ -1,3 +1,4 @@
+// Finds samples beside a gap that may be spikes.
 #pragma once
 
 #include <cstddef>

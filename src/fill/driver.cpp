@@ -1,3 +1,4 @@
+// Fills gaps in rounds, leaves out spikes beside them, applies limits, and reports.
 #include "fill/driver.hpp"
 
 #include <fmt/format.h>

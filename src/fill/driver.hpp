@@ -1,3 +1,4 @@
+// How the gaps of a take are filled, whether it is one of joints or of markers.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +12,6 @@
 #include "fill/track.hpp"
 #include "kinemend/fill.hpp"
 
-// How the gaps of a take are filled, whatever it is a take of.
 namespace kinemend::fill {
 
 /// A missing span that may be filled.

@@ -1,3 +1,4 @@
+// What a method makes of a span of a track.
 #pragma once
 
 #include <cstddef>

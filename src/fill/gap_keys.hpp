@@ -1,3 +1,4 @@
+// What tells a gap of a take from the others.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Tries the methods on observed spans and scores them beside what is usual.
 #include "fill/joint_choice.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Chooses the method that fills a joint's gap.
 #pragma once
 
 #include <span>

@@ -1,3 +1,4 @@
+// Fills gaps of joints: rotations, and the positions that joints have.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -14,7 +15,6 @@
 #include "motion/calibration.hpp"
 #include "motion/unit_name.hpp"
 
-// Gaps of joints: rotations, and the positions that joints have.
 namespace kinemend::fill {
 
 namespace {

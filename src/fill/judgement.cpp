@@ -1,3 +1,5 @@
+// Scales the errors of trials by how much the candidates differ in the gap, and averages candidates
+// by these.
 #include "fill/judgement.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// How much trust each of several ways to fill a gap deserves, and what error is to be expected:
+// from trials on spans that were measured, and from what the gap itself shows.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,8 +9,6 @@
 
 #include "kinemend/rotation.hpp"
 
-// How much trust each of several ways to fill a gap deserves in it, and what error is to be
-// expected: from trials on spans that were measured, and from what the gap itself shows.
 namespace kinemend::fill {
 
 enum class CandidateKind : std::uint8_t {

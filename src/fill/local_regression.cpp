@@ -1,3 +1,4 @@
+// Learns the regression from frames outside of the gap and predicts the frames in it.
 #include "fill/local_regression.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Predicts a marker from its companions in the frame of reference that moves with them.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// The method `auto` for markers: averages several ways to fill a gap as trials tell.
 #include <fmt/format.h>
 
 #include <algorithm>

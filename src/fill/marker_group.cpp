@@ -1,3 +1,4 @@
+// Fits the mean shape of a group, places it in each frame, and finds companions of a marker.
 #include "fill/marker_group.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Markers that move nearly as a rigid body, and the frame of reference that moves with them.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// The ways to fill a gap of one marker.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,6 @@
 #include "fill/filling.hpp"
 #include "fill/samples.hpp"
 
-// The ways to fill a gap of one marker, one file each.
 namespace kinemend::fill {
 
 /// What is asked of a method.

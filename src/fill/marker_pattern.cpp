@@ -1,3 +1,4 @@
+// The method `pattern`: fills a marker's gap with the movement of another marker.
 #include <fmt/format.h>
 
 #include "fill/marker_methods.hpp"

@@ -1,3 +1,4 @@
+// The method `pca` for markers: a regression on the principal components of the other markers.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>

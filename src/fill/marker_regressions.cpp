@@ -1,3 +1,4 @@
+// The methods that predict a marker from its companions: a rigid body, and a local regression.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include "fill/local_regression.hpp"
 #include "fill/marker_methods.hpp"
 
-// Regressions of a marker on its companions.
 namespace kinemend::fill {
 
 namespace {

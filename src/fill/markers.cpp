@@ -1,3 +1,4 @@
+// Fills gaps of markers.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +10,6 @@
 #include "motion/name_pattern.hpp"
 #include "motion/unlabelled.hpp"
 
-// Gaps of markers.
 namespace kinemend::fill {
 
 namespace {

@@ -1,3 +1,4 @@
+// The table of all methods, with their rules and the functions that fill joints and markers.
 #include "fill/methods.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// The table of all ways to fill a gap, and how methods for joints are judged.
 #pragma once
 
 #include <array>
@@ -13,7 +14,6 @@
 #include "fill/pose_regression.hpp"
 #include "kinemend/fill.hpp"
 
-// The table of all ways to fill a gap.
 namespace kinemend::fill {
 
 /// What the methods for joints know of the take.

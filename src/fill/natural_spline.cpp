@@ -1,3 +1,4 @@
+// Solves for the spline in banded form and chooses its smoothing by cross-validation.
 #include "fill/natural_spline.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Natural smoothing splines through scattered knots, cubic or quintic.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// The methods that fill a track from its own samples.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +7,6 @@
 #include "fill/marker_group.hpp"
 #include "fill/methods.hpp"
 
-// Methods that fill a track from its own samples.
 namespace kinemend::fill {
 
 namespace {

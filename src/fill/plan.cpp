@@ -1,3 +1,4 @@
+// What is asked for each gap of a take: by settings, or by the rows of a plan.
 #include <fmt/format.h>
 
 #include <map>
@@ -10,7 +11,6 @@
 #include "motion/name_pattern.hpp"
 #include "motion/unlabelled.hpp"
 
-// What is asked for each gap of a take: by settings, or by the rows of a plan.
 namespace kinemend {
 
 namespace {

@@ -1,3 +1,4 @@
+// Finds the gap that a row means, and says what is wrong with a row.
 #include "fill/plan_rows.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// The gaps of a take, and what rows of a plan ask for them.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Reads and writes the gap plan as a file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +17,6 @@
 #include "kinemend/experimental/gap_plan.hpp"
 #include "kinemend/experimental/json_depth.hpp"
 
-// The gap plan as a file.
 namespace kinemend {
 
 namespace {

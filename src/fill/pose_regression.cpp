@@ -1,3 +1,5 @@
+// The method `pca` for joints: learns the regression of a joint from frames in which all are
+// observed.
 #include "fill/pose_regression.hpp"
 
 #include <algorithm>

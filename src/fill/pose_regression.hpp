@@ -1,3 +1,4 @@
+// Predicts a joint's rotation from those of the other joints.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Shows what every method would make of the gaps of a plan.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +12,6 @@
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/gap_plan.hpp"
 
-// What every method would make of the gaps of a plan.
 namespace kinemend {
 
 namespace {

@@ -1,3 +1,4 @@
+// What is asked for one gap, by the settings of a run or by a row of a plan.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Solves the regression for each stiffness.
 #include "fill/ridge.hpp"
 
 #include <Eigen/Cholesky>

@@ -1,3 +1,4 @@
+// Ridge regression from which the frames of any span can be left out.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// Finds the size of the body, the frames beside a gap, and the markers that help.
 #include "fill/samples.hpp"
 
 #include <algorithm>

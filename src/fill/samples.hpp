@@ -1,3 +1,4 @@
+// The samples of a marker take as its methods see them, and what is seen beside a gap.
 #pragma once
 
 #include <algorithm>

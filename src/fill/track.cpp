@@ -1,3 +1,4 @@
+// Makes tracks from takes, hides spans of them, and builds charts through gaps.
 #include "fill/track.hpp"
 
 #include <algorithm>

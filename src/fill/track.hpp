@@ -1,3 +1,4 @@
+// One track of rotations or positions as vectors, with its gaps.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,5 @@
+// Chooses the spans of trials near a gap and elsewhere in the take, and runs the candidates on
+// them.
 #include "fill/trials.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Tries the ways to fill a gap on spans of the take that were measured.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,6 @@
 #include "fill/judgement.hpp"
 #include "fill/track.hpp"
 
-// Trying the ways to fill a gap on spans of the take that were measured.
 namespace kinemend::fill {
 
 /// The frames that a gap is filled from: a minute on either side, or ten times its length where
