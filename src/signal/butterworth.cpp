@@ -1,3 +1,4 @@
+// Designs Butterworth low-pass filters as second-order sections.
 #include <fmt/format.h>
 
 #include <algorithm>

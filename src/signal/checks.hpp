@@ -1,3 +1,4 @@
+// Checks of arguments that the filters share.
 #pragma once
 
 #include <cstddef>

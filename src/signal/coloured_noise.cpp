@@ -1,3 +1,4 @@
+// Builds the precision of coloured noise and the evidence of channels under it.
 #include "signal/coloured_noise.hpp"
 
 #include <cmath>

@@ -1,3 +1,6 @@
+// Noise that is correlated from frame to frame, a first-order autoregressive process: its
+// correlation falls by the same factor with each frame, its spectrum is flat up to a corner and
+// falls with the square of the frequency beyond it. White noise is the case 0.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +10,6 @@
 #include "signal/evidence.hpp"
 #include "signal/whittaker.hpp"
 
-/// Noise that is correlated from frame to frame, a first-order autoregressive process: its
-/// correlation falls by the same factor with each frame, its spectrum is flat up to a corner and
-/// falls with the square of the frequency beyond it. White noise is the case 0.
 namespace kinemend::signal {
 
 /// The precision of such noise of variance 1 on eight channels: `weight` along the diagonal,

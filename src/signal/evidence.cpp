@@ -1,3 +1,5 @@
+// Compares models of smoothing by their likelihood, and adapts strengths by expectation
+// maximisation.
 #include "signal/evidence.hpp"
 
 #include <tbb/blocked_range.h>

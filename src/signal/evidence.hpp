@@ -1,3 +1,5 @@
+// Whittaker smoothing with order and strength of largest marginal likelihood for each channel, then
+// with strength that follows the motion in time.
 #pragma once
 
 #include <array>
@@ -10,8 +12,6 @@
 #include "kinemend/experimental/pose_matrix.hpp"
 #include "signal/whittaker.hpp"
 
-/// Whittaker smoothing with order and strength of largest marginal likelihood for each channel,
-/// then with strength that follows the motion in time.
 namespace kinemend::signal {
 
 /// Model of a channel: differences of this order are white, their variance `strength` times smaller

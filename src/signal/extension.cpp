@@ -1,3 +1,4 @@
+// Computes a row beyond the ends of a matrix.
 #include "signal/extension.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Extends matrices beyond their ends by point reflection, for filters that work in place.
 #pragma once
 
 #include <cstddef>

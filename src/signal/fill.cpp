@@ -1,3 +1,4 @@
+// Fills missing samples of channels by lines or natural cubic splines.
 #include <vector>
 
 #include "kinemend/experimental/signal.hpp"

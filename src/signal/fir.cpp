@@ -1,3 +1,4 @@
+// Symmetric FIR filters: the Gaussian and the weighted mean.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The inner loop of symmetric FIR filters, compiled once for each instruction set.
 #include "base/simd.hpp"
 #include "signal/kernels.hpp"
 

@@ -1,3 +1,4 @@
+// Fourth differences of channels, which show noise and hardly any motion.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Runs recursive filters forward and backward over a matrix, or causally frame by frame.
 #include <algorithm>
 
 #include "kinemend/experimental/signal.hpp"

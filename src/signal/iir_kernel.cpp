@@ -1,3 +1,4 @@
+// The inner loop of recursive filters, compiled once for each instruction set.
 #include "base/simd.hpp"
 #include "signal/kernels.hpp"
 

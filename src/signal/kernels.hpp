@@ -1,3 +1,6 @@
+// The hot loops, compiled for each instruction set and chosen at run time. They run along the rows
+// of a frame-major matrix: one vector holds neighbouring channels of a frame. Products and sums are
+// not fused, so that each instruction set gives the same bits.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +11,6 @@
 
 #include "kinemend/experimental/signal.hpp"
 
-/// The hot loops, compiled for each instruction set and chosen at run time. They run along the rows
-/// of a frame-major matrix: one vector holds neighbouring channels of a frame. Products and sums
-/// are not fused, so that each instruction set gives the same bits.
 namespace kinemend::signal {
 
 /// Rows of `channels` doubles, the next row `stride` doubles on (negative: backward in time).

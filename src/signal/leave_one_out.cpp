@@ -1,3 +1,4 @@
+// Fits each smoother in tiles that stay in the cache and compares their predictions.
 #include "signal/leave_one_out.hpp"
 
 #include <algorithm>

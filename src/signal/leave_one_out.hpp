@@ -1,3 +1,5 @@
+// Leave-one-out predictions of the samples of a track, by second-order Whittaker smoothers over a
+// coarse grid of cutoffs.
 #pragma once
 
 #include <array>
@@ -7,8 +9,6 @@
 
 #include "signal/whittaker.hpp"
 
-/// Leave-one-out predictions of the samples of a track, by second-order Whittaker
-/// smoothers over a coarse grid of cutoffs.
 namespace kinemend::signal {
 
 inline constexpr std::size_t lane_tracks = block_channels;

@@ -1,3 +1,4 @@
+// The recursions of leave-one-out predictions, compiled once for each instruction set.
 #include "signal/leave_one_out_kernels.hpp"
 
 #include "base/simd.hpp"

@@ -1,11 +1,11 @@
+// The recursions of leave_one_out.hpp over rows of eight tracks of vectors, compiled for each
+// instruction set and chosen at run time.
 #pragma once
 
 #include <cstddef>
 
 #include "signal/whittaker_kernels.hpp"
 
-/// The recursions of leave_one_out.hpp over rows of eight tracks of vectors, compiled for each
-/// instruction set and chosen at run time.
 namespace kinemend::signal {
 
 /// The factors are of order 2.

@@ -1,3 +1,4 @@
+// The running median of channels, with Tukey's rule at the ends.
 #include <algorithm>
 
 #include "kinemend/experimental/signal.hpp"

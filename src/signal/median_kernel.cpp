@@ -1,3 +1,4 @@
+// The inner loop of running medians, compiled once for each instruction set.
 #include <hwy/aligned_allocator.h>
 
 #include "base/simd.hpp"

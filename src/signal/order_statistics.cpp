@@ -1,3 +1,4 @@
+// Finds the median of values by selection.
 #include "signal/order_statistics.hpp"
 
 #include <algorithm>

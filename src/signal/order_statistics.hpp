@@ -1,3 +1,4 @@
+// Medians, and columns of a matrix as contiguous values.
 #pragma once
 
 #include <span>

@@ -1,3 +1,4 @@
+// Selection of a rank by vectorised partitioning, compiled once for each instruction set.
 #include <algorithm>
 #include <array>
 #include <limits>

@@ -1,3 +1,4 @@
+// The residuals of many smoothing models at once, compiled once for each instruction set.
 #include "base/simd.hpp"
 #include "signal/whittaker.hpp"
 #include "signal/whittaker_kernels.hpp"

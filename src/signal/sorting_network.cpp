@@ -1,3 +1,4 @@
+// Builds Batcher's network and keeps the exchanges on which the median depends.
 #include "signal/sorting_network.hpp"
 
 #include <algorithm>

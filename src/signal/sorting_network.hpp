@@ -1,3 +1,4 @@
+// Networks of exchanges that sort values or find their median.
 #pragma once
 
 #include "signal/kernels.hpp"

@@ -1,3 +1,4 @@
+// Calls Eigen's solver, so that its templates are compiled once.
 #include "signal/symmetric_eigen.hpp"
 
 #include <Eigen/Eigenvalues>

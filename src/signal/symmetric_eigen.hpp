@@ -1,3 +1,4 @@
+// Eigenvalues and eigenvectors of symmetric matrices.
 #pragma once
 
 #include <Eigen/Core>

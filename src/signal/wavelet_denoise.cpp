@@ -1,3 +1,4 @@
+// Denoises channels by shrinking their wavelet coefficients.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Computes the filters of Daubechies wavelets and symlets.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The inner loops of the wavelet transform, compiled once for each instruction set.
 #include "base/simd.hpp"
 #include "signal/kernels.hpp"
 

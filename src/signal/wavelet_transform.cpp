@@ -1,3 +1,4 @@
+// Extends the rows of each level and splits them into two bands.
 #include "signal/wavelet_transform.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The wavelet transform of channels, and its inverse.
 #pragma once
 
 #include <cstddef>

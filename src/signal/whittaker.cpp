@@ -1,3 +1,4 @@
+// Factorises and solves the systems of Whittaker smoothing, shared by channels or with weights.
 #include "signal/whittaker.hpp"
 
 #include <algorithm>

@@ -1,3 +1,7 @@
+// Whittaker smoothing: the x that minimises sum_t w[t] (y[t] - x[t])^2 + sum_t p[t] (D^d x)[t]^2,
+// where D^d is the difference of order d. It is the posterior mean of a signal whose d-th
+// differences are independent normal with variance 1 / p[t], measured with noise of variance 1 /
+// w[t]. The banded systems are solved in O(F).
 #pragma once
 
 #include <array>
@@ -6,10 +10,6 @@
 #include <span>
 #include <vector>
 
-/// Whittaker smoothing: the x that minimises sum_t w[t] (y[t] - x[t])^2 + sum_t p[t] (D^d x)[t]^2,
-/// where D^d is the difference of order d. It is the posterior mean of a signal whose d-th
-/// differences are independent normal with variance 1 / p[t], measured with noise of variance 1 /
-/// w[t]. The banded systems are solved in O(F).
 namespace kinemend::signal {
 
 inline constexpr std::size_t block_channels = 8;

@@ -1,3 +1,4 @@
+// The recursions of Whittaker smoothing, compiled once for each instruction set.
 #include "base/simd.hpp"
 #include "signal/whittaker.hpp"
 #include "signal/whittaker_kernels.hpp"

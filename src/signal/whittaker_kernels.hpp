@@ -1,12 +1,12 @@
+// The recursions of whittaker.hpp over rows of eight channels, compiled for each instruction set
+// and chosen at run time. Products and sums are not fused, so that each instruction set gives the
+// same bits.
 #pragma once
 
 #include <cstddef>
 
 #include "signal/whittaker.hpp"
 
-/// The recursions of whittaker.hpp over rows of eight channels, compiled for each instruction set
-/// and chosen at run time. Products and sums are not fused, so that each instruction set gives the
-/// same bits.
 namespace kinemend::signal {
 
 struct SharedRows {
