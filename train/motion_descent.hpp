@@ -8,7 +8,7 @@
 
 #include "sequence_network.hpp"
 
-// The network of the learned cleaner (`priors/motion/motion_network.hpp`) as it is trained.
+// The network of the learned cleaner (`learned/corrector/motion_network.hpp`) as it is trained.
 // LibTorch is behind this header.
 namespace kinemend::train {
 

@@ -1,5 +1,6 @@
 // A small network of the method learned by LibTorch: writes tests/fixtures/nn/motion.safetensors,
-// which tests/priors/motion_network_test.cpp compares with. Built where LibTorch is found:
+// which tests/learned/corrector/motion_network_test.cpp compares with. Built where LibTorch is
+// found:
 //   cmake --build build/dev --target reference_motion_network
 //   build/dev/train/reference_motion_network FILE
 #include <fstream>

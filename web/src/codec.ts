@@ -1,4 +1,4 @@
-// Takes apart what src/page/codec.cpp put together.
+// Takes apart what src/report/page/codec.cpp put together.
 
 /** The bytes of an element of the page; null where it is not there. */
 export async function bytesOf(name: string): Promise<Uint8Array | null> {

@@ -1,4 +1,4 @@
-// What the page reads: kinemend.report/1 (docs/report.md), and what src/page/take_json.cpp writes.
+// What the page reads: kinemend.report/1 (docs/report.md), and what src/report/page/take_json.cpp writes.
 
 export interface Finding {
   kind: string;
