@@ -207,7 +207,7 @@ void summary(const Arguments& arguments, const std::vector<Version>& versions) {
 
 void experiment(const Arguments& arguments) {
   const SynthOptions synth{"wave", 8, 120, 3, false};
-  const Take take = load_take(arguments, "26_01.bvh", synth);
+  const AnyTake take = load_take(arguments, "26_01.bvh", synth);
   const Clip truth = busiest_part(take.clip, 4, 150);
   Clip noisy = truth;
   Random random(2008);

@@ -178,7 +178,7 @@ void add_row(Table& table, const std::string& name,
 
 void experiment(const Arguments& arguments) {
   const SynthOptions synth{"run", arguments.quick ? 1.0 : 3.0, 120, 9, false};
-  Take take = load_take(arguments, "09_03.bvh", synth);
+  AnyTake take = load_take(arguments, "09_03.bvh", synth);
   if (arguments.quick)
     take.clip = slice(take.clip, 0, std::min<std::size_t>(120, take.clip.frame_count()));
   std::vector<Clip> noisy;

@@ -63,7 +63,7 @@ bool is_of_an_arm(const std::string& name) {
 
 // Arms that are missing from `first` for `count` frames.
 Clip without_arms(Clip clip, std::size_t first, std::size_t count) {
-  clip.observed.assign(clip.local_rotations.size(), 1);
+  clip.observed.assign(clip.rotations.size(), 1);
   for (std::size_t f = first; f < std::min(clip.frame_count(), first + count); ++f) {
     for (std::size_t j = 0; j < clip.joint_count(); ++j) {
       if (!is_of_an_arm(clip.skeleton.names[j])) continue;
@@ -79,7 +79,7 @@ double filling_error(const Clip& truth, const Clip& damaged, const Clip& other) 
   double sum = 0, count = 0;
   for (std::size_t i = 0; i < damaged.observed.size(); ++i) {
     if (damaged.observed[i] != 0) continue;
-    const double angle = angle_between(truth.local_rotations[i], other.local_rotations[i]);
+    const double angle = angle_between(truth.rotations[i], other.rotations[i]);
     sum += angle * angle, count += 3;
   }
   return degrees_per_radian * std::sqrt(sum / count);

@@ -59,14 +59,14 @@ inline std::optional<std::filesystem::path> find_take(const std::filesystem::pat
   return std::nullopt;
 }
 
-struct Take {
+struct AnyTake {
   std::string name;
   Clip clip;
 };
 
 /// The real take without its calibration frames, or the synthetic one where there is none.
-inline Take load_take(const Arguments& arguments, const std::string& file,
-                      const SynthOptions& otherwise) {
+inline AnyTake load_take(const Arguments& arguments, const std::string& file,
+                         const SynthOptions& otherwise) {
   if (const auto path = find_take(arguments.data, file)) {
     const Clip clip = read_clip(*path).clip;
     return {"CMU " + path->stem().string(),
@@ -83,7 +83,7 @@ inline Clip thinned(const Clip& clip, std::size_t first, std::size_t step, std::
     for (std::size_t j = 0; j < clip.joint_count(); ++j) {
       result.rotation(f, j) = clip.rotation(first + f * step, j);
     }
-    result.root_positions[f] = clip.root_positions[first + f * step];
+    result.root_position(f) = clip.root_position(first + f * step);
   }
   result.frame_rate_hz = clip.frame_rate_hz / static_cast<double>(step);
   return result;

@@ -22,11 +22,11 @@ bool is_of_an_arm(const std::string& name) {
 }
 
 Clip without_arms(Clip clip) {
-  clip.observed.resize(clip.local_rotations.size(), 1);
+  clip.observed.resize(clip.rotations.size(), 1);
   for (std::size_t i = 0; i < clip.observed.size(); ++i) {
     if (!is_of_an_arm(clip.skeleton.names[i % clip.joint_count()])) continue;
     clip.observed[i] = 0;
-    clip.local_rotations[i] = {};
+    clip.rotations[i] = {};
   }
   return clip;
 }

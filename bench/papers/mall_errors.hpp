@@ -53,9 +53,8 @@ class TakeErrors {
   std::vector<double> per_frame(const Clip& result, bool plain) const {
     if (!plain || !has_turning()) return rms_deg_per_frame(truth_, result);
     Clip own = result;
-    for (std::size_t i = 0; i < own.local_rotations.size(); ++i) {
-      if (turns_over_[i % own.joint_count()] != 0)
-        own.local_rotations[i] = truth_.local_rotations[i];
+    for (std::size_t i = 0; i < own.rotations.size(); ++i) {
+      if (turns_over_[i % own.joint_count()] != 0) own.rotations[i] = truth_.rotations[i];
     }
     std::vector<double> errors = rms_deg_per_frame(truth_, own);
     for (double& error : errors) error *= plain_factor_;

@@ -27,7 +27,7 @@ Clip filled_by_ebd(const PaperNetwork& ebd, const Clip& clip) {
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
       const std::size_t at = f * clip.joint_count() + static_cast<std::size_t>(joint);
       if (clip.observed.empty() || clip.observed[at] != 0) continue;
-      result.local_rotations[at] = whole.local_rotations[at];
+      result.rotations[at] = whole.rotations[at];
       result.observed[at] = 1;
     }
   }
@@ -49,7 +49,7 @@ double gap_error(const Clip& truth, const Clip& damaged, const Clip& result) {
   for (std::size_t i = 0; i < damaged.observed.size(); ++i) {
     if (damaged.observed[i] != 0) continue;
     const double angle =
-        degrees_per_radian * angle_between(truth.local_rotations[i], result.local_rotations[i]);
+        degrees_per_radian * angle_between(truth.rotations[i], result.rotations[i]);
     square += angle * angle;
     ++count;
   }
@@ -203,7 +203,7 @@ void gap_curves(const Arguments& arguments, const PaperNetwork& ebd) {
         std::find(truth.skeleton.names.begin(), truth.skeleton.names.end(), drawn.joint) -
         truth.skeleton.names.begin());
     Clip clip = damaged(truth, "gaussian-channels", {{"k", 0.5}}, 1);
-    clip.observed.assign(clip.local_rotations.size(), 1);
+    clip.observed.assign(clip.rotations.size(), 1);
     const auto frame = [&](double time_s) {
       return std::min(clip.frame_count() - 2,
                       static_cast<std::size_t>(time_s * clip.frame_rate_hz));

@@ -53,7 +53,7 @@ void experiment(const Arguments& arguments) {
         "49_17"}}};
   Table table(arguments, "page_noise.csv", "set,kind,untouched,auto");
   for (const auto& [set, takes] : sets) {
-    std::vector<Take> truths;
+    std::vector<AnyTake> truths;
     for (const std::string& take : takes) {
       if (arguments.quick && !truths.empty()) break;
       truths.push_back(load_take(arguments, take + ".bvh", {.motion = "walk"}));
@@ -62,7 +62,7 @@ void experiment(const Arguments& arguments) {
     }
     for (const Kind& kind : kinds()) {
       double untouched = 0, ours = 0;
-      for (const Take& take : truths) {
+      for (const AnyTake& take : truths) {
         const Clip clip = kind.damage(take.clip, 5);
         const Clip truth = slice(take.clip, 0, clip.frame_count());
         const double best = best_gaussian(truth, clip);

@@ -59,8 +59,8 @@ void noise(const Arguments& arguments) {
       for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         Clip clip = noisy(truth, 2, 0, seed);
         Random random(100 + seed);
-        for (Vec3& place : clip.root_positions)
-          place += body_test::normal_vector(random, 0.01 / metres);
+        for (std::size_t f = 0; f < clip.frame_count(); ++f)
+          clip.root_position(f) += body_test::normal_vector(random, 0.01 / metres);
         const FrameError error = frame_error(expected, channels_of(layout, clip), metres);
         mean.heading_deg += error.heading_deg / seeds;
         mean.place_mm += error.place_mm / seeds;

@@ -93,8 +93,8 @@ std::vector<std::string> difference_of_frames(const Clip& clip, const Cleaner& c
   global = slice(global, margin, last);
   double largest = 0;
   std::size_t joint = 0;
-  for (std::size_t i = 0; i < local.local_rotations.size(); ++i) {
-    const double angle = angle_between(local.local_rotations[i], global.local_rotations[i]);
+  for (std::size_t i = 0; i < local.rotations.size(); ++i) {
+    const double angle = angle_between(local.rotations[i], global.rotations[i]);
     if (angle > largest) largest = angle, joint = i % clip.joint_count();
   }
   return {clip.skeleton.names[joint], figure(degrees_per_radian * largest),

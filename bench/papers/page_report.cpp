@@ -16,9 +16,8 @@ void repeat(std::vector<Value>& values, std::size_t times) {
 
 // The take over and over.
 Clip repeated(Clip clip, std::size_t times) {
-  repeat(clip.local_rotations, times);
-  repeat(clip.root_positions, times);
-  repeat(clip.joint_translations, times);
+  repeat(clip.rotations, times);
+  repeat(clip.positions, times);
   repeat(clip.observed, times);
   repeat(clip.observed_positions, times);
   clip.validate();

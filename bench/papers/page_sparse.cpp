@@ -91,7 +91,7 @@ void gaps(const Arguments& arguments, const std::vector<Clip>& truths) {
     std::vector<double> sums(3, 0);
     for (const Clip& truth : truths) {
       Clip clip = noisy(truth, 1, 0, 5);
-      clip.observed.assign(clip.local_rotations.size(), 1);
+      clip.observed.assign(clip.rotations.size(), 1);
       const auto half = static_cast<std::size_t>(0.5 * seconds * clip.frame_rate_hz);
       const std::size_t middle = clip.frame_count() / 2;
       const std::size_t first = middle - std::min(half, middle);
