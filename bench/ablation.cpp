@@ -22,7 +22,7 @@ struct Case {
 
 // An arm unseen for a second in the middle.
 Clip without_arm(Clip clip) {
-  clip.observed.assign(clip.local_rotations.size(), 1);
+  clip.observed.assign(clip.rotations.size(), 1);
   const auto half = static_cast<std::size_t>(clip.frame_rate_hz / 2);
   const std::size_t middle = clip.frame_count() / 2;
   for (const char* name : {"LeftArm", "LeftForeArm", "LeftHand"}) {

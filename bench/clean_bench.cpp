@@ -24,11 +24,11 @@ Clip noisy_clip(std::size_t joints, std::size_t frames, double rate_hz) {
   const auto noise = [&random] { return 0.026 * random.normal(); };  // 1.5 degrees
   for (std::size_t f = 0; f < frames; ++f) {
     const double t = static_cast<double>(f) / rate_hz;
-    clip.root_positions.push_back({t, noise(), noise()});
+    clip.positions.push_back({t, noise(), noise()});
     for (std::size_t j = 0; j < joints; ++j) {
       const double phase = 0.4 * static_cast<double>(j);
-      clip.local_rotations.push_back(exp({0.5 * std::sin(6 * t + phase) + noise(),
-                                          0.3 * std::cos(4 * t + phase) + noise(), noise()}));
+      clip.rotations.push_back(exp({0.5 * std::sin(6 * t + phase) + noise(),
+                                    0.3 * std::cos(4 * t + phase) + noise(), noise()}));
     }
   }
   return clip;
@@ -39,11 +39,11 @@ void run(benchmark::State& state, const Cleaner& cleaner, const Clip& input) {
   Clip clip = input;
   for (auto _ : state) {
     state.PauseTiming();
-    clip.local_rotations = input.local_rotations;
-    clip.root_positions = input.root_positions;
+    clip.rotations = input.rotations;
+    clip.positions = input.positions;
     state.ResumeTiming();
     clean_in_place(cleaner, clip);
-    benchmark::DoNotOptimize(clip.local_rotations.data());
+    benchmark::DoNotOptimize(clip.rotations.data());
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(input.frame_count()));
 }

@@ -13,7 +13,7 @@ kinemend::Clip sliding_walk(std::size_t frames) {
   kinemend::Clip clip = kinemend::synthesize(
       {.motion = "walk", .duration_s = (static_cast<double>(frames) + 1) / 120});
   for (std::size_t f = 0; f < clip.frame_count(); ++f)
-    clip.root_positions[f].x += 5 * std::sin(0.02 * static_cast<double>(f));
+    clip.root_position(f).x += 5 * std::sin(0.02 * static_cast<double>(f));
   return clip;
 }
 

@@ -40,7 +40,7 @@ void clean_joints_by(benchmark::State& state, const std::string& method) {
   for (auto _ : state) {
     Clip copy = clip;
     clean_in_place(*cleaner, copy);
-    benchmark::DoNotOptimize(copy.local_rotations.data());
+    benchmark::DoNotOptimize(copy.rotations.data());
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * clip.frame_count()));
 }

@@ -26,12 +26,12 @@ Clip noisy_take(std::size_t frames) {
                             {0, 10, 0}, make_channels(j == 0, parse_rotation_order("ZYX")));
   }
   clip.frame_rate_hz = 120;
-  clip.root_positions.resize(frames);
-  clip.local_rotations.resize(frames * joint_count);
+  clip.positions.resize(frames);
+  clip.rotations.resize(frames * joint_count);
   Random random(1);
   for (std::size_t f = 0; f < frames; ++f) {
     const double t = static_cast<double>(f) / 120;
-    clip.root_positions[f] = {100 * std::sin(t), 90 + random.normal(), 10 * t};
+    clip.root_position(f) = {100 * std::sin(t), 90 + random.normal(), 10 * t};
     for (std::size_t j = 0; j < joint_count; ++j) {
       const double phase = 4 * t + static_cast<double>(j);
       const double x = random.normal(), y = random.normal(), z = random.normal();
@@ -57,8 +57,7 @@ void clean_take(benchmark::State& state, const std::string& method) {
                                     static_cast<std::size_t>(state.range(0)));
   const Clip& clip = long_take();
   const auto cleaner = make_cleaner(method);
-  for (auto _ : state)
-    benchmark::DoNotOptimize(clean_clip(clip, *cleaner).clip.local_rotations.data());
+  for (auto _ : state) benchmark::DoNotOptimize(clean_clip(clip, *cleaner).clip.rotations.data());
   count_frames(state, clip.frame_count());
 }
 
@@ -70,7 +69,7 @@ void cleaner_alone(benchmark::State& state, const std::string& method) {
   Clip clip = long_take();
   for (auto _ : state) {
     state.PauseTiming();
-    clip.local_rotations = long_take().local_rotations;
+    clip.rotations = long_take().rotations;
     state.ResumeTiming();
     clean_in_place(*cleaner, clip);
   }

@@ -23,7 +23,7 @@ void clean(benchmark::State& state, const kinemend::Cleaner& cleaner, const Clip
   for (auto _ : state) {
     Clip clip = take;
     clean_in_place(cleaner, clip);
-    benchmark::DoNotOptimize(clip.local_rotations.data());
+    benchmark::DoNotOptimize(clip.rotations.data());
   }
   state.counters["ms per second"] = benchmark::Counter(
       1e-3 * static_cast<double>(take.frame_count()) / take.frame_rate_hz,

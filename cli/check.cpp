@@ -33,7 +33,7 @@ CheckSettings check_settings(const Arguments& arguments) {
 }
 
 struct Checked {
-  Take take;
+  AnyTake take;
   Report report;
 };
 

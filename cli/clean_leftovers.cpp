@@ -141,7 +141,7 @@ Leftover noise_not_measured(const CheckReport& check, const CleanReport& report)
 
 }  // namespace
 
-std::vector<Leftover> reasons_unchanged(const Take& take, const CleanReport& report,
+std::vector<Leftover> reasons_unchanged(const AnyTake& take, const CleanReport& report,
                                         const CleanPlan& plan, const std::string& input) {
   std::vector<Leftover> reasons;
   if (report.frames == 0 || report.tracks.empty()) return reasons;
@@ -187,7 +187,7 @@ std::vector<Leftover> reasons_unchanged(const Take& take, const CleanReport& rep
   return reasons;
 }
 
-std::vector<std::string> meaningless_flags(const Take& take, const CleanPlan& plan) {
+std::vector<std::string> meaningless_flags(const AnyTake& take, const CleanPlan& plan) {
   const auto is_given = [&](std::string_view flag) {
     return std::find(plan.asked.begin(), plan.asked.end(), flag) != plan.asked.end();
   };

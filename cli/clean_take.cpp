@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void write_result(const CleanJob& job, const Take& take, const std::string& format,
+void write_result(const CleanJob& job, const AnyTake& take, const std::string& format,
                   const CleanPlan& plan) {
   std::error_code error;
   if (!plan.folder.empty()) fs::create_directories(plan.folder, error);
@@ -43,7 +43,7 @@ void refuse_warnings(const std::string& name, const std::vector<std::string>& wa
 }
 
 // The steps before the cleaner: labels, then gaps.
-std::vector<MarkerSwap> prepare(Take& take, const CleanPlan& plan) {
+std::vector<MarkerSwap> prepare(AnyTake& take, const CleanPlan& plan) {
   std::vector<MarkerSwap> swaps;
   if (auto* markers = std::get_if<MarkerClip>(&take); markers && plan.fix_swaps) {
     swaps = find_swaps(*markers);
@@ -97,7 +97,7 @@ void refuse_folder(const std::string& input) {
 }
 
 // Cleans the take in place.
-CleanOutcome clean_in_place(Take& take, const std::string& input, const CleanPlan& plan,
+CleanOutcome clean_in_place(AnyTake& take, const std::string& input, const CleanPlan& plan,
                             const TakeProgress& progress) {
   CleanOutcome outcome;
   outcome.options = plan.options;
@@ -150,7 +150,7 @@ void tell(const Report& report, const CleanJob& job, const CleanPlan& plan, Outc
 }
 
 // A few poses, for the index of a batch.
-std::string picture_of(const Take& take) {
+std::string picture_of(const AnyTake& take) {
   constexpr std::size_t poses = 5;
   return std::visit(
       [](const auto& clip) {
@@ -179,7 +179,7 @@ void clean_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& 
   for (const std::string& line : meaningless)
     outcome.warnings.push_back(fmt::format("{}: {}", name, line));
   // Cleaning takes the take apart.
-  std::optional<Take> before;
+  std::optional<AnyTake> before;
   if (plan.page) before = read.take;
   CleanOutcome cleaned = clean_in_place(read.take, job.input, plan, progress);
   const std::vector<std::string> warnings = cleaned.report.warnings;

@@ -42,7 +42,7 @@ std::string converted_output_of(const Arguments& arguments) {
 
 /// --to, else by the ending of the output, else the format of the input.
 const Format& output_format(const Arguments& arguments, const std::string& output,
-                            const Take& take) {
+                            const AnyTake& take) {
   if (const std::string format = arguments.text("to"); !format.empty()) return format_named(format);
   return format_named(format_for(output, source_of(take)));
 }
@@ -55,14 +55,14 @@ std::string_view axis_name(Axis axis) {
   return axis == Axis::x ? "x" : axis == Axis::y ? "y" : "z";
 }
 
-Take resampled(const Take& take, double frame_rate_hz) {
+AnyTake resampled(const AnyTake& take, double frame_rate_hz) {
   if (const std::string contents = pointless_text(take); !contents.empty())
     say(fmt::format("{}: {}: --fps has no effect", source_of(take).name, contents));
-  return std::visit([&](const auto& clip) { return Take(resample(clip, frame_rate_hz)); }, take);
+  return std::visit([&](const auto& clip) { return AnyTake(resample(clip, frame_rate_hz)); }, take);
 }
 
 /// The old vertical axis is that of --from-up, else it is found from the motion and said.
-Take turned(const Take& take, const Arguments& arguments) {
+AnyTake turned(const AnyTake& take, const Arguments& arguments) {
   const Axis to = axis_named(arguments.text("up"));
   const std::string stated = arguments.text("from_up");
   const Axis from = stated.empty()
@@ -72,11 +72,11 @@ Take turned(const Take& take, const Arguments& arguments) {
     say(fmt::format("{}: {} is taken to be the vertical axis (set it with --from-up)",
                     source_of(take).name, axis_name(from)));
   }
-  return std::visit([&](const auto& clip) { return Take(turn_axes(clip, from, to)); }, take);
+  return std::visit([&](const auto& clip) { return AnyTake(turn_axes(clip, from, to)); }, take);
 }
 
 /// 0 where nothing tells. A guess is said, so ask once a take.
-double metres_per_unit_of(const Take& take) {
+double metres_per_unit_of(const AnyTake& take) {
   if (const auto* markers = std::get_if<MarkerClip>(&take)) return metres_per_unit(markers->unit);
   const Clip& clip = std::get<Clip>(take);
   if (clip.metres_per_unit > 0) return clip.metres_per_unit;
@@ -88,7 +88,7 @@ double metres_per_unit_of(const Take& take) {
 }
 
 /// `metres`: in the unit of the take; 0 where it is unknown.
-Take in_unit(const Take& take, const std::string& unit, double metres) {
+AnyTake in_unit(const AnyTake& take, const std::string& unit, double metres) {
   if (metres == 0) {
     throw Error(ErrorKind::usage, fmt::format("{}: the unit of its lengths is unknown, so they "
                                               "cannot be converted to {}",
@@ -104,7 +104,7 @@ Take in_unit(const Take& take, const std::string& unit, double metres) {
 }
 
 /// The joint positions as markers, in millimetres where the unit is known.
-Take as_markers(const Take& take, const Arguments& arguments) {
+AnyTake as_markers(const AnyTake& take, const Arguments& arguments) {
   const bool with_end_sites = arguments.flag("end_sites");
   const double metres = arguments.given("unit") ? 0 : metres_per_unit_of(take);
   if (metres == 0) return joint_markers(std::get<Clip>(take), with_end_sites);
@@ -112,7 +112,7 @@ Take as_markers(const Take& take, const Arguments& arguments) {
 }
 
 /// The take in the form that the format can hold.
-Take fitted(Take take, const Format& format, const Arguments& arguments) {
+AnyTake fitted(AnyTake take, const Format& format, const Arguments& arguments) {
   const bool joints = std::holds_alternative<Clip>(take);
   if (joints && (format.write == nullptr || arguments.flag("positions"))) {
     return as_markers(take, arguments);
@@ -134,12 +134,12 @@ Take fitted(Take take, const Format& format, const Arguments& arguments) {
 }
 
 /// Treats angles, forces, moments and powers as markers.
-void take_all_points(Take& take) {
+void take_all_points(AnyTake& take) {
   if (auto* markers = std::get_if<MarkerClip>(&take)) markers->is_position.clear();
 }
 
 /// AMC holds angles only; the skeleton is written to an ASF file beside it.
-void check_has_place(const Take& take, const Format& format, const std::string& output) {
+void check_has_place(const AnyTake& take, const Format& format, const std::string& output) {
   if (format.name != "amc" || source_of(take).format == "amc" || output != "-") return;
   throw Error(ErrorKind::usage,
               "convert: AMC needs a skeleton file beside it; name an output file");
@@ -158,7 +158,7 @@ int run_convert(const Arguments& arguments) {
   check_free(output, force);
   TakeResult read = read_take(fs::path(input), read_options(arguments));
   warn_of_repairs(source_of(read.take), read.diagnostics);
-  Take take = std::move(read.take);
+  AnyTake take = std::move(read.take);
   const Format& format = output_format(arguments, output, take);
   if (arguments.flag("plain")) drop_layout(source_of(take));
   if (arguments.flag("all_points")) take_all_points(take);

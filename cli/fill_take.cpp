@@ -22,7 +22,7 @@ std::size_t count_gaps(const Clip& clip) {
 }
 std::size_t count_gaps(const MarkerClip& clip) { return find_gaps(clip).size(); }
 
-void mark_given_gaps(Take& take, const FillRun& run) {
+void mark_given_gaps(AnyTake& take, const FillRun& run) {
   if (!run.gaps) return;
   const auto& [text, name] = *run.gaps;
   const std::vector<NamedGap> gaps = parse_gaps(text, name, first_frame_of(take));
@@ -107,7 +107,7 @@ double max_error_in_file_units(const AnyClip& clip, const FillRun& run) {
 }
 
 /// Limits of rotations mean nothing for markers.
-std::vector<std::string> meaningless_flags(const Take& take, const FillRun& run) {
+std::vector<std::string> meaningless_flags(const AnyTake& take, const FillRun& run) {
   const bool markers = std::holds_alternative<MarkerClip>(take);
   if (markers && run.settings.max_error_deg > 0)
     return {"--max-error-deg has no effect on markers; --max-error-mm limits their error"};
@@ -147,7 +147,7 @@ GapCurves curves_in_plan(const MarkerClip& clip, std::span<const PlannedGap> pla
 }
 
 /// Also says the plan as the text that --plan-out asks for.
-FillOutcome fill_in_place(Take& take, const FillRun& run, const FillCheck& check,
+FillOutcome fill_in_place(AnyTake& take, const FillRun& run, const FillCheck& check,
                           std::string& plan_text) {
   FillSettings settings = run.settings;
   return std::visit(

@@ -94,7 +94,7 @@ PageSettings page_settings(const Arguments& arguments) {
   return settings;
 }
 
-std::string page_of(const Report& report, const Take& before, const Take* after,
+std::string page_of(const Report& report, const AnyTake& before, const AnyTake* after,
                     const PageSettings& settings) {
   return std::visit(
       [&](const auto& clip) {

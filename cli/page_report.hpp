@@ -43,7 +43,7 @@ ReportFiles report_files(const Arguments& arguments, std::size_t takes);
 std::string command_line_of(const Arguments& arguments);
 PageSettings page_settings(const Arguments& arguments);
 /// `after` is null where there is one take; else of the same kind.
-std::string page_of(const Report& report, const Take& before, const Take* after,
+std::string page_of(const Report& report, const AnyTake& before, const AnyTake* after,
                     const PageSettings& settings);
 
 /// --report FILE, once.

@@ -124,7 +124,7 @@ Drawing drawing_of(const Arguments& arguments) {
   return drawing;
 }
 
-Take read_and_warn(const std::string& input, const Arguments& arguments) {
+AnyTake read_and_warn(const std::string& input, const Arguments& arguments) {
   TakeResult result = read_take(fs::path(input), read_options(arguments));
   warn_of_repairs(source_of(result.take), result.diagnostics);
   return std::move(result.take);
@@ -144,8 +144,8 @@ int run_plot(const Arguments& arguments) {
   check_only_ending(output, ".svg");
   check_free(output, force);
   const Drawing drawing = drawing_of(arguments);
-  const Take before = read_and_warn(inputs[0], arguments);
-  std::optional<Take> after;
+  const AnyTake before = read_and_warn(inputs[0], arguments);
+  std::optional<AnyTake> after;
   if (inputs.size() > 1) after = read_and_warn(inputs[1], arguments);
   if (after && after->index() != before.index()) {
     throw Error(ErrorKind::usage, fmt::format("plot: {} and {} are not both joints or both markers",

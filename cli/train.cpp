@@ -50,15 +50,15 @@ struct Training {
   bool force = false, json = false, quiet = false, skip_unreadable = false;
 };
 
-Take read_training_take(const Training& training, const std::string& path) {
+AnyTake read_training_take(const Training& training, const std::string& path) {
   TakeResult read = read_take(std::filesystem::path(path), training.reading);
   if (!training.quiet) warn_of_repairs(source_of(read.take), read.diagnostics);
   return std::move(read.take);
 }
 
 /// Empty if it cannot be read and such takes are skipped, with a warning.
-std::optional<Take> training_take(const Training& training, const std::string& path) {
-  std::optional<Take> take;
+std::optional<AnyTake> training_take(const Training& training, const std::string& path) {
+  std::optional<AnyTake> take;
   try {
     take = read_training_take(training, path);
   } catch (const Error& error) {

@@ -41,10 +41,7 @@ Clip read(const std::string& amc, const std::string& asf, bool* is_mended = null
 
 bool is_sensible(const Clip& clip) {
   const auto sensible = [](Vec3 v) { return norm(v) < 1e6; };
-  for (const Vec3 v : clip.root_positions) {
-    if (!sensible(v)) return false;
-  }
-  for (const Vec3 v : clip.joint_translations) {
+  for (const Vec3 v : clip.positions) {
     if (!sensible(v)) return false;
   }
   for (const Vec3 v : clip.skeleton.offsets) {
@@ -69,12 +66,15 @@ void check_same(const Clip& clip, const Clip& again) {
 void change(Clip& clip, std::uint64_t seed) {
   Random random(seed);
   const double share = random.uniform(), size_rad = std::pow(10.0, random.uniform(-6, 0.5));
-  for (Quat& q : clip.local_rotations) {
+  for (Quat& q : clip.rotations) {
     if (!random.chance(share)) continue;
     q = normalized(q * exp({size_rad * random.normal(), size_rad * random.normal(),
                             size_rad * random.normal()}));
   }
-  for (Vec3& v : clip.joint_translations) v += {random.normal(), 0, 0.5};
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    for (std::size_t k = 1; k < clip.point_count(); ++k)
+      clip.position(f, k) += {random.normal(), 0, 0.5};
+  }
 }
 
 // What is no finite number, half a frame at the end, or two numbers without a blank between them is

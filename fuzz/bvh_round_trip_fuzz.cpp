@@ -18,8 +18,7 @@ using namespace kinemend;
 // Angles and positions of a size for which four decimals say enough.
 bool is_sensible(const Clip& clip) {
   const auto sensible = [](Vec3 v) { return norm(v) < 1e6; };
-  return std::all_of(clip.root_positions.begin(), clip.root_positions.end(), sensible) &&
-         std::all_of(clip.joint_translations.begin(), clip.joint_translations.end(), sensible);
+  return std::all_of(clip.positions.begin(), clip.positions.end(), sensible);
 }
 
 // `source`: unless null, what keeps its exact value where the clip has it.
@@ -55,13 +54,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Clip source = clip;
   Random random(seed);
   const double share = random.uniform(), size_rad = std::pow(10.0, random.uniform(-6, 0.5));
-  for (Quat& q : clip.local_rotations) {
+  for (Quat& q : clip.rotations) {
     if (!random.chance(share)) continue;
     q = normalized(q * exp({size_rad * random.normal(), size_rad * random.normal(),
                             size_rad * random.normal()}));
   }
   if (random.chance(0.3)) {
-    for (Vec3& p : clip.root_positions) p += {0.5, 0.25, -0.125};
+    for (std::size_t f = 0; f < clip.frame_count(); ++f)
+      clip.root_position(f) += {0.5, 0.25, -0.125};
   }
   check_round_trip(clip, &source, write_clip(clip));
   if (random.chance(0.2) && clip.frame_count() > 0) {

@@ -24,10 +24,10 @@ std::unique_ptr<Cleaner> cleaner_of(const std::shared_ptr<const Model>& model) {
 }
 
 bool is_finite(const Clip& clip) {
-  for (const Quat& q : clip.local_rotations) {
+  for (const Quat& q : clip.rotations) {
     if (!std::isfinite(q.w + q.x + q.y + q.z)) return false;
   }
-  for (const Vec3& v : clip.root_positions) {
+  for (const Vec3& v : clip.positions) {
     if (!std::isfinite(v.x + v.y + v.z)) return false;
   }
   return true;

@@ -42,7 +42,7 @@ USES = {
 PUBLIC = {header: room for room, headers in {
     "base": "error diagnostics random options pose_matrix version json_depth content_hash frame_rate text",
     "rotation": "rotation",
-    "motion": "skeleton clip take_view kinematics marker_clip convert gaps frame_numbers known_names subjects",
+    "motion": "skeleton take clip take_view kinematics marker_clip convert gaps frame_numbers known_names subjects",
     "io": "io",
     "body": "representation body",
     "signal": "signal",

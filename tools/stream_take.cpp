@@ -42,13 +42,14 @@ std::unique_ptr<Stream> stream_of(const Cleaner& cleaner, const MarkerClip& clip
 }
 
 // None of a method that needs the whole take.
-template <class Take>
-std::optional<Take> streamed(const Take& take, const Method& method, const OptionValues& options) {
+template <class AnyTake>
+std::optional<AnyTake> streamed(const AnyTake& take, const Method& method,
+                                const OptionValues& options) {
   try {
     const auto cleaner = make_cleaner(method.name, options);
     const auto stream = stream_of(*cleaner, take);
     const TakeView view = view_of(take);
-    Take result = take;
+    AnyTake result = take;
     std::size_t next = 0;
     Frame out;
     for (std::size_t f = 0; f < take.frame_count(); ++f) {
@@ -62,8 +63,8 @@ std::optional<Take> streamed(const Take& take, const Method& method, const Optio
   }
 }
 
-template <class Take>
-void stream_all(const Take& take, const std::filesystem::path& folder) {
+template <class AnyTake>
+void stream_all(const AnyTake& take, const std::filesystem::path& folder) {
   const std::vector<std::pair<std::string, OptionValues>> ways{
       {"", {}}, {".causal", {{"causal", true}}}, {".filter", {{"smoother", false}}}};
   for (const Method& method : methods()) {

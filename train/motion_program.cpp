@@ -51,7 +51,7 @@ std::vector<MotionPair> pairs_of(const std::string& list) {
     if (tab == std::string::npos)
       throw Error(ErrorKind::usage, fmt::format("{}: expected two files with a tab between", list));
     const std::string noisy = line.substr(0, tab), reference = line.substr(tab + 1);
-    const Take one = read_take(noisy).take, other = read_take(reference).take;
+    const AnyTake one = read_take(noisy).take, other = read_take(reference).take;
     if (one.index() != other.index())
       throw Error(ErrorKind::usage, fmt::format("{}: joints and markers are no pair", noisy));
     if (const auto* markers = std::get_if<MarkerClip>(&one)) {

@@ -17,10 +17,10 @@
 namespace kinemend {
 
 /// The content of a file: the motion of a skeleton, or of markers.
-using Take = std::variant<Clip, MarkerClip>;
+using AnyTake = std::variant<Clip, MarkerClip>;
 
-const SourceInfo& source_of(const Take& take);
-SourceInfo& source_of(Take& take);
+const SourceInfo& source_of(const AnyTake& take);
+SourceInfo& source_of(AnyTake& take);
 
 struct ReadOptions {
   std::string format;           ///< "bvh"; empty: detected by content, then by extension
@@ -44,7 +44,7 @@ struct ReadResult {
 };
 
 struct TakeResult {
-  Take take;
+  AnyTake take;
   Diagnostics diagnostics;
 };
 
@@ -78,11 +78,11 @@ std::string write_clip(const Clip& clip, std::string_view format = {});
 /// The same for markers; the default without a source is C3D. A missing sample is written in the
 /// way of the format. Points that are not positions are written to C3D only.
 std::string write_markers(const MarkerClip& clip, std::string_view format = {});
-std::string write_take(const Take& take, std::string_view format = {});
+std::string write_take(const AnyTake& take, std::string_view format = {});
 /// What is lost when `write_take` writes the take in `format`: analog samples, force plates,
 /// events, subjects, parameters, rotations. Empty where nothing is lost. Names are stable
 /// (`not_kept`). Errors: `usage` for an unknown format.
-Diagnostics lost_in_writing(const Take& take, std::string_view format);
+Diagnostics lost_in_writing(const AnyTake& take, std::string_view format);
 
 /// A file that another file needs in the same folder.
 struct SideFile {
@@ -93,8 +93,8 @@ struct SideFile {
 /// read again: the skeleton of an AMC file. It has the name of the source's skeleton where a reader
 /// would look for that name, else the name of the take. Empty for other formats, and where a reader
 /// already finds the same skeleton.
-std::optional<SideFile> side_file(const Take& take, std::string_view bytes, std::string_view format,
-                                  const std::filesystem::path& output);
+std::optional<SideFile> side_file(const AnyTake& take, std::string_view bytes,
+                                  std::string_view format, const std::filesystem::path& output);
 
 /// Writes `bytes` to a temporary file beside `path`, flushes it to the disk and renames it, so that
 /// `path` always holds either its old content or all of the new. A replaced file keeps its

@@ -14,7 +14,7 @@ namespace kinemend::representation {
 
 namespace {
 
-// Column of a joint in `Clip::joint_translations`.
+// Column of a joint among `Clip::translated_joints`.
 std::optional<std::size_t> translation_column(const Clip& clip, std::size_t joint) {
   const auto& joints = clip.translated_joints;
   const auto found =
@@ -65,8 +65,8 @@ class Chain {
   };
 
   Vec3 offset(std::size_t frame, std::size_t joint, std::optional<std::size_t> column) const {
-    if (joint == 0) return clip_.root_positions[frame];
-    if (column) return clip_.joint_translations[frame * clip_.translated_joints.size() + *column];
+    if (joint == 0) return clip_.root_position(frame);
+    if (column) return clip_.position(frame, 1 + *column);
     return clip_.skeleton.offsets[joint];
   }
 
@@ -87,7 +87,7 @@ RootMotion root_motion(const Clip& clip, const BodyMatch& match) {
   for (std::size_t f = 0; f < frames; ++f) {
     const Chain::Point parent = chain.at(f, above);
     const Chain::Point point =
-        above == 0 ? Chain::Point{{}, clip.root_positions[f]} : chain.at(f, above + 1);
+        above == 0 ? Chain::Point{{}, clip.root_position(f)} : chain.at(f, above + 1);
     root.ancestors.push_back(above == 0 ? Quat{} : match.upright * parent.rotation * unturned);
     root.rotations.push_back(root.ancestors.back() * match.before[0] *
                              clip.rotation(f, root_joint(match)) * match.after[0]);
@@ -111,17 +111,17 @@ void place_root(Clip& clip, const BodyMatch& match, std::size_t frame, Vec3 posi
   const Vec3 global = rotate(conjugate(match.upright), position);
   const std::size_t joint = root_joint(match);
   if (joint == 0) {
-    clip.root_positions[frame] = global;
+    clip.root_position(frame) = global;
     return;
   }
   const Chain chain(clip, match.tracks[0]);
   if (const auto column = translation_column(clip, joint)) {
     const Chain::Point parent = chain.at(frame, chain.length() - 1);
-    clip.joint_translations[frame * clip.translated_joints.size() + *column] =
+    clip.position(frame, 1 + *column) =
         rotate(conjugate(parent.rotation), global - parent.position);
     return;
   }
-  clip.root_positions[frame] += global - chain.at(frame, chain.length()).position;
+  clip.root_position(frame) += global - chain.at(frame, chain.length()).position;
 }
 
 void follow_root(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,

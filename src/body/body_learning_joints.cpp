@@ -26,10 +26,13 @@ bool moves(const Clip& clip, std::size_t joint) {
       return true;
   }
   const auto& translated = clip.translated_joints;
-  return joint == 0 ? std::any_of(clip.root_positions.begin(), clip.root_positions.end(),
-                                  [&](Vec3 p) { return p != clip.root_positions.front(); })
-                    : std::find(translated.begin(), translated.end(),
-                                static_cast<std::int32_t>(joint)) != translated.end();
+  if (joint > 0)
+    return std::find(translated.begin(), translated.end(), static_cast<std::int32_t>(joint)) !=
+           translated.end();
+  for (std::size_t f = 1; f < clip.frame_count(); ++f) {
+    if (clip.root_position(f) != clip.root_position(0)) return true;
+  }
+  return false;
 }
 
 // Joints that only carry the hips do not belong to the body.

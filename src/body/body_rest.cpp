@@ -130,8 +130,8 @@ Clip unturned_clip(const Clip& clip) {
   Clip still;
   still.skeleton = clip.skeleton;
   still.frame_rate_hz = clip.frame_rate_hz;
-  still.root_positions.resize(1);
-  still.local_rotations.resize(clip.joint_count());
+  still.positions.resize(1);
+  still.rotations.resize(clip.joint_count());
   return still;
 }
 

@@ -47,24 +47,17 @@ void encode_quaternion(std::span<const Quat> track, PoseMatrix& channels, std::s
   }
 }
 
-// The position columns of a frame: the root's, then those of the translated joints.
-template <class AnyClip>
-auto& position(AnyClip& clip, std::size_t frame, std::size_t column) {
-  if (column == 0) return clip.root_positions[frame];
-  return clip.joint_translations[frame * clip.translated_joints.size() + column - 1];
-}
-
 void encode_positions(const Clip& clip, EncodedClip& encoded) {
   const std::size_t frames = clip.frame_count();
   const std::size_t first_channel = encoded.joints.size() * encoded.channels_per_joint();
   for (std::size_t column = 0; column <= clip.translated_joints.size(); ++column) {
     Vec3 sum;
-    for (std::size_t f = 0; f < frames; ++f) sum += position(clip, f, column);
+    for (std::size_t f = 0; f < frames; ++f) sum += clip.position(f, column);
     const Vec3 mean = frames > 0 ? (1.0 / static_cast<double>(frames)) * sum : Vec3{};
     encoded.position_references.push_back(mean);
     const std::size_t channel = first_channel + 3 * column;
     for (std::size_t f = 0; f < frames; ++f) {
-      const Vec3 p = position(clip, f, column) - mean;
+      const Vec3 p = clip.position(f, column) - mean;
       encoded.poses(f, channel) = p.x;
       encoded.poses(f, channel + 1) = p.y;
       encoded.poses(f, channel + 2) = p.z;
@@ -225,7 +218,7 @@ void decode(const EncodedClip& encoded, Clip& clip) {
     for (std::size_t f = 0; f < encoded.poses.frames; ++f) {
       const Vec3 p{encoded.poses(f, channel), encoded.poses(f, channel + 1),
                    encoded.poses(f, channel + 2)};
-      position(clip, f, column) = encoded.position_references[column] + p;
+      clip.position(f, column) = encoded.position_references[column] + p;
     }
   }
 }

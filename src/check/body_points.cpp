@@ -88,7 +88,8 @@ BodyPoints body_points(const Clip& clip, double metres_per_unit, const KnownName
   if (body.feet.empty()) return body;
   body.positions = joint_positions(clip, true);
   for (Vec3& p : body.positions) p = metres_per_unit * p;
-  for (const Vec3 p : clip.root_positions) body.centres.push_back(metres_per_unit * p);
+  for (std::size_t f = 0; f < body.frames; ++f)
+    body.centres.push_back(metres_per_unit * clip.root_position(f));
   return body;
 }
 

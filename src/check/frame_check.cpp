@@ -14,17 +14,14 @@ namespace {
 // Equal to the frame before to the precision of text.
 bool repeats(const Clip& clip, std::size_t frame) {
   constexpr double same_angle = 1e-7;
-  const Vec3 step = clip.root_positions[frame] - clip.root_positions[frame - 1];
-  if (norm(step) > 1e-9 * (1 + norm(clip.root_positions[frame]))) return false;
+  const Vec3 step = clip.root_position(frame) - clip.root_position(frame - 1);
+  if (norm(step) > 1e-9 * (1 + norm(clip.root_position(frame)))) return false;
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
     if (angle_between(clip.rotation(frame - 1, j), clip.rotation(frame, j)) > same_angle)
       return false;
   }
-  const std::size_t width = clip.translated_joints.size();
-  for (std::size_t i = 0; i < width; ++i) {
-    if (!(clip.joint_translations[frame * width + i] ==
-          clip.joint_translations[(frame - 1) * width + i]))
-      return false;
+  for (std::size_t k = 1; k < clip.point_count(); ++k) {
+    if (!(clip.position(frame, k) == clip.position(frame - 1, k))) return false;
   }
   return true;
 }
@@ -87,7 +84,7 @@ void report_repeats(const std::vector<std::uint8_t>& repeated, CheckReport& repo
 }
 
 bool is_zero(const Clip& clip, std::size_t frame) {
-  if (norm(clip.root_positions[frame]) > 0) return false;
+  if (norm(clip.root_position(frame)) > 0) return false;
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
     if (angle_between(clip.rotation(frame, j), {}) > 1e-9) return false;
   }

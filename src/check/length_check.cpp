@@ -117,8 +117,7 @@ void check_lengths(const Clip& clip, const CheckSettings& settings, CheckReport&
   for (std::size_t i = 0; i < width; ++i) {
     if (carries_the_body(clip.skeleton, clip.translated_joints[i])) continue;
     std::vector<double> lengths(frames);
-    for (std::size_t f = 0; f < frames; ++f)
-      lengths[f] = norm(clip.joint_translations[f * width + i]);
+    for (std::size_t f = 0; f < frames; ++f) lengths[f] = norm(clip.position(f, 1 + i));
     std::vector<double> sorted = lengths;
     const double usual = median_of(sorted);
     if (!(usual > least_length)) continue;

@@ -268,10 +268,10 @@ TrackChanges position_changes(const MarkerClip& clip, std::size_t marker) {
 void check_stale(const Clip& clip, const CheckSettings& settings, CheckReport& report) {
   const std::vector<std::size_t> joints = moving_joints(clip);
   std::vector<TrackChanges> changes(joints.size());
-  for_each_parallel(joints.size(), clip.local_rotations.size(),
+  for_each_parallel(joints.size(), clip.rotations.size(),
                     [&](std::size_t i) { changes[i] = rotation_changes(clip, joints[i]); });
   StaleSpans spans = find_stale(changes, clip.frame_count(), shortest_frames(report, settings));
-  for_each_parallel(joints.size(), clip.local_rotations.size(),
+  for_each_parallel(joints.size(), clip.rotations.size(),
                     [&](std::size_t i) { leave_out_hinge_ends(clip, joints[i], spans.frozen[i]); });
   report_stale(spans, joints, report);
 }

@@ -46,7 +46,7 @@ std::vector<Span> random_spans(Random random, std::size_t first_frame, std::size
 }
 
 void mark_lost(Clip& clip, std::size_t frame, std::size_t joint) {
-  if (clip.observed.empty()) clip.observed.assign(clip.local_rotations.size(), 1);
+  if (clip.observed.empty()) clip.observed.assign(clip.rotations.size(), 1);
   clip.observed[frame * clip.joint_count() + joint] = 0;
 }
 

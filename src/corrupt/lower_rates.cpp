@@ -97,14 +97,13 @@ void resample(Clip& clip, const TargetOptions& options, const std::vector<Recipe
         clip.observed[f * clip.joint_count() + j] = 0;
     }
     if (root)
-      clip.root_positions[f] = value_of(
-          list[f], [&](std::size_t g) { return truth.root_positions[g]; }, mix_vectors);
+      clip.root_position(f) = value_of(
+          list[f], [&](std::size_t g) { return truth.root_position(g); }, mix_vectors);
     for (std::size_t k = 0; k < translated; ++k) {
       const auto joint = static_cast<std::size_t>(clip.translated_joints[k]);
       if (std::find(joints.begin(), joints.end(), joint) == joints.end()) continue;
-      clip.joint_translations[f * translated + k] = value_of(
-          list[f], [&](std::size_t g) { return truth.joint_translations[g * translated + k]; },
-          mix_vectors);
+      clip.position(f, 1 + k) = value_of(
+          list[f], [&](std::size_t g) { return truth.position(g, 1 + k); }, mix_vectors);
     }
   }
 }

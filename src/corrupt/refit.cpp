@@ -70,7 +70,7 @@ Quat wahba(Quat clean, std::span<const Vec3> from, std::span<const Vec3> to) {
 
 struct Bones {
   std::vector<std::vector<std::size_t>> children;
-  std::vector<std::int32_t> translated;  // column in joint_translations, or -1
+  std::vector<std::int32_t> translated;  // among translated_joints, or -1
 };
 
 Bones bones_of(const Clip& clip) {
@@ -88,10 +88,9 @@ Bones bones_of(const Clip& clip) {
 }
 
 Vec3 offset_of(const Clip& clip, const Bones& bones, std::size_t frame, std::size_t joint) {
-  if (joint == 0) return clip.root_positions[frame];
+  if (joint == 0) return clip.root_position(frame);
   if (bones.translated[joint] < 0) return clip.skeleton.offsets[joint];
-  return clip.joint_translations[frame * clip.translated_joints.size() +
-                                 static_cast<std::size_t>(bones.translated[joint])];
+  return clip.position(frame, 1 + static_cast<std::size_t>(bones.translated[joint]));
 }
 
 void refit_frame(Clip& clip, const Bones& bones, std::size_t frame, std::span<const Vec3> targets,
@@ -99,7 +98,7 @@ void refit_frame(Clip& clip, const Bones& bones, std::size_t frame, std::span<co
   constexpr double right_enough = 1e-9;
   const Pose clean = forward_kinematics(clip, frame);
   Pose fitted = clean;
-  if (move_root) clip.root_positions[frame] = targets[0];
+  if (move_root) clip.root_position(frame) = targets[0];
   std::vector<Vec3> from, to;
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
     const std::int32_t parent = clip.skeleton.parents[j];

@@ -12,6 +12,7 @@
 #include "corrupt/track_errors.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/take_view.hpp"
 
 namespace kinemend::corrupt {
 
@@ -211,22 +212,21 @@ class ClipDamage {
     for (std::size_t f = 0; f < errors.size(); ++f) place(f) += (1 / mm_per_unit_) * errors[f];
   }
   void move_root() {
-    move(clip_.joint_count(), 0, [&](std::size_t f) -> Vec3& { return clip_.root_positions[f]; });
+    move(clip_.joint_count(), 0, [&](std::size_t f) -> Vec3& { return clip_.root_position(f); });
   }
   void translate(std::size_t joint, std::size_t k) {
-    const std::size_t count = clip_.translated_joints.size();
     move(clip_.joint_count() + 1 + k, joint,
-         [&](std::size_t f) -> Vec3& { return clip_.joint_translations[f * count + k]; });
+         [&](std::size_t f) -> Vec3& { return clip_.position(f, 1 + k); });
   }
 
   void drift() {
     const Axis up = guess_up_axis(truth_);
-    const Drift path =
-        drifted(truth_.root_positions, clip_.frame_rate_hz, up, plan_.noise.heading_deg,
-                plan_.noise.root_mm / mm_per_unit_, random_.fork(drift_stream));
+    const Drift path = drifted(positions_of(view_of(truth_).tracks[truth_.joint_count()]),
+                               clip_.frame_rate_hz, up, plan_.noise.heading_deg,
+                               plan_.noise.root_mm / mm_per_unit_, random_.fork(drift_stream));
     const Quat rest = clip_.skeleton.rest_rotations[0];
     for (std::size_t f = 0; f < clip_.frame_count(); ++f) {
-      clip_.root_positions[f] += path.places[f] - truth_.root_positions[f];
+      clip_.root_position(f) += path.places[f] - truth_.root_position(f);
       const Quat turned = conjugate(rest) * path.headings[f] * rest * clip_.rotation(f, 0);
       set_rotation(clip_, f, 0, turned);
     }

@@ -19,8 +19,8 @@ namespace {
 void measure_rotations(const Clip& before, const Clip& after, DamageReport& report) {
   double sum = 0;
   const std::size_t joints = before.joint_count();
-  for (std::size_t i = 0; i < before.local_rotations.size(); ++i) {
-    const Quat old = before.local_rotations[i], now = after.local_rotations[i];
+  for (std::size_t i = 0; i < before.rotations.size(); ++i) {
+    const Quat old = before.rotations[i], now = after.rotations[i];
     const bool lost =
         before.is_observed(i / joints, i % joints) && !after.is_observed(i / joints, i % joints);
     if (lost || !(old == now)) ++report.samples_damaged;
@@ -28,7 +28,7 @@ void measure_rotations(const Clip& before, const Clip& after, DamageReport& repo
     sum += angle * angle;
     report.max_deg = std::max(report.max_deg, angle);
   }
-  report.samples = before.local_rotations.size();
+  report.samples = before.rotations.size();
   if (report.samples > 0) report.rms_deg = std::sqrt(sum / static_cast<double>(report.samples));
 }
 

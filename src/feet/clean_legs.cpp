@@ -62,7 +62,7 @@ class FeetCleaning {
       : clip_(motion), settings_(settings), limits_(limits) {}
 
   FeetReport run() {
-    report_.changed.resize(clip_.local_rotations.size());
+    report_.changed.resize(clip_.rotations.size());
     report_.root_changed.resize(clip_.frame_count());
     if (settings_.mode == FeetMode::off || !find_feet()) return std::move(report_);
     const Soles soles = find_soles(legs_, up_, settings_.contact);
@@ -175,7 +175,7 @@ class FeetCleaning {
     if (update.legs.empty()) return;
     const Carrier& carrier = legs_.carrier;
     if (norm(update.root_shift) > least_shift * legs_.height) {
-      clip_.root_positions[frame] += rotate(conjugate(carrier.frames_of[frame]), update.root_shift);
+      clip_.root_position(frame) += rotate(conjugate(carrier.frames_of[frame]), update.root_shift);
       report_.root_changed[frame] = 1;
     }
     const auto turn = [&](const LegJoint& joint, Quat before, Vec3 by) {
@@ -260,11 +260,7 @@ class FeetCleaning {
 
   void lower(std::size_t frame, Vec3 shift) {
     const Carrier& carrier = legs_.carrier;
-    Vec3& position =
-        carrier.track == 0
-            ? clip_.root_positions[frame]
-            : clip_.joint_translations[frame * clip_.translated_joints.size() + carrier.track - 1];
-    position += rotate(conjugate(carrier.frames_of[frame]), shift);
+    clip_.position(frame, carrier.track) += rotate(conjugate(carrier.frames_of[frame]), shift);
     report_.root_changed[frame] = 1;
   }
 

@@ -34,10 +34,8 @@ std::vector<std::int32_t> translation_tracks(const Clip& clip) {
 }
 
 Vec3 mean_translation(const Clip& clip, std::size_t track) {
-  const std::size_t width = clip.translated_joints.size();
   Vec3 sum;
-  for (std::size_t f = 0; f < clip.frame_count(); ++f)
-    sum += clip.joint_translations[f * width + track];
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) sum += clip.position(f, 1 + track);
   return (1.0 / static_cast<double>(std::max<std::size_t>(clip.frame_count(), 1))) * sum;
 }
 
@@ -170,8 +168,8 @@ Vec3 heel_at_rest(const Clip& clip, const LegModel& model, Up up) {
   constexpr double behind = 0.25, least_ahead = 0.5;
   Clip rest;
   rest.skeleton = clip.skeleton;
-  rest.root_positions.resize(1);
-  rest.local_rotations.resize(clip.joint_count());
+  rest.positions.resize(1);
+  rest.rotations.resize(clip.joint_count());
   const Quat ankle = forward_kinematics(rest, 0).rotations[model.ankle.index];
   const Vec3 ahead = rotate(ankle, model.sole[toe]);
   const Vec3 level = level_part(ahead, up);
@@ -185,7 +183,6 @@ void update_poses(const Clip& clip, const std::vector<Leg>& legs, LegMotion& mot
   const Skeleton& skeleton = clip.skeleton;
   const std::vector<std::size_t> joints = needed_joints(skeleton, legs);
   const std::vector<std::int32_t> tracks = translation_tracks(clip);
-  const std::size_t width = clip.translated_joints.size();
   motion.poses.resize(motion.frames * legs.size());
   motion.carrier.frames_of.assign(motion.frames, Quat{});
   motion.carrier.at.assign(motion.frames, Vec3{});
@@ -193,10 +190,9 @@ void update_poses(const Clip& clip, const std::vector<Leg>& legs, LegMotion& mot
                           std::vector<Vec3>& positions) {
     for (const std::size_t j : joints) {
       const Quat local = skeleton.rest_rotations[j] * clip.rotation(f, j);
-      const Vec3 offset = j == 0 ? clip.root_positions[f]
-                          : tracks[j] < 0
-                              ? skeleton.offsets[j]
-                              : clip.joint_translations[f * width + index_of(tracks[j])];
+      const Vec3 offset = j == 0          ? clip.root_position(f)
+                          : tracks[j] < 0 ? skeleton.offsets[j]
+                                          : clip.position(f, 1 + index_of(tracks[j]));
       if (skeleton.parents[j] < 0) {
         rotations[j] = local;
         positions[j] = offset;

@@ -122,7 +122,6 @@ class JointTake : public GappedTake {
   }
 
   void store(const OpenGap& gap, const Filling& filling) override {
-    const std::size_t positions = 1 + clip_.translated_joints.size();
     const Track& track = tracks_[gap.track];
     const std::size_t index = sources_[gap.track].index;
     for (std::size_t f = gap.gap.first_frame; f <= gap.gap.last_frame; ++f) {
@@ -131,9 +130,8 @@ class JointTake : public GappedTake {
         store_rotation(index, f, track.chart.rotation_of(f, value));
         continue;
       }
-      (index == 0 ? clip_.root_positions[f]
-                  : clip_.joint_translations[f * (positions - 1) + index - 1]) = value;
-      clip_.observed_positions[f * positions + index] = 1;
+      clip_.position(f, index) = value;
+      clip_.observed_positions[f * clip_.point_count() + index] = 1;
     }
   }
 

@@ -26,17 +26,12 @@ std::size_t position_index(const Clip& clip, std::size_t joint) {
   return 0;
 }
 
-Vec3 position_of(const Clip& clip, std::size_t frame, std::size_t index) {
-  if (index == 0) return clip.root_positions[frame];
-  return clip.joint_translations[frame * clip.translated_joints.size() + index - 1];
-}
-
 double distance_in(const Clip& a, const Clip& b, const PlannedGap& row, std::size_t frame) {
   const std::size_t joint = row.gap.track;
   if (!row.is_position)
     return angle_between(a.rotation(frame, joint), b.rotation(frame, joint)) * degrees_per_radian;
   const std::size_t index = position_index(a, joint);
-  return norm(position_of(a, frame, index) - position_of(b, frame, index));
+  return norm(a.position(frame, index) - b.position(frame, index));
 }
 double distance_in(const MarkerClip& a, const MarkerClip& b, const PlannedGap& row,
                    std::size_t frame) {
@@ -157,7 +152,7 @@ Values values_of(const Clip& clip, const PlannedGap& row, std::size_t first, std
     if (!is_seen) {
       values.emplace_back();
     } else if (row.is_position) {
-      values.emplace_back(position_of(clip, f, index));
+      values.emplace_back(clip.position(f, index));
     } else {
       angles = to_euler_near(clip.rotation(f, joint), order, angles);
       values.emplace_back(degrees_per_radian * Vec3{angles[0], angles[1], angles[2]});

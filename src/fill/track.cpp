@@ -126,12 +126,11 @@ Track rotation_track(const Clip& clip, std::size_t joint) {
 }
 
 Track position_track(const Clip& clip, std::size_t position) {
-  const std::size_t frames = clip.frame_count(), translated = clip.translated_joints.size();
+  const std::size_t frames = clip.frame_count();
   Track track{std::vector<Vec3>(frames), std::vector<std::uint8_t>(frames)};
   if (position > 0) track.joint = static_cast<std::size_t>(clip.translated_joints[position - 1]);
   for (std::size_t f = 0; f < frames; ++f) {
-    track.values[f] = position == 0 ? clip.root_positions[f]
-                                    : clip.joint_translations[f * translated + position - 1];
+    track.values[f] = clip.position(f, position);
     track.observed[f] = clip.is_position_observed(f, position) ? 1 : 0;
   }
   return track;

@@ -171,11 +171,11 @@ const Format* format_of_content(std::string_view head) {
   return best;
 }
 
-const SourceInfo& source_of(const Take& take) {
+const SourceInfo& source_of(const AnyTake& take) {
   return std::visit([](const auto& clip) -> const SourceInfo& { return clip.source; }, take);
 }
 
-SourceInfo& source_of(Take& take) {
+SourceInfo& source_of(AnyTake& take) {
   return std::visit([](auto& clip) -> SourceInfo& { return clip.source; }, take);
 }
 
@@ -229,12 +229,12 @@ std::string write_markers(const MarkerClip& clip, std::string_view format) {
   return found.write_markers(markers);
 }
 
-std::string write_take(const Take& take, std::string_view format) {
+std::string write_take(const AnyTake& take, std::string_view format) {
   if (const Clip* clip = std::get_if<Clip>(&take)) return write_clip(*clip, format);
   return write_markers(std::get<MarkerClip>(take), format);
 }
 
-Diagnostics lost_in_writing(const Take& take, std::string_view format) {
+Diagnostics lost_in_writing(const AnyTake& take, std::string_view format) {
   const Format& found = format_called(format);
   const auto* const clip = std::get_if<MarkerClip>(&take);
   if (clip == nullptr) return {};
@@ -245,8 +245,8 @@ Diagnostics lost_in_writing(const Take& take, std::string_view format) {
   return losses;
 }
 
-std::optional<SideFile> side_file(const Take& take, std::string_view bytes, std::string_view format,
-                                  const std::filesystem::path& output) {
+std::optional<SideFile> side_file(const AnyTake& take, std::string_view bytes,
+                                  std::string_view format, const std::filesystem::path& output) {
   if (format != "amc") return std::nullopt;
   return amc_side_file(take, bytes, output);
 }

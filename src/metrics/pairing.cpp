@@ -35,9 +35,9 @@ std::vector<double> geodesic_angles(const Clip& reference, const Clip& other,
                                     std::size_t first_frame) {
   std::vector<double> angles;
   const std::size_t first = first_frame * reference.joint_count();
-  angles.reserve(reference.local_rotations.size() - first);
-  for (std::size_t i = first; i < reference.local_rotations.size(); ++i) {
-    angles.push_back(angle_between(reference.local_rotations[i], other.local_rotations[i]));
+  angles.reserve(reference.rotations.size() - first);
+  for (std::size_t i = first; i < reference.rotations.size(); ++i) {
+    angles.push_back(angle_between(reference.rotations[i], other.rotations[i]));
   }
   return angles;
 }

@@ -127,9 +127,8 @@ Clip turn_axes(const Clip& clip, Axis from, Axis to) {
   for (Quat& rest : skeleton.rest_rotations) rest = turn(rest);
   for (EndSite& site : skeleton.end_sites) site.offset = turn(site.offset);
   turn_channels(turn, skeleton);
-  for (Vec3& position : result.root_positions) position = turn(position);
-  for (Vec3& translation : result.joint_translations) translation = turn(translation);
-  for (Quat& rotation : result.local_rotations) rotation = turn(rotation);
+  for (Vec3& position : result.positions) position = turn(position);
+  for (Quat& rotation : result.rotations) rotation = turn(rotation);
   return result;
 }
 

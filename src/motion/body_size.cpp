@@ -14,8 +14,8 @@ namespace kinemend {
 double body_height(const Skeleton& skeleton) {
   Clip rest;
   rest.skeleton = skeleton;
-  rest.root_positions.resize(1);
-  rest.local_rotations.resize(skeleton.joint_count());
+  rest.positions.resize(1);
+  rest.rotations.resize(skeleton.joint_count());
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
   for (const Vec3 p : joint_positions(rest, true)) {

@@ -15,13 +15,12 @@ void take_front(std::vector<T>& values, std::size_t count) {
 }
 
 Clip take_front(Clip& clip, std::size_t frames) {
-  const std::size_t joints = clip.joint_count(), translated = clip.translated_joints.size();
+  const std::size_t joints = clip.joint_count(), points = clip.point_count();
   Clip front = slice(clip, 0, frames);
-  take_front(clip.root_positions, frames);
-  take_front(clip.local_rotations, frames * joints);
-  take_front(clip.joint_translations, frames * translated);
+  take_front(clip.rotations, frames * joints);
+  take_front(clip.positions, frames * points);
   take_front(clip.observed, frames * joints);
-  take_front(clip.observed_positions, frames * (1 + translated));
+  take_front(clip.observed_positions, frames * points);
   return front;
 }
 
@@ -44,13 +43,11 @@ void put_mask(std::vector<std::uint8_t>& mask, std::size_t samples,
 
 void put_front(Clip& clip, const Clip& front) {
   const std::size_t tracks = 1 + clip.translated_joints.size();
-  put_mask(clip.observed, clip.local_rotations.size(), front.observed,
-           front.local_rotations.size());
+  put_mask(clip.observed, clip.rotations.size(), front.observed, front.rotations.size());
   put_mask(clip.observed_positions, clip.frame_count() * tracks, front.observed_positions,
            front.frame_count() * tracks);
-  put_front(clip.root_positions, front.root_positions);
-  put_front(clip.local_rotations, front.local_rotations);
-  put_front(clip.joint_translations, front.joint_translations);
+  put_front(clip.positions, front.positions);
+  put_front(clip.rotations, front.rotations);
 }
 
 }  // namespace

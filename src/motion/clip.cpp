@@ -54,61 +54,6 @@ double usual_step(const Clip& clip, std::size_t first, std::size_t last) {
 
 }  // namespace
 
-void Clip::validate() const {
-  skeleton.validate();
-  check_frame_rate(frame_rate_hz);
-  const std::size_t frames = frame_count(), joints = joint_count();
-  check_length(local_rotations.size(), frames * joints, "local rotations");
-  check_length(joint_translations.size(), frames * translated_joints.size(), "joint translations");
-  if (!observed.empty()) check_length(observed.size(), frames * joints, "observed mask");
-  if (!observed_positions.empty()) {
-    check_length(observed_positions.size(), frames * (1 + translated_joints.size()),
-                 "mask of observed positions");
-  }
-  for (std::size_t i = 0; i < translated_joints.size(); ++i) {
-    const bool ascending = i == 0 || translated_joints[i] > translated_joints[i - 1];
-    if (translated_joints[i] < 1 || translated_joints[i] >= static_cast<std::int32_t>(joints) ||
-        !ascending) {
-      throw Error(ErrorKind::usage, "translated joints are not ascending joint numbers above 0");
-    }
-  }
-  for (std::size_t f = 0; f < frames; ++f) {
-    if (!is_finite(root_positions[f]))
-      throw Error(ErrorKind::usage, fmt::format("frame {}: root position is not finite", f));
-    for (std::size_t j = 0; j < joints; ++j) {
-      if (!(std::fabs(norm(rotation(f, j)) - 1) <= 1e-6)) {
-        throw Error(ErrorKind::usage,
-                    fmt::format("frame {}, joint \"{}\": rotation is not a unit quaternion", f,
-                                skeleton.names[j]));
-      }
-    }
-  }
-  if (!std::all_of(joint_translations.begin(), joint_translations.end(), is_finite)) {
-    throw Error(ErrorKind::usage, "a joint translation is not finite");
-  }
-}
-
-Clip slice(const Clip& clip, std::size_t first, std::size_t last) {
-  const auto rows = [&](const auto& values, std::size_t width) {
-    using Values = std::decay_t<decltype(values)>;
-    if (values.empty()) return Values{};
-    return Values(values.begin() + static_cast<std::ptrdiff_t>(first * width),
-                  values.begin() + static_cast<std::ptrdiff_t>(last * width));
-  };
-  Clip result;
-  result.skeleton = clip.skeleton;
-  result.frame_rate_hz = clip.frame_rate_hz;
-  result.metres_per_unit = clip.metres_per_unit;
-  result.root_positions = rows(clip.root_positions, 1);
-  result.local_rotations = rows(clip.local_rotations, clip.joint_count());
-  result.translated_joints = clip.translated_joints;
-  result.joint_translations = rows(clip.joint_translations, clip.translated_joints.size());
-  result.observed = rows(clip.observed, clip.joint_count());
-  result.observed_positions = rows(clip.observed_positions, 1 + clip.translated_joints.size());
-  result.source.name = clip.source.name;
-  return result;
-}
-
 std::size_t leading_calibration_frames(const Clip& clip) {
   constexpr std::size_t most_frames = 10, compared_frames = 240;
   constexpr double clear_jump = 25 * radians_per_degree, clear_ratio = 1.5;

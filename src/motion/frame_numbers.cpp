@@ -23,16 +23,15 @@ void note_first_frame(Clip& clip, double number) {
   clip.source.facts.push_back({std::string(first_frame_fact), fmt::format("{:.0f}", number)});
 }
 
-std::int64_t first_frame_number(const Clip& clip) {
+std::int64_t first_frame_number(const Take& take) {
+  if (!take.has_joints()) return take.first_frame;
   std::int64_t number = 1;
-  for (const SourceFact& fact : clip.source.facts) {
+  for (const SourceFact& fact : take.source.facts) {
     if (fact.name == first_frame_fact)
       std::from_chars(fact.text.data(), fact.text.data() + fact.text.size(), number);
   }
   return number;
 }
-
-std::int64_t first_frame_number(const MarkerClip& clip) { return clip.first_frame; }
 
 std::int64_t frame_number(std::size_t frame, std::int64_t first) {
   return static_cast<std::int64_t>(frame) + first;

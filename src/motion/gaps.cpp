@@ -107,7 +107,7 @@ void mark_gaps(Clip& clip, std::span<const NamedGap> gaps) {
   const std::size_t joints = clip.joint_count(), positions = 1 + clip.translated_joints.size();
   for_each_named(gaps, clip.skeleton.names, clip.frame_count(), first_frame_number(clip), "joint",
                  [&](std::size_t joint, std::size_t first, std::size_t last) {
-                   if (clip.observed.empty()) clip.observed.assign(clip.local_rotations.size(), 1);
+                   if (clip.observed.empty()) clip.observed.assign(clip.rotations.size(), 1);
                    for (std::size_t f = first; f <= last; ++f)
                      clip.observed[f * joints + joint] = 0;
                    const std::size_t position = position_track(clip, joint);

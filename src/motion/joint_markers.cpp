@@ -83,15 +83,15 @@ Clip without_rest_rotations(const Clip& clip) {
   for (EndSite& site : skeleton.end_sites) {
     site.offset = rotate(rest_of(site.parent), site.offset);
   }
-  for (std::size_t i = 0; i < result.local_rotations.size(); ++i) {
+  for (std::size_t i = 0; i < result.rotations.size(); ++i) {
     const Quat frame = rest[i % joints];
-    result.local_rotations[i] = normalized(frame * clip.local_rotations[i] * conjugate(frame));
+    result.rotations[i] = normalized(frame * clip.rotations[i] * conjugate(frame));
   }
-  const std::size_t width = clip.translated_joints.size();
-  for (std::size_t i = 0; i < result.joint_translations.size(); ++i) {
-    const auto joint = static_cast<std::size_t>(clip.translated_joints[i % width]);
-    result.joint_translations[i] =
-        rotate(rest_of(skeleton.parents[joint]), clip.joint_translations[i]);
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    for (std::size_t k = 1; k < clip.point_count(); ++k) {
+      const auto joint = static_cast<std::size_t>(clip.translated_joints[k - 1]);
+      result.position(f, k) = rotate(rest_of(skeleton.parents[joint]), clip.position(f, k));
+    }
   }
   return result;
 }
@@ -103,8 +103,7 @@ Clip scale_lengths(const Clip& clip, double factor) {
   const auto scale = [factor](Vec3& v) { v = factor * v; };
   std::for_each(result.skeleton.offsets.begin(), result.skeleton.offsets.end(), scale);
   for (EndSite& site : result.skeleton.end_sites) scale(site.offset);
-  std::for_each(result.root_positions.begin(), result.root_positions.end(), scale);
-  std::for_each(result.joint_translations.begin(), result.joint_translations.end(), scale);
+  std::for_each(result.positions.begin(), result.positions.end(), scale);
   for (std::size_t j = 0; j < result.skeleton.limits.size(); ++j) {
     for (std::size_t c = 0; c < result.skeleton.limits[j].size(); ++c) {
       if (is_rotation(result.skeleton.channels[j][c])) continue;

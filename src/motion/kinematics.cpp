@@ -7,11 +7,11 @@ namespace {
 // A joint's offset from its parent in one frame.
 Vec3 offset_of(const Clip& clip, std::size_t frame, std::size_t joint,
                std::size_t& next_translated) {
-  if (joint == 0) return clip.root_positions[frame];
+  if (joint == 0) return clip.root_position(frame);
   const std::size_t width = clip.translated_joints.size();
   if (next_translated < width &&
       clip.translated_joints[next_translated] == static_cast<std::int32_t>(joint)) {
-    return clip.joint_translations[frame * width + next_translated++];
+    return clip.position(frame, ++next_translated);
   }
   return clip.skeleton.offsets[joint];
 }

@@ -15,52 +15,9 @@
 
 namespace kinemend {
 
-namespace {
-
-template <class T>
-std::vector<T> rows(const std::vector<T>& values, std::size_t first, std::size_t last,
-                    std::size_t width) {
-  if (values.empty()) return {};
-  return {values.begin() + static_cast<std::ptrdiff_t>(first * width),
-          values.begin() + static_cast<std::ptrdiff_t>(last * width)};
-}
-
-}  // namespace
-
 std::string_view without_subject(std::string_view name) {
   const std::size_t colon = name.rfind(':');
   return colon == std::string_view::npos ? name : name.substr(colon + 1);
-}
-
-std::int32_t MarkerClip::find(std::string_view name) const noexcept {
-  const auto index_of = [&](auto matches) {
-    const auto found = std::find_if(names.begin(), names.end(), matches);
-    return found == names.end() ? -1 : static_cast<std::int32_t>(found - names.begin());
-  };
-  const std::int32_t whole = index_of([&](const std::string& known) { return known == name; });
-  if (whole >= 0) return whole;
-  return index_of([&](const std::string& known) { return without_subject(known) == name; });
-}
-
-std::size_t MarkerClip::position_count() const noexcept {
-  std::size_t count = 0;
-  for (std::size_t m = 0; m < marker_count(); ++m) count += holds_positions(m) ? 1 : 0;
-  return count;
-}
-
-void MarkerClip::validate() const {
-  check_frame_rate(frame_rate_hz);
-  const std::size_t samples = frame_count() * marker_count();
-  check_length(positions.size(), samples, "positions");
-  check_length(observed.size(), samples, "observed mask");
-  if (!residuals.empty()) check_length(residuals.size(), samples, "residuals");
-  if (!is_position.empty()) check_length(is_position.size(), marker_count(), "kinds of points");
-  for (std::size_t i = 0; i < samples; ++i) {
-    if (observed[i] == 0 || is_finite(positions[i])) continue;
-    throw Error(ErrorKind::usage,
-                fmt::format("frame {}, marker {} \"{}\": the position is not finite",
-                            i / marker_count(), i % marker_count(), names[i % marker_count()]));
-  }
 }
 
 MarkerClip make_marker_clip(std::vector<std::string> names, std::size_t frames,
@@ -94,23 +51,6 @@ MarkerClip positions_only(const MarkerClip& clip) {
   keep(result.positions, clip.frame_count());
   keep(result.observed, clip.frame_count());
   keep(result.residuals, clip.frame_count());
-  return result;
-}
-
-MarkerClip slice(const MarkerClip& clip, std::size_t first, std::size_t last) {
-  const std::size_t markers = clip.marker_count();
-  MarkerClip result;
-  result.names = clip.names;
-  result.frame_rate_hz = clip.frame_rate_hz;
-  result.first_frame = clip.first_frame + static_cast<std::int64_t>(first);
-  result.positions = rows(clip.positions, first, last, markers);
-  result.observed = rows(clip.observed, first, last, markers);
-  result.residuals = rows(clip.residuals, first, last, markers);
-  result.is_position = clip.is_position;
-  result.unit = clip.unit;
-  result.events = clip.events;
-  result.source.name = clip.source.name;
-  result.source.format = clip.source.format;
   return result;
 }
 

@@ -102,13 +102,13 @@ void renumber(const MarkerClip& clip, MarkerClip& result) {
 
 void resample_rotations(const Clip& clip, const std::vector<Place>& at, Clip& result) {
   const std::size_t joints = clip.joint_count(), frames = clip.frame_count();
-  result.local_rotations.resize(at.size() * joints);
+  result.rotations.resize(at.size() * joints);
   if (!clip.observed.empty()) result.observed.resize(at.size() * joints);
   for (std::size_t i = 0; i < at.size(); ++i) {
     const auto [before, share] = at[i];
     for (std::size_t j = 0; j < joints; ++j) {
       const auto seen = [&](std::size_t f) { return clip.is_observed(f, j); };
-      Quat& rotation = result.local_rotations[i * joints + j];
+      Quat& rotation = result.rotations[i * joints + j];
       rotation = clip.rotation(before, j);
       if (share > 0) {
         rotation = interpolate_rotation(neighbours_of(before, frames, seen), share,
@@ -145,9 +145,7 @@ Clip resample(const Clip& clip, double frame_rate_hz) {
   Clip result = slice(clip, 0, 0);
   result.frame_rate_hz = frame_rate_hz;
   resample_rotations(clip, at, result);
-  result.root_positions = resample_positions(clip.root_positions, 1, clip.frame_count(), at);
-  result.joint_translations = resample_positions(
-      clip.joint_translations, clip.translated_joints.size(), clip.frame_count(), at);
+  result.positions = resample_positions(clip.positions, clip.point_count(), clip.frame_count(), at);
   return result;
 }
 

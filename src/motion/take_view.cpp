@@ -32,7 +32,7 @@ Track rotation_track(const Clip& clip, std::size_t joint) {
   track.frames = clip.frame_count();
   track.space = Space::rotation;
   track.owner = static_cast<std::int32_t>(joint);
-  track.rotations = column(clip.local_rotations, joint);
+  track.rotations = column(clip.rotations, joint);
   track.stride = clip.joint_count();
   track.observed = column(clip.observed, joint);
   track.observed_stride = clip.joint_count();
@@ -43,13 +43,10 @@ Track rotation_track(const Clip& clip, std::size_t joint) {
 Track track_of_positions(const Clip& clip, std::size_t number) {
   Track track;
   track.frames = clip.frame_count();
-  const std::size_t translated = clip.translated_joints.size();
   track.owner = number == 0 ? -1 : clip.translated_joints[number - 1];
-  track.positions =
-      number == 0 ? column(clip.root_positions, 0) : column(clip.joint_translations, number - 1);
-  track.stride = number == 0 ? 1 : translated;
+  track.positions = column(clip.positions, number);
   track.observed = column(clip.observed_positions, number);
-  track.observed_stride = 1 + translated;
+  track.stride = track.observed_stride = clip.point_count();
   return track;
 }
 
@@ -154,14 +151,8 @@ void set_track(Clip& clip, std::size_t track, std::span<const Quat> samples, std
 }
 
 void set_track(Clip& clip, std::size_t track, std::span<const Vec3> samples, std::size_t first) {
-  const std::size_t number = track - clip.joint_count(), width = clip.translated_joints.size();
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (number == 0) {
-      clip.root_positions[first + i] = samples[i];
-    } else {
-      clip.joint_translations[(first + i) * width + number - 1] = samples[i];
-    }
-  }
+  const std::size_t number = track - clip.joint_count();
+  for (std::size_t i = 0; i < samples.size(); ++i) clip.position(first + i, number) = samples[i];
 }
 
 void set_track(MarkerClip& clip, std::size_t track, std::span<const Vec3> samples,

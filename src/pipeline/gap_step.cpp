@@ -58,19 +58,12 @@ void for_each_filled(const std::vector<std::uint8_t>& measured,
 void take_over_positions(const Clip& measured, const Clip& filled,
                          const std::vector<std::uint8_t>& selected,
                          const std::vector<double>& weights, Clip& clip) {
-  const std::size_t translated = clip.translated_joints.size();
   std::vector<std::uint8_t> tracks{selected[0]};
   for (const auto joint : clip.translated_joints)
     tracks.push_back(selected[static_cast<std::size_t>(joint)]);
   const auto take_over = [&](std::size_t i) {
-    const std::size_t frame = i / tracks.size(), track = i % tracks.size();
     clip.observed_positions[i] = 1;
-    if (track == 0) {
-      clip.root_positions[frame] = filled.root_positions[frame];
-    } else {
-      const std::size_t at = frame * translated + track - 1;
-      clip.joint_translations[at] = filled.joint_translations[at];
-    }
+    clip.positions[i] = filled.positions[i];
   };
   for_each_filled(measured.observed_positions, filled.observed_positions, tracks, weights,
                   take_over);
@@ -92,7 +85,7 @@ FillReport fill_step(const Clip& measured, const Cleaner& cleaner, const Selecti
   drop_unselected(report, selection.owners);
   for_each_filled(measured.observed, filled.observed, selection.owners, weights,
                   [&](std::size_t i) {
-                    cleaned.local_rotations[i] = filled.local_rotations[i];
+                    cleaned.rotations[i] = filled.rotations[i];
                     cleaned.observed[i] = 1;
                   });
   take_over_positions(measured, filled, selection.owners, weights, cleaned);

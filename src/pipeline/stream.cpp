@@ -63,12 +63,11 @@ void append_observed(std::vector<std::uint8_t>& values, const Frame& frame, std:
 
 void append(Clip& window, const Frame& frame) {
   if (!frame.observed.empty() && window.observed.empty())
-    window.observed.assign(window.local_rotations.size(), 1);
+    window.observed.assign(window.rotations.size(), 1);
   if (!window.observed.empty() || !frame.observed.empty())
     append_observed(window.observed, frame, window.joint_count());
-  append_all<Quat>(window.local_rotations, frame.rotations);
-  window.root_positions.push_back(frame.positions.front());
-  append_all<Vec3>(window.joint_translations, std::span(frame.positions).subspan(1));
+  append_all<Quat>(window.rotations, frame.rotations);
+  append_all<Vec3>(window.positions, frame.positions);
 }
 
 void append(MarkerClip& window, const Frame& frame) {
@@ -84,9 +83,8 @@ void drop_rows(std::vector<T>& values, std::size_t rows, std::size_t width) {
 
 // Forgets the oldest frames.
 void drop(Clip& window, std::size_t frames) {
-  drop_rows(window.root_positions, frames, 1);
-  drop_rows(window.local_rotations, frames, window.joint_count());
-  drop_rows(window.joint_translations, frames, window.translated_joints.size());
+  drop_rows(window.positions, frames, window.point_count());
+  drop_rows(window.rotations, frames, window.joint_count());
   drop_rows(window.observed, frames, window.joint_count());
 }
 
@@ -106,11 +104,8 @@ void copy_row(const std::vector<T>& values, std::size_t row, std::size_t width,
 
 // A frame of the input.
 void copy_frame(const Clip& window, std::size_t frame, Frame& result) {
-  copy_row(window.local_rotations, frame, window.joint_count(), result.rotations);
-  copy_row(window.root_positions, frame, 1, result.positions);
-  const std::size_t translated = window.translated_joints.size();
-  for (std::size_t i = 0; i < translated; ++i)
-    result.positions.push_back(window.joint_translations[frame * translated + i]);
+  copy_row(window.rotations, frame, window.joint_count(), result.rotations);
+  copy_row(window.positions, frame, window.point_count(), result.positions);
   copy_row(window.observed, frame, window.joint_count(), result.observed);
 }
 

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-template <class Take>
-void check_lengths(const Take& before, const Take& after) {
+template <class AnyTake>
+void check_lengths(const AnyTake& before, const AnyTake& after) {
   if (before.frame_count() != after.frame_count()) {
     throw Error(ErrorKind::usage, fmt::format("curves: {} frames before and {} after",
                                               before.frame_count(), after.frame_count()));
@@ -88,10 +88,10 @@ TrackCurves root_curves(const Clip& before, const Clip& after) {
   for (std::size_t f = 0; f < before.frame_count(); ++f) {
     const bool has_before = before.is_position_observed(f, 0);
     const bool has_after = after.is_position_observed(f, 0);
-    if (has_before) put(before.root_positions[f], f, curves.before);
-    if (has_after) put(after.root_positions[f], f, curves.after);
+    if (has_before) put(before.root_position(f), f, curves.before);
+    if (has_after) put(after.root_position(f), f, curves.after);
     if (has_before && has_after)
-      curves.difference[f] = norm(after.root_positions[f] - before.root_positions[f]);
+      curves.difference[f] = norm(after.root_position(f) - before.root_position(f));
   }
   return curves;
 }

@@ -144,8 +144,8 @@ std::vector<std::size_t> moments_of(std::size_t frame_count, FrameSpanToDraw spa
   return frames;
 }
 
-template <class Take>
-std::string film_strip(const Take& before, const Take* after, FrameSpanToDraw span,
+template <class AnyTake>
+std::string film_strip(const AnyTake& before, const AnyTake* after, FrameSpanToDraw span,
                        std::size_t count) {
   if (after != nullptr && before.frame_count() != after->frame_count()) {
     throw Error(ErrorKind::usage, fmt::format("film strip: {} frames before and {} after",
@@ -160,7 +160,7 @@ std::string film_strip(const Take& before, const Take* after, FrameSpanToDraw sp
              fmt::format("text-anchor=\"middle\" fill=\"{}\"", inks::quiet), "no frames");
   } else {
     const double slot = (strip_width - 40) / static_cast<double>(frames.size());
-    const Take& last = after != nullptr ? *after : before;
+    const AnyTake& last = after != nullptr ? *after : before;
     const Poses poses = poses_of(last, frames);
     const Poses old_poses = after != nullptr ? poses_of(before, frames) : Poses();
     const View view = view_of(poses, static_cast<std::size_t>(guess_up_axis(last)), slot);

@@ -61,8 +61,8 @@ std::size_t count_tracks(const MarkerClip& clip) {
   return count;
 }
 
-template <class Take>
-std::string gap_chart(const Take& before, const Take* after) {
+template <class AnyTake>
+std::string gap_chart(const AnyTake& before, const AnyTake* after) {
   const TakeFacts facts = take_facts(before);
   std::vector<Row> rows(facts.tracks.size());
   for (const Gap& gap : find_gaps(before)) rows[gap.track].before.push_back(gap);

@@ -42,11 +42,11 @@ Clip spin(const SynthOptions& options, std::size_t frames) {
   }
   clip.skeleton.end_sites.push_back({static_cast<std::int32_t>(links) - 1, {0, 20, 0}, ""});
   const std::size_t rows = frames + (options.t_pose_first ? 1 : 0);
-  clip.root_positions.assign(rows, {0, 100, 0});
-  clip.local_rotations.assign(options.t_pose_first ? links : 0, Quat{});
+  clip.positions.assign(rows, {0, 100, 0});
+  clip.rotations.assign(options.t_pose_first ? links : 0, Quat{});
   for (std::size_t f = 0; f < frames; ++f) {
     const double t = static_cast<double>(f) / options.frame_rate_hz;
-    for (const Link& link : chain) clip.local_rotations.push_back(link.at(t, order));
+    for (const Link& link : chain) clip.rotations.push_back(link.at(t, order));
   }
   return clip;
 }

@@ -38,9 +38,8 @@ void check(const SynthOptions& options) {
 }
 
 void append(Clip& clip, const synth::BodyPose& pose) {
-  clip.root_positions.push_back(pose.root);
-  clip.local_rotations.insert(clip.local_rotations.end(), pose.rotations.begin(),
-                              pose.rotations.end());
+  clip.positions.push_back(pose.root);
+  clip.rotations.insert(clip.rotations.end(), pose.rotations.begin(), pose.rotations.end());
 }
 
 Clip humanoid(const SynthOptions& options, std::size_t frames) {
@@ -70,7 +69,7 @@ Clip synthesize(const SynthOptions& options) {
   clip.source.name = options.motion;
   const std::size_t joints = clip.joint_count();
   for (std::size_t j = 0; j < joints; ++j) {
-    align_hemispheres(std::span(clip.local_rotations).subspan(j), joints);
+    align_hemispheres(std::span(clip.rotations).subspan(j), joints);
   }
   return clip;
 }

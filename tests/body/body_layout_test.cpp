@@ -140,8 +140,8 @@ TEST(BodyLayoutBuilder, LearnsChainsThatAreNoBody) {
   const BodyMatch match = match_body(layout, chain);
   const BodyChannels channels = encode_body(chain, layout, match);
   Clip back = chain;
-  for (Quat& q : back.local_rotations) q = normalized(q * exp({0.1, 0.2, 0.3}));
-  const std::vector<Quat> shaken = back.local_rotations;
+  for (Quat& q : back.rotations) q = normalized(q * exp({0.1, 0.2, 0.3}));
+  const std::vector<Quat> shaken = back.rotations;
   decode_body(channels, layout, match, back);
   for (std::size_t i = 0; i < layout.track_count(); ++i) {
     const auto joint = static_cast<std::size_t>(match.tracks[i]);

@@ -111,7 +111,7 @@ Clip without_joint(const Clip& clip, std::string_view name) {
   const std::int32_t above = clip.skeleton.parents[gone];
   Clip result;
   result.frame_rate_hz = clip.frame_rate_hz;
-  result.root_positions = clip.root_positions;
+  result.positions = clip.positions;
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
     if (j == gone) continue;
     std::int32_t parent = clip.skeleton.parents[j];
@@ -127,8 +127,8 @@ Clip without_joint(const Clip& clip, std::string_view name) {
     for (std::size_t j = 0; j < clip.joint_count(); ++j) {
       if (j == gone) continue;
       const bool child = clip.skeleton.parents[j] == static_cast<std::int32_t>(gone);
-      result.local_rotations.push_back(child ? clip.rotation(f, gone) * clip.rotation(f, j)
-                                             : clip.rotation(f, j));
+      result.rotations.push_back(child ? clip.rotation(f, gone) * clip.rotation(f, j)
+                                       : clip.rotation(f, j));
     }
   }
   return result;
@@ -267,7 +267,7 @@ TEST(MatchBody, FindsTheWorldsUpAxisWhereTheRestPoseHasAnother) {
   const Quat back = exp({-pi / 2, 0, 0});
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     z_up.rotation(f, 0) = back * z_up.rotation(f, 0);
-    z_up.root_positions[f] = rotate(back, z_up.root_positions[f]);
+    z_up.root_position(f) = rotate(back, z_up.root_position(f));
   }
   ASSERT_LT(norm(forward_kinematics(clip, 40).positions.back() -
                  forward_kinematics(z_up, 40).positions.back()),
@@ -283,7 +283,7 @@ TEST(MatchBody, StaysTheSameUnderNoise) {
   Clip noisy = turn_axes(clip, Axis::y, Axis::z);
   const BodyMatch expected = match_body(layout, noisy);
   Random random(7);
-  for (Quat& q : noisy.local_rotations)
+  for (Quat& q : noisy.rotations)
     q = normalized(q * exp(normal_vector(random, 10 * radians_per_degree)));
   const BodyMatch found = match_body(layout, noisy);
   EXPECT_EQ(found.upright, expected.upright);

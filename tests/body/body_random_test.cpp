@@ -41,10 +41,9 @@ Clip random_clip(Random& random) {
         turns ? make_channels(j == 0, parse_rotation_order("ZXY")) : std::vector<Channel>{});
   }
   const auto size = static_cast<double>(below(random, 3));
-  for (std::size_t f = 0; f < frames; ++f)
-    clip.root_positions.push_back(normal_vector(random, size));
+  for (std::size_t f = 0; f < frames; ++f) clip.positions.push_back(normal_vector(random, size));
   for (std::size_t i = 0; i < frames * joints; ++i)
-    clip.local_rotations.push_back(exp(normal_vector(random, size)));
+    clip.rotations.push_back(exp(normal_vector(random, size)));
   clip.observed = some(random, frames * joints);
   clip.observed_positions = some(random, frames);
   clip.validate();

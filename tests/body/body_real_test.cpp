@@ -44,12 +44,12 @@ TEST(RealBodies, DecodeWhatTheyEncode) {
       for (std::size_t f = 0; joint >= 0 && f < clip.frame_count(); ++f)
         back.rotation(f, static_cast<std::size_t>(joint)) = exp({0.3, 0.2, 1});
     }
-    back.root_positions.assign(clip.frame_count(), {});
+    for (std::size_t f = 0; f < clip.frame_count(); ++f) back.root_position(f) = {};
     decode_body(encode_body(clip, layout, match), layout, match, back);
-    for (std::size_t i = 0; i < clip.local_rotations.size(); ++i)
-      ASSERT_LT(angle_between(clip.local_rotations[i], back.local_rotations[i]), 1e-9) << path;
+    for (std::size_t i = 0; i < clip.rotations.size(); ++i)
+      ASSERT_LT(angle_between(clip.rotations[i], back.rotations[i]), 1e-9) << path;
     for (std::size_t f = 0; f < clip.frame_count(); ++f)
-      ASSERT_LT(norm(clip.root_positions[f] - back.root_positions[f]), 1e-9 * match.body_height);
+      ASSERT_LT(norm(clip.root_position(f) - back.root_position(f)), 1e-9 * match.body_height);
   }
 }
 

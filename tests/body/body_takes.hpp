@@ -57,7 +57,7 @@ inline Clip moved(Clip clip, double heading, Vec3 by) {
   const Quat rest = clip.skeleton.rest_rotations[0];
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     clip.rotation(f, 0) = normalized(conjugate(rest) * turn * rest * clip.rotation(f, 0));
-    clip.root_positions[f] = rotate(turn, clip.root_positions[f]) + by;
+    clip.root_position(f) = rotate(turn, clip.root_position(f)) + by;
   }
   return clip;
 }

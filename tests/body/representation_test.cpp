@@ -6,6 +6,7 @@
 
 #include "kinemend/error.hpp"
 #include "rotation/random_rotations.hpp"
+#include "translations.hpp"
 
 namespace kinemend {
 namespace {
@@ -18,24 +19,23 @@ Clip chain(std::size_t joints, std::size_t frames) {
                             {0, 10, 0}, make_channels(j == 0, parse_rotation_order("ZXY")));
   }
   clip.frame_rate_hz = 120;
-  clip.root_positions.assign(frames, {});
-  clip.local_rotations.assign(frames * joints, {});
+  clip.positions.assign(frames, {});
+  clip.rotations.assign(frames * joints, {});
   return clip;
 }
 
 double largest_difference(const Clip& a, const Clip& b) {
   double largest = 0;
-  for (std::size_t i = 0; i < a.local_rotations.size(); ++i) {
-    largest = std::max(largest, angle_between(a.local_rotations[i], b.local_rotations[i]));
+  for (std::size_t i = 0; i < a.rotations.size(); ++i) {
+    largest = std::max(largest, angle_between(a.rotations[i], b.rotations[i]));
   }
   return largest;
 }
 
 Clip emptied(const Clip& clip) {
   Clip copy = clip;
-  copy.local_rotations.assign(clip.local_rotations.size(), {});
-  copy.root_positions.assign(clip.root_positions.size(), {});
-  copy.joint_translations.assign(clip.joint_translations.size(), {});
+  copy.rotations.assign(clip.rotations.size(), {});
+  copy.positions.assign(clip.positions.size(), {});
   return copy;
 }
 
@@ -70,7 +70,7 @@ double largest_step(const EncodedClip& encoded, std::size_t joint) {
 TEST(Representation, RandomRotationsComeBackExactly) {
   Random random(1);
   Clip clip = chain(5, 200);
-  for (Quat& q : clip.local_rotations) q = test::random_rotation(random);
+  for (Quat& q : clip.rotations) q = test::random_rotation(random);
   EXPECT_LT(round_trip_error(clip, Encoding::tangent), 1e-12);
   EXPECT_LT(round_trip_error(clip, Encoding::quaternion), 1e-12);
 }
@@ -142,7 +142,7 @@ TEST(Representation, TheSignOfAQuaternionDoesNotMatter) {
   Random random(5);
   Clip clip = turning(0, 0.05, 100);
   Clip flipped = clip;
-  for (Quat& q : flipped.local_rotations) {
+  for (Quat& q : flipped.rotations) {
     if (random.chance(0.5)) q = -q;
   }
   for (const Encoding encoding : {Encoding::tangent, Encoding::quaternion}) {
@@ -177,32 +177,31 @@ TEST(Representation, ALongStayFarOffIsTheNewMotion) {
 
 TEST(Representation, PositionsComeLastAboutTheirMeanAndComeBack) {
   Clip clip = chain(3, 10);
-  clip.translated_joints = {2};
-  clip.joint_translations.resize(10);
+  test::add_translations(clip, {2}, Vec3{});
   Random random(6);
   for (std::size_t f = 0; f < 10; ++f) {
-    clip.root_positions[f] = {1000 + random.normal(), -500 + random.normal(), random.normal()};
-    clip.joint_translations[f] = {random.normal(), 7, -7};
+    clip.root_position(f) = {1000 + random.normal(), -500 + random.normal(), random.normal()};
+    clip.position(f, 1) = {random.normal(), 7, -7};
   }
   const EncodedClip encoded = encode(clip, Encoding::quaternion, {1});
   ASSERT_EQ(encoded.poses.channels, 4U + 6U);
   double sum = 0;
   for (std::size_t f = 0; f < 10; ++f) sum += encoded.poses(f, 4);
   EXPECT_NEAR(sum, 0, 1e-9);
-  EXPECT_NEAR(encoded.poses(3, 4) + encoded.position_references[0].x, clip.root_positions[3].x,
+  EXPECT_NEAR(encoded.poses(3, 4) + encoded.position_references[0].x, clip.root_position(3).x,
               1e-9);
   Clip back = emptied(clip);
   decode(encoded, back);
   for (std::size_t f = 0; f < 10; ++f) {
-    EXPECT_LT(norm(back.root_positions[f] - clip.root_positions[f]), 1e-12 * 1000);
-    EXPECT_LT(norm(back.joint_translations[f] - clip.joint_translations[f]), 1e-12);
+    EXPECT_LT(norm(back.root_position(f) - clip.root_position(f)), 1e-12 * 1000);
+    EXPECT_LT(norm(back.position(f, 1) - clip.position(f, 1)), 1e-12);
   }
 }
 
 TEST(Representation, DecodingTouchesNothingThatWasNotEncoded) {
   Random random(7);
   Clip clip = chain(3, 5);
-  for (Quat& q : clip.local_rotations) q = test::random_rotation(random);
+  for (Quat& q : clip.rotations) q = test::random_rotation(random);
   EncodedClip encoded = encode(clip, Encoding::tangent, {1}, false);
   for (double& v : encoded.poses.values) v = 0.1;
   Clip changed = clip;
@@ -212,7 +211,7 @@ TEST(Representation, DecodingTouchesNothingThatWasNotEncoded) {
     EXPECT_NE(changed.rotation(f, 1), clip.rotation(f, 1));
     EXPECT_EQ(changed.rotation(f, 2), clip.rotation(f, 2));
   }
-  EXPECT_EQ(changed.root_positions, clip.root_positions);
+  EXPECT_EQ(changed.positions, clip.positions);
 }
 
 TEST(Representation, TheReferenceIsTheMeanOfWhatWasObserved) {

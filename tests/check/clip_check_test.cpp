@@ -2,6 +2,7 @@
 
 #include "check/support.hpp"
 #include "kinemend/error.hpp"
+#include "translations.hpp"
 
 // Each fault put into a synthetic clip is found where it was put, and nothing else is.
 namespace kinemend::test {
@@ -119,13 +120,13 @@ TEST(CheckClip, TakesAStretchedKneeForNoFrozenJoint) {
 TEST(CheckClip, FindsFramesThatRepeatAndFramesOfZeros) {
   Clip clip = synthetic_clip("walk");
   const auto copy_frame = [&](std::size_t from, std::size_t to) {
-    clip.root_positions[to] = clip.root_positions[from];
+    clip.root_position(to) = clip.root_position(from);
     for (std::size_t j = 0; j < clip.joint_count(); ++j)
       clip.rotation(to, j) = clip.rotation(from, j);
   };
   for (std::size_t f = 200; f < 206; ++f) copy_frame(199, f);
   for (std::size_t f = 500; f < 503; ++f) {
-    clip.root_positions[f] = {};
+    clip.root_position(f) = {};
     for (std::size_t j = 0; j < clip.joint_count(); ++j) clip.rotation(f, j) = {};
   }
   const CheckReport report = check_take(clip);
@@ -145,13 +146,13 @@ TEST(CheckClip, TellsARateThatWasDoubledByRepeatingFrames) {
   const Clip slow = synthetic_clip("walk", 5, 60);
   Clip clip = slow;
   clip.frame_rate_hz = 120;
-  clip.root_positions.clear();
-  clip.local_rotations.clear();
+  clip.positions.clear();
+  clip.rotations.clear();
   for (std::size_t f = 0; f < slow.frame_count(); ++f) {
     for (int twice = 0; twice < 2; ++twice) {
-      clip.root_positions.push_back(slow.root_positions[f]);
+      clip.positions.push_back(slow.root_position(f));
       for (std::size_t j = 0; j < slow.joint_count(); ++j)
-        clip.local_rotations.push_back(slow.rotation(f, j));
+        clip.rotations.push_back(slow.rotation(f, j));
     }
   }
   const std::vector<Finding> rate = of_kind(check_take(clip), FindingKind::rate);
@@ -185,7 +186,7 @@ TEST(CheckClip, MeasuresHowFarAStandingFootSlides) {
   // Both feet glide 12 cm within a second, slower than a step.
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const double share = std::clamp((static_cast<double>(f) - 200) / 120, 0.0, 1.0);
-    clip.root_positions[f].x += 12 * share;
+    clip.root_position(f).x += 12 * share;
   }
   const CheckReport report = check_take(clip);
   EXPECT_NEAR(*report.figures.slide_cm, 12, 0.5);
@@ -199,7 +200,7 @@ TEST(CheckClip, MeasuresHowDeepAFootSinks) {
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const double s = static_cast<double>(f) / clip.frame_rate_hz;
     const double share = std::clamp(std::min(s - 6, 7.6 - s) / 0.3, 0.0, 1.0);
-    clip.root_positions[f].y -= 6 * share;
+    clip.root_position(f).y -= 6 * share;
   }
   const CheckReport report = check_take(clip);
   EXPECT_NEAR(*report.figures.sink_cm, 6, 0.8);
@@ -212,12 +213,10 @@ TEST(CheckClip, MeasuresHowDeepAFootSinks) {
 TEST(CheckClip, TellsABoneThatGrows) {
   Clip clip = synthetic_clip("walk");
   const std::size_t j = joint_of(clip, "LeftLeg");
-  clip.translated_joints = {static_cast<std::int32_t>(j)};
   clip.skeleton.channels[j] = make_channels(true, clip.skeleton.rotation_order(j));
-  clip.joint_translations.assign(clip.frame_count(), clip.skeleton.offsets[j]);
+  add_translations(clip, {static_cast<std::int32_t>(j)}, clip.skeleton.offsets[j]);
   EXPECT_EQ(check_take(clip).figures.length_change_percent, 0);
-  for (std::size_t f = 300; f < 340; ++f)
-    clip.joint_translations[f] = 1.25 * clip.joint_translations[f];
+  for (std::size_t f = 300; f < 340; ++f) clip.position(f, 1) = 1.25 * clip.position(f, 1);
   const CheckReport report = check_take(clip);
   EXPECT_NEAR(report.figures.length_change_percent, 25, 1e-9);
   const std::vector<Finding> found = of_kind(report, FindingKind::length);
@@ -253,7 +252,7 @@ TEST(CheckClip, FindsOutliersAndFrozenSpansOfTheTableOfDamages) {
 TEST(CheckClip, AcceptsTakesOfAnyLength) {
   const Clip clip = synthetic_clip("walk", 1);
   for (std::size_t frames = 0; frames < 12; ++frames)
-    EXPECT_EQ(check_take(slice(clip, 0, frames)).frames, frames);
+    EXPECT_EQ(check_take(Clip(slice(clip, 0, frames))).frames, frames);
 }
 
 TEST(CheckClip, RefusesSettingsOutOfRange) {

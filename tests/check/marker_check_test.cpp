@@ -133,7 +133,7 @@ TEST(FindBeyondCleaning, FindsWhatACheckWouldCallSeriousAndStaleSpans) {
   const std::size_t arm = joint_of(joints, "LeftArm");
   for (std::size_t f = 201; f <= 230; ++f) joints.rotation(f, arm) = joints.rotation(200, arm);
   for (std::size_t i = 0; i < joints.joint_count(); ++i) joints.rotation(300, i) = {};
-  joints.root_positions[300] = {};
+  joints.root_position(300) = {};
   EXPECT_EQ(found(joints), expected(check_take(joints)));
   EXPECT_GE(found(joints).size(), 1u);
   EXPECT_TRUE(found(synthetic_clip("run")).empty());

@@ -20,9 +20,9 @@ TEST(Outliers, HitTheShareAskedForAndNothingElse) {
   EXPECT_NEAR(static_cast<double>(report.samples_damaged), 400, 80);
   double square = 0;
   std::size_t changed = 0;
-  for (std::size_t i = 0; i < clean.local_rotations.size(); ++i) {
-    if (same_bits(clean.local_rotations[i], hit.local_rotations[i])) continue;
-    const double angle = angle_between(clean.local_rotations[i], hit.local_rotations[i]) / degree;
+  for (std::size_t i = 0; i < clean.rotations.size(); ++i) {
+    if (same_bits(clean.rotations[i], hit.rotations[i])) continue;
+    const double angle = angle_between(clean.rotations[i], hit.rotations[i]) / degree;
     square += angle * angle;
     ++changed;
   }

@@ -5,6 +5,7 @@
 #include "corrupt/damage_support.hpp"
 #include "corrupt/targets.hpp"
 #include "kinemend/experimental/kinematics.hpp"
+#include "translations.hpp"
 
 namespace kinemend {
 namespace {
@@ -94,9 +95,9 @@ TEST(Refit, ToTheCleanPositionsChangesNoBit) {
   Clip clip = clean;
   corrupt::refit(clip, joint_positions(clean), std::vector<std::uint8_t>(clean.joint_count(), 1),
                  true);
-  EXPECT_EQ(clip.root_positions, clean.root_positions);
-  for (std::size_t i = 0; i < clean.local_rotations.size(); ++i) {
-    ASSERT_TRUE(same_bits(clip.local_rotations[i], clean.local_rotations[i]));
+  EXPECT_EQ(clip.positions, clean.positions);
+  for (std::size_t i = 0; i < clean.rotations.size(); ++i) {
+    ASSERT_TRUE(same_bits(clip.rotations[i], clean.rotations[i]));
   }
 }
 
@@ -105,7 +106,7 @@ TEST(Refit, ReachesPositionsOfAnotherPoseOfTheSameBones) {
   const Clip clean = moving_humanoid(5);
   Clip other = clean;
   Random random(4);
-  for (Quat& q : other.local_rotations) q = q * exp(random_vector(random, 0.2));
+  for (Quat& q : other.rotations) q = q * exp(random_vector(random, 0.2));
   const auto targets = joint_positions(other);
   Clip clip = clean;
   corrupt::refit(clip, targets, std::vector<std::uint8_t>(clean.joint_count(), 1), true);
@@ -118,18 +119,18 @@ TEST(Refit, WorksWithRestRotationsAndTranslatedJoints) {
   Clip clean = moving_humanoid(5);
   Random random(5);
   for (Quat& q : clean.skeleton.rest_rotations) q = random_rotation(random);
-  clean.translated_joints = {3, 8};
-  for (std::size_t i = 0; i < 10; ++i)
-    clean.joint_translations.push_back(random_vector(random, 20));
+  test::add_translations(clean, {3, 8},
+                         [&](std::size_t, std::size_t) { return random_vector(random, 20); });
   Clip other = clean;
-  for (Quat& q : other.local_rotations) q = q * exp(random_vector(random, 0.2));
+  for (Quat& q : other.rotations) q = q * exp(random_vector(random, 0.2));
   const auto targets = joint_positions(other);
   Clip clip = clean;
   corrupt::refit(clip, targets, std::vector<std::uint8_t>(clean.joint_count(), 1), true);
   const auto found = joint_positions(clip);
   for (std::size_t i = 0; i < targets.size(); ++i)
     EXPECT_NEAR(norm(found[i] - targets[i]), 0, 0.03);
-  EXPECT_EQ(clip.joint_translations, clean.joint_translations);
+  for (const std::size_t track : {1, 2})
+    EXPECT_EQ(test::point_track(clip, track), test::point_track(clean, track));
 }
 
 TEST(Limbs, AreLegsTrunkHeadAndArms) {

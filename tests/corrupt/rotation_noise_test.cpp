@@ -67,7 +67,7 @@ TEST(Gaussian, OfZeroDegreesChangesNothing) {
   const Clip clean = moving_chain(3, 50);
   const auto [noisy, report] = damaged(clean, "gaussian", {{"std_deg", 0.0}});
   EXPECT_EQ(report.samples_damaged, 0u);
-  EXPECT_EQ(noisy.local_rotations, clean.local_rotations);
+  EXPECT_EQ(noisy.rotations, clean.rotations);
 }
 
 TEST(Uniform, StaysInItsHalfWidthWithTheDeviationOfAUniform) {

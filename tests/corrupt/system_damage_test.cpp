@@ -7,6 +7,7 @@
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/kinematics.hpp"
 #include "noise_measures.hpp"
+#include "translations.hpp"
 
 namespace kinemend {
 namespace {
@@ -78,9 +79,9 @@ TEST(SystemNoise, LeavesEveryByteWhereItHasNoStrength) {
   const MarkerClip taken = markers(100, 60);
   for (const std::string& name : kinds()) {
     const auto [clip, report] = damaged(clean, "system", kind(name, {{"strength", 0.0}}));
-    for (std::size_t i = 0; i < clean.local_rotations.size(); ++i)
-      ASSERT_TRUE(same_bits(clip.local_rotations[i], clean.local_rotations[i]));
-    EXPECT_EQ(clip.root_positions, clean.root_positions);
+    for (std::size_t i = 0; i < clean.rotations.size(); ++i)
+      ASSERT_TRUE(same_bits(clip.rotations[i], clean.rotations[i]));
+    EXPECT_EQ(clip.positions, clean.positions);
     EXPECT_EQ(report.samples_damaged, 0u);
     EXPECT_EQ(with_noise(taken, kind(name, {{"strength", 0.0}})).positions, taken.positions);
   }
@@ -208,19 +209,18 @@ TEST(SystemNoise, LeavesWhatIsMissingAndOtherPointsAlone) {
 
 TEST(SystemNoise, MovesTranslatedJointsAndTheRoot) {
   Clip clean = moving_humanoid(100);
-  clean.translated_joints = {3};
-  clean.joint_translations.assign(100, clean.skeleton.offsets[3]);
+  test::add_translations(clean, {3}, clean.skeleton.offsets[3]);
   for (std::int32_t axis = 0; axis < 3; ++axis) {
     clean.skeleton.channels[3].insert(
         clean.skeleton.channels[3].begin() + axis,
         static_cast<Channel>(static_cast<int>(Channel::x_position) + axis));
   }
   const Clip noisy = damaged(clean, "system", kind("optical")).clip;
-  EXPECT_NE(noisy.joint_translations, clean.joint_translations);
-  EXPECT_NE(noisy.root_positions, clean.root_positions);
+  EXPECT_NE(test::point_track(noisy, 1), test::point_track(clean, 1));
+  EXPECT_NE(test::point_track(noisy, 0), test::point_track(clean, 0));
   const Clip without = damaged(clean, "system", kind("optical", {{"root", false}})).clip;
-  EXPECT_EQ(without.root_positions, clean.root_positions);
-  EXPECT_EQ(without.joint_translations, noisy.joint_translations);
+  EXPECT_EQ(test::point_track(without, 0), test::point_track(clean, 0));
+  EXPECT_EQ(test::point_track(without, 1), test::point_track(noisy, 1));
 }
 
 TEST(SystemNoise, RefusesNumbersThatContradictEachOther) {

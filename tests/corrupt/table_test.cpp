@@ -49,12 +49,11 @@ INSTANTIATE_TEST_SUITE_P(Table, EveryDamage, testing::ValuesIn([] {
                          });
 
 bool same_clip(const Clip& a, const Clip& b) {
-  if (a.local_rotations.size() != b.local_rotations.size()) return false;
-  for (std::size_t i = 0; i < a.local_rotations.size(); ++i) {
-    if (!same_bits(a.local_rotations[i], b.local_rotations[i])) return false;
+  if (a.rotations.size() != b.rotations.size()) return false;
+  for (std::size_t i = 0; i < a.rotations.size(); ++i) {
+    if (!same_bits(a.rotations[i], b.rotations[i])) return false;
   }
-  return a.root_positions == b.root_positions && a.observed == b.observed &&
-         a.joint_translations == b.joint_translations;
+  return a.positions == b.positions && a.observed == b.observed;
 }
 
 TEST_P(EveryDamage, GivesTheSameBytesForTheSameSeedAndOthersForAnother) {
@@ -74,11 +73,10 @@ TEST_P(EveryDamage, LeavesAValidClipAndReportsWhatItDid) {
   EXPECT_EQ(report.samples, 200 * clean.joint_count());
   std::size_t changed = 0;
   double square = 0, largest = 0;
-  for (std::size_t i = 0; i < clean.local_rotations.size(); ++i) {
+  for (std::size_t i = 0; i < clean.rotations.size(); ++i) {
     const bool lost = !clip.observed.empty() && !clip.observed[i];
-    changed += lost || !same_bits(clean.local_rotations[i], clip.local_rotations[i]);
-    const double angle =
-        angle_between(clean.local_rotations[i], clip.local_rotations[i]) / test::degree;
+    changed += lost || !same_bits(clean.rotations[i], clip.rotations[i]);
+    const double angle = angle_between(clean.rotations[i], clip.rotations[i]) / test::degree;
     square += angle * angle;
     largest = std::max(largest, angle);
   }
@@ -94,7 +92,7 @@ TEST_P(EveryDamage, LeavesTheRootAloneWhenAsked) {
   const auto [clip, report] = damaged(clean, GetParam(), {{"root", false}});
   for (std::size_t f = 0; f < 100; ++f) {
     ASSERT_TRUE(same_bits(clean.rotation(f, 0), clip.rotation(f, 0)));
-    ASSERT_EQ(clean.root_positions[f], clip.root_positions[f]);
+    ASSERT_EQ(clean.root_position(f), clip.root_position(f));
   }
 }
 
@@ -128,7 +126,7 @@ TEST_P(EveryDamage, LeavesTheCalibrationPoseAloneAndSaysSo) {
   const Clip motion = moving_humanoid(100);
   Clip clean = test::resting_clip(motion.skeleton, 101, 120);
   for (std::size_t f = 0; f < 100; ++f) {
-    clean.root_positions[f + 1] = motion.root_positions[f];
+    clean.root_position(f + 1) = motion.root_position(f);
     for (std::size_t j = 0; j < clean.joint_count(); ++j) {
       clean.rotation(f + 1, j) = motion.rotation(f, j) * test::about_z(0.6);
     }
@@ -138,12 +136,12 @@ TEST_P(EveryDamage, LeavesTheCalibrationPoseAloneAndSaysSo) {
   EXPECT_THAT(report.notes,
               Contains(HasSubstr("the first frame (a calibration pose) stays as it is")));
   EXPECT_EQ(report.samples, 100 * clean.joint_count());
-  EXPECT_EQ(clip.root_positions[0], clean.root_positions[0]);
+  EXPECT_EQ(clip.root_position(0), clean.root_position(0));
   for (std::size_t j = 0; j < clean.joint_count(); ++j) {
     EXPECT_TRUE(same_bits(clip.rotation(0, j), clean.rotation(0, j)));
     EXPECT_TRUE(clip.is_observed(0, j));
   }
-  EXPECT_TRUE(clip.observed.empty() || clip.observed.size() == clip.local_rotations.size());
+  EXPECT_TRUE(clip.observed.empty() || clip.observed.size() == clip.rotations.size());
   // What follows is damaged as it is without the pose.
   const Clip alone = damaged(slice(clean, 1, 101), GetParam()).clip;
   EXPECT_TRUE(same_clip(slice(clip, 1, 101), alone));
@@ -201,11 +199,11 @@ TEST(Damages, ComposeAndDrawNewNoiseEachTime) {
   // sum is sqrt 2 larger.
   const auto rms = [](const Clip& a, const Clip& b) {
     double sum = 0;
-    for (std::size_t i = 0; i < a.local_rotations.size(); ++i) {
-      const double angle = angle_between(a.local_rotations[i], b.local_rotations[i]) / test::degree;
+    for (std::size_t i = 0; i < a.rotations.size(); ++i) {
+      const double angle = angle_between(a.rotations[i], b.rotations[i]) / test::degree;
       sum += angle * angle;
     }
-    return std::sqrt(sum / static_cast<double>(a.local_rotations.size()));
+    return std::sqrt(sum / static_cast<double>(a.rotations.size()));
   };
   EXPECT_NEAR(rms(clean, once), 2 * std::sqrt(3.0), 0.05);
   EXPECT_NEAR(rms(once, clip), 2 * std::sqrt(3.0), 0.05);

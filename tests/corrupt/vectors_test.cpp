@@ -54,13 +54,13 @@ DamagedMarkers damaged(const MarkerClip& clean, std::string_view name,
 VectorMotion rotation_vectors(const Clip& clip) {
   VectorMotion motion;
   motion.values = PoseMatrix(clip.frame_count(), 3 * clip.joint_count());
-  for (std::size_t i = 0; i < clip.local_rotations.size(); ++i) {
-    const Vec3 v = degrees_per_radian * log(clip.local_rotations[i]);
+  for (std::size_t i = 0; i < clip.rotations.size(); ++i) {
+    const Vec3 v = degrees_per_radian * log(clip.rotations[i]);
     motion.values.values[3 * i] = v.x;
     motion.values.values[3 * i + 1] = v.y;
     motion.values.values[3 * i + 2] = v.z;
   }
-  motion.observed.assign(clip.local_rotations.size(), 1);
+  motion.observed.assign(clip.rotations.size(), 1);
   motion.frame_rate_hz = clip.frame_rate_hz;
   motion.names = clip.skeleton.names;
   motion.is_rotation.assign(clip.joint_count(), 1);
@@ -166,8 +166,8 @@ TEST(DamageOfRotationVectors, IsThatOfTheRotations) {
     VectorMotion motion = rotation_vectors(clip);
     Random random(5);
     apply_damage(motion, name, values, random);
-    for (std::size_t i = 0; i < clip.local_rotations.size(); ++i) {
-      ASSERT_LT(angle_between(rotation_of(motion, i), expected.local_rotations[i]), 1e-7)
+    for (std::size_t i = 0; i < clip.rotations.size(); ++i) {
+      ASSERT_LT(angle_between(rotation_of(motion, i), expected.rotations[i]), 1e-7)
           << name << " " << i;
       const bool seen = expected.observed.empty() || expected.observed[i] != 0;
       ASSERT_EQ(motion.observed[i] != 0, seen) << name;

@@ -7,6 +7,7 @@
 #include "feet/support.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/metrics.hpp"
+#include "translations.hpp"
 
 namespace kinemend {
 namespace {
@@ -22,15 +23,15 @@ std::size_t count_held(const FeetReport& report) {
 
 double largest_turn_deg(const Clip& a, const Clip& b) {
   double largest = 0;
-  for (std::size_t i = 0; i < a.local_rotations.size(); ++i)
-    largest = std::max(largest, angle_between(a.local_rotations[i], b.local_rotations[i]));
+  for (std::size_t i = 0; i < a.rotations.size(); ++i)
+    largest = std::max(largest, angle_between(a.rotations[i], b.rotations[i]));
   return largest * degrees_per_radian;
 }
 
 double largest_root_shift(const Clip& a, const Clip& b) {
   double largest = 0;
   for (std::size_t f = 0; f < a.frame_count(); ++f)
-    largest = std::max(largest, norm(a.root_positions[f] - b.root_positions[f]));
+    largest = std::max(largest, norm(a.root_position(f) - b.root_position(f)));
   return largest;
 }
 
@@ -97,7 +98,7 @@ TEST(CleanFeet, TakesFeetThatJitterForMeasurementsOfAllThatTheyHangFrom) {
 TEST(CleanFeet, LiftsFeetThatSink) {
   Clip clip = synthetic_clip("walk", 8);
   // A tenth of the strides stands 4 cm below the floor.
-  for (std::size_t f = 300; f < 420; ++f) clip.root_positions[f].y -= 4;
+  for (std::size_t f = 300; f < 420; ++f) clip.root_position(f).y -= 4;
   Clip cleaned = clip;
   const FeetReport report = clean_feet(cleaned, forced());
   EXPECT_GT(report.before.sink, 2.5);
@@ -110,8 +111,8 @@ TEST(CleanFeet, LeavesACleanWalkAlone) {
     Clip cleaned = clip;
     const FeetReport report = clean_feet(cleaned);
     EXPECT_EQ(count_held(report), 0u) << motion;
-    EXPECT_EQ(cleaned.local_rotations, clip.local_rotations) << motion;
-    EXPECT_EQ(cleaned.root_positions, clip.root_positions) << motion;
+    EXPECT_EQ(cleaned.rotations, clip.rotations) << motion;
+    EXPECT_EQ(cleaned.positions, clip.positions) << motion;
     for (const std::string& reason : report.reasons)
       EXPECT_THAT(reason, testing::StartsWith("stands still: moves ")) << motion;
   }
@@ -142,8 +143,8 @@ TEST(CleanFeet, ChangesNothingFartherFromContactsThanTheBlend) {
   ASSERT_GT(std::count(near.begin(), near.end(), 0), 10);
   for (std::size_t f = 0; f < near.size(); ++f) {
     EXPECT_TRUE(near[f] != 0 || test::same_bits(clip, cleaned, f)) << "frame " << f;
-    EXPECT_EQ(cleaned.root_positions[f].x, clip.root_positions[f].x);
-    EXPECT_EQ(cleaned.root_positions[f].z, clip.root_positions[f].z);
+    EXPECT_EQ(cleaned.root_position(f).x, clip.root_position(f).x);
+    EXPECT_EQ(cleaned.root_position(f).z, clip.root_position(f).z);
     for (std::size_t j = 0; j < clip.joint_count(); ++j) {
       const bool changed = report.changed[f * clip.joint_count() + j] != 0;
       EXPECT_EQ(changed, !(cleaned.rotation(f, j) == clip.rotation(f, j)));
@@ -212,7 +213,7 @@ TEST(CleanFeet, HasNothingLeftToDoTheSecondTime) {
   ASSERT_GT(count_held(report), 5u);
   Clip twice = once;
   EXPECT_EQ(count_held(clean_feet(twice, settings)), 0u);
-  EXPECT_EQ(twice.local_rotations, once.local_rotations);
+  EXPECT_EQ(twice.rotations, once.rotations);
 
   settings.contacts = report.contacts;
   once = clip;
@@ -241,7 +242,7 @@ TEST(CleanFeet, LeavesTheCalibrationFrameAlone) {
   Clip cleaned = clip;
   const FeetReport report = clean_feet(cleaned, forced());
   EXPECT_TRUE(test::same_bits(clip, cleaned, 0));
-  EXPECT_EQ(report.changed.size(), clip.local_rotations.size());
+  EXPECT_EQ(report.changed.size(), clip.rotations.size());
   EXPECT_EQ(report.root_changed.size(), clip.frame_count());
   EXPECT_LT(report.after.most_slide, 0.02);
   for (const FootContact& c : report.contacts) EXPECT_GE(c.first_frame, 1u);
@@ -261,7 +262,7 @@ TEST(CleanFeet, LeavesAFootAloneThatIsDrawnAlongWhileTheOtherStands) {
                     report.reasons[i].find("while the other foot stands") != std::string::npos);
   }
   EXPECT_TRUE(said);
-  EXPECT_EQ(cleaned.local_rotations, clip.local_rotations);
+  EXPECT_EQ(cleaned.rotations, clip.rotations);
   Clip held = clip;
   EXPECT_LT(clean_feet(held, forced()).after.most_slide, 0.1);
 }
@@ -270,7 +271,7 @@ TEST(CleanFeet, LeavesAGlideAloneButHoldsASlowDrift) {
   const auto carried = [](double speed) {
     Clip clip = synthetic_clip("still", 4, 60);
     for (std::size_t f = 0; f < clip.frame_count(); ++f)
-      clip.root_positions[f].x += speed * static_cast<double>(f) / clip.frame_rate_hz;
+      clip.root_position(f).x += speed * static_cast<double>(f) / clip.frame_rate_hz;
     return clip;
   };
   Clip glide = carried(18);
@@ -309,7 +310,7 @@ TEST(CleanFeet, ManagesWithoutARootThatMoves) {
   clip.skeleton.channels[0] = make_channels(false, parse_rotation_order("ZXY"));
   Clip cleaned = clip;
   const FeetReport report = clean_feet(cleaned, forced());
-  EXPECT_EQ(cleaned.root_positions, clip.root_positions);
+  EXPECT_EQ(cleaned.positions, clip.positions);
   EXPECT_LT(report.after.slide, 0.5 * report.before.slide);
   EXPECT_LT(report.after.knee_pop_deg, report.before.knee_pop_deg + 1);
 }
@@ -321,17 +322,14 @@ TEST(CleanFeet, KeepsTranslationsOfJoints) {
   for (const std::int32_t j : joints)
     clip.skeleton.channels[static_cast<std::size_t>(j)] =
         make_channels(true, parse_rotation_order("ZXY"));
-  clip.translated_joints = joints;
-  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-    for (const std::int32_t j : joints) {
-      const double stretch = 1 + 0.01 * std::sin(0.1 * static_cast<double>(f));
-      clip.joint_translations.push_back(stretch *
-                                        clip.skeleton.offsets[static_cast<std::size_t>(j)]);
-    }
-  }
+  test::add_translations(clip, joints, [&](std::size_t f, std::size_t k) {
+    const double stretch = 1 + 0.01 * std::sin(0.1 * static_cast<double>(f));
+    return stretch * clip.skeleton.offsets[static_cast<std::size_t>(joints[k])];
+  });
   Clip cleaned = clip;
   const FeetReport report = clean_feet(cleaned, forced());
-  EXPECT_EQ(cleaned.joint_translations, clip.joint_translations);
+  for (const std::size_t track : {1, 2})
+    EXPECT_EQ(test::point_track(cleaned, track), test::point_track(clip, track));
   EXPECT_LT(report.after.most_slide, 0.05);
 }
 
@@ -363,7 +361,7 @@ TEST(CleanFeet, DoesNothingWhenItIsOff) {
   FeetSettings settings;
   settings.mode = FeetMode::off;
   EXPECT_TRUE(clean_feet(cleaned, settings).contacts.empty());
-  EXPECT_EQ(cleaned.local_rotations, clip.local_rotations);
+  EXPECT_EQ(cleaned.rotations, clip.rotations);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ TEST(Knees, DoNotPopInWalksThatDriftAndJitter) {
 Clip with_jump(const char* joint, double deg, double rise) {
   Clip clip = synthetic_clip("still", 3);
   for (const std::size_t f : {180u, 181u}) {
-    clip.root_positions[f].y += rise;
+    clip.root_position(f).y += rise;
     Quat& own = clip.rotation(f, test::joint_of(clip, joint));
     own = own * exp({deg * radians_per_degree, 0, 0});
   }
@@ -52,8 +52,8 @@ TEST(Knees, AreSparedWhatTheHipsJump) {
   EXPECT_LT(report.after.knee_pop_deg, allowed_pop_deg(report));
   EXPECT_LT(report.after.most_slide, 0.02);
   // The root takes the jump back.
-  const double jump = before.root_positions[180].y - before.root_positions[176].y;
-  const double left = clip.root_positions[180].y - clip.root_positions[176].y;
+  const double jump = before.root_position(180).y - before.root_position(176).y;
+  const double left = clip.root_position(180).y - clip.root_position(176).y;
   EXPECT_LT(std::fabs(left), 0.3 * jump);
 }
 
@@ -71,7 +71,7 @@ TEST(Knees, AreSparedWithoutARootThatMoves) {
   clip.skeleton.channels[0] = make_channels(false, parse_rotation_order("ZXY"));
   const Clip before = clip;
   const FeetReport report = clean_feet(clip, forced());
-  EXPECT_EQ(clip.root_positions, before.root_positions);
+  EXPECT_EQ(clip.positions, before.positions);
   EXPECT_LE(report.after.knee_pop_deg, allowed_pop_deg(report));
 }
 

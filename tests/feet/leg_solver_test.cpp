@@ -25,9 +25,9 @@ struct RandomLeg {
     skeleton.end_sites.push_back({3, {0, -4, 15}, ""});
     for (std::size_t j = 1; j < 4; ++j) skeleton.rest_rotations[j] = exp(0.3 * vector(random));
     clip.frame_rate_hz = 60;
-    clip.root_positions = {30.0 * vector(random)};
-    clip.local_rotations.resize(4);
-    clip.local_rotations[0] = exp(vector(random));
+    clip.positions = {30.0 * vector(random)};
+    clip.rotations.resize(4);
+    clip.rotations[0] = exp(vector(random));
     pose(random);
     legs = find_legs(skeleton);
   }
@@ -50,7 +50,7 @@ struct RandomLeg {
         for (std::size_t i = 0; i < order.count; ++i)
           if (order.axes[i] == Axis::x) angles[i] = random.uniform(0.6, 1.6);
       }
-      clip.local_rotations[j] = from_euler(angles, order);
+      clip.rotations[j] = from_euler(angles, order);
     }
   }
 
@@ -67,9 +67,9 @@ FootTarget target_at(const LegPose& pose, Vec3 pivot) {
 }
 
 void put(Clip& clip, const LegRotations& turned) {
-  clip.local_rotations[1] = turned.hip;
-  clip.local_rotations[2] = turned.knee;
-  clip.local_rotations[3] = turned.ankle;
+  clip.rotations[1] = turned.hip;
+  clip.rotations[2] = turned.knee;
+  clip.rotations[3] = turned.ankle;
 }
 
 struct Orders {
@@ -91,7 +91,7 @@ TEST(LegSolver, PutsTheFootWhereAnotherPoseOfTheLegHasIt) {
       FootTarget moved = target;
       moved.place += shift;
       put(leg.clip, solve_leg(before.pose(0, 0), before.models[0], moved, shift, 0.001));
-      leg.clip.root_positions[0] += shift;
+      leg.clip.root_position(0) += shift;
       const Pose after = forward_kinematics(leg.clip, 0);
       EXPECT_LT(norm(after.positions[3] + rotate(after.rotations[3], target.pivot) - moved.place),
                 1e-6)
@@ -126,9 +126,9 @@ TEST(LegSolver, ChangesNothingWhereNothingMoves) {
       const LegMotion before = leg.motion();
       const LegRotations turned = solve_leg(before.pose(0, 0), before.models[0],
                                             target_at(before.pose(0, 0), {0, -4, 12}), {}, 0.02);
-      EXPECT_LT(angle_between(turned.hip, leg.clip.local_rotations[1]), 1e-6);
-      EXPECT_LT(angle_between(turned.knee, leg.clip.local_rotations[2]), 1e-6);
-      EXPECT_LT(angle_between(turned.ankle, leg.clip.local_rotations[3]), 1e-6);
+      EXPECT_LT(angle_between(turned.hip, leg.clip.rotations[1]), 1e-6);
+      EXPECT_LT(angle_between(turned.knee, leg.clip.rotations[2]), 1e-6);
+      EXPECT_LT(angle_between(turned.ankle, leg.clip.rotations[3]), 1e-6);
     }
   }
 }
@@ -163,7 +163,7 @@ TEST(LegSolver, KeepsAKneeOfOneChannelOnItsAxis) {
   const LegRotations turned = solve_leg(before.pose(0, 0), before.models[0], target, {}, 0.02);
   EXPECT_NEAR(turned.knee.y, 0, 1e-12);
   EXPECT_NEAR(turned.knee.z, 0, 1e-12);
-  EXPECT_GT(angle_between(turned.knee, leg.clip.local_rotations[2]), 1e-3);
+  EXPECT_GT(angle_between(turned.knee, leg.clip.rotations[2]), 1e-3);
 }
 
 TEST(LegSolver, SoftDistanceIsSmoothAndNeverPassesTheLongest) {

@@ -42,11 +42,12 @@ inline std::vector<Vec3> track_of(const Clip& clip, std::string_view name) {
 
 /// Turns and moves the whole scene: R p + shift.
 inline Clip moved(Clip clip, Quat turn, Vec3 shift, double scale = 1) {
-  for (Vec3& p : clip.root_positions) p = scale * rotate(turn, p) + shift;
   for (Vec3& offset : clip.skeleton.offsets) offset = scale * offset;
   for (EndSite& site : clip.skeleton.end_sites) site.offset = scale * site.offset;
-  for (std::size_t f = 0; f < clip.frame_count(); ++f)
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    clip.root_position(f) = scale * rotate(turn, clip.root_position(f)) + shift;
     clip.rotation(f, 0) = turn * clip.rotation(f, 0);
+  }
   return clip;
 }
 
@@ -54,7 +55,7 @@ inline Clip moved(Clip clip, Quat turn, Vec3 shift, double scale = 1) {
 inline Clip with_drift(Clip clip, double reach, double period_s = 2.5) {
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const double phase = 2 * pi * static_cast<double>(f) / clip.frame_rate_hz / period_s;
-    clip.root_positions[f] += Vec3{reach * std::sin(phase), 0, reach * std::cos(0.7 * phase)};
+    clip.root_position(f) += Vec3{reach * std::sin(phase), 0, reach * std::cos(0.7 * phase)};
   }
   return clip;
 }
@@ -62,7 +63,7 @@ inline Clip with_drift(Clip clip, double reach, double period_s = 2.5) {
 /// White noise on all rotations.
 inline Clip with_noise(Clip clip, double deg, std::uint64_t seed = 7) {
   Random random(seed);
-  for (Quat& q : clip.local_rotations) {
+  for (Quat& q : clip.rotations) {
     const Vec3 turn{random.normal(), random.normal(), random.normal()};
     q = normalized(q * exp(deg * radians_per_degree * turn));
   }
@@ -74,13 +75,13 @@ inline Clip with_smooth_noise(Clip clip, double deg, std::uint64_t seed) {
   constexpr std::size_t reach = 3;
   const std::size_t joints = clip.joint_count();
   Random random(seed);
-  std::vector<Vec3> noise(clip.local_rotations.size() + 2 * reach * joints);
+  std::vector<Vec3> noise(clip.rotations.size() + 2 * reach * joints);
   for (Vec3& turn : noise) turn = {random.normal(), random.normal(), random.normal()};
-  for (std::size_t i = 0; i < clip.local_rotations.size(); ++i) {
+  for (std::size_t i = 0; i < clip.rotations.size(); ++i) {
     Vec3 sum;
     for (std::size_t k = 0; k <= 2 * reach; ++k) sum += noise[i + k * joints];
     const double share = deg * radians_per_degree / std::sqrt(2 * reach + 1.0);
-    clip.local_rotations[i] = normalized(clip.local_rotations[i] * exp(share * sum));
+    clip.rotations[i] = normalized(clip.rotations[i] * exp(share * sum));
   }
   return clip;
 }
@@ -89,7 +90,7 @@ inline bool same_bits(const Clip& a, const Clip& b, std::size_t frame) {
   for (std::size_t j = 0; j < a.joint_count(); ++j) {
     if (!(a.rotation(frame, j) == b.rotation(frame, j))) return false;
   }
-  return a.root_positions[frame] == b.root_positions[frame];
+  return a.root_position(frame) == b.root_position(frame);
 }
 
 }  // namespace kinemend::test

@@ -48,7 +48,7 @@ Clip damaged(const Clip& clip, double gap_s, std::uint64_t seed) {
   Clip result = clip;
   mark_gaps(result, gaps);
   for (std::size_t i = 0; i < result.observed.size(); ++i) {
-    if (!result.observed[i]) result.local_rotations[i] = Quat{};
+    if (!result.observed[i]) result.rotations[i] = Quat{};
   }
   return result;
 }
@@ -62,7 +62,7 @@ double mean_error_deg(const Clip& truth, const Clip& holed, const std::string& m
   double sum = 0, count = 0;
   for (std::size_t i = 0; i < holed.observed.size(); ++i) {
     if (holed.observed[i]) continue;
-    sum += angle_between(clip.local_rotations[i], truth.local_rotations[i]) * degrees_per_radian;
+    sum += angle_between(clip.rotations[i], truth.rotations[i]) * degrees_per_radian;
     count += 1;
   }
   return sum / count;

@@ -173,7 +173,7 @@ TEST(FillJoints, FillsTheRootsPositionToo) {
   Clip truth = test::moving_chain(4, 300);
   for (std::size_t f = 0; f < 300; ++f) {
     const auto t = static_cast<double>(f);
-    truth.root_positions[f] = {0.02 * t, 1 + 0.05 * std::sin(0.1 * t), 0};
+    truth.root_position(f) = {0.02 * t, 1 + 0.05 * std::sin(0.1 * t), 0};
   }
   Clip clip = with_gaps(truth, {{"root", 100, 114}});
   const FillReport report = fill_with(clip, "auto");
@@ -182,7 +182,7 @@ TEST(FillJoints, FillsTheRootsPositionToo) {
   EXPECT_TRUE(report.gaps[1].is_position);
   EXPECT_TRUE(report.gaps[1].filled) << report.gaps[1].reason;
   for (std::size_t f = 100; f <= 114; ++f)
-    EXPECT_LT(norm(clip.root_positions[f] - truth.root_positions[f]), 0.02);
+    EXPECT_LT(norm(clip.root_position(f) - truth.root_position(f)), 0.02);
   Clip other = with_gaps(truth, {{"root", 100, 114}});
   EXPECT_EQ(fill_with(other, "pca").gaps[1].reason, "pca fills no positions");
 }

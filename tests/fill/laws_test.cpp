@@ -73,14 +73,14 @@ FillReport fill_by(AnyClip& clip, const std::string& method) {
 }
 
 void expect_observed_equal(const Clip& before, const Clip& after) {
-  for (std::size_t i = 0; i < after.local_rotations.size(); ++i) {
+  for (std::size_t i = 0; i < after.rotations.size(); ++i) {
     if (before.observed[i]) {
-      ASSERT_EQ(after.local_rotations[i], before.local_rotations[i]);
+      ASSERT_EQ(after.rotations[i], before.rotations[i]);
     }
   }
   for (std::size_t f = 0; f < after.frame_count(); ++f) {
     if (before.is_position_observed(f, 0)) {
-      ASSERT_EQ(after.root_positions[f], before.root_positions[f]);
+      ASSERT_EQ(after.root_position(f), before.root_position(f));
     }
   }
   EXPECT_THAT(find_position_gaps(after), IsEmpty());
@@ -98,8 +98,8 @@ void expect_observed_equal(const MarkerClip& before, const MarkerClip& after) {
 const Quat turn = exp(Vec3{0.4, -1.1, 0.7});
 constexpr double growth = 10;
 void move(Clip& clip) {
-  for (std::size_t i = 0; i < clip.local_rotations.size(); ++i)
-    clip.local_rotations[i] = (i % 3 == 0 ? -1.0 : 1.0) * (turn * clip.local_rotations[i]);
+  for (std::size_t i = 0; i < clip.rotations.size(); ++i)
+    clip.rotations[i] = (i % 3 == 0 ? -1.0 : 1.0) * (turn * clip.rotations[i]);
 }
 void move(MarkerClip& clip) {
   for (std::size_t i = 0; i < clip.positions.size(); ++i) {

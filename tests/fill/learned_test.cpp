@@ -23,7 +23,7 @@ const Quat said = exp(Vec3{0.3, -0.2, 0.1});
 
 // A model that gives every missing sample the same rotation, and knows no joint4.
 LearnedFilling same_everywhere(const Clip& clip) {
-  LearnedFilling filling{clip.local_rotations, {}};
+  LearnedFilling filling{clip.rotations, {}};
   for (std::size_t i = 0; i < filling.rotations.size(); ++i) {
     if (!clip.observed.empty() && clip.observed[i] == 0) filling.rotations[i] = said;
   }
@@ -89,7 +89,7 @@ TEST(LearnedFilling, ComesAgainByThePlanOfItsRun) {
   EXPECT_EQ(made.plan[0].method, "recurrent");
   const std::string text = plan_csv(gapped(), made.plan);
   fill_with_plan(again, parse_plan(text, "plan.csv", gapped()), {}, {same_everywhere});
-  EXPECT_EQ(again.local_rotations, clip.local_rotations);
+  EXPECT_EQ(again.rotations, clip.rotations);
   EXPECT_EQ(again.observed, clip.observed);
 }
 
@@ -124,7 +124,7 @@ TEST(LearnedFilling, IsNotMadeFromASpikeBesideTheGap) {
   FillSettings settings = by_model();
   std::size_t whole_frames = 0;
   settings.models.recurrent = [&](const Clip& seen) {
-    LearnedFilling filling{seen.local_rotations, {}};
+    LearnedFilling filling{seen.rotations, {}};
     filling.left_out.assign(seen.joint_count(), "");
     const bool is_whole = seen.frame_count() == frames;
     if (is_whole) ++whole_frames;
@@ -144,7 +144,7 @@ TEST(LearnedFilling, IsNotMadeFromASpikeBesideTheGap) {
 // A model that knows the motion but for a turn, which grows over the take.
 LearnedFill drifting(const Clip& truth) {
   return [&truth](const Clip& seen) {
-    LearnedFilling filling{truth.local_rotations, {}, true};
+    LearnedFilling filling{truth.rotations, {}, true};
     filling.left_out.assign(seen.joint_count(), "");
     for (std::size_t i = 0; i < filling.rotations.size(); ++i) {
       const auto frame = static_cast<double>(i / seen.joint_count());

@@ -98,7 +98,7 @@ inline Clip spoilt(Clip clip) {
       if (!clip.is_observed(f, j))
         clip.rotation(f, j) = exp({0, 0, 1 + 0.1 * static_cast<double>(f)});
     }
-    if (!clip.is_position_observed(f, 0)) clip.root_positions[f] = {1e6, -1e6, 0};
+    if (!clip.is_position_observed(f, 0)) clip.root_position(f) = {1e6, -1e6, 0};
   }
   return clip;
 }

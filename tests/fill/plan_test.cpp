@@ -39,8 +39,8 @@ bool are_same(const MarkerClip& a, const MarkerClip& b) {
   return a.positions == b.positions && a.observed == b.observed && a.residuals == b.residuals;
 }
 bool are_same(const Clip& a, const Clip& b) {
-  return a.local_rotations == b.local_rotations && a.root_positions == b.root_positions &&
-         a.observed == b.observed && a.observed_positions == b.observed_positions;
+  return a.rotations == b.rotations && a.positions == b.positions && a.observed == b.observed &&
+         a.observed_positions == b.observed_positions;
 }
 
 std::string complaint(const std::string& text, const MarkerClip& clip) {

@@ -47,7 +47,7 @@ TEST(Promise, HoldsForJoints) {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
       Clip truth = synthesize({.motion = motion, .duration_s = 4});
       Random random(seed);
-      for (Quat& q : truth.local_rotations) {
+      for (Quat& q : truth.rotations) {
         const double x = random.normal(), y = random.normal(), z = random.normal();
         q = q * exp(0.05 * radians_per_degree * Vec3{x, y, z});
       }

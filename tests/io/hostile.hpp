@@ -132,7 +132,7 @@ inline void expect_quick_verdicts(const std::string& format,
     const std::clock_t start = std::clock();
     const std::size_t peak = peak_memory([&, text = bytes]() mutable {
       try {
-        const Take take = read_take(std::move(text), "take." + format, options).take;
+        const AnyTake take = read_take(std::move(text), "take." + format, options).take;
         std::visit([](const auto& clip) { clip.validate(); }, take);
       } catch (const Error& error) {
         const std::string message = error.what();

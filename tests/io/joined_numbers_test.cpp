@@ -40,9 +40,9 @@ TEST(JoinedNumbers, OfBvhAreSplitAtTheSign) {
 
 TEST(JoinedNumbers, StayApartWhenOneOfThemIsChanged) {
   Clip clip = read_text(head + "0.0 95.5-1.5 0.0-7.5 3.25\n0 0 0 0 0 0\n1 2 3 4 5 6\n");
-  clip.root_positions[0].z = 1.25;
+  clip.root_position(0).z = 1.25;
   const Clip again = read_text(write_clip(clip));
-  EXPECT_EQ(again.root_positions[0], (Vec3{0, 95.5, 1.25}));
+  EXPECT_EQ(again.root_position(0), (Vec3{0, 95.5, 1.25}));
 }
 
 TEST(JoinedNumbers, AreNoExponentDateOrWord) {

@@ -77,11 +77,8 @@ inline std::pair<double, double> difference(const Clip& a, const Clip& b) {
   for (std::size_t f = 0; f < std::min(a.frame_count(), b.frame_count()); ++f) {
     for (std::size_t j = 0; j < a.joint_count(); ++j)
       turn = std::max(turn, angle_between(a.rotation(f, j), b.rotation(f, j)));
-    way = std::max(way, norm(a.root_positions[f] - b.root_positions[f]));
-  }
-  for (std::size_t i = 0; i < std::min(a.joint_translations.size(), b.joint_translations.size());
-       ++i) {
-    way = std::max(way, norm(a.joint_translations[i] - b.joint_translations[i]));
+    for (std::size_t i = 0; i < std::min(a.point_count(), b.point_count()); ++i)
+      way = std::max(way, norm(a.position(f, i) - b.position(f, i)));
   }
   return {turn, way};
 }

@@ -114,8 +114,8 @@ TEST_F(LiveSessionTest, MakesUpLostFramesBetweenThoseOnEitherSide) {
       angle_between(clip.rotation(4, 1), slerp(whole.rotation(2, 1), whole.rotation(6, 1), 0.5)),
       digits_rad);
   EXPECT_LT(
-      norm(clip.root_positions[3] -
-           (whole.root_positions[2] + 0.25 * (whole.root_positions[6] - whole.root_positions[2]))),
+      norm(clip.root_position(3) -
+           (whole.root_position(2) + 0.25 * (whole.root_position(6) - whole.root_position(2)))),
       digits_units);
 }
 
@@ -365,9 +365,8 @@ TEST_F(LiveSessionTest, WritesLinesOfJson) {
     const auto q = frame["rotations"][2].get<std::vector<double>>();
     EXPECT_LT(angle_between(whole.rotation(f, 2), normalized({q[0], q[1], q[2], q[3]})),
               digits_rad);
-    EXPECT_NEAR(frame["root"][1].get<double>(), whole.root_positions[f].y, digits_units);
-    EXPECT_NEAR(frame["translations"][0][2].get<double>(), whole.joint_translations[f].z,
-                digits_units);
+    EXPECT_NEAR(frame["root"][1].get<double>(), whole.root_position(f).y, digits_units);
+    EXPECT_NEAR(frame["translations"][0][2].get<double>(), whole.position(f, 1).z, digits_units);
   }
 }
 

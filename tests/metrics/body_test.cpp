@@ -23,8 +23,8 @@ TEST(FootSlide, IsTheHorizontalTravelPerFrameInContact) {
   const Clip reference = resting_clip(one_legged(), 5, 100);
   Clip other = reference;
   // Steps of the toe: (3, up, 4), 0, (0, 7, 0), 0 -> horizontal 5, 0, 0, 0.
-  for (std::size_t f = 1; f < 5; ++f) other.root_positions[f] += Vec3{3, 2, 4};
-  for (std::size_t f = 3; f < 5; ++f) other.root_positions[f] += Vec3{0, 7, 0};
+  for (std::size_t f = 1; f < 5; ++f) other.root_position(f) += Vec3{3, 2, 4};
+  for (std::size_t f = 3; f < 5; ++f) other.root_position(f) += Vec3{0, 7, 0};
   const FootSlide slide = foot_slide(reference, other);
   EXPECT_EQ(slide.contact_steps, 4u);
   EXPECT_NEAR(slide.per_frame, 5.0 / 4, 1e-12);
@@ -34,21 +34,21 @@ TEST(FootSlide, IsTheHorizontalTravelPerFrameInContact) {
 TEST(FootSlide, CountsOnlyWhileTheReferenceIsLowAndSlow) {
   Clip reference = resting_clip(one_legged(), 6, 100);
   // 0.03 of the height is 5.1 units; 0.25 heights per second at 100 Hz is 0.425 a frame.
-  reference.root_positions[3].y += 6;    // high: steps 2-3 and 3-4 are out
-  reference.root_positions[5].x += 0.5;  // fast: step 4-5 is out
+  reference.root_position(3).y += 6;    // high: steps 2-3 and 3-4 are out
+  reference.root_position(5).x += 0.5;  // fast: step 4-5 is out
   Clip other = reference;
-  for (std::size_t f = 1; f < 6; ++f) other.root_positions[f].x += static_cast<double>(f);
+  for (std::size_t f = 1; f < 6; ++f) other.root_position(f).x += static_cast<double>(f);
   const FootSlide slide = foot_slide(reference, other);
   EXPECT_EQ(slide.contact_steps, 2u);
   EXPECT_NEAR(slide.per_frame, 1.0, 1e-12);
-  reference.root_positions[5].x -= 0.1;  // 0.4 is slow enough
+  reference.root_position(5).x -= 0.1;  // 0.4 is slow enough
   EXPECT_EQ(foot_slide(reference, other).contact_steps, 3u);
 }
 
 TEST(FootSlide, TakesTheAxisThatPointsUp) {
   const Clip reference = resting_clip(one_legged(), 2, 100);
   Clip other = reference;
-  other.root_positions[1] += Vec3{3, 4, 12};
+  other.root_position(1) += Vec3{3, 4, 12};
   FootSlideSettings settings;
   settings.up = Axis::z;
   EXPECT_NEAR(foot_slide(reference, other, settings).per_frame, 5.0, 1e-12);

@@ -23,7 +23,7 @@ TEST(CompareClips, AgreesWithEachFigureAlone) {
   const Clip reference = moving_chain(4, 30);
   Clip other = reference;
   Random random(5);
-  for (Quat& q : other.local_rotations) q = q * exp(test::random_vector(random, 0.05));
+  for (Quat& q : other.rotations) q = q * exp(test::random_vector(random, 0.05));
   ComparisonSettings settings;
   settings.first_frame = 2;
   settings.psnr_peak = 3;

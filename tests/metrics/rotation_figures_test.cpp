@@ -79,7 +79,7 @@ TEST(RmsDeg, DoesNotMistakeAnotherEulerBranchForADifference) {
 TEST(RmsDeg, IgnoresTheSignOfQuaternions) {
   const Clip reference = two_frame_reference();
   Clip other = reference;
-  for (Quat& q : other.local_rotations) q = -q;
+  for (Quat& q : other.rotations) q = -q;
   EXPECT_NEAR(rms_deg(reference, other), 0.0, 1e-10);
   EXPECT_NEAR(geodesic_rms_deg(reference, other), 0.0, 1e-10);
 }

@@ -4,6 +4,7 @@
 
 #include "kinemend/error.hpp"
 #include "motion/clips.hpp"
+#include "translations.hpp"
 
 namespace kinemend {
 namespace {
@@ -13,29 +14,31 @@ constexpr std::size_t joints = 4, frames = 10, tracks = 3;
 // Four joints of which two are translated; no sample is like another.
 Clip moving_clip() {
   Clip clip = test::chain_clip(joints, frames);
-  clip.translated_joints = {1, 3};
+  test::add_translations(clip, {1, 3}, Vec3{});
   for (std::size_t f = 0; f < frames; ++f) {
     const double at = static_cast<double>(f);
-    clip.root_positions[f] = {at, 0, 0};
+    clip.root_position(f) = {at, 0, 0};
     for (std::size_t j = 0; j < joints; ++j)
       clip.rotation(f, j) = test::about_z(0.01 * at + 0.1 * static_cast<double>(j));
-    clip.joint_translations.insert(clip.joint_translations.end(), {{at, 1, 0}, {at, 3, 0}});
+    clip.position(f, 1) = {at, 1, 0};
+    clip.position(f, 2) = {at, 3, 0};
   }
   return clip;
 }
 
 void damage(Clip& motion) {
-  for (Vec3& position : motion.root_positions) position.y += 1;
-  for (Quat& rotation : motion.local_rotations) rotation = rotation * test::about_z(1);
-  for (Vec3& translation : motion.joint_translations) translation.z += 2;
-  motion.observed.assign(motion.local_rotations.size(), 0);
+  for (std::size_t f = 0; f < motion.frame_count(); ++f) {
+    motion.root_position(f).y += 1;
+    for (std::size_t track = 1; track < tracks; ++track) motion.position(f, track).z += 2;
+  }
+  for (Quat& rotation : motion.rotations) rotation = rotation * test::about_z(1);
+  motion.observed.assign(motion.rotations.size(), 0);
   motion.observed_positions.assign(motion.frame_count() * tracks, 0);
 }
 
 void expect_same(const Clip& a, const Clip& b) {
-  EXPECT_EQ(a.root_positions, b.root_positions);
-  EXPECT_EQ(a.local_rotations, b.local_rotations);
-  EXPECT_EQ(a.joint_translations, b.joint_translations);
+  EXPECT_EQ(a.positions, b.positions);
+  EXPECT_EQ(a.rotations, b.rotations);
   EXPECT_EQ(a.observed, b.observed);
   EXPECT_EQ(a.observed_positions, b.observed_positions);
 }

@@ -6,6 +6,7 @@
 
 #include "kinemend/error.hpp"
 #include "motion/clips.hpp"
+#include "translations.hpp"
 
 namespace kinemend {
 namespace {
@@ -29,9 +30,9 @@ auto usage(const char* message) {
 
 Clip full_clip() {
   Clip clip = moving_chain(3, 5);
-  clip.translated_joints = {1};
-  for (std::size_t f = 0; f < 5; ++f)
-    clip.joint_translations.push_back({static_cast<double>(f), 1, 2});
+  test::add_translations(clip, {1}, [](std::size_t f, std::size_t) {
+    return Vec3{static_cast<double>(f), 1, 2};
+  });
   clip.observed.assign(15, 1);
   clip.observed[7] = 0;
   clip.source = {"walk.bvh", "bvh", std::make_shared<SourceDocument>()};
@@ -59,10 +60,10 @@ TEST(ClipRules, NameTheFirstFrameAndJointThatBreaksOne) {
               usage("a frame rate of 0 Hz is outside 0.1 to 100000 Hz"));
   EXPECT_THAT(validating([&](Clip& c) { c.frame_rate_hz = infinity; }),
               usage("a frame rate of inf Hz is outside 0.1 to 100000 Hz"));
-  EXPECT_THAT(validating([](Clip& c) { c.local_rotations.pop_back(); }),
-              usage("local rotations: 14 values, expected 15"));
-  EXPECT_THAT(validating([](Clip& c) { c.joint_translations.pop_back(); }),
-              usage("joint translations: 4 values, expected 5"));
+  EXPECT_THAT(validating([](Clip& c) { c.rotations.pop_back(); }),
+              usage("rotations: 14 values, expected 15"));
+  EXPECT_THAT(validating([](Clip& c) { c.positions.pop_back(); }),
+              usage("positions: 9 values, expected 8"));
   EXPECT_THAT(validating([](Clip& c) { c.observed.pop_back(); }),
               usage("observed mask: 14 values, expected 15"));
   const auto bad_joints = usage("translated joints are not ascending joint numbers above 0");
@@ -70,16 +71,16 @@ TEST(ClipRules, NameTheFirstFrameAndJointThatBreaksOne) {
   EXPECT_THAT(validating([](Clip& c) { c.translated_joints = {3}; }), bad_joints);
   EXPECT_THAT(validating([](Clip& c) {
                 c.translated_joints = {2, 1};
-                c.joint_translations.resize(10);
+                c.positions.resize(15);
               }),
               bad_joints);
-  EXPECT_THAT(validating([&](Clip& c) { c.root_positions[2].z = nan; }),
+  EXPECT_THAT(validating([&](Clip& c) { c.root_position(2).z = nan; }),
               usage("frame 2: root position is not finite"));
   EXPECT_THAT(validating([](Clip& c) { c.rotation(3, 1).w += 0.01; }),
               usage("frame 3, joint \"joint1\": rotation is not a unit quaternion"));
   EXPECT_THAT(validating([&](Clip& c) { c.rotation(4, 2).x = nan; }),
               usage("frame 4, joint \"joint2\": rotation is not a unit quaternion"));
-  EXPECT_THAT(validating([&](Clip& c) { c.joint_translations[1].x = infinity; }),
+  EXPECT_THAT(validating([&](Clip& c) { c.position(1, 1).x = infinity; }),
               usage("a joint translation is not finite"));
 }
 
@@ -102,8 +103,8 @@ TEST(Slice, HoldsTheFramesAskedForAndNoSourceDocument) {
   EXPECT_EQ(part.source.name, "walk.bvh");
   EXPECT_EQ(part.source.document, nullptr);
   for (std::size_t f = 0; f < 3; ++f) {
-    EXPECT_EQ(part.root_positions[f], clip.root_positions[f + 1]);
-    EXPECT_EQ(part.joint_translations[f], clip.joint_translations[f + 1]);
+    EXPECT_EQ(part.root_position(f), clip.root_position(f + 1));
+    EXPECT_EQ(part.position(f, 1), clip.position(f + 1, 1));
     for (std::size_t j = 0; j < 3; ++j) {
       EXPECT_EQ(part.rotation(f, j), clip.rotation(f + 1, j));
       EXPECT_EQ(part.is_observed(f, j), clip.is_observed(f + 1, j));
@@ -145,8 +146,8 @@ TEST(LeadingCalibrationFrames, FindsATPoseOfSomeFrames) {
 TEST(LeadingCalibrationFrames, FindsItInANoisyTakeWithSpikes) {
   Clip clip = take_with_pose(1, 300);
   Random random(1);
-  for (std::size_t i = 8; i < clip.local_rotations.size(); ++i) {
-    Quat& q = clip.local_rotations[i];
+  for (std::size_t i = 8; i < clip.rotations.size(); ++i) {
+    Quat& q = clip.rotations[i];
     q = q * exp(random_vector(random, 1.5 * degree));
     if (random.chance(0.01)) q = q * exp(random_vector(random, 40 * degree));
   }

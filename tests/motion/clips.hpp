@@ -20,8 +20,8 @@ inline Quat about_z(double angle) { return exp({0, 0, angle}); }
 inline Clip resting_clip(Skeleton skeleton, std::size_t frames, double frame_rate_hz) {
   Clip clip;
   clip.frame_rate_hz = frame_rate_hz;
-  clip.root_positions.assign(frames, skeleton.offsets[0]);
-  clip.local_rotations.assign(frames * skeleton.joint_count(), Quat{});
+  clip.positions.assign(frames, skeleton.offsets[0]);
+  clip.rotations.assign(frames * skeleton.joint_count(), Quat{});
   clip.skeleton = std::move(skeleton);
   return clip;
 }
@@ -49,7 +49,7 @@ inline Clip moving_chain(std::size_t joints, std::size_t frames, double frame_ra
   Clip clip = chain_clip(joints, frames, frame_rate_hz);
   for (std::size_t f = 0; f < frames; ++f) {
     const double t = static_cast<double>(f) / frame_rate_hz;
-    clip.root_positions[f] = {t, 1 + 0.1 * std::sin(5 * t), 0.2 * t};
+    clip.root_position(f) = {t, 1 + 0.1 * std::sin(5 * t), 0.2 * t};
     for (std::size_t j = 0; j < joints; ++j) {
       const double k = 1 + 0.3 * static_cast<double>(j);
       clip.rotation(f, j) =

@@ -4,6 +4,7 @@
 
 #include "kinemend/error.hpp"
 #include "motion/clips.hpp"
+#include "translations.hpp"
 
 namespace kinemend {
 namespace {
@@ -41,8 +42,7 @@ TEST(MarkGaps, LeavesThePositionOfARootThatHasNoChannelsForIt) {
 
 TEST(MarkGaps, OfATranslatedJointMarksItsTranslation) {
   Clip clip = test::chain_clip(4, 10);
-  clip.translated_joints = {1, 3};
-  clip.joint_translations.assign(20, Vec3{1, 0, 0});
+  test::add_translations(clip, {1, 3}, Vec3{1, 0, 0});
   mark_gaps(clip, std::vector<NamedGap>{{"joint3", 2, 3}, {"joint2", 5, 5}});
   EXPECT_THAT(find_position_gaps(clip), ElementsAre(Gap{2, 2, 3}));
   mark_gaps(clip, std::vector<NamedGap>{{"*", 9, 9}});

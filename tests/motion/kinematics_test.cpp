@@ -23,7 +23,7 @@ void expect_close(Vec3 found, Vec3 expected, double tolerance = 1e-14) {
 TEST(ForwardKinematics, OfAPlanarChainIsASumOfAngles) {
   Clip clip = chain_clip(4, 1);
   const double a = 0.3, b = -0.8, c = 1.9;
-  clip.root_positions[0] = {10, 20, 30};
+  clip.root_position(0) = {10, 20, 30};
   clip.rotation(0, 0) = about_z(a);
   clip.rotation(0, 1) = about_z(b);
   clip.rotation(0, 2) = about_z(c);
@@ -63,7 +63,8 @@ TEST(ForwardKinematics, PutsRestRotationsBeforeLocalOnes) {
 TEST(ForwardKinematics, ReplacesOffsetsByTranslations) {
   Clip clip = chain_clip(4, 2);
   clip.translated_joints = {1, 3};
-  clip.joint_translations = {{0, 0, 0}, {0, 0, 0}, {0, 5, 0}, {0, 0, 7}};
+  // The root, joint 1 and joint 3, in two frames.
+  clip.positions = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 5, 0}, {0, 0, 7}};
   clip.rotation(1, 0) = about_z(pi / 2);
   const Pose pose = forward_kinematics(clip, 1);
   expect_close(pose.positions[1], {-5, 0, 0});
@@ -76,8 +77,8 @@ TEST(ForwardKinematics, TakesRootPositionsForJoint0AndOffsetsForOtherRoots) {
   Clip clip = chain_clip(2, 1);
   clip.skeleton.add_joint("prop", -1, {7, 8, 9}, {});
   clip.skeleton.add_joint("tip", 2, {1, 0, 0}, {});
-  clip.local_rotations.resize(4);
-  clip.root_positions[0] = {1, 2, 3};
+  clip.rotations.resize(4);
+  clip.root_position(0) = {1, 2, 3};
   clip.rotation(0, 2) = about_z(pi / 2);
   const Pose pose = forward_kinematics(clip, 0);
   expect_close(pose.positions[0], {1, 2, 3});
@@ -94,7 +95,7 @@ TEST(ForwardKinematics, AgreesWithProductsOfMatrices) {
     clip.skeleton.rest_rotations[j] = random_rotation(random);
     clip.rotation(0, j) = random_rotation(random);
   }
-  clip.root_positions[0] = random_vector(random);
+  clip.root_position(0) = random_vector(random);
   const Pose pose = forward_kinematics(clip, 0);
   for (std::size_t j = 0; j < 6; ++j) {
     // A point of the joint's frame, carried up to the world joint by joint.
@@ -103,7 +104,7 @@ TEST(ForwardKinematics, AgreesWithProductsOfMatrices) {
     for (auto k = static_cast<std::int32_t>(j); k >= 0;
          k = clip.skeleton.parents[static_cast<std::size_t>(k)]) {
       const auto joint = static_cast<std::size_t>(k);
-      const Vec3 offset = k == 0 ? clip.root_positions[0] : clip.skeleton.offsets[joint];
+      const Vec3 offset = k == 0 ? clip.root_position(0) : clip.skeleton.offsets[joint];
       point = offset +
               rotate(clip.skeleton.rest_rotations[joint], rotate(clip.rotation(0, joint), point));
     }

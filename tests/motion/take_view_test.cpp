@@ -16,9 +16,8 @@ Clip small_clip() {
   clip.translated_joints = {1};
   for (int f = 0; f < 4; ++f) {
     const double x = f;
-    clip.root_positions.push_back({x, 1, 2});
-    clip.local_rotations.insert(clip.local_rotations.end(), {exp({0.1 * x, 0, 0}), Quat{}});
-    clip.joint_translations.push_back({0, 3, x});
+    clip.positions.insert(clip.positions.end(), {{x, 1, 2}, {0, 3, x}});
+    clip.rotations.insert(clip.rotations.end(), {exp({0.1 * x, 0, 0}), Quat{}});
   }
   return clip;
 }
@@ -69,17 +68,15 @@ TEST(TakeView, KnowsWhatWasObserved) {
 TEST(TakeView, WritesEachTrackBackWhereItCameFrom) {
   const Clip clip = small_clip();
   Clip copy = clip;
-  copy.root_positions.assign(4, {});
-  copy.local_rotations.assign(8, {});
-  copy.joint_translations.assign(4, {});
+  copy.positions.assign(8, {});
+  copy.rotations.assign(8, {});
   const TakeView take = view_of(clip);
   for (std::size_t n = 0; n < take.tracks.size(); ++n) {
     set_track(copy, n, rotations_of(take.tracks[n]));
     set_track(copy, n, positions_of(take.tracks[n]));
   }
-  EXPECT_EQ(copy.root_positions, clip.root_positions);
-  EXPECT_EQ(copy.local_rotations, clip.local_rotations);
-  EXPECT_EQ(copy.joint_translations, clip.joint_translations);
+  EXPECT_EQ(copy.positions, clip.positions);
+  EXPECT_EQ(copy.rotations, clip.rotations);
 }
 
 TEST(TakeView, OfMarkersLeavesOutWhatIsNoPosition) {
@@ -99,7 +96,7 @@ TEST(TakeView, OfMarkersLeavesOutWhatIsNoPosition) {
 TEST(TakeView, OfNothingHasNothingToChange) {
   EXPECT_TRUE(changeable_tracks(view_of(Clip{})).empty());
   EXPECT_TRUE(changeable_tracks(view_of(MarkerClip{})).empty());
-  EXPECT_TRUE(changeable_tracks(view_of(slice(small_clip(), 0, 0))).empty());
+  EXPECT_TRUE(changeable_tracks(view_of(Clip(slice(small_clip(), 0, 0)))).empty());
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ class Idle final : public Cleaner {
 Clip sliding_walk(bool t_pose_first = false) {
   Clip clip = synthesize({"walk", 5, 120, 1, t_pose_first});
   for (std::size_t f = 0; f < clip.frame_count(); ++f)
-    clip.root_positions[f].x += 5 * std::sin(0.02 * static_cast<double>(f));
+    clip.root_position(f).x += 5 * std::sin(0.02 * static_cast<double>(f));
   return clip;
 }
 
@@ -69,9 +69,9 @@ TEST(FeetStep, IsNotTakenUnasked) {
   const Clip clip = sliding_walk();
   const CleanResult plain = clean_clip(clip, Idle());
   EXPECT_FALSE(plain.report.feet);
-  EXPECT_EQ(plain.clip.local_rotations, clip.local_rotations);
+  EXPECT_EQ(plain.clip.rotations, clip.rotations);
   const CleanResult off = clean_clip(clip, Idle(), with_feet(FeetMode::off));
-  EXPECT_EQ(off.clip.local_rotations, clip.local_rotations);
+  EXPECT_EQ(off.clip.rotations, clip.rotations);
 }
 
 // Learned methods take models of synthetic walks, and the noise that they are for.
@@ -112,7 +112,7 @@ TEST_P(FeetAfter, AreHeldAndTheRestIsTheMethods) {
   EXPECT_GT(held.report.feet->before.most_slide, 1);
   EXPECT_LT(held.report.feet->after.most_slide, 0.05);
   if (method.learned) {
-    EXPECT_NE(plain.clip.local_rotations, clip.local_rotations);
+    EXPECT_NE(plain.clip.rotations, clip.rotations);
   }
   for (const char* name : {"Head", "LeftArm", "RightForeArm", "Spine"}) {
     const auto j = static_cast<std::size_t>(clip.skeleton.find(name));
@@ -155,7 +155,7 @@ TEST(FeetStep, LeavesLegsThatAreNotSelectedAndTheOthersToo) {
     for (std::size_t f = 0; f < clip.frame_count(); ++f)
       EXPECT_EQ(result.clip.rotation(f, j), clip.rotation(f, j));
   }
-  EXPECT_EQ(result.clip.root_positions, clip.root_positions);
+  EXPECT_EQ(result.clip.positions, clip.positions);
 }
 
 TEST(FeetStep, LeavesTheRootWhereItMayNotMove) {
@@ -163,7 +163,7 @@ TEST(FeetStep, LeavesTheRootWhereItMayNotMove) {
   CleanSettings settings = with_feet();
   settings.root_position = false;
   const CleanResult result = clean_clip(clip, Idle(), settings);
-  EXPECT_EQ(result.clip.root_positions, clip.root_positions);
+  EXPECT_EQ(result.clip.positions, clip.positions);
   EXPECT_LT(result.report.feet->after.slide, 0.5 * result.report.feet->before.slide);
 }
 

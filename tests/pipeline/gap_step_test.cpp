@@ -50,7 +50,7 @@ MarkerClip gappy_markers(bool spikes_beside) {
 Clip walker() {
   Clip clip = synthesize({.motion = "walk", .duration_s = 2});
   Random random(3);
-  for (Quat& q : clip.local_rotations) q = q * exp(random_vector(random, 0.5 * radians_per_degree));
+  for (Quat& q : clip.rotations) q = q * exp(random_vector(random, 0.5 * radians_per_degree));
   return clip;
 }
 
@@ -84,13 +84,13 @@ TEST_P(EveryWithFill, FillingGapsOfMarkersLeavesWhatWasMeasuredAsCleaningAloneMa
 TEST_P(EveryWithFill, FillingGapsOfJointsLeavesWhatWasMeasuredAsCleaningAloneMakesIt) {
   const Clip clip = gappy_joints(true);
   const CleanResult alone = run(clip, {}), filled = run(clip, with_fill());
-  for (std::size_t i = 0; i < clip.local_rotations.size(); ++i) {
+  for (std::size_t i = 0; i < clip.rotations.size(); ++i) {
     if (clip.observed[i] == 0) continue;
-    ASSERT_EQ(filled.clip.local_rotations[i], alone.clip.local_rotations[i]) << i;
+    ASSERT_EQ(filled.clip.rotations[i], alone.clip.rotations[i]) << i;
   }
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     if (!clip.is_position_observed(f, 0)) continue;
-    ASSERT_EQ(filled.clip.root_positions[f], alone.clip.root_positions[f]) << f;
+    ASSERT_EQ(filled.clip.root_position(f), alone.clip.root_position(f)) << f;
   }
   for (std::size_t j = 0; j < clip.joint_count(); ++j)
     EXPECT_EQ(filled.report.tracks[j].noise, alone.report.tracks[j].noise);
@@ -116,9 +116,7 @@ TEST_P(EveryWithFill, AFillingOfJointsRestsOnNoSpikeBesideIt) {
   for (std::size_t i = 0; i < clip.observed.size(); ++i) {
     if (clip.observed[i] != 0) continue;
     ASSERT_NE(with.observed[i], 0);
-    EXPECT_LT(angle_between(with.local_rotations[i], without.local_rotations[i]),
-              4 * radians_per_degree)
-        << i;
+    EXPECT_LT(angle_between(with.rotations[i], without.rotations[i]), 4 * radians_per_degree) << i;
   }
 }
 

@@ -128,9 +128,9 @@ TEST_P(AutoOnTakesWithFlips, RepairsTheFlipsAndNothingElse) {
   const Clip clip = real_clip(GetParam());
   const Clip result = cleaned(clip, "auto");
   std::size_t repaired = 0;
-  for (std::size_t i = 0; i < clip.local_rotations.size(); ++i) {
+  for (std::size_t i = 0; i < clip.rotations.size(); ++i) {
     const double change =
-        degrees_per_radian * angle_between(clip.local_rotations[i], result.local_rotations[i]);
+        degrees_per_radian * angle_between(clip.rotations[i], result.rotations[i]);
     if (change == 0) continue;
     EXPECT_GT(change, 60) << "joint " << clip.skeleton.names[i % clip.joint_count()] << ", frame "
                           << i / clip.joint_count();

@@ -34,14 +34,14 @@ Clip turning_chain() {
   }
   clip.frame_rate_hz = 60;
   constexpr std::size_t frames = 600;
-  clip.root_positions.assign(frames, {});
+  clip.positions.assign(frames, {});
   for (std::size_t f = 0; f < frames; ++f) {
     const double t = static_cast<double>(f) / clip.frame_rate_hz;
     const double yaw = 0.9 * t, pitch = 88 * radians_per_degree * std::sin(1.3 * t);
-    clip.local_rotations.push_back(from_euler({0, yaw, 0}, order));
-    clip.local_rotations.push_back(from_euler({0.5 * yaw, pitch, 0}, order));
-    clip.local_rotations.push_back(from_euler({0, pitch, yaw}, order));
-    clip.local_rotations.push_back(from_euler({-yaw, 0.5 * pitch, 0.3 * yaw}, order));
+    clip.rotations.push_back(from_euler({0, yaw, 0}, order));
+    clip.rotations.push_back(from_euler({0.5 * yaw, pitch, 0}, order));
+    clip.rotations.push_back(from_euler({0, pitch, yaw}, order));
+    clip.rotations.push_back(from_euler({-yaw, 0.5 * pitch, 0.3 * yaw}, order));
   }
   return clip;
 }
@@ -124,8 +124,8 @@ TEST(Auto, HasNoBumpOrFadeAtTheEnds) {
 TEST(Auto, TakesNoNoticeOfTheSignOfAQuaternion) {
   const Clip noisy = damaged(take("turn", 3), 1.5, 0.004, 9);
   Clip negated = noisy;
-  for (std::size_t i = 0; i < negated.local_rotations.size(); i += 3) {
-    negated.local_rotations[i] = -negated.local_rotations[i];
+  for (std::size_t i = 0; i < negated.rotations.size(); i += 3) {
+    negated.rotations[i] = -negated.rotations[i];
   }
   EXPECT_LT(geodesic_rms_deg(cleaned(noisy, "auto"), cleaned(negated, "auto")), 1e-6);
 }
@@ -148,7 +148,7 @@ TEST(Auto, ReversedInTimeGivesTheReversedResult) {
   const auto reversed = [](Clip clip) {
     const std::size_t joints = clip.joint_count(), frames = clip.frame_count();
     for (std::size_t f = 0; f < frames / 2; ++f) {
-      std::swap(clip.root_positions[f], clip.root_positions[frames - 1 - f]);
+      std::swap(clip.root_position(f), clip.root_position(frames - 1 - f));
       for (std::size_t j = 0; j < joints; ++j)
         std::swap(clip.rotation(f, j), clip.rotation(frames - 1 - f, j));
     }

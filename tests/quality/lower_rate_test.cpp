@@ -34,7 +34,7 @@ TEST_P(AutoOnALowerRate, BeatsGaussiansOfAnyWidth) {
 TEST_P(AutoOnALowerRate, LeavesACleanTakeAlone) {
   const auto [motion, step, is_held] = GetParam();
   const Clip truth = of_lower_rate(synthesize({.motion = motion, .duration_s = 5}), step, is_held);
-  EXPECT_EQ(cleaned(truth, "auto").local_rotations, truth.local_rotations);
+  EXPECT_EQ(cleaned(truth, "auto").rotations, truth.rotations);
 }
 
 TEST_P(AutoOnALowerRate, RepairsSpikesThatWereJoinedLikeTheRest) {
@@ -61,7 +61,7 @@ Clip shown_in(Clip whole, const Clip& low) {
                                  low.frame_count() - 1);
     for (std::size_t j = 0; j < whole.joint_count(); ++j)
       whole.rotation(f, j) = low.rotation(sample, j);
-    whole.root_positions[f] = low.root_positions[sample];
+    whole.root_position(f) = low.root_position(sample);
   }
   return whole;
 }

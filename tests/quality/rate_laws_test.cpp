@@ -239,7 +239,7 @@ TEST(FillAtEveryRate, CostsByFrames) {
         [&](std::size_t frames, double rate_hz) {
           if (method.joints) {
             Clip clip = walk(frames, rate_hz);
-            clip.observed.assign(clip.local_rotations.size(), 1);
+            clip.observed.assign(clip.rotations.size(), 1);
             for (std::size_t f = 12; f < 20; ++f) {
               clip.observed[f * clip.joint_count() + 3] = 0;
               clip.observed[f * clip.joint_count() + 5] = f % 2 == 0;

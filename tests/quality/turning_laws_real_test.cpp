@@ -16,7 +16,7 @@ Clip turned(Clip clip, Vec3 speed_deg_s) {
     const double time_s = static_cast<double>(f) / clip.frame_rate_hz;
     const Quat turn = exp(radians_per_degree * time_s * speed_deg_s);
     clip.rotation(f, 0) = turn * clip.rotation(f, 0);
-    clip.root_positions[f] = rotate(turn, clip.root_positions[f]);
+    clip.root_position(f) = rotate(turn, clip.root_position(f));
   }
   return clip;
 }

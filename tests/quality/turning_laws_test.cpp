@@ -23,7 +23,8 @@ Clip take_to_turn(const char* motion, double duration_s) {
 Clip noisy(const Clip& truth, std::uint64_t seed = 7) {
   Clip clip = damaged(truth, noise_deg, 0, seed);
   Random random(seed + 1);
-  for (Vec3& p : clip.root_positions) p += test::random_vector(random, noise_cm);
+  for (std::size_t f = 0; f < clip.frame_count(); ++f)
+    clip.root_position(f) += test::random_vector(random, noise_cm);
   return clip;
 }
 
@@ -35,17 +36,17 @@ Clip turned(Clip clip, Vec3 speed_deg_s) {
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const double time_s = static_cast<double>(f) / clip.frame_rate_hz;
     clip.rotation(f, 0) = exp(radians_per_degree * time_s * speed_deg_s) * clip.rotation(f, 0);
-    clip.root_positions[f] = turned(clip.root_positions[f], speed_deg_s, time_s);
+    clip.root_position(f) = turned(clip.root_position(f), speed_deg_s, time_s);
   }
   return clip;
 }
 Clip moved(Clip clip, Vec3 by) {
-  for (Vec3& p : clip.root_positions) p += by;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) clip.root_position(f) += by;
   return clip;
 }
 Clip about_its_middle(const Clip& clip) {
   Vec3 sum;
-  for (const Vec3 p : clip.root_positions) sum += p;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) sum += clip.root_position(f);
   return moved(clip, (-1 / static_cast<double>(clip.frame_count())) * sum);
 }
 
@@ -53,10 +54,10 @@ struct Squares {
   double rotations = 0, positions = 0;  // sums over frames
 
   void add(const Clip& a, const Clip& b) {
-    for (std::size_t i = 0; i < a.local_rotations.size(); ++i)
-      rotations += std::pow(angle_between(a.local_rotations[i], b.local_rotations[i]), 2);
+    for (std::size_t i = 0; i < a.rotations.size(); ++i)
+      rotations += std::pow(angle_between(a.rotations[i], b.rotations[i]), 2);
     for (std::size_t f = 0; f < a.frame_count(); ++f) {
-      const Vec3 d = a.root_positions[f] - b.root_positions[f];
+      const Vec3 d = a.root_position(f) - b.root_position(f);
       positions += dot(d, d);
     }
   }

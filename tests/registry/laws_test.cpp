@@ -30,9 +30,8 @@ Clip noisy_take() {
 }
 
 void expect_same(const Clip& a, const Clip& b) {
-  EXPECT_EQ(a.local_rotations, b.local_rotations);
-  EXPECT_EQ(a.root_positions, b.root_positions);
-  EXPECT_EQ(a.joint_translations, b.joint_translations);
+  EXPECT_EQ(a.rotations, b.rotations);
+  EXPECT_EQ(a.positions, b.positions);
 }
 
 TEST_P(Every, GivesAValidClipOfTheSameShape) {
@@ -48,12 +47,10 @@ TEST_P(Every, GivesAValidClipOfTheSameShape) {
 TEST_P(Every, KeepsATPoseAtTheStartOutOfTheMotion) {
   const Clip motion = noisy_take();
   Clip input = empty_take(1 + motion.frame_count(), 120);
-  std::copy(motion.local_rotations.begin(), motion.local_rotations.end(),
-            input.local_rotations.begin() + static_cast<std::ptrdiff_t>(input.joint_count()));
-  std::copy(motion.root_positions.begin(), motion.root_positions.end(),
-            input.root_positions.begin() + 1);
-  std::copy(motion.joint_translations.begin(), motion.joint_translations.end(),
-            input.joint_translations.begin() + 1);
+  std::copy(motion.rotations.begin(), motion.rotations.end(),
+            input.rotations.begin() + static_cast<std::ptrdiff_t>(input.joint_count()));
+  std::copy(motion.positions.begin(), motion.positions.end(),
+            input.positions.begin() + static_cast<std::ptrdiff_t>(input.point_count()));
   ASSERT_EQ(leading_calibration_frames(input), 1U);
   const Clip output = cleaned(input);
   expect_same(slice(output, 0, 1), slice(input, 0, 1));
@@ -64,7 +61,7 @@ TEST_P(Every, DoesNotMindTheSignOfQuaternions) {
   const Clip input = noisy_take();
   Clip flipped = input;
   Random random(2);
-  for (Quat& q : flipped.local_rotations) {
+  for (Quat& q : flipped.rotations) {
     if (random.chance(0.5)) q = -q;
   }
   EXPECT_LT(max_angle_deg(cleaned(input), cleaned(flipped)), 1e-7);
@@ -114,8 +111,7 @@ TEST_P(Every, LeavesJointsThatWereNotAskedForByteForByte) {
       ASSERT_EQ(output.rotation(f, j), input.rotation(f, j)) << f << " " << j;
     }
   }
-  EXPECT_EQ(output.root_positions, input.root_positions);
-  EXPECT_EQ(output.joint_translations, input.joint_translations);
+  EXPECT_EQ(output.positions, input.positions);
 }
 
 TEST_P(Every, LeavesWhatIsNotSelectedAloneAlsoWithoutThePipeline) {
@@ -130,8 +126,7 @@ TEST_P(Every, LeavesWhatIsNotSelectedAloneAlsoWithoutThePipeline) {
       ASSERT_EQ(output.rotation(f, j), input.rotation(f, j)) << f << " " << j;
     }
   }
-  EXPECT_EQ(output.root_positions, input.root_positions);
-  EXPECT_EQ(output.joint_translations, input.joint_translations);
+  EXPECT_EQ(output.positions, input.positions);
 }
 
 TEST_P(Every, KeepsASteadyTurnUpToBothEnds) {
@@ -139,7 +134,7 @@ TEST_P(Every, KeepsASteadyTurnUpToBothEnds) {
   Clip clip = empty_take(150, 120);
   for (std::size_t f = 0; f < 150; ++f) {
     const double t = static_cast<double>(f) / 120;
-    clip.root_positions[f] = {100 * t, 90, -30 * t};
+    clip.root_position(f) = {100 * t, 90, -30 * t};
     clip.rotation(f, 0) = exp((t - 0.6) * Vec3{0.5, 1.5, 0.2});
     clip.rotation(f, 1) = exp({0.3, -0.2, 0.9}) * exp(t * Vec3{-0.7, 0.2, 0.1});
     clip.rotation(f, 3) = from_euler({1.1 * t, 0, 0}, parse_rotation_order("X"));
@@ -147,7 +142,7 @@ TEST_P(Every, KeepsASteadyTurnUpToBothEnds) {
   const Clip output = cleaned(clip);
   EXPECT_LT(max_angle_deg(output, clip), 0.05);
   for (std::size_t f = 0; f < 150; ++f) {
-    ASSERT_LT(norm(output.root_positions[f] - clip.root_positions[f]), 0.05) << f;
+    ASSERT_LT(norm(output.root_position(f) - clip.root_position(f)), 0.05) << f;
   }
 }
 
@@ -192,7 +187,7 @@ TEST_P(Every, RespectsTheLargestChange) {
 TEST_P(Every, TakesNoNoticeOfWhatStandsInAGap) {
   const Clip truth = moving_take(240, 120);
   Clip zeros = noisy_take();
-  zeros.observed.assign(zeros.local_rotations.size(), 1);
+  zeros.observed.assign(zeros.rotations.size(), 1);
   for (std::size_t f = 100; f < 112; ++f) {
     zeros.observed[f * zeros.joint_count() + 2] = 0;
     zeros.rotation(f, 2) = {};

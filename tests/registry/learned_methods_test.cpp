@@ -126,7 +126,7 @@ TEST_P(Learned, LeavesACleanWalkNearlyAlone) {
 TEST_P(Learned, FillsBothArmsThatAreMissingThroughout) {
   const Clip truth = walk(4);
   Clip input = truth;
-  input.observed.assign(truth.local_rotations.size(), 1);
+  input.observed.assign(truth.rotations.size(), 1);
   std::vector<std::size_t> arms;
   for (const char* name : {"LeftArm", "LeftForeArm", "RightArm", "RightForeArm"})
     arms.push_back(static_cast<std::size_t>(truth.skeleton.find(name)));
@@ -215,7 +215,7 @@ TEST(Wiener, TakesNoiseForWhatItIsInEachDirection) {
   const auto shaken = [&](const auto& turn) {
     Clip clip = truth;
     Random random(5);
-    for (Quat& rotation : clip.local_rotations) rotation = rotation * exp(turn(random));
+    for (Quat& rotation : clip.rotations) rotation = rotation * exp(turn(random));
     return clip;
   };
   constexpr double deviation = 8 * radians_per_degree;
@@ -242,19 +242,19 @@ TEST(Wiener, IsNotHeldToAutoWhereItFindsDenseOutliersItself) {
 TEST(Example, StopsWhereLimbsThatAreMissingHaveSettled) {
   const Clip truth = walk(4, 30);
   Clip input = noisy(truth, 1, 0);
-  input.observed.assign(input.local_rotations.size(), 1);
+  input.observed.assign(input.rotations.size(), 1);
   for (std::size_t i = 0; i < input.observed.size(); ++i) {
     const std::string& name = input.skeleton.names[i % input.joint_count()];
     if (name.find("Arm") == std::string::npos && name.find("Hand") == std::string::npos) continue;
     input.observed[i] = 0;
-    input.local_rotations[i] = {};
+    input.rotations[i] = {};
   }
   const auto arms = [&](const ExampleOptions& options) {
     Clip filled = input;
     clean_in_place(*make_example(options, walking("example")), filled);
     double sum = 0;
     for (std::size_t i = 0; i < input.observed.size(); ++i) {
-      const double angle = angle_between(filled.local_rotations[i], truth.local_rotations[i]);
+      const double angle = angle_between(filled.rotations[i], truth.rotations[i]);
       sum += input.observed[i] == 0 ? angle * angle : 0;
     }
     return std::sqrt(sum);

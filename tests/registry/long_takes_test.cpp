@@ -34,7 +34,7 @@ TEST(LongTakes, AreCleanedInLittleMoreRoomThanTheyTake) {
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 2);
   const auto cleaner = make_auto();
   Clip clip = noisy_stroll(60);
-  const auto rotations = static_cast<double>(clip.local_rotations.size());
+  const auto rotations = static_cast<double>(clip.rotations.size());
   const std::size_t peak = peak_memory([&] { clip = clean_clip(std::move(clip), *cleaner).clip; });
   EXPECT_LT(static_cast<double>(peak), 90 * rotations);
   EXPECT_GT(static_cast<double>(peak), 10 * rotations);  // counted at all
@@ -54,7 +54,7 @@ TEST(LongTakes, AreCleanedByExampleInRoomThatGrowsLittle) {
   EXPECT_LT(peak_of(slice(whole, 0, 1500)), 95e6);
   whole.frame_rate_hz = 30;
   const double growth = peak_of(whole) - peak_of(slice(whole, 0, whole.frame_count() / 2));
-  EXPECT_LT(growth, 150 * static_cast<double>(whole.local_rotations.size() / 2));
+  EXPECT_LT(growth, 150 * static_cast<double>(whole.rotations.size() / 2));
   // The rate of the take makes little difference: its windows are brought to the model's rate.
   whole.frame_rate_hz = 120;
   const double usual = peak_of(whole);
@@ -120,9 +120,8 @@ TEST_P(EveryOnLongTakes, ReadsNoTrackThatItHasHandedOver) {
     set_track(afterwards, n, tracks[n].positions);
     EXPECT_EQ(tracks[n].actions, trace.actions[n]);
   }
-  EXPECT_EQ(at_once.local_rotations, afterwards.local_rotations);
-  EXPECT_EQ(at_once.root_positions, afterwards.root_positions);
-  EXPECT_EQ(at_once.joint_translations, afterwards.joint_translations);
+  EXPECT_EQ(at_once.rotations, afterwards.rotations);
+  EXPECT_EQ(at_once.positions, afterwards.positions);
   EXPECT_EQ(other.noise, trace.noise);
 }
 
@@ -131,15 +130,14 @@ TEST_P(EveryOnLongTakes, GivesTheSameOfATakeThatIsNeededNoMore) {
   add_noise(clip, 1.5, 0.5, 3);
   for (std::size_t j = 0; j < clip.joint_count(); ++j) clip.rotation(0, j) = {};
   ASSERT_EQ(leading_calibration_frames(clip), 1U);
-  clip.observed.assign(clip.local_rotations.size(), 1);
+  clip.observed.assign(clip.rotations.size(), 1);
   for (std::size_t f = 50; f < 55; ++f) clip.observed[f * clip.joint_count() + 1] = 0;
   const auto cleaner = make_cleaner(GetParam());
   const CleanResult kept = clean_clip(clip, *cleaner);
   const std::vector<std::uint8_t> observed = clip.observed;
   const CleanResult given = clean_clip(std::move(clip), *cleaner);
-  EXPECT_EQ(given.clip.local_rotations, kept.clip.local_rotations);
-  EXPECT_EQ(given.clip.root_positions, kept.clip.root_positions);
-  EXPECT_EQ(given.clip.joint_translations, kept.clip.joint_translations);
+  EXPECT_EQ(given.clip.rotations, kept.clip.rotations);
+  EXPECT_EQ(given.clip.positions, kept.clip.positions);
   EXPECT_EQ(given.clip.observed, observed);
   ASSERT_EQ(given.report.spans.size(), kept.report.spans.size());
 }

@@ -57,8 +57,8 @@ TEST_P(EveryAtStrength, RepairsPositionsWhole) {
   add_noise(input, 1.5, 0.05, 3);
   const Vec3 off{30, -20, 10};
   for (std::size_t f = 15; f < 470; f += 60) {
-    input.root_positions[f] += off;
-    input.joint_translations[f + 20] += off;
+    input.root_position(f) += off;
+    input.position(f + 20, 1) += off;
   }
   CleanSettings half;
   half.strength = 0.5;
@@ -68,14 +68,14 @@ TEST_P(EveryAtStrength, RepairsPositionsWhole) {
   for (std::size_t f = 15; f < 470; f += 60) {
     // What stands within a tenth of the truth has been repaired, by whichever method.
     const bool states = repairs();
-    if (norm(whole.clip.root_positions[f] - truth.root_positions[f]) < tenth && states) {
+    if (norm(whole.clip.root_position(f) - truth.root_position(f)) < tenth && states) {
       ++repaired;
-      EXPECT_LT(norm(part.clip.root_positions[f] - truth.root_positions[f]), tenth) << f;
+      EXPECT_LT(norm(part.clip.root_position(f) - truth.root_position(f)), tenth) << f;
     }
-    const Vec3 there = truth.joint_translations[f + 20];
-    if (norm(whole.clip.joint_translations[f + 20] - there) < tenth && states) {
+    const Vec3 there = truth.position(f + 20, 1);
+    if (norm(whole.clip.position(f + 20, 1) - there) < tenth && states) {
       ++repaired;
-      EXPECT_LT(norm(part.clip.joint_translations[f + 20] - there), tenth) << f + 20;
+      EXPECT_LT(norm(part.clip.position(f + 20, 1) - there), tenth) << f + 20;
     }
   }
   if (repairs()) {
@@ -160,17 +160,16 @@ TEST_P(EveryAtStrength, OfZeroChangesNothingOfSpikesAndGapsEither) {
   Clip input = moving_take(240, 120);
   add_noise(input, 1.5, 0.5, 10);
   throw_spikes(input, {1, 2}, 40, 11);
-  input.root_positions[100] += {50, 0, 0};
-  input.joint_translations[120] += {0, 50, 0};
-  input.observed.assign(input.local_rotations.size(), 1);
+  input.root_position(100) += {50, 0, 0};
+  input.position(120, 1) += {0, 50, 0};
+  input.observed.assign(input.rotations.size(), 1);
   for (std::size_t f = 60; f < 70; ++f) input.observed[f * input.joint_count() + 1] = 0;
   CleanSettings settings;
   settings.strength = 0;
   settings.fill.emplace();
   const CleanResult result = clean_clip(input, *cleaner_, settings);
-  EXPECT_EQ(result.clip.local_rotations, input.local_rotations);
-  EXPECT_EQ(result.clip.root_positions, input.root_positions);
-  EXPECT_EQ(result.clip.joint_translations, input.joint_translations);
+  EXPECT_EQ(result.clip.rotations, input.rotations);
+  EXPECT_EQ(result.clip.positions, input.positions);
   EXPECT_TRUE(result.report.spans.empty());
   MarkerClip markers = damaged(marker_take("walk", 1), 2, 0.01, 100, 12);
   lose(markers, 3, 40, 45);
@@ -219,8 +218,8 @@ TEST(Strength, PutsARepairWhereItsNeighboursAre) {
   Clip input = truth;
   for (std::size_t f = 30; f < 33; ++f) {
     input.rotation(f, 1) = input.rotation(f, 1) * exp({0, 0, 1.5});
-    input.root_positions[f] += {70, 0, 0};
-    input.joint_translations[f] += {0, 70, 0};
+    input.root_position(f) += {70, 0, 0};
+    input.position(f, 1) += {0, 70, 0};
   }
   CleanSettings settings;
   settings.strength = 0.25;
@@ -228,9 +227,8 @@ TEST(Strength, PutsARepairWhereItsNeighboursAre) {
   for (std::size_t f = 0; f < 60; ++f) {
     const Vec3 quarter = 0.25 * RepairingMover::turn(f);
     ASSERT_LT(angle_between(output.rotation(f, 1), truth.rotation(f, 1) * exp(quarter)), 1e-9) << f;
-    ASSERT_LT(norm(output.root_positions[f] - truth.root_positions[f] - quarter), 1e-9) << f;
-    ASSERT_LT(norm(output.joint_translations[f] - truth.joint_translations[f] - quarter), 1e-9)
-        << f;
+    ASSERT_LT(norm(output.root_position(f) - truth.root_position(f) - quarter), 1e-9) << f;
+    ASSERT_LT(norm(output.position(f, 1) - truth.position(f, 1) - quarter), 1e-9) << f;
   }
 }
 
@@ -239,8 +237,8 @@ TEST(Strength, BridgesPositionsThatWereNotObservedWhole) {
   input.observed_positions.assign(60 * 2, 1);
   for (std::size_t f = 20; f < 25; ++f) {
     input.observed_positions[2 * f] = input.observed_positions[2 * f + 1] = 0;
-    input.root_positions[f] = input.root_positions[19];
-    input.joint_translations[f] = input.joint_translations[19];
+    input.root_position(f) = input.root_position(19);
+    input.position(f, 1) = input.position(19, 1);
   }
   const auto cleaner = make_cleaner("auto");
   CleanSettings half;
@@ -248,8 +246,8 @@ TEST(Strength, BridgesPositionsThatWereNotObservedWhole) {
   const Clip whole = clean_clip(input, *cleaner).clip,
              part = clean_clip(input, *cleaner, half).clip;
   for (std::size_t f = 20; f < 25; ++f) {
-    EXPECT_EQ(part.root_positions[f], whole.root_positions[f]) << f;
-    EXPECT_EQ(part.joint_translations[f], whole.joint_translations[f]) << f;
+    EXPECT_EQ(part.root_position(f), whole.root_position(f)) << f;
+    EXPECT_EQ(part.position(f, 1), whole.position(f, 1)) << f;
   }
 }
 

@@ -27,9 +27,9 @@ inline Clip empty_take(std::size_t frames, double rate_hz) {
   s.add_joint("Prop", 0, {0, 0, 20}, make_channels(true, order("ZXY")));
   clip.frame_rate_hz = rate_hz;
   clip.translated_joints = {6};
-  clip.root_positions.assign(frames, {0, 100, 0});
-  clip.joint_translations.assign(frames, {0, 0, 20});
-  clip.local_rotations.assign(frames * s.joint_count(), {});
+  for (std::size_t f = 0; f < frames; ++f)
+    clip.positions.insert(clip.positions.end(), {{0, 100, 0}, {0, 0, 20}});
+  clip.rotations.assign(frames * s.joint_count(), {});
   return clip;
 }
 
@@ -56,8 +56,8 @@ inline Clip moving_take(std::size_t frames, double rate_hz) {
   for (std::size_t f = 0; f < frames; ++f) {
     const double t = static_cast<double>(f) / rate_hz;
     for (std::size_t j = 0; j < clip.joint_count(); ++j) clip.rotation(f, j) = motion_at(j, t);
-    clip.root_positions[f] = {50 * t, 100 + 3 * std::sin(9 * t), 10 * std::cos(3 * t)};
-    clip.joint_translations[f] = {2 * std::sin(5 * t), 0, 20 + std::cos(4 * t)};
+    clip.root_position(f) = {50 * t, 100 + 3 * std::sin(9 * t), 10 * std::cos(3 * t)};
+    clip.position(f, 1) = {2 * std::sin(5 * t), 0, 20 + std::cos(4 * t)};
   }
   return clip;
 }
@@ -77,25 +77,24 @@ inline void add_noise(Clip& clip, double noise_deg, double noise_position, std::
       const Quat q = clip.rotation(f, j) * exp(v);
       clip.rotation(f, j) = order.count == 3 ? q : from_euler(to_euler(q, order), order);
     }
-    clip.root_positions[f] += noise(noise_position);
-    for (std::size_t i = 0; i < clip.translated_joints.size(); ++i) {
-      clip.joint_translations[f * clip.translated_joints.size() + i] += noise(noise_position);
+    for (std::size_t i = 0; i < clip.point_count(); ++i) {
+      clip.position(f, i) += noise(noise_position);
     }
   }
 }
 
 inline double rms_angle_deg(const Clip& a, const Clip& b) {
   double sum = 0;
-  for (std::size_t i = 0; i < a.local_rotations.size(); ++i) {
-    sum += std::pow(angle_between(a.local_rotations[i], b.local_rotations[i]), 2);
+  for (std::size_t i = 0; i < a.rotations.size(); ++i) {
+    sum += std::pow(angle_between(a.rotations[i], b.rotations[i]), 2);
   }
-  return std::sqrt(sum / static_cast<double>(a.local_rotations.size())) * degrees_per_radian;
+  return std::sqrt(sum / static_cast<double>(a.rotations.size())) * degrees_per_radian;
 }
 
 inline double max_angle_deg(const Clip& a, const Clip& b) {
   double largest = 0;
-  for (std::size_t i = 0; i < a.local_rotations.size(); ++i) {
-    largest = std::max(largest, angle_between(a.local_rotations[i], b.local_rotations[i]));
+  for (std::size_t i = 0; i < a.rotations.size(); ++i) {
+    largest = std::max(largest, angle_between(a.rotations[i], b.rotations[i]));
   }
   return largest * degrees_per_radian;
 }

@@ -130,7 +130,8 @@ TEST(Gait, SpeedAndCadenceAreThoseOfPeople) {
     for (const char* motion : {"walk", "run"}) {
       const bool walking = motion == std::string("walk");
       const Clip clip = make(motion, 8, 120, seed);
-      const double speed = horizontal(clip.root_positions.front(), clip.root_positions.back()) / 8;
+      const double speed =
+          horizontal(clip.root_position(0), clip.root_position(clip.frame_count() - 1)) / 8;
       EXPECT_GT(speed, walking ? 110 : 260) << motion;
       EXPECT_LT(speed, walking ? 150 : 380) << motion;
       const auto at = peaks(measure::turn_about_x(clip, "LeftLeg"), walking ? 50 : 80);

@@ -53,7 +53,7 @@ TEST(Gesture, ALandingStopsTheFeetAtOnceAndTheBodyLater) {
   const auto ball = track(clip, "LeftToeBase");
   std::vector<double> fall, foot_fall;
   for (std::size_t f = 1; f < ball.size(); ++f) {
-    fall.push_back((clip.root_positions[f - 1].y - clip.root_positions[f].y) * 480);
+    fall.push_back((clip.root_position(f - 1).y - clip.root_position(f).y) * 480);
     foot_fall.push_back((ball[f - 1].y - ball[f].y) * 480);
   }
   EXPECT_GT(largest(fall), 280);
@@ -74,12 +74,12 @@ TEST(Gesture, AJumpFallsFreelyAndRisesByAHandSpan) {
   std::size_t flying = 0;
   double rise = 0;
   for (std::size_t f = 2; f + 2 < ball.size(); ++f) {
-    rise = std::max(rise, clip.root_positions[f].y - clip.root_positions[0].y);
+    rise = std::max(rise, clip.root_position(f).y - clip.root_position(0).y);
     if (ball[f].y < ball[0].y + 5) continue;
     ++flying;
-    const double acceleration = (clip.root_positions[f + 2].y - 2 * clip.root_positions[f].y +
-                                 clip.root_positions[f - 2].y) *
-                                480 * 480 / 4;
+    const double acceleration =
+        (clip.root_position(f + 2).y - 2 * clip.root_position(f).y + clip.root_position(f - 2).y) *
+        480 * 480 / 4;
     EXPECT_NEAR(acceleration, -981, 8) << f;
   }
   EXPECT_GT(static_cast<double>(flying) / 480, 0.3);

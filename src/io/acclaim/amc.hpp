@@ -21,7 +21,7 @@ TakeResult read_amc(std::string bytes, std::string_view name, std::string asf_by
 std::string write_amc(const Clip& clip);
 
 /// `side_file` of an AMC.
-std::optional<SideFile> amc_side_file(const Take& take, std::string_view bytes,
+std::optional<SideFile> amc_side_file(const AnyTake& take, std::string_view bytes,
                                       const std::filesystem::path& output);
 
 }  // namespace kinemend

@@ -108,7 +108,7 @@ bool has_positions_of(const Clip& clip, const Skeleton& skeleton) {
 
 }  // namespace
 
-std::optional<SideFile> amc_side_file(const Take& take, std::string_view bytes,
+std::optional<SideFile> amc_side_file(const AnyTake& take, std::string_view bytes,
                                       const std::filesystem::path& output) {
   const Clip& clip = std::get<Clip>(take);
   const auto* document = dynamic_cast<const AmcDocument*>(clip.source.document.get());

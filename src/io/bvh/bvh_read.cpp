@@ -176,7 +176,7 @@ class MotionReader {
                       clip_.joint_count(), columns_.count(), text_.bytes.size()));
     }
     // More frames than declared: room for all there can be, at once rather than by doubling.
-    if (wanted * clip_.joint_count() > clip_.local_rotations.capacity()) {
+    if (wanted * clip_.joint_count() > clip_.rotations.capacity()) {
       clip_rows_.reserve(std::numeric_limits<std::size_t>::max(), most_frames());
     }
     clip_rows_.append(block.values.data(), block.frames, block.with_gaps);

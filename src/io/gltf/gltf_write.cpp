@@ -111,14 +111,11 @@ class SkeletonWriter {
       animation.add_rotation(j, std::move(rotations));
     }
     std::vector<float> positions;
-    for (const Vec3& position : clip_.root_positions) append(positions, scale_ * position);
-    if (joints > 0) animation.add_translation(0, positions);
-    const std::size_t translated = clip_.translated_joints.size();
-    for (std::size_t i = 0; i < translated; ++i) {
+    for (std::size_t k = 0; joints > 0 && k < clip_.point_count(); ++k) {
       positions.clear();
-      for (std::size_t f = 0; f < frames; ++f)
-        append(positions, scale_ * clip_.joint_translations[f * translated + i]);
-      animation.add_translation(static_cast<std::size_t>(clip_.translated_joints[i]), positions);
+      for (std::size_t f = 0; f < frames; ++f) append(positions, scale_ * clip_.position(f, k));
+      const std::int32_t joint = k == 0 ? 0 : clip_.translated_joints[k - 1];
+      animation.add_translation(static_cast<std::size_t>(joint), positions);
     }
     animation.finish();
   }

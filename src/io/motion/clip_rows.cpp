@@ -20,7 +20,7 @@ ClipRows::ClipRows(Clip& clip, std::vector<PositionFrame> position_frames, std::
 }
 
 std::size_t ClipRows::bytes_per_frame() const {
-  return joints_ * sizeof(Quat) + (1 + clip_.translated_joints.size()) * sizeof(Vec3);
+  return joints_ * sizeof(Quat) + clip_.point_count() * sizeof(Vec3);
 }
 
 bool ClipRows::fits(std::size_t frames) const {
@@ -29,15 +29,14 @@ bool ClipRows::fits(std::size_t frames) const {
 
 void ClipRows::reserve(std::size_t expected, std::size_t most) {
   const std::size_t count = std::min({expected, most, memory_limit_ / bytes_per_frame()});
-  clip_.local_rotations.reserve(count * joints_);
-  clip_.root_positions.reserve(count);
-  clip_.joint_translations.reserve(count * clip_.translated_joints.size());
+  clip_.rotations.reserve(count * joints_);
+  clip_.positions.reserve(count * clip_.point_count());
 }
 
 void ClipRows::append(double* rows, std::size_t count, bool with_gaps) {
   const std::size_t first = frames();
-  clip_.local_rotations.resize((first + count) * joints_);
-  Quat* const rotations = clip_.local_rotations.data() + first * joints_;
+  clip_.rotations.resize((first + count) * joints_);
+  Quat* const rotations = clip_.rotations.data() + first * joints_;
   columns_.decode_rotations(rows, count, rotations);
   if (with_gaps) hold(rows, count, rotations);
   append_positions(rows, count);
@@ -59,11 +58,8 @@ void ClipRows::hold(double* rows, std::size_t count, Quat* rotations) {
 // As the file has them; `finish` brings them into the clip's frame.
 void ClipRows::append_positions(const double* rows, std::size_t count) {
   const std::size_t first = frames();
-  clip_.root_positions.resize(first + count, position_frames_[0].rest);
-  for (std::size_t f = 0; f < count && !clip_.translated_joints.empty(); ++f) {
-    for (std::size_t i = 1; i < position_frames_.size(); ++i) {
-      clip_.joint_translations.push_back(position_frames_[i].rest);
-    }
+  for (std::size_t f = 0; f < count; ++f) {
+    for (const PositionFrame& frame : position_frames_) clip_.positions.push_back(frame.rest);
   }
   for (std::size_t f = 0; f < count; ++f) {
     for (const auto& position : columns_.positions()) {
@@ -99,9 +95,8 @@ void ClipRows::finish(MotionDocument& document, bool has_gaps) {
   fill_leading_gaps();
   document.has_gaps = has_gaps && frames() > 0;
   if (document.has_gaps) {
-    document.first_rotations.assign(
-        clip_.local_rotations.begin(),
-        clip_.local_rotations.begin() + static_cast<std::ptrdiff_t>(joints_));
+    document.first_rotations.assign(clip_.rotations.begin(),
+                                    clip_.rotations.begin() + static_cast<std::ptrdiff_t>(joints_));
     for (const auto& position : columns_.positions()) {
       document.first_positions.push_back(value(0, position));
     }

@@ -29,7 +29,7 @@ struct SourceTable {
     width = source.columns().count();
     while (source.next(block)) {
       values.insert(values.end(), block.values.begin(), block.values.end());
-      const Quat* const now = clip.local_rotations.data() + block.first * joints;
+      const Quat* const now = clip.rotations.data() + block.first * joints;
       for (std::size_t i = 0; i < block.count * joints; ++i) {
         kept.push_back(now[i] == block.rotations(0)[i] ? 1 : 0);
       }
@@ -185,7 +185,7 @@ class MotionRewriter {
     const double* const row = source.row(block_frame);
     replace_positions(frame, row);
     const Quat* const before = source.rotations(block_frame);
-    const Quat* const now = clip_.local_rotations.data() + frame * joints;
+    const Quat* const now = clip_.rotations.data() + frame * joints;
     const double* const row_before =
         block_frame > 0 ? source.row(block_frame - 1) : row_before_.data();
     for (std::size_t j = 0; j < joints; ++j) {

@@ -15,14 +15,13 @@ namespace kinemend {
 namespace {
 
 Vec3 joint_position(const Clip& clip, std::size_t frame, std::size_t joint) {
-  if (joint == 0) return clip.root_positions[frame];
+  if (joint == 0) return clip.root_position(frame);
   const auto& translated = clip.translated_joints;
   const auto found =
       std::lower_bound(translated.begin(), translated.end(), static_cast<std::int32_t>(joint));
   if (found == translated.end() || *found != static_cast<std::int32_t>(joint))
     return clip.skeleton.offsets[joint];
-  return clip.joint_translations[frame * translated.size() +
-                                 static_cast<std::size_t>(found - translated.begin())];
+  return clip.position(frame, 1 + static_cast<std::size_t>(found - translated.begin()));
 }
 
 Quat written_rotation(const Clip& clip, std::size_t frame, std::size_t joint, RestRotations rest) {
@@ -47,8 +46,8 @@ bool same_skeleton(const Skeleton& a, const Skeleton& b) {
 void check_lengths(const Clip& clip) {
   clip.skeleton.validate();
   const std::size_t frames = clip.frame_count();
-  if (clip.local_rotations.size() != frames * clip.joint_count() ||
-      clip.joint_translations.size() != frames * clip.translated_joints.size()) {
+  if (clip.rotations.size() != frames * clip.joint_count() ||
+      clip.positions.size() != frames * clip.point_count()) {
     throw Error(ErrorKind::usage, "the arrays of the clip have different numbers of frames");
   }
   check_frame_rate(clip.frame_rate_hz);

@@ -43,9 +43,7 @@ inline std::size_t frame_index(std::int32_t translated) {
 /// Where the clip keeps the position of a frame that `MotionColumns::Position::translated` numbers.
 template <class AnyClip>
 auto& position_of(AnyClip& clip, std::size_t frame, std::int32_t translated) {
-  return translated < 0 ? clip.root_positions[frame]
-                        : clip.joint_translations[frame * clip.translated_joints.size() +
-                                                  static_cast<std::size_t>(translated)];
+  return clip.positions[frame * clip.point_count() + frame_index(translated)];
 }
 
 }  // namespace kinemend

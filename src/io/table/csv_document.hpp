@@ -77,8 +77,7 @@ struct CsvDocument : FollowingDocument {
   std::vector<CsvGroup> groups;
   Skeleton skeleton;
   double metres_per_unit = 0;
-  std::vector<Vec3> root_positions;      ///< as repaired; empty where all are in the file
-  std::vector<Vec3> joint_translations;  ///< the same
+  std::vector<Vec3> positions;  ///< as repaired; empty where all are in the file
 
   std::shared_ptr<const SourceDocument> after(const TakeChange& change) const override;
 };

@@ -166,7 +166,7 @@ class JointReader {
   // Never for more frames than may be.
   void reserve(std::size_t frames) {
     const std::size_t affordable = memory_limit(text_.bytes.size()) / bytes_per_frame();
-    clip_.local_rotations.reserve(std::min(frames, affordable) * joints());
+    clip_.rotations.reserve(std::min(frames, affordable) * joints());
   }
 
   void read_rows() {
@@ -231,7 +231,7 @@ class JointReader {
 
   void store(std::size_t place) {
     constexpr double tolerance = 1e-3;
-    auto& rotations = clip_.local_rotations;
+    auto& rotations = clip_.rotations;
     if (rotations.size() + joints() > rotations.capacity()) reserve(text_.bytes.size());
     for (const auto& [w, x, y, z] : columns_.rotations) {
       const Quat raw{values_[w], values_[x], values_[y], values_[z]};
@@ -249,7 +249,7 @@ class JointReader {
       const Vec3 position =
           absent ? clip_.skeleton.offsets[0] : Vec3{values_[x], values_[y], values_[z]};
       if (is_missing(position)) position_missing_.add(place);
-      (i == 0 ? clip_.root_positions : clip_.joint_translations).push_back(position);
+      clip_.positions.push_back(position);
     }
     const auto label = [&](std::int32_t column, std::vector<double>& labels) {
       if (column >= 0) labels.push_back(values_[static_cast<std::size_t>(column)]);
@@ -260,21 +260,18 @@ class JointReader {
 
   void fill_gaps() {
     if (rotation_missing_.count > 0) {
-      clip_.observed.resize(clip_.local_rotations.size());
+      clip_.observed.resize(clip_.rotations.size());
       for (std::size_t i = 0; i < clip_.observed.size(); ++i)
-        clip_.observed[i] = is_missing(clip_.local_rotations[i]) ? 0 : 1;
-      for (std::size_t j = 0; j < joints(); ++j) hold(clip_.local_rotations, j, joints(), Quat{});
+        clip_.observed[i] = is_missing(clip_.rotations[i]) ? 0 : 1;
+      for (std::size_t j = 0; j < joints(); ++j) hold(clip_.rotations, j, joints(), Quat{});
     }
     if (position_missing_.count == 0) return;
     const auto& offsets = clip_.skeleton.offsets;
-    hold(clip_.root_positions, 0, 1, offsets[0]);
-    const std::size_t translated = clip_.translated_joints.size();
-    for (std::size_t i = 0; i < translated; ++i) {
-      const auto joint = static_cast<std::size_t>(clip_.translated_joints[i]);
-      hold(clip_.joint_translations, i, translated, offsets[joint]);
+    for (std::size_t k = 0; k < clip_.point_count(); ++k) {
+      const std::int32_t joint = k == 0 ? 0 : clip_.translated_joints[k - 1];
+      hold(clip_.positions, k, clip_.point_count(), offsets[static_cast<std::size_t>(joint)]);
     }
-    document_.root_positions = clip_.root_positions;
-    document_.joint_translations = clip_.joint_translations;
+    document_.positions = clip_.positions;
   }
 
   void note(const CountedRepair& repair, std::string_view kind, std::string_view message) {
@@ -348,13 +345,11 @@ class JointRewriter {
   }
 
   void compare_position(std::size_t frame, std::size_t index) {
-    const std::size_t translated = clip_.translated_joints.size();
-    const std::size_t at = frame * translated + index - 1;
-    const Vec3 now = index == 0 ? clip_.root_positions[frame] : clip_.joint_translations[at];
-    const auto& held = index == 0 ? document_.root_positions : document_.joint_translations;
+    const Vec3 now = clip_.position(frame, index);
+    const auto& held = document_.positions;
     const auto& [x, y, z] = columns_.positions[index];
     const Vec3 before = held.empty() ? Vec3{patch_.value(x), patch_.value(y), patch_.value(z)}
-                                     : held[index == 0 ? frame : at];
+                                     : held[frame * clip_.point_count() + index];
     const bool is_number =
         !patch_.is_no_number(x) && !patch_.is_no_number(y) && !patch_.is_no_number(z);
     if (now == before && is_number) return;

@@ -75,7 +75,7 @@ class Table {
 };
 
 std::string write_plain_csv(const Clip& clip) {
-  Table table(80 * clip.local_rotations.size() + 4096);
+  Table table(80 * clip.rotations.size() + 4096);
   table.line("# rate_hz: " + number_text(clip.frame_rate_hz));
   if (clip.frame_count() == 0) table.line("# frames: 0");
   if (clip.metres_per_unit > 0) {
@@ -94,7 +94,7 @@ std::string write_plain_csv(const Clip& clip) {
   };
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     table.begin_row(static_cast<std::int64_t>(f) + 1, static_cast<double>(f) / clip.frame_rate_hz);
-    add_position(clip.root_positions[f]);
+    add_position(clip.root_position(f));
     for (std::size_t j = 0; j < clip.joint_count(); ++j) {
       const Quat q = clip.rotation(f, j);
       if (!clip.is_observed(f, j)) {
@@ -103,9 +103,7 @@ std::string write_plain_csv(const Clip& clip) {
       }
       for (const double value : {q.w, q.x, q.y, q.z}) table.add(value);
     }
-    const std::size_t translated = clip.translated_joints.size();
-    for (std::size_t i = 0; i < translated; ++i)
-      add_position(clip.joint_translations[f * translated + i]);
+    for (std::size_t k = 1; k < clip.point_count(); ++k) add_position(clip.position(f, k));
     table.end_row();
   }
   return std::move(table).take();

@@ -11,9 +11,8 @@ namespace {
 // All arrays over frames.
 template <class Action>
 void for_each_array(Clip& clip, const Action& action) {
-  action(clip.root_positions);
-  action(clip.local_rotations);
-  action(clip.joint_translations);
+  action(clip.positions);
+  action(clip.rotations);
   action(clip.observed);
   action(clip.observed_positions);
 }

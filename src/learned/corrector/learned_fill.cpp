@@ -24,7 +24,7 @@ namespace {
 
 LearnedFilling fill_by_network(const MotionNetwork& network, const BodyLayout& layout,
                                const NameMap& names, const Clip& clip) {
-  LearnedFilling filling{clip.local_rotations, {}, true};
+  LearnedFilling filling{clip.rotations, {}, true};
   const TakeView view = view_of(clip);
   filling.left_out.assign(clip.joint_count(), why_not_learned(view));
   if (!filling.left_out.front().empty()) return filling;

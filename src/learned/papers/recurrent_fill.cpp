@@ -53,7 +53,7 @@ bool turns_too_far(const BodyChannels& channels, std::size_t part) {
 
 LearnedFilling fill_by_network(const FilterNetwork& network, const BodyLayout& layout,
                                const NameMap& names, const Clip& clip) {
-  LearnedFilling filling{clip.local_rotations, {}};
+  LearnedFilling filling{clip.rotations, {}};
   filling.left_out.assign(clip.joint_count(), "the model does not know them");
   if (!has_rate_of(network, clip.frame_rate_hz)) {
     filling.left_out.assign(clip.joint_count(),
@@ -76,7 +76,7 @@ LearnedFilling fill_by_network(const FilterNetwork& network, const BodyLayout& l
   channels.poses = filled_by_network(network, layout, channels);
   Clip filled = guide;
   decode_body(channels, layout, match, filled, chosen);
-  filling.rotations = std::move(filled.local_rotations);
+  filling.rotations = std::move(filled.rotations);
   return filling;
 }
 

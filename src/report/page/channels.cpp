@@ -65,16 +65,9 @@ void add_positions(const PositionAt& before, const PositionAt& after, double qua
     add(old_values[axis], new_values[axis], quantum, channels);
 }
 
-PositionAt root_of(const Clip* clip) {
+PositionAt position_of(const Clip* clip, std::size_t track) {
   if (clip == nullptr) return {};
-  return [clip](std::size_t frame) { return clip->root_positions[frame]; };
-}
-
-PositionAt translation_of(const Clip* clip, std::size_t translated) {
-  if (clip == nullptr) return {};
-  return [clip, translated](std::size_t frame) {
-    return clip->joint_translations[frame * clip->translated_joints.size() + translated];
-  };
+  return [clip, track](std::size_t frame) { return clip->position(frame, track); };
 }
 
 void add_rotation(const Clip& before, const Clip* after, std::size_t joint, RotationOrder order,
@@ -141,9 +134,9 @@ Channels channels_of(const Clip& before, const Clip* after, double body_height, 
   Channels channels = empty_channels(before.frame_count(), channel_count(before));
   const double quantum = share * position_quantum(body_height);
   std::vector<Channels> of_joints(before.joint_count(), channels);
-  add_positions(root_of(&before), root_of(after), quantum, channels);
+  add_positions(position_of(&before, 0), position_of(after, 0), quantum, channels);
   for (std::size_t t = 0; t < before.translated_joints.size(); ++t)
-    add_positions(translation_of(&before, t), translation_of(after, t), quantum, channels);
+    add_positions(position_of(&before, 1 + t), position_of(after, 1 + t), quantum, channels);
   for_each_parallel(of_joints.size(), of_joints.size() * channels.frames, [&](std::size_t j) {
     add_rotation(before, after, j, told_order(before, after, j), share * rotation_quantum_deg,
                  of_joints[j]);

@@ -54,8 +54,8 @@ Json skeleton_json(const Clip& before, const Clip* after) {
           {"translated", before.translated_joints}};
 }
 
-template <class Take>
-Json common_json(const Take& before, const Take* after, const Channels& channels,
+template <class AnyTake>
+Json common_json(const AnyTake& before, const AnyTake* after, const Channels& channels,
                  const Stage& stage) {
   const TakeFacts facts = take_facts(before);
   return {{"kind", facts.kind == TakeKind::markers ? "markers" : "joints"},

@@ -45,8 +45,9 @@ Stage stage_for(const MarkerClip& clip, const Report& /*report*/) { return page:
 
 // The motion in quanta as fine as they may be for a page of about two megabytes at most, of which
 // its program takes a third.
-template <class Take>
-Channels fine_channels(const Take& before, const Take* after, double body_height, bool is_served) {
+template <class AnyTake>
+Channels fine_channels(const AnyTake& before, const AnyTake* after, double body_height,
+                       bool is_served) {
   constexpr double most_bytes = 1'000'000, least_share = 1.0 / 64, served_share = 1.0 / 16;
   // Nobody mails what is served, and somebody waits for it.
   if (is_served) return page::channels_of(before, after, body_height, served_share);
@@ -70,8 +71,8 @@ std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-template <class Take>
-std::string take_page(const Report& report, const Take& before, const Take* after,
+template <class AnyTake>
+std::string take_page(const Report& report, const AnyTake& before, const AnyTake* after,
                       const PageSettings& settings) {
   page::check_is_built();
   if (after != nullptr) check_pair(before, *after);

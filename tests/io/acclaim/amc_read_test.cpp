@@ -100,7 +100,7 @@ TEST(AmcReader, ValuesThatAreNoNumberAreHeld) {
   EXPECT_FALSE(clip.is_observed(0, thigh));
   EXPECT_TRUE(clip.is_observed(1, thigh));
   EXPECT_EQ(clip.rotation(0, thigh), clip.rotation(1, thigh));
-  EXPECT_EQ(clip.root_positions[1].x, clip.root_positions[0].x);
+  EXPECT_EQ(clip.root_position(1).x, clip.root_position(0).x);
 }
 
 TEST(AmcReader, EveryBoneMayHaveThreeAngles) {

@@ -88,7 +88,7 @@ TEST(AmcWriter, OnlyChangedSamplesAreWrittenAnew) {
   Clip clip = read_figure();
   const auto foot = static_cast<std::size_t>(clip.skeleton.find("foot"));
   clip.rotation(1, foot) = rotation_of({20, 10, 0}, "ZX");
-  clip.root_positions[2].y += 0.5;
+  clip.root_position(2).y += 0.5;
   const auto before = lines_of(figure_amc()), after = lines_of(write_clip(clip, "amc"));
   ASSERT_EQ(before.size(), after.size());
   std::map<std::size_t, std::string> changed;
@@ -99,8 +99,8 @@ TEST(AmcWriter, OnlyChangedSamplesAreWrittenAnew) {
   EXPECT_EQ(changed.begin()->second.substr(0, 5), "foot ");
   const Clip again = read_pair(write_clip(clip, "amc"), figure_asf()).clip;
   EXPECT_LT(angle_between(again.rotation(1, foot), clip.rotation(1, foot)), 1e-6);
-  EXPECT_NEAR(again.root_positions[2].y, clip.root_positions[2].y, 1e-6);
-  EXPECT_EQ(again.root_positions[2].x, clip.root_positions[2].x);
+  EXPECT_NEAR(again.root_position(2).y, clip.root_position(2).y, 1e-6);
+  EXPECT_EQ(again.root_position(2).x, clip.root_position(2).x);
 }
 
 TEST(AmcWriter, ChangesOfEverySampleReadBack) {
@@ -115,9 +115,12 @@ TEST(AmcWriter, ChangesOfEverySampleReadBack) {
         clip.rotation(f, j) = from_euler(
             {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}, order);
       }
-      clip.root_positions[f] += {random.normal(), random.normal(), random.normal()};
+      clip.root_position(f) += {random.normal(), random.normal(), random.normal()};
     }
-    for (Vec3& v : clip.joint_translations) v += {0.25, random.normal(), -0.5};
+    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+      for (std::size_t i = 1; i < clip.point_count(); ++i)
+        clip.position(f, i) += {0.25, random.normal(), -0.5};
+    }
     const Clip again = read_pair(write_clip(clip, "amc"), figure_asf()).clip;
     expect_same_motion(clip, again, 1e-4);
   }
@@ -172,10 +175,10 @@ TEST(AmcWriter, AnyClipBecomesASkeletonAndItsMotion) {
     clip.metres_per_unit = 0.01;
     clip.translated_joints = {3};
     for (int f = 0; f < 5; ++f) {
-      clip.root_positions.push_back({random.normal(), random.normal(), random.normal()});
-      clip.joint_translations.push_back({random.normal(), random.normal(), random.normal()});
+      for (int track = 0; track < 2; ++track)
+        clip.positions.push_back({random.normal(), random.normal(), random.normal()});
       for (std::size_t j = 0; j < clip.joint_count(); ++j) {
-        clip.local_rotations.push_back(
+        clip.rotations.push_back(
             from_euler({random.uniform(-3, 3), random.uniform(-1.5, 1.5), random.uniform(-3, 3)},
                        clip.skeleton.rotation_order(j)));
       }
@@ -198,8 +201,8 @@ TEST(AmcWriter, EndsOfChainsStayWhereTheyAre) {
   clip.skeleton.add_joint("b", 0, {0, 1, 0}, make_channels(false, parse_rotation_order("ZXY")));
   clip.skeleton.end_sites = {{1, {0, 2, 0}, ""}, {0, {3, 0, 0}, ""}};
   clip.frame_rate_hz = 30;
-  clip.root_positions = {{1, 1, 1}};
-  clip.local_rotations = {rotation_of({10, 20, 30}, "ZXY"), rotation_of({40, 50, 60}, "ZXY")};
+  clip.positions = {{1, 1, 1}};
+  clip.rotations = {rotation_of({10, 20, 30}, "ZXY"), rotation_of({40, 50, 60}, "ZXY")};
   const Clip again = written_and_read(clip);
   const auto expected = joint_positions(clip, true), found = joint_positions(again, true);
   for (std::size_t i = 2; i < expected.size(); ++i) {
@@ -217,8 +220,8 @@ TEST(AmcWriter, NamesThatTheFormatCannotHoldAreAltered) {
     clip.skeleton.add_joint(name, 0, {1, 0, 0}, channels);
   }
   clip.frame_rate_hz = 30;
-  clip.root_positions = {{}};
-  clip.local_rotations.assign(clip.joint_count(), rotation_of({1, 2, 3}, "ZXY"));
+  clip.positions = {{}};
+  clip.rotations.assign(clip.joint_count(), rotation_of({1, 2, 3}, "ZXY"));
   const Clip again = written_and_read(clip);
   expect_same_positions(clip, again, 1e-9,
                         {"root", "left_arm", "left_arm_2", "_root", "_12", "joint", "a_b__c_d",
@@ -245,8 +248,8 @@ TEST(AmcWriter, RefusesWhatTheFormatCannotHold) {
     clip.skeleton.add_joint("a", -1, {}, make_channels(true, parse_rotation_order("ZXY")));
     clip.skeleton.add_joint("b", 0, {1, 2, 3}, {});
     clip.frame_rate_hz = 30;
-    clip.root_positions = {{}};
-    clip.local_rotations = {{}, {}};
+    clip.positions = {{}};
+    clip.rotations = {{}, {}};
     change(clip);
     return message_of([&] { write_clip(clip, "amc"); }, ErrorKind::usage);
   };
@@ -268,8 +271,8 @@ TEST(AmcWriter, ARootWithoutPositionsKeepsItsPlace) {
   clip.skeleton.add_joint("a", -1, {1, 2, 3}, make_channels(false, parse_rotation_order("ZXY")));
   clip.skeleton.add_joint("b", 0, {0, 1, 0}, make_channels(false, parse_rotation_order("ZXY")));
   clip.frame_rate_hz = 30;
-  clip.root_positions = {{1, 2, 3}};
-  clip.local_rotations = {rotation_of({10, 20, 30}, "ZXY"), rotation_of({40, 50, 60}, "ZXY")};
+  clip.positions = {{1, 2, 3}};
+  clip.rotations = {rotation_of({10, 20, 30}, "ZXY"), rotation_of({40, 50, 60}, "ZXY")};
   expect_same_positions(clip, written_and_read(clip), 1e-9);
 }
 

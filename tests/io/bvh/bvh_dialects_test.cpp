@@ -27,7 +27,7 @@ TEST(BvhReader, ReadsNamesOffsetsChannelsAndMotion) {
   EXPECT_EQ(clip.frame_rate_hz, 120);
   ASSERT_EQ(clip.frame_count(), 3u);
   // Positions replace the offset.
-  EXPECT_EQ(clip.root_positions[1], (Vec3{1.1, 92.1, -3.4}));
+  EXPECT_EQ(clip.root_position(1), (Vec3{1.1, 92.1, -3.4}));
   EXPECT_LT(angle_between(clip.rotation(1, 0), rotation_of({11, -21, 31}, "ZXY")), 1e-14);
   EXPECT_LT(angle_between(clip.rotation(2, 1), rotation_of({5.7, 6.45, -7.325}, "ZXY")), 1e-14);
   EXPECT_TRUE(clip.observed.empty());
@@ -54,8 +54,8 @@ TEST(BvhReader, LayoutDoesNotChangeTheMotion) {
     EXPECT_EQ(clip.skeleton.names, plain.skeleton.names);
     EXPECT_EQ(clip.skeleton.offsets, plain.skeleton.offsets);
     EXPECT_EQ(clip.skeleton.channels, plain.skeleton.channels);
-    EXPECT_EQ(clip.local_rotations, plain.local_rotations);
-    EXPECT_EQ(clip.root_positions, plain.root_positions);
+    EXPECT_EQ(clip.rotations, plain.rotations);
+    EXPECT_EQ(clip.positions, plain.positions);
   }
 }
 
@@ -69,7 +69,7 @@ TEST(BvhReader, SpacesMayStandOnEitherSideOfASeparatingComma) {
       if (text[i] != ',' && text[i] != ' ') changed += text[i];
     }
     const Clip clip = read_text(changed);
-    EXPECT_EQ(clip.local_rotations, read_good("plain.bvh").local_rotations) << separator;
+    EXPECT_EQ(clip.rotations, read_good("plain.bvh").rotations) << separator;
     EXPECT_EQ(write_clip(clip), changed);
   }
 }
@@ -131,7 +131,7 @@ TEST(BvhReader, SeveralRootsAreAllowed) {
   clip.validate();
   EXPECT_EQ(clip.skeleton.parents, (std::vector<std::int32_t>{-1, 0, -1, 2}));
   EXPECT_EQ(clip.translated_joints, (std::vector<std::int32_t>{2}));
-  EXPECT_EQ(clip.joint_translations[0], (Vec3{8, 9, 7}));
+  EXPECT_EQ(clip.position(0, 1), (Vec3{8, 9, 7}));
   EXPECT_LT(angle_between(clip.rotation(1, 3), rotation_of({1.5, 2.5, 3.5}, "ZXY")), 1e-14);
   EXPECT_EQ(clip.rotation(1, 2), Quat{});
 }
@@ -140,24 +140,24 @@ TEST(BvhReader, PositionChannelsReplaceTheOffsetOnAnyJoint) {
   const Clip clip = read_good("positions_everywhere.bvh");
   clip.validate();
   EXPECT_EQ(clip.translated_joints, (std::vector<std::int32_t>{1}));
-  EXPECT_EQ(clip.joint_translations[2], (Vec3{1, 10.2, -1}));
+  EXPECT_EQ(clip.position(2, 1), (Vec3{1, 10.2, -1}));
   EXPECT_EQ(clip.skeleton.offsets[1], (Vec3{0, 10, -1.25}));
   EXPECT_LT(angle_between(clip.rotation(2, 1), rotation_of({5.7, 6.45, -7.325}, "ZXY")), 1e-14);
 }
 
 TEST(BvhReader, AxesWithoutAChannelKeepTheOffset) {
   const Clip clip = read_good("some_positions.bvh");
-  EXPECT_EQ(clip.root_positions[1], (Vec3{0, 92.1, 0}));
+  EXPECT_EQ(clip.root_position(1), (Vec3{0, 92.1, 0}));
   EXPECT_EQ(read_good("no_channels.bvh").frame_count(), 0u);
 }
 
 TEST(BvhReader, ChannelsMayComeInAnyOrderAndNumber) {
   const Clip first = read_good("rotation_first.bvh");
-  EXPECT_EQ(first.root_positions[0], (Vec3{10, -20, 30}));
+  EXPECT_EQ(first.root_position(0), (Vec3{10, -20, 30}));
   EXPECT_LT(angle_between(first.rotation(0, 0), rotation_of({1, 92, -3.5}, "ZXY")), 1e-14);
   const Clip mixed = read_good("mixed_channels.bvh");
   mixed.validate();
-  EXPECT_EQ(mixed.root_positions[0], (Vec3{1, 3, 2}));
+  EXPECT_EQ(mixed.root_position(0), (Vec3{1, 3, 2}));
   EXPECT_LT(angle_between(mixed.rotation(0, 0), rotation_of({10, 20, 30}, "YZX")), 1e-14);
   EXPECT_EQ(mixed.rotation(0, 1), Quat{});
   EXPECT_LT(angle_between(mixed.rotation(0, 2), rotation_of({40, 0, 0}, "X")), 1e-14);
@@ -165,7 +165,7 @@ TEST(BvhReader, ChannelsMayComeInAnyOrderAndNumber) {
   EXPECT_LT(angle_between(mixed.rotation(1, 4), rotation_of({71, 81, 91}, "XYZ")), 1e-14);
   EXPECT_LT(angle_between(mixed.rotation(1, 5), rotation_of({16, 26, 36}, "ZXZ")), 1e-14);
   EXPECT_EQ(mixed.translated_joints, (std::vector<std::int32_t>{6}));
-  EXPECT_EQ(mixed.joint_translations[1], (Vec3{1, 5, 0}));
+  EXPECT_EQ(mixed.position(1, 1), (Vec3{1, 5, 0}));
 }
 
 TEST(BvhReader, FewOrNoFramesAreRead) {
@@ -180,11 +180,11 @@ TEST(BvhReader, FewOrNoFramesAreRead) {
 TEST(BvhReader, NumbersComeInManyForms) {
   const Clip clip = read_good("number_forms.bvh");
   const Clip plain = read_good("plain.bvh");
-  EXPECT_EQ(clip.root_positions[0], plain.root_positions[0]);
+  EXPECT_EQ(clip.root_position(0), plain.root_position(0));
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_LT(angle_between(clip.local_rotations[i], plain.local_rotations[i]), 1e-14) << i;
+    EXPECT_LT(angle_between(clip.rotations[i], plain.rotations[i]), 1e-14) << i;
   }
-  EXPECT_EQ(clip.root_positions[2], (Vec3{0, -0.5, 0.5}));
+  EXPECT_EQ(clip.root_position(2), (Vec3{0, -0.5, 0.5}));
   EXPECT_EQ(clip.frame_rate_hz, 120);
 }
 
@@ -197,8 +197,8 @@ TEST(BvhReader, SamplesThatAreNoNumberAreHeldAndUnobserved) {
   EXPECT_EQ(clip.rotation(1, 1), plain.rotation(0, 1));
   EXPECT_EQ(clip.rotation(2, 1), plain.rotation(0, 1));
   EXPECT_EQ(clip.rotation(2, 0), plain.rotation(2, 0));
-  EXPECT_EQ(clip.root_positions[1], (Vec3{1.1, 92, -3.4}));
-  EXPECT_EQ(clip.root_positions[2], (Vec3{1.1, 92.2, -3.3}));
+  EXPECT_EQ(clip.root_position(1), (Vec3{1.1, 92, -3.4}));
+  EXPECT_EQ(clip.root_position(2), (Vec3{1.1, 92.2, -3.3}));
 }
 
 TEST(BvhReader, AJointWithoutAnyNumberRests) {

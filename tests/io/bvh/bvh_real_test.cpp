@@ -47,7 +47,7 @@ TEST(RealBvh, ChangedTakesReadBackAndJumpNowhere) {
     SCOPED_TRACE(paths[i]);
     const std::string bytes = read_file(paths[i]);
     Clip clip = read_clip(bytes, paths[i].string()).clip;
-    for (Quat& q : clip.local_rotations) q = q * exp({0.002, -0.003, 0.001});
+    for (Quat& q : clip.rotations) q = q * exp({0.002, -0.003, 0.001});
     const std::string text = write_clip(clip);
     const Clip again = read_clip(text, "again.bvh").clip;
     expect_same_motion(clip, again, 2e-5);

@@ -94,7 +94,8 @@ TEST(BvhRewriter, ChangedSamplesReadBackAsWritten) {
     Clip clip = read_clip(path).clip;
     const Clip source = clip;
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-      clip.root_positions[f] += {0.125, 0.25, -0.5};
+      clip.root_position(f) += {0.125, 0.25, -0.5};
+      for (std::size_t i = 1; i < clip.point_count(); ++i) clip.position(f, i) += {0.1, 0.2, 0.3};
       for (std::size_t j = 0; j < clip.joint_count(); ++j) {
         const auto count = clip.skeleton.rotation_order(j).count;
         if (count == 3)
@@ -102,12 +103,11 @@ TEST(BvhRewriter, ChangedSamplesReadBackAsWritten) {
               clip.rotation(f, j) * exp({0.01, -0.02, 0.015 * static_cast<double>(f)});
       }
     }
-    for (Vec3& translation : clip.joint_translations) translation += {0.1, 0.2, 0.3};
     const Clip again = read_clip(write_clip(clip), path.string()).clip;
-    ASSERT_EQ(again.local_rotations.size(), clip.local_rotations.size());
-    for (std::size_t i = 0; i < clip.local_rotations.size(); ++i) {
+    ASSERT_EQ(again.rotations.size(), clip.rotations.size());
+    for (std::size_t i = 0; i < clip.rotations.size(); ++i) {
       if (clip.skeleton.rotation_order(i % clip.joint_count()).count != 3) continue;
-      EXPECT_LT(angle_between(again.local_rotations[i], clip.local_rotations[i]), 2e-6) << i;
+      EXPECT_LT(angle_between(again.rotations[i], clip.rotations[i]), 2e-6) << i;
     }
     // Axes without a channel keep the offset.
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -115,7 +115,7 @@ TEST(BvhRewriter, ChangedSamplesReadBackAsWritten) {
           std::count_if(clip.skeleton.channels[0].begin(), clip.skeleton.channels[0].end(),
                         [](Channel c) { return !is_rotation(c); }) == 3;
       if (all_axes) {
-        EXPECT_LT(norm(again.root_positions[f] - clip.root_positions[f]), 1e-4);
+        EXPECT_LT(norm(again.root_position(f) - clip.root_position(f)), 1e-4);
       }
     }
   }
@@ -158,8 +158,8 @@ TEST(BvhRewriter, ANewRateReplacesTheFrameTimeOnly) {
 TEST(BvhRewriter, OtherFramesKeepTheHierarchyText) {
   const std::string source = read_file(fixture("good/crlf.bvh"));
   Clip clip = read_clip(fixture("good/crlf.bvh")).clip;
-  clip.root_positions.pop_back();
-  clip.local_rotations.resize(clip.frame_count() * clip.joint_count());
+  clip.positions.pop_back();
+  clip.rotations.resize(clip.frame_count() * clip.joint_count());
   const std::string text = write_clip(clip);
   const std::size_t motion = source.find("MOTION");
   EXPECT_EQ(text.substr(0, motion), source.substr(0, motion));
@@ -174,7 +174,7 @@ TEST(BvhRewriter, AFullyChangedTrackIsContinuousWhereTheSourceWraps) {
     angles.push_back({wrapped(4.0 * f), 30 * std::sin(f * 0.1), wrapped(-3.0 * f)});
   Clip clip = read_text(spinner_text(angles));
   EXPECT_GT(largest_step(rows_of(write_clip(clip), 3)), 300);
-  for (Quat& q : clip.local_rotations) q = q * exp({0.01, 0.01, 0.01});
+  for (Quat& q : clip.rotations) q = q * exp({0.01, 0.01, 0.01});
   EXPECT_LT(largest_step(rows_of(write_clip(clip), 3)), 10);
 }
 
@@ -184,7 +184,7 @@ TEST(BvhRewriter, SmallChangesStayOnTheSourcesBranch) {
   for (int f = 0; f < 100; ++f) angles.push_back({730 + 0.5 * f, 120 - 0.1 * f, -400 + 0.2 * f});
   Clip clip = read_text(spinner_text(angles));
   Random random(3);
-  for (Quat& q : clip.local_rotations)
+  for (Quat& q : clip.rotations)
     q = q * exp({0.01 * random.normal(), 0.01 * random.normal(), 0.01 * random.normal()});
   const auto rows = rows_of(write_clip(clip), 3);
   for (std::size_t f = 0; f < rows.size(); ++f) {
@@ -225,7 +225,7 @@ TEST(BvhRewriter, NothingJumpsNearGimbalLock) {
   for (int f = 0; f < 400; ++f)
     angles.push_back({0.5 * f, 89.9 * std::sin(f * 0.05), 20 * std::cos(f * 0.03)});
   Clip clip = read_text(spinner_text(angles));
-  for (Quat& q : clip.local_rotations) q = q * exp({1e-4, 1e-4, 1e-4});
+  for (Quat& q : clip.rotations) q = q * exp({1e-4, 1e-4, 1e-4});
   const auto rows = rows_of(write_clip(clip), 3);
   // Near the poles the outer angles turn against each other, but never by a flip.
   EXPECT_LT(largest_step(rows), 90);
@@ -257,8 +257,8 @@ TEST(BvhRewriter, LongTakesWithGapsKeepTheirDigits) {
   }
   Clip clip = read_text(text);
   clip.validate();
-  EXPECT_EQ(clip.root_positions[0].x, 2.25);
-  EXPECT_EQ(clip.root_positions[2049].x, 2047.25);
+  EXPECT_EQ(clip.root_position(0).x, 2.25);
+  EXPECT_EQ(clip.root_position(2049).x, 2047.25);
   EXPECT_LT(angle_between(clip.rotation(2049, 0), rotation_of({1.5, 67.125, 2}, "ZXY")), 1e-14);
   clip.rotation(4000, 0) = clip.rotation(4000, 0) * exp({0.1, 0, 0});
   const auto before = words_of(text), after = words_of(write_clip(clip));

@@ -51,13 +51,11 @@ Clip random_clip(Random& random) {
     const auto position = [&] {
       return Vec3{random.normal() * 50, random.normal(), random.uniform(-1e4, 1e4)};
     };
-    clip.root_positions.push_back(position());
-    for (std::size_t i = 0; i < clip.translated_joints.size(); ++i)
-      clip.joint_translations.push_back(position());
+    for (std::size_t i = 0; i < clip.point_count(); ++i) clip.positions.push_back(position());
     for (std::size_t j = 0; j < joints; ++j) {
       std::array<double, 3> angles{};
       for (std::size_t i = 0; i < orders[j].count; ++i) angles[i] = random.uniform(-pi, pi);
-      clip.local_rotations.push_back(from_euler(angles, orders[j]));
+      clip.rotations.push_back(from_euler(angles, orders[j]));
     }
   }
   return clip;
@@ -99,8 +97,8 @@ TEST(BvhWriter, PlainLayoutIsTheUsualOne) {
                           make_channels(false, parse_rotation_order("XYZ")));
   clip.skeleton.end_sites.push_back({1, {0, 20, 0}, ""});
   clip.frame_rate_hz = 120;
-  clip.root_positions = {{1, 2, 3}};
-  clip.local_rotations = {rotation_of({10, 20, 30}, "ZXY"), rotation_of({-1, -2, -3}, "XYZ")};
+  clip.positions = {{1, 2, 3}};
+  clip.rotations = {rotation_of({10, 20, 30}, "ZXY"), rotation_of({-1, -2, -3}, "XYZ")};
   EXPECT_EQ(
       write_clip(clip),
       "HIERARCHY\n"
@@ -131,9 +129,8 @@ TEST(BvhWriter, AnglesContinueTheFrameBefore) {
   clip.frame_rate_hz = 120;
   // Two turns about the first axis, the middle one up to 88 degrees.
   for (int f = 0; f < 500; ++f) {
-    clip.root_positions.push_back({});
-    clip.local_rotations.push_back(
-        rotation_of({1.44 * f, 88 * std::sin(f * 0.01), 0.3 * f}, "ZXY"));
+    clip.positions.push_back({});
+    clip.rotations.push_back(rotation_of({1.44 * f, 88 * std::sin(f * 0.01), 0.3 * f}, "ZXY"));
   }
   const auto rows = rows_of(write_clip(clip), 6);
   ASSERT_EQ(rows.size(), 500u);
@@ -153,8 +150,8 @@ TEST(BvhWriter, RestRotationsGoIntoTheAngles) {
   clip.skeleton.rest_rotations = {rotation_of({10, 20, 30}, "XYZ"),
                                   rotation_of({70, -20, 30}, "XYZ")};
   clip.frame_rate_hz = 30;
-  clip.root_positions = {{0, 0, 0}};
-  clip.local_rotations = {rotation_of({40, 50, 60}, "XYZ"), rotation_of({1, 2, 3}, "XYZ")};
+  clip.positions = {{0, 0, 0}};
+  clip.rotations = {rotation_of({40, 50, 60}, "XYZ"), rotation_of({1, 2, 3}, "XYZ")};
   const auto before = joint_positions(clip, true),
              after = joint_positions(read_text(write_clip(clip)), true);
   ASSERT_EQ(before.size(), after.size());
@@ -169,9 +166,9 @@ TEST(BvhWriter, JointsAreWrittenDepthFirstWhateverTheirOrder) {
   clip.skeleton.add_joint("right", 0, {-1, 0, 0}, channels);
   clip.skeleton.add_joint("left hand", 1, {2, 0, 0}, channels);
   clip.frame_rate_hz = 30;
-  clip.root_positions = {{}};
-  clip.local_rotations = {Quat{}, rotation_of({1, 0, 0}, "Z"), rotation_of({2, 0, 0}, "Z"),
-                          rotation_of({3, 0, 0}, "Z")};
+  clip.positions = {{}};
+  clip.rotations = {Quat{}, rotation_of({1, 0, 0}, "Z"), rotation_of({2, 0, 0}, "Z"),
+                    rotation_of({3, 0, 0}, "Z")};
   const Clip again = read_text(write_clip(clip));
   EXPECT_EQ(again.skeleton.names, (std::vector<std::string>{"root", "left", "left hand", "right"}));
   EXPECT_LT(angle_between(again.rotation(0, 2), rotation_of({3, 0, 0}, "Z")), 1e-8);
@@ -183,8 +180,8 @@ TEST(BvhWriter, RefusesWhatTheFormatCannotHold) {
     clip.skeleton.add_joint("a", -1, {1, 2, 3}, make_channels(true, parse_rotation_order("ZXY")));
     clip.skeleton.add_joint("b", 0, {1, 2, 3}, {});
     clip.frame_rate_hz = 30;
-    clip.root_positions = {{1, 2, 3}};
-    clip.local_rotations = {Quat{}, Quat{}};
+    clip.positions = {{1, 2, 3}};
+    clip.rotations = {Quat{}, Quat{}};
     write_clip(clip);
     change(clip);
     return message_of([&] { write_clip(clip); }, ErrorKind::usage);
@@ -192,18 +189,18 @@ TEST(BvhWriter, RefusesWhatTheFormatCannotHold) {
   EXPECT_EQ(refuse([](Clip& c) { c.skeleton.names[1] = "a\nb"; }),
             "BVH cannot hold the name \"a.b\"");
   EXPECT_EQ(refuse([](Clip& c) {
-              c.local_rotations[1] = rotation_of({1, 0, 0}, "X");
+              c.rotations[1] = rotation_of({1, 0, 0}, "X");
             }),
             "joint \"b\" turns but has no rotation channels");
   EXPECT_EQ(refuse([](Clip& c) {
               c.skeleton.channels[0] = make_channels(false, parse_rotation_order("ZXY"));
-              c.root_positions[0].x = 9;
+              c.root_position(0).x = 9;
             }),
             "joint \"a\" moves but has no position channels");
   EXPECT_EQ(
-      refuse([](Clip& c) { c.root_positions[0].x = std::numeric_limits<double>::quiet_NaN(); }),
+      refuse([](Clip& c) { c.root_position(0).x = std::numeric_limits<double>::quiet_NaN(); }),
       "a value to write is not finite");
-  EXPECT_EQ(refuse([](Clip& c) { c.local_rotations.pop_back(); }),
+  EXPECT_EQ(refuse([](Clip& c) { c.rotations.pop_back(); }),
             "the arrays of the clip have different numbers of frames");
   EXPECT_EQ(refuse([](Clip& c) { c.frame_rate_hz = 0; }),
             "a frame rate of 0 Hz is outside 0.1 to 100000 Hz");

@@ -114,7 +114,7 @@ TEST(C3dConversions, WriteOtherFormatsWithoutPointsThatAreNoPositions) {
   const MarkerClip kept = positions_only(clip);
   EXPECT_LT(kept.marker_count(), clip.marker_count());
   for (const char* const format : {"trc", "csv", "tsv"}) {
-    const Take take = read_take(write_markers(clip, format), std::string("take.") + format).take;
+    const AnyTake take = read_take(write_markers(clip, format), std::string("take.") + format).take;
     EXPECT_EQ(std::get<MarkerClip>(take).names, kept.names) << format;
   }
   MarkerClip angles = clip;

@@ -175,7 +175,7 @@ TEST(C3dReader, TakesTheRateThatIsAskedForWhereTheFileHasNone) {
 
 TEST(C3dReader, IsFoundByContent) {
   for (const char* const name : {"intel_real", "bytes_before_header", "no_processor"}) {
-    const Take take = read_take(good_c3d(name), "walk").take;
+    const AnyTake take = read_take(good_c3d(name), "walk").take;
     EXPECT_EQ(source_of(take).format, "c3d");
   }
 }

@@ -128,11 +128,11 @@ Clip random_clip() {
   for (Quat& rest : clip.skeleton.rest_rotations)
     rest = exp({random.normal(), random.normal(), random.normal()});
   for (std::size_t f = 0; f < 20; ++f) {
-    clip.root_positions.push_back({random.normal(), 90 + random.normal(), random.normal()});
-    clip.joint_translations.push_back({random.normal(), 30, random.normal()});
+    clip.positions.push_back({random.normal(), 90 + random.normal(), random.normal()});
+    clip.positions.push_back({random.normal(), 30, random.normal()});
     for (std::size_t j = 0; j < clip.joint_count(); ++j) {
       const Quat q = exp({random.normal(), random.normal(), random.normal()});
-      clip.local_rotations.push_back(random.chance(0.5) ? q : -q);
+      clip.rotations.push_back(random.chance(0.5) ? q : -q);
     }
   }
   return clip;
@@ -183,9 +183,11 @@ TEST(GlbWriter, TheSkinIsBoundToTheRestPose) {
   const json& skin = glb.document["skins"][0];
   ASSERT_EQ(skin["joints"].size(), clip.joint_count());
   const auto matrices = floats(glb, skin["inverseBindMatrices"]);
-  for (Quat& q : clip.local_rotations) q = {};
-  for (Vec3& p : clip.root_positions) p = clip.skeleton.offsets[0];
-  for (Vec3& p : clip.joint_translations) p = clip.skeleton.offsets[2];
+  for (Quat& q : clip.rotations) q = {};
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    clip.root_position(f) = clip.skeleton.offsets[0];
+    clip.position(f, 1) = clip.skeleton.offsets[2];
+  }
   const Pose rest = forward_kinematics(clip, 0);
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
     const float* m = matrices.data() + 16 * j;

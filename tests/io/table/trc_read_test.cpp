@@ -229,7 +229,7 @@ TEST(TrcReader, StrictRefusesRepairs) {
 }
 
 TEST(TrcReader, IsFoundByItsFirstWord) {
-  const Take take = read_take(trc_fixture("good/bom.trc"), "no extension", {}).take;
+  const AnyTake take = read_take(trc_fixture("good/bom.trc"), "no extension", {}).take;
   EXPECT_EQ(source_of(take).format, "trc");
 }
 

@@ -99,7 +99,7 @@ TEST(PriorCleaning, BringsATakeBackThatTheFilterLeftAlone) {
       clean_in_place(Filtering(layout_of(before), true, unlimited(keep)), after);
   EXPECT_LT(max_angle_deg(before, after), 1e-6);
   for (std::size_t f = 0; f < before.frame_count(); ++f)
-    EXPECT_LT(norm(before.root_positions[f] - after.root_positions[f]), 1e-9);
+    EXPECT_LT(norm(before.root_position(f) - after.root_position(f)), 1e-9);
   EXPECT_EQ(count_of(trace, Action::despiked) + count_of(trace, Action::filled), 0);
 }
 
@@ -118,8 +118,8 @@ TEST(PriorCleaning, KeepsItsHandsOffACleanTakeToTheLastDigit) {
   const Clip before = noisy_walk();
   Clip after = before;
   const InPlaceTrace trace = clean_in_place(Filtering(layout_of(before), true, flatten), after);
-  EXPECT_EQ(after.local_rotations, before.local_rotations);
-  EXPECT_EQ(after.root_positions, before.root_positions);
+  EXPECT_EQ(after.rotations, before.rotations);
+  EXPECT_EQ(after.positions, before.positions);
   EXPECT_EQ(count_of(trace, Action::despiked) + count_of(trace, Action::filled), 0);
 
   const MarkerClip markers = marker_take("walk", 2, 60);
@@ -163,12 +163,12 @@ TEST(PriorCleaning, AFilterOfWhiteNoiseLeavesNoiseWithAColourToAuto) {
   const InPlaceTrace trace =
       clean_in_place(Filtering(layout_of(noisy), true, note, {}, PriorHold::white_noise), filtered);
   EXPECT_FALSE(has_run) << "nothing is left to it";
-  EXPECT_EQ(filtered.local_rotations, by_auto.local_rotations);
+  EXPECT_EQ(filtered.rotations, by_auto.rotations);
   ASSERT_FALSE(trace.fall_backs.empty());
   EXPECT_THAT(trace.fall_backs[0].reason, HasSubstr("takes noise for white"));
 
   const auto arm = static_cast<std::size_t>(noisy.skeleton.find("LeftArm"));
-  noisy.observed.assign(noisy.local_rotations.size(), 1);
+  noisy.observed.assign(noisy.rotations.size(), 1);
   for (std::size_t f = 100; f < 160; ++f) noisy.observed[f * noisy.joint_count() + arm] = 0;
   clean_in_place(Filtering(layout_of(noisy), true, note, {}, PriorHold::white_noise), noisy);
   EXPECT_TRUE(has_run) << "gaps are";
@@ -179,7 +179,7 @@ TEST(PriorCleaning, WhatIsFilledInACleanTakeMeetsTheSamplesBesideIt) {
   const Clip truth = noisy_walk();
   const auto arm = static_cast<std::size_t>(truth.skeleton.find("LeftArm"));
   Clip clip = truth;
-  clip.observed.assign(clip.local_rotations.size(), 1);
+  clip.observed.assign(clip.rotations.size(), 1);
   for (std::size_t f = 40; f < 60; ++f) clip.observed[f * clip.joint_count() + arm] = 0;
   Clip after = clip;
   clean_in_place(Filtering(layout_of(truth), true, flatten), after);
@@ -198,7 +198,7 @@ TEST(PriorCleaning, ChangesWhatIsSelectedOnly) {
   const Filtering cleaner(layout_of(before), true, flatten);
   const Clip after = clean_clip(before, cleaner, settings).clip;
   for (std::size_t f = 0; f < before.frame_count(); ++f) {
-    EXPECT_EQ(after.root_positions[f], before.root_positions[f]);
+    EXPECT_EQ(after.root_position(f), before.root_position(f));
     for (std::size_t j = 0; j < before.joint_count(); ++j) {
       if (j == arm) continue;
       EXPECT_EQ(after.rotation(f, j), before.rotation(f, j));
@@ -224,7 +224,7 @@ TEST(PriorCleaning, LeavesJointsThatTheModelDoesNotKnowToAuto) {
 TEST(PriorCleaning, TellsTheFilterWhatIsMissingWhatIsSuspectAndHowLoudTheNoiseIs) {
   Clip clip = noisy_walk(2);
   const auto arm = static_cast<std::size_t>(clip.skeleton.find("LeftArm"));
-  clip.observed.assign(clip.local_rotations.size(), 1);
+  clip.observed.assign(clip.rotations.size(), 1);
   for (std::size_t f = 20; f < 30; ++f) clip.observed[f * clip.joint_count() + arm] = 0;
   clip.rotation(60, arm) = clip.rotation(60, arm) * exp({0, 0.9, 0});
   const BodyLayout layout = layout_of(noisy_walk());
@@ -246,7 +246,7 @@ TEST(PriorCleaning, FillsGapsOfJointsOrBridgesThem) {
   const auto arm = static_cast<std::size_t>(clip.skeleton.find("LeftArm"));
   const Clip truth = clip;
   const BodyLayout layout = layout_of(truth);
-  clip.observed.assign(clip.local_rotations.size(), 1);
+  clip.observed.assign(clip.rotations.size(), 1);
   for (std::size_t f = 20; f < 40; ++f) {
     clip.observed[f * clip.joint_count() + arm] = 0;
     clip.rotation(f, arm) = exp({1, 2, 0});
@@ -271,7 +271,7 @@ TEST(PriorCleaning, LeavesJointsThatFlipToAutoButNotThoseThatAreMissing) {
   Clip clip = truth;
   const auto left = static_cast<std::size_t>(clip.skeleton.find("LeftHand"));
   const auto right = static_cast<std::size_t>(clip.skeleton.find("RightHand"));
-  clip.observed.assign(clip.local_rotations.size(), 1);
+  clip.observed.assign(clip.rotations.size(), 1);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const bool flipped = f / 30 % 2 == 1;
     if (flipped) clip.rotation(f, left) = clip.rotation(f, left) * exp({0, 0, 3.0});

@@ -13,6 +13,7 @@
 #include "kinemend/experimental/synth.hpp"
 #include "kinemend/gaps.hpp"
 #include "learned/core/take_store.hpp"
+#include "translations.hpp"
 
 namespace kinemend {
 namespace {
@@ -37,7 +38,7 @@ MarkerClip markers_of(const Clip& clip) {
 
 // A gap of every part in frames 40 to 49.
 void lose_frames(Clip& clip) {
-  clip.observed.assign(clip.local_rotations.size(), 1);
+  clip.observed.assign(clip.rotations.size(), 1);
   std::fill_n(clip.observed.begin() + static_cast<std::ptrdiff_t>(40 * clip.joint_count()),
               10 * clip.joint_count(), std::uint8_t{0});
 }
@@ -75,8 +76,7 @@ Model trained(const LearnedMethod& method, const TrainingTakes& takes,
 TEST(TakeStore, GivesTakesBackToTheBit) {
   Clip clip = walk_at(1);
   lose_frames(clip);
-  clip.translated_joints = {2};
-  clip.joint_translations.assign(clip.frame_count(), {1, 2, 3});
+  test::add_translations(clip, {2}, Vec3{1, 2, 3});
   clip.observed_positions.assign(2 * clip.frame_count(), 1);
   MarkerClip markers = markers_of(clip);
   markers.residuals.assign(markers.positions.size(), 0.25F);
@@ -89,10 +89,9 @@ TEST(TakeStore, GivesTakesBackToTheBit) {
     const Clip again = std::get<Clip>(store.take(0));
     EXPECT_EQ(again.skeleton.names, clip.skeleton.names);
     EXPECT_EQ(again.frame_rate_hz, clip.frame_rate_hz);
-    EXPECT_EQ(again.root_positions, clip.root_positions);
-    EXPECT_EQ(again.local_rotations, clip.local_rotations);
+    EXPECT_EQ(again.positions, clip.positions);
+    EXPECT_EQ(again.rotations, clip.rotations);
     EXPECT_EQ(again.translated_joints, clip.translated_joints);
-    EXPECT_EQ(again.joint_translations, clip.joint_translations);
     EXPECT_EQ(again.observed, clip.observed);
     EXPECT_EQ(again.observed_positions, clip.observed_positions);
     const MarkerClip seen = std::get<MarkerClip>(store.take(1));

@@ -59,7 +59,7 @@ TEST(LearnedFill, LeavesTheBridgeWhereTheNetworkIsContent) {
   EXPECT_LT(largest_distance_deg(clip, straight, 60, 99), 0.01);
   for (std::size_t i = 0; i < damaged.observed.size(); ++i) {
     if (damaged.observed[i] != 0) {
-      EXPECT_EQ(clip.local_rotations[i], damaged.local_rotations[i]) << i;
+      EXPECT_EQ(clip.rotations[i], damaged.rotations[i]) << i;
     }
   }
 }
@@ -77,7 +77,7 @@ TEST(LearnedFill, LeavesShortAndSlowTakesToAutoAndSaysSo) {
     Clip automatic = clip;
     EXPECT_THAT(filled(clip, content()).warnings, Contains(HasSubstr(reason)));
     fill_gaps(automatic);
-    EXPECT_EQ(clip.local_rotations, automatic.local_rotations);
+    EXPECT_EQ(clip.rotations, automatic.rotations);
   };
   expect_auto(walk_with_gap(0.4, 120, 20, 24), "the take is shorter than half a second");
   expect_auto(walk_with_gap(4, 15, 20, 22), "the frame rate is below 20 Hz");

@@ -108,8 +108,8 @@ TEST(LearnedCleaner, TakesWhatIsMeasuredForNoiseWhereItsNetworkKeepsAll) {
 
 TEST(LearnedCleaner, GivesTheSameAgain) {
   const Clip noisy = with_damage(walk_for_networks(120), "gaussian", {{"std_deg", 3.0}});
-  EXPECT_EQ(clean_clip(noisy, *asking_for(gaussian_of_50_ms)).clip.local_rotations,
-            clean_clip(noisy, *asking_for(gaussian_of_50_ms)).clip.local_rotations);
+  EXPECT_EQ(clean_clip(noisy, *asking_for(gaussian_of_50_ms)).clip.rotations,
+            clean_clip(noisy, *asking_for(gaussian_of_50_ms)).clip.rotations);
 }
 
 TEST(LearnedCleaner, LeavesShortTakesAndSlowOnesToAutoAndSaysSo) {
@@ -121,7 +121,7 @@ TEST(LearnedCleaner, LeavesShortTakesAndSlowOnesToAutoAndSaysSo) {
                                      {slice(noisy, 0, 59), "shorter than half a second"},
                                      {slow, "below 20 Hz"}}) {
     const CleanResult result = clean_clip(take, *learned);
-    EXPECT_EQ(result.clip.local_rotations, clean_clip(take, *automatic).clip.local_rotations);
+    EXPECT_EQ(result.clip.rotations, clean_clip(take, *automatic).clip.rotations);
     ASSERT_EQ(result.report.fall_backs.size(), 1U);
     EXPECT_EQ(result.report.fall_backs[0].method, "auto");
     EXPECT_THAT(result.report.fall_backs[0].reason, testing::HasSubstr(reason));

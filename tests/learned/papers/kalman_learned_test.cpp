@@ -77,7 +77,7 @@ TEST(KalmanLearned, LeavesACleanWalkAlone) {
 TEST(KalmanLearned, FillsAnArmThatIsMissingThroughout) {
   const Clip truth = slow_walk(4);
   Clip input = truth;
-  input.observed.assign(truth.local_rotations.size(), 1);
+  input.observed.assign(truth.rotations.size(), 1);
   const auto arm = static_cast<std::size_t>(truth.skeleton.find("LeftArm"));
   for (std::size_t f = 0; f < truth.frame_count(); ++f) {
     input.observed[f * truth.joint_count() + arm] = 0;

@@ -100,7 +100,7 @@ TEST(RecurrentFill, LeavesATakeAtAnotherRateToAuto) {
   Clip clip = gapped(truth, {"LeftLeg"}), automatic = clip;
   const FillReport report = filled(clip, adding(truth, 5));
   fill_gaps(automatic);
-  EXPECT_EQ(clip.local_rotations, automatic.local_rotations);
+  EXPECT_EQ(clip.rotations, automatic.rotations);
   EXPECT_THAT(report.warnings,
               ElementsAre(HasSubstr("the network fills takes of 120 Hz, and this one has 60")));
 }

@@ -59,7 +59,7 @@ TEST(Recurrent, LeavesToAutoATakeAtAnotherRateAndSaysSo) {
 TEST(Recurrent, LeavesACleanTakeAsItIs) {
   for (const double rate_hz : {60.0, 120.0}) {
     const Clip truth = walk_at(rate_hz);
-    EXPECT_EQ(clean_clip(truth, cleaner()).clip.local_rotations, truth.local_rotations);
+    EXPECT_EQ(clean_clip(truth, cleaner()).clip.rotations, truth.rotations);
   }
 }
 
@@ -94,8 +94,8 @@ TEST(Recurrent, FillsGapsOrLeavesThemBridged) {
 
 TEST(Recurrent, IsTheSameForAnyNumberOfRuns) {
   const Clip noisy = damaged_by(walk_at(120), "gaussian", {{"std_deg", 2.0}});
-  EXPECT_EQ(clean_clip(noisy, cleaner()).clip.local_rotations,
-            clean_clip(noisy, *make_recurrent()).clip.local_rotations);
+  EXPECT_EQ(clean_clip(noisy, cleaner()).clip.rotations,
+            clean_clip(noisy, *make_recurrent()).clip.rotations);
 }
 
 // A network of the paper whose Gaussians are all three frames wide.

@@ -120,7 +120,7 @@ TEST(Sparse, CleansABodyThatTurnsOverAsWellAsOneThatStands) {
   for (std::size_t f = 0; f < turning.frame_count(); ++f) {
     const double angle = radians_per_degree * 90 * static_cast<double>(f) / turning.frame_rate_hz;
     turning.rotation(f, 0) = exp(Vec3{angle, 0, 0}) * turning.rotation(f, 0);
-    turning.root_positions[f] = rotate(exp(Vec3{angle, 0, 0}), turning.root_positions[f]);
+    turning.root_position(f) = rotate(exp(Vec3{angle, 0, 0}), turning.root_position(f));
   }
   Clip standing = noisy;
   clean_in_place(*make_sparse({}, joints()), standing);
@@ -138,7 +138,7 @@ TEST(Sparse, LeavesNoiseWithAColourToAuto) {
   Random random(10);
   apply_damage(noisy, "ar1", {{"std_deg", 2.0}, {"correlation", 0.9}}, random);
   const Clip own = clean_clip(noisy, *make_sparse({}, joints())).clip;
-  EXPECT_EQ(own.local_rotations, clean_clip(noisy, *make_auto()).clip.local_rotations);
+  EXPECT_EQ(own.rotations, clean_clip(noisy, *make_auto()).clip.rotations);
 }
 
 TEST(Sparse, FillsAMarkerFromTheOthersOfItsPoselet) {

@@ -51,7 +51,7 @@ TEST(Pieces, OfMarkersGoBackWhereTheyWereObserved) {
 
 TEST(Pieces, OfJointsBridgeGapsOfAnyLengthAndSayWhatTheyFilled) {
   Clip clip = moving_take(100, 100);
-  clip.observed.assign(clip.local_rotations.size(), 1);
+  clip.observed.assign(clip.rotations.size(), 1);
   for (std::size_t f = 0; f < 100; ++f) {
     if (f < 20 || (f > 40 && f < 90)) clip.observed[f * clip.joint_count() + 2] = 0;
   }
@@ -70,14 +70,14 @@ TEST(Pieces, OfPositionsOfJointsBridgeByStraightLines) {
   clip.observed_positions.assign(50 * width, 1);
   for (std::size_t f = 10; f < 20; ++f) {
     clip.observed_positions[f * width] = 0;
-    clip.root_positions[f] = {1e9, 0, 0};
+    clip.root_position(f) = {1e9, 0, 0};
   }
   const TakeView take = view_of(clip);
   const auto pieces = position_pieces(take, take.root_track());
   ASSERT_EQ(pieces.size(), 1U);
   EXPECT_TRUE(pieces[0].observed.empty());
   const Vec3 expected =
-      clip.root_positions[9] + (5.0 / 11) * (clip.root_positions[20] - clip.root_positions[9]);
+      clip.root_position(9) + (5.0 / 11) * (clip.root_position(20) - clip.root_position(9));
   EXPECT_LT(norm(pieces[0].samples[14] - expected), 1e-9);
 }
 

@@ -9,6 +9,7 @@
 #include "kinemend/metrics.hpp"
 #include "methods/filters/bilateral_filter.hpp"
 #include "methods/filters/filter_checks.hpp"
+#include "translations.hpp"
 
 namespace kinemend::test {
 namespace {
@@ -104,15 +105,15 @@ TEST(Bilateral, FiltersPositionsOnTheScaleOfTheBody) {
   const Clip input = noisy_take(80);
   const Clip output = cleaned(input, *make_bilateral(options_with(5, 1, "mirror")));
   const double sigma = 5 * radians_per_degree * body_height(input.skeleton);
-  const std::vector<Vec3> expected = bilateral_pass(input.root_positions, 5, 1.5, sigma);
+  const std::vector<Vec3> expected = bilateral_pass(point_track(input, 0), 5, 1.5, sigma);
   for (std::size_t f = 0; f < 80; ++f) {
-    EXPECT_LT(norm(output.root_positions[f] - expected[f]), 1e-11);
+    EXPECT_LT(norm(output.root_position(f) - expected[f]), 1e-11);
   }
 }
 
 TEST(Bilateral, GivesUnobservedSamplesNoWeight) {
   Clip input = noisy_take(60);
-  input.observed.assign(input.local_rotations.size(), 1);
+  input.observed.assign(input.rotations.size(), 1);
   for (const std::size_t f : {0, 20, 21, 22, 40, 59}) {
     input.observed[f * input.joint_count() + 2] = 0;
   }
@@ -180,7 +181,7 @@ TEST(Bilateral, IsTheSameAtAnyTime) {
       for (std::size_t j = 0; j < input.joint_count(); ++j) {
         ASSERT_EQ(later.rotation(f - shift, j), output.rotation(f, j)) << f;
       }
-      ASSERT_EQ(later.root_positions[f - shift], output.root_positions[f]) << f;
+      ASSERT_EQ(later.root_position(f - shift), output.root_position(f)) << f;
     }
   }
 }
@@ -245,9 +246,9 @@ TEST(Bilateral, IsAGaussianWhenNoTurnIsLarge) {
     Vec3 mean;
     for (int j = -5; j <= 5; ++j) {
       mean += (std::exp(-j * j / 4.5) / sum) *
-              input.root_positions[static_cast<std::size_t>(static_cast<int>(f) + j)];
+              input.root_position(static_cast<std::size_t>(static_cast<int>(f) + j));
     }
-    EXPECT_LT(norm(output.root_positions[f] - mean), 1e-4);
+    EXPECT_LT(norm(output.root_position(f) - mean), 1e-4);
   }
 }
 
@@ -255,7 +256,7 @@ TEST(Bilateral, ReflectedKeepsASteadyTurnUpToTheEndsAndMirroredBendsIt) {
   Clip input = held_take(60, 0, 1);
   for (std::size_t f = 0; f < 60; ++f) {
     input.rotation(f, 0) = exp({0.02 * static_cast<double>(f), 0, 0}) * input.rotation(f, 0);
-    input.root_positions[f] = {0.3 * static_cast<double>(f), 0, 1};
+    input.root_position(f) = {0.3 * static_cast<double>(f), 0, 1};
   }
   EXPECT_LT(largest_difference(input, cleaned(input, *make_bilateral({0.02, 8, 5, "reflect"}))),
             1e-12);
@@ -268,8 +269,9 @@ TEST(Bilateral, StaysFiniteWhereNothingIsNear) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     Random random(seed);
     Clip input = held_take(12, 0, 1);
-    for (Quat& q : input.local_rotations) q = random_rotation(random);
-    for (Vec3& p : input.root_positions) p = random_vector(random, 3);
+    for (Quat& q : input.rotations) q = random_rotation(random);
+    for (std::size_t f = 0; f < input.frame_count(); ++f)
+      input.root_position(f) = random_vector(random, 3);
     for (const double sigma_g_deg : {0.01, 1.0, 2.0, 2.5, 3.0, 4.0, 6.0, 1000.0}) {
       for (const char* ends : {"mirror", "reflect"}) {
         EXPECT_NO_THROW(cleaned(input, *make_bilateral({0.03, sigma_g_deg, 5, ends})).validate());

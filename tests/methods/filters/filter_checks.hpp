@@ -28,14 +28,11 @@ inline double difference(Quat a, Quat b) { return std::min(norm(a + -b), norm(a 
 
 inline double largest_difference(const Clip& a, const Clip& b) {
   double largest = 0;
-  for (std::size_t i = 0; i < a.local_rotations.size(); ++i) {
-    largest = std::max(largest, difference(a.local_rotations[i], b.local_rotations[i]));
+  for (std::size_t i = 0; i < a.rotations.size(); ++i) {
+    largest = std::max(largest, difference(a.rotations[i], b.rotations[i]));
   }
-  for (std::size_t i = 0; i < a.root_positions.size(); ++i) {
-    largest = std::max(largest, norm(a.root_positions[i] - b.root_positions[i]));
-  }
-  for (std::size_t i = 0; i < a.joint_translations.size(); ++i) {
-    largest = std::max(largest, norm(a.joint_translations[i] - b.joint_translations[i]));
+  for (std::size_t i = 0; i < a.positions.size(); ++i) {
+    largest = std::max(largest, norm(a.positions[i] - b.positions[i]));
   }
   return largest;
 }
@@ -72,11 +69,8 @@ inline Clip reversed(const Clip& clip) {
     for (std::size_t j = 0; j < clip.joint_count(); ++j) {
       result.rotation(f, j) = clip.rotation(frames - 1 - f, j);
     }
-    result.root_positions[f] = clip.root_positions[frames - 1 - f];
-    for (std::size_t i = 0; i < clip.translated_joints.size(); ++i) {
-      const std::size_t width = clip.translated_joints.size();
-      result.joint_translations[f * width + i] =
-          clip.joint_translations[(frames - 1 - f) * width + i];
+    for (std::size_t i = 0; i < clip.point_count(); ++i) {
+      result.position(f, i) = clip.position(frames - 1 - f, i);
     }
   }
   return result;
@@ -87,7 +81,7 @@ inline Clip changed_at(Clip clip, std::size_t f) {
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
     clip.rotation(f, j) = clip.rotation(f, j) * exp({0.3, -0.2, 0.1});
   }
-  clip.root_positions[f] += {1, 2, 3};
+  clip.root_position(f) += {1, 2, 3};
   return clip;
 }
 
@@ -96,11 +90,11 @@ inline Clip held_take(std::size_t frames, double noise_deg, std::uint64_t seed) 
   Clip clip;
   clip.skeleton.add_joint("joint", -1, {0, 1, 0}, make_channels(true, parse_rotation_order("ZXY")));
   clip.frame_rate_hz = 100;
-  clip.root_positions.assign(frames, {});
+  clip.positions.assign(frames, {});
   Random random(seed);
   for (std::size_t f = 0; f < frames; ++f) {
-    clip.local_rotations.push_back(exp({0.4, -1, 0.2}) *
-                                   exp(random_vector(random, noise_deg * radians_per_degree)));
+    clip.rotations.push_back(exp({0.4, -1, 0.2}) *
+                             exp(random_vector(random, noise_deg * radians_per_degree)));
   }
   return clip;
 }

@@ -175,13 +175,13 @@ double gain_at(const Cleaner& cleaner, double frequency_hz) {
   for (std::size_t f = 0; f < 1200; ++f) {
     const double phase = 2 * pi * frequency_hz * static_cast<double>(f) / 120;
     clip.rotation(f, 1) = exp({0.02 * std::sin(phase), 0, 0});
-    clip.root_positions[f] = {3 * std::sin(phase), 0, 0};
+    clip.root_position(f) = {3 * std::sin(phase), 0, 0};
   }
   clean_in_place(cleaner, clip);
   double turn = 0, shift = 0;
   for (std::size_t f = 300; f < 900; ++f) {
     turn = std::max(turn, std::fabs(log(clip.rotation(f, 1)).x));
-    shift = std::max(shift, std::fabs(clip.root_positions[f].x));
+    shift = std::max(shift, std::fabs(clip.root_position(f).x));
   }
   EXPECT_NEAR(turn / 0.02, shift / 3, 0.01);
   return turn / 0.02;
@@ -200,7 +200,7 @@ TEST(Butterworth, LetsHalfTheAmplitudePassAtItsCutoffBothWaysAndSevenTenthsOneWa
 TEST(Butterworth, SaysThatThereIsNothingToDoAboveHalfTheRate) {
   const Clip clip = moving_take(60, 12);
   const CleanResult result = clean_clip(clip, *make_butterworth({.cutoff_hz = 6}));
-  EXPECT_EQ(result.clip.local_rotations, clip.local_rotations);
+  EXPECT_EQ(result.clip.rotations, clip.rotations);
   ASSERT_EQ(result.report.warnings.size(), 1U);
   EXPECT_NE(result.report.warnings[0].find("6.00 Hz is not below the Nyquist frequency of 6.00 Hz"),
             std::string::npos);

@@ -83,8 +83,8 @@ TEST(OrientationFilter, GivesTheSameBitsOnEveryProcessor) {
       hwy::SetSupportedTargetsForTest(target);
       hwy::GetChosenTarget().Update(target);
       const Clip output = cleaned(input, *cleaner);
-      EXPECT_EQ(output.local_rotations, expected.local_rotations) << hwy::TargetName(target);
-      EXPECT_EQ(output.root_positions, expected.root_positions) << hwy::TargetName(target);
+      EXPECT_EQ(output.rotations, expected.rotations) << hwy::TargetName(target);
+      EXPECT_EQ(output.positions, expected.positions) << hwy::TargetName(target);
       hwy::SetSupportedTargetsForTest(0);
       hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     }
@@ -131,11 +131,11 @@ TEST(Gaussian, IsLeeAndShinsFilterWithAGaussianMask) {
   for (std::size_t f = 12; f < 48; ++f) {
     Vec3 root, prop;
     for (std::size_t m = 0; m < mask.size(); ++m) {
-      root += mask[m] * input.root_positions[f + m - 12];
-      prop += mask[m] * input.joint_translations[f + m - 12];
+      root += mask[m] * input.root_position(f + m - 12);
+      prop += mask[m] * input.position(f + m - 12, 1);
     }
-    EXPECT_LT(norm(output.root_positions[f] - root), 1e-12);
-    EXPECT_LT(norm(output.joint_translations[f] - prop), 1e-12);
+    EXPECT_LT(norm(output.root_position(f) - root), 1e-12);
+    EXPECT_LT(norm(output.position(f, 1) - prop), 1e-12);
   }
 }
 
@@ -161,10 +161,10 @@ TEST(Gaussian, FitsALineWhereItsWindowIsCut) {
     for (int i = std::max(0, static_cast<int>(f) - 12); i <= std::min(39, static_cast<int>(f) + 12);
          ++i) {
       t.push_back(i - static_cast<int>(f));
-      x.push_back(input.root_positions[static_cast<std::size_t>(i)].y);
+      x.push_back(input.root_position(static_cast<std::size_t>(i)).y);
       weights.push_back(std::exp(-t.back() * t.back() / 18));
     }
-    EXPECT_NEAR(output.root_positions[f].y, line_at_zero(t, x, weights), 1e-11) << "frame " << f;
+    EXPECT_NEAR(output.root_position(f).y, line_at_zero(t, x, weights), 1e-11) << "frame " << f;
   }
 }
 
@@ -209,7 +209,7 @@ TEST(Gaussian, IsTheSameBackwardsInTime) {
 
 TEST(Gaussian, InterpolatesGapsBetweenWhatItCleaned) {
   Clip input = noisy_take(60);
-  input.observed.assign(input.local_rotations.size(), 1);
+  input.observed.assign(input.rotations.size(), 1);
   for (std::size_t f = 20; f < 24; ++f) input.observed[f * input.joint_count() + 2] = 0;
   Clip output = input;
   const InPlaceTrace trace = clean_in_place(*make_gaussian({0.03}), output);
@@ -242,8 +242,8 @@ TEST(Gaussian, DependsOnItsWindowOnly) {
 
 TEST(Gaussian, ChangesNothingWhenItsMaskIsOneFrame) {
   const Clip input = noisy_take(30);
-  EXPECT_EQ(cleaned(input, *make_gaussian({0})).local_rotations, input.local_rotations);
-  EXPECT_EQ(cleaned(input, *make_gaussian({0.001})).local_rotations, input.local_rotations);
+  EXPECT_EQ(cleaned(input, *make_gaussian({0})).rotations, input.rotations);
+  EXPECT_EQ(cleaned(input, *make_gaussian({0.001})).rotations, input.rotations);
 }
 
 TEST(Gaussian, RefusesAWidthThatIsNone) {

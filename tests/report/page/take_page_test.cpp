@@ -29,15 +29,15 @@ Clip damaged(Clip clip) {
   return clip;
 }
 
-template <class Take>
-Report report_of(const Take& take) {
+template <class AnyTake>
+Report report_of(const AnyTake& take) {
   Report report{take_facts(take), CheckReport()};
   report.take.input = "walk.bvh";
   return report;
 }
 
-template <class Take>
-std::string page_of(const Take& before, const Take* after) {
+template <class AnyTake>
+std::string page_of(const AnyTake& before, const AnyTake* after) {
   return report_page(report_of(before), before, after,
                      {.command = "clean", .command_line = "kinemend clean walk.bvh"});
 }
@@ -50,9 +50,9 @@ double body_height_of(const std::string& page) {
 void expect_motion(const Clip& clip, const std::vector<std::vector<double>>& channels,
                    double position_bound) {
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-    EXPECT_NEAR(channels[0][f], clip.root_positions[f].x, position_bound);
-    EXPECT_NEAR(channels[1][f], clip.root_positions[f].y, position_bound);
-    EXPECT_NEAR(channels[2][f], clip.root_positions[f].z, position_bound);
+    EXPECT_NEAR(channels[0][f], clip.root_position(f).x, position_bound);
+    EXPECT_NEAR(channels[1][f], clip.root_position(f).y, position_bound);
+    EXPECT_NEAR(channels[2][f], clip.root_position(f).z, position_bound);
     for (std::size_t j = 0; j < clip.joint_count(); ++j) {
       std::array<double, 3> angles{};
       for (std::size_t a = 0; a < 3; ++a)
