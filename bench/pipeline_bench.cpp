@@ -115,7 +115,7 @@ void live_frame(benchmark::State& state, const std::string& method) {
         ->Arg(1)
         ->Unit(benchmark::kMillisecond)
         ->UseRealTime();
-    if (make_cleaner(name)->live_support(120).kind != LiveSupport::Kind::none) {
+    if (make_cleaner(name)->live_support(120).runs()) {
       benchmark::RegisterBenchmark(("pipeline/live/" + name).c_str(), live_frame, name)
           ->Unit(benchmark::kMicrosecond);
     }

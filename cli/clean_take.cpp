@@ -61,10 +61,10 @@ std::vector<MarkerSwap> prepare(AnyTake& take, const CleanPlan& plan) {
 }
 
 CleanResult run_cleaner(Clip& clip, const CleanPlan& plan, const CleanSettings& settings) {
-  return clean_clip(std::move(clip), *plan.cleaner, settings, plan.method);
+  return clean_clip(std::move(clip), *plan.cleaner, settings);
 }
 MarkerResult run_cleaner(MarkerClip& clip, const CleanPlan& plan, const CleanSettings& settings) {
-  return clean_markers(clip, *plan.cleaner, settings, plan.method);
+  return clean_markers(clip, *plan.cleaner, settings);
 }
 
 void read_contacts(const Clip& clip, const CleanPlan& plan, CleanSettings& settings) {

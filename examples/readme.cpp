@@ -11,7 +11,7 @@ int main(int argc, char** argv) try {
   if (argc != 3) return 2;
 
   const Clip noisy = read_clip(std::filesystem::path(argv[1])).clip;
-  const CleanResult result = clean_clip(noisy, *make_cleaner("learned"), {}, "learned");
+  const CleanResult result = clean_clip(noisy, *make_cleaner("learned"));
   for (const TrackSummary& joint : result.report.tracks) {
     std::printf("%-16s noise %.2f degrees, %zu frames repaired\n", joint.name.c_str(), joint.noise,
                 joint.frames_repaired);

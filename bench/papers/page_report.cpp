@@ -48,7 +48,7 @@ void sizes_of_pages(const Arguments& arguments) {
     const Clip take =
         noisy(repeated(synthesize({.duration_s = length.synth_s}), length.times), 1.5, 0.004, 1);
     const auto cleaner = make_cleaner("auto", {});
-    CleanResult cleaned = clean_clip(take, *cleaner, {}, "auto");
+    CleanResult cleaned = clean_clip(take, *cleaner);
     const Report report{take_facts(take), CleanOutcome{std::move(cleaned.report), {}, {}, {}}};
     table.add({length.name, fmt::format("{}", take.frame_count()),
                figure(megabytes(report, take, &cleaned.clip)),

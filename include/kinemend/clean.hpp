@@ -99,7 +99,7 @@ struct TrackSummary {
 /// What was done to a take of either kind.
 struct CleanReport {
   TakeKind kind = TakeKind::joints;
-  std::string method;
+  std::string method;  ///< `Cleaner::name`
   std::string unit;  ///< of the tracks: "deg" for joints; the file's for markers, empty if unknown
   std::size_t frames = 0;
   std::size_t calibration_frames = 0;  ///< at the start, left alone; joints only
@@ -135,11 +135,10 @@ struct MarkerResult {
 /// and samples whose change is below 1e-9 degrees keep their exact value. Joints with one or two
 /// rotation channels get rotations that these channels can hold. Errors: `ErrorKind::usage` for
 /// settings out of range and for a joint pattern that matches nothing.
-CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner, const CleanSettings& settings = {},
-                       std::string method_name = {});
+CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner,
+                       const CleanSettings& settings = {});
 /// The same, but consumes the clip; halves peak memory for long takes.
-CleanResult clean_clip(Clip&& clip, const Cleaner& cleaner, const CleanSettings& settings = {},
-                       std::string method_name = {});
+CleanResult clean_clip(Clip&& clip, const Cleaner& cleaner, const CleanSettings& settings = {});
 
 /// Cleans a take of markers: runs the cleaner, fills gaps if asked, blends by strength, range and
 /// largest change, and reports. Missing samples that are not filled stay missing. Points that are
@@ -148,6 +147,6 @@ CleanResult clean_clip(Clip&& clip, const Cleaner& cleaner, const CleanSettings&
 /// `root_position` are ignored. Errors: `ErrorKind::usage` for settings out of range, a pattern
 /// that matches no marker, and a method that works on joints only.
 MarkerResult clean_markers(const MarkerClip& clip, const Cleaner& cleaner,
-                           const CleanSettings& settings = {}, std::string method_name = {});
+                           const CleanSettings& settings = {});
 
 }  // namespace kinemend

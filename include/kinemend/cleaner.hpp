@@ -79,20 +79,12 @@ struct CleanTrace {
   std::vector<std::string> warnings;
 };
 
-/// What a method can do live.
+/// What a method says of live use at a frame rate before a stream begins.
 struct LiveSupport {
-  enum class Kind : std::uint8_t {
-    none,      ///< needs the whole take
-    windowed,  ///< a frame's result depends on `half_window_frames` on either side and on nothing
-               ///< else
-    causal,    ///< depends on the past only, through a state: `make_frame_filter`
-    delayed,   ///< through a state on the past, and on `ahead_frames`: `make_delayed_filter`
-  };
-  Kind kind = Kind::none;
-  std::size_t half_window_frames = 0;  ///< of `windowed`
-  std::size_t ahead_frames = 0;        ///< of `delayed`
-  std::string why_not{};               ///< of `none`, where there is more to say: what would run
-  std::string warning{};               ///< what the method cannot do at this rate; empty: nothing
+  std::string why_not{};  ///< why it does not run live, and what would; empty: it runs
+  std::string warning{};  ///< what it cannot do at this rate; empty: nothing
+
+  bool runs() const noexcept { return why_not.empty(); }
 };
 
 /// One frame of live motion.
@@ -107,22 +99,17 @@ struct Frame {
 /// Frame `frame` of a take, as it stands.
 Frame frame_of(const TakeView& take, std::size_t frame);
 
-/// The state of a causal cleaner on one stream: each call takes frame t and returns it cleaned.
-/// Markers that were not seen stay as they came.
-class FrameFilter {
+/// The state of a cleaner on one stream: frame t goes in, frame t - `lookahead()` comes out.
+class LiveFilter {
  public:
-  virtual ~FrameFilter() = default;
-  virtual void filter(Frame& frame) = 0;
-};
-
-/// The state of a cleaner that looks a number of frames ahead, on one stream of joints: frame t
-/// goes in, frame t - `LiveSupport::ahead_frames` comes out.
-class DelayedFilter {
- public:
-  virtual ~DelayedFilter() = default;
-  /// True when `out` holds the next frame. Once warm it takes nothing from the heap.
+  virtual ~LiveFilter() = default;
+  /// Frames that the filter takes before it gives the first one. Constant.
+  virtual std::size_t lookahead() const = 0;
+  /// Takes a frame with the joints or markers that the filter was made for; true if `out` holds the
+  /// next cleaned frame. A marker that is missing comes out as it came. Once warm, it takes nothing
+  /// from the heap, unless something is missing within a window.
   virtual bool push(const Frame& in, Frame& out) = 0;
-  /// After the last frame: gives the remaining frames one by one, then false.
+  /// After the last frame: gives the remaining frames one by one, then returns false.
   virtual bool flush(Frame& out) = 0;
 };
 
@@ -131,6 +118,12 @@ class DelayedFilter {
 class Cleaner {
  public:
   virtual ~Cleaner() = default;
+
+  /// The name of the method, for reports: "bilateral".
+  virtual std::string_view name() const = 0;
+  /// Every option of the method with the value that this cleaner was made with. A model that was
+  /// handed over is not among them.
+  virtual OptionValues options() const { return {}; }
 
   /// Cleans the selected tracks and hands them over; tracks that it leaves alone may be left out.
   /// Every frame is motion: calibration frames are already off. Any number of frames is accepted,
@@ -141,18 +134,12 @@ class Cleaner {
   virtual CleanTrace clean(const TakeView& take, const TrackSink& sink,
                            const std::function<void(double)>& progress) const = 0;
 
-  /// What the method can do frame by frame at this rate; the default is nothing.
+  /// Whether `live` would make a filter at this rate. The default: the method needs the whole take.
   virtual LiveSupport live_support(double frame_rate_hz) const;
-  /// Live, of a windowed cleaner: frame `frame` of what `clean` makes of `window`. The default
-  /// cleans all of the window; a cleaner that can do with less work overrides it.
-  virtual Frame clean_frame(const TakeView& window, std::size_t frame) const;
-  /// A new stream's state, of a causal cleaner, for takes like this one, whose frames do not
-  /// matter; nullptr of any other, and where it does not work on this kind of take. `clean` of a
-  /// causal cleaner gives the same numbers.
-  virtual std::unique_ptr<FrameFilter> make_frame_filter(const TakeView& like) const;
-  /// The same of a cleaner that looks ahead. Errors: `ErrorKind::usage` for a take that it does not
-  /// work on.
-  virtual std::unique_ptr<DelayedFilter> make_delayed_filter(const TakeView& like) const;
+  /// A filter for one stream of takes like this one, whose frames do not matter. It gives what
+  /// `clean` gives. The cleaner and the clip that `like` refers to outlive it. Errors:
+  /// `ErrorKind::usage` where the method does not run live at this rate, or on this kind of take.
+  virtual std::unique_ptr<LiveFilter> live(const TakeView& like) const;
 };
 
 /// What `clean_in_place` did: the trace, and of each track the actions (empty: nothing in

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <variant>
 
 #include "kinemend/cleaner.hpp"
 
@@ -9,27 +10,35 @@ namespace kinemend {
 
 /// Cleans frame by frame: frame t goes in, frame t - latency_frames() comes out. The result equals
 /// that of cleaning the whole take (for markers, with the same body height). Missing markers stay
-/// missing.
+/// missing. It is a `LiveFilter` with the take that it is for, and it checks what goes in.
 class Stream {
  public:
-  virtual ~Stream() = default;
+  /// `make_stream` makes it, of a take without frames.
+  Stream(const Cleaner& cleaner, std::variant<Clip, MarkerClip> like, const Selection& selection);
+  Stream(const Stream&) = delete;
+  Stream& operator=(const Stream&) = delete;
 
   /// Constant from the first frame on. For markers, a method with a window also waits for the 0.25
   /// s after which a gap counts as long, and for 0.05 s after the gap, which a bridge needs.
-  virtual std::size_t latency_frames() const = 0;
+  std::size_t latency_frames() const { return filter_->lookahead(); }
   /// Takes a frame; returns true if `out` holds the next cleaned frame. Once the stream is warm, it
   /// allocates no memory, unless something is missing within a window. Errors: `ErrorKind::usage`
   /// if the frame size differs. Sample values never cause an error.
-  virtual bool push(const Frame& in, Frame& out) = 0;
+  bool push(const Frame& in, Frame& out);
   /// After the last frame: gives the remaining frames one by one, then returns false.
-  virtual bool flush(Frame& out) = 0;
+  bool flush(Frame& out) { return filter_->flush(out); }
   /// Back to the state before the first frame.
-  virtual void reset() = 0;
+  void reset() { filter_ = cleaner_.live(view_); }
+
+ private:
+  const Cleaner& cleaner_;
+  std::variant<Clip, MarkerClip> like_;
+  TakeView view_;  // of `like_`
+  std::unique_ptr<LiveFilter> filter_;
 };
 
 /// A stream of this cleaner for takes with the skeleton and rate of `like`, whose frames are
-/// ignored. The cleaner must outlive the stream. Errors: `ErrorKind::usage` if the method needs the
-/// whole take.
+/// ignored. The cleaner must outlive the stream. Errors: as of `Cleaner::live`.
 std::unique_ptr<Stream> make_stream(const Cleaner& cleaner, const Clip& like);
 /// The same for markers with the names, kinds and rate of `like`. `body_height` is the height of
 /// the person in file units, for example that of an earlier take (`body_height(take)`).

@@ -17,7 +17,7 @@ bool is_learned(const Method& method) {
 bool runs_live(const Method& method, const OptionValues& options) {
   constexpr double any_rate_hz = 120;
   try {
-    return method.make(options)->live_support(any_rate_hz).kind != LiveSupport::Kind::none;
+    return method.make(options)->live_support(any_rate_hz).runs();
   } catch (const Error&) {
     return false;
   }

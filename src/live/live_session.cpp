@@ -47,11 +47,8 @@ class LiveSession::Work {
         splitter_(options.most_line_bytes),
         header_lines_(options.most_header_bytes) {
     check(options_);
-    if (const LiveSupport support = cleaner_.live_support(120);
-        support.kind == LiveSupport::Kind::none) {
-      throw Error(ErrorKind::usage,
-                  support.why_not.empty() ? "this method needs the whole take" : support.why_not);
-    }
+    if (const LiveSupport support = cleaner_.live_support(120); !support.runs())
+      throw Error(ErrorKind::usage, support.why_not);
     if (options_.skeleton.empty()) return;
     LiveHeader header = read_live_header(options_.skeleton, "skeleton", options_.frame_rate_hz);
     header.frames = 0;  // those of the stream are not known

@@ -321,19 +321,17 @@ class Stopwatch {
 
 }  // namespace
 
-CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner, const CleanSettings& settings,
-                       std::string method_name) {
-  return clean_clip(Clip(clip), cleaner, settings, std::move(method_name));
+CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner, const CleanSettings& settings) {
+  return clean_clip(Clip(clip), cleaner, settings);
 }
 
-CleanResult clean_clip(Clip&& clip, const Cleaner& cleaner, const CleanSettings& settings,
-                       std::string method_name) {
+CleanResult clean_clip(Clip&& clip, const Cleaner& cleaner, const CleanSettings& settings) {
   const Stopwatch stopwatch;
   const std::size_t frames = clip.frame_count();
   check_settings(settings, frames);
   CleanResult result;
   CleanReport& report = result.report;
-  report.method = std::move(method_name);
+  report.method = cleaner.name();
   report.unit = "deg";
   report.frames = frames;
   report.frame_rate_hz = clip.frame_rate_hz;
@@ -351,14 +349,14 @@ CleanResult clean_clip(Clip&& clip, const Cleaner& cleaner, const CleanSettings&
 }
 
 MarkerResult clean_markers(const MarkerClip& clip, const Cleaner& cleaner,
-                           const CleanSettings& settings, std::string method_name) {
+                           const CleanSettings& settings) {
   const Stopwatch stopwatch;
   const std::size_t frames = clip.frame_count();
   check_settings(settings, frames);
   MarkerResult result{clip, {}};
   CleanReport& report = result.report;
   report.kind = TakeKind::markers;
-  report.method = std::move(method_name);
+  report.method = cleaner.name();
   report.unit = clip.unit;
   report.frames = frames;
   report.frame_rate_hz = clip.frame_rate_hz;

@@ -26,6 +26,7 @@ using testing::HasSubstr;
 /// Changes nothing itself.
 class Idle final : public Cleaner {
  public:
+  std::string_view name() const override { return "idle"; }
   CleanTrace clean(const TakeView&, const TrackSink&,
                    const std::function<void(double)>&) const override {
     return {};
@@ -105,8 +106,7 @@ TEST_P(FeetAfter, AreHeldAndTheRestIsTheMethods) {
     for (FootContact& contact : *settings.feet->contacts)
       contact.first_frame /= 2, contact.last_frame /= 2;
   }
-  const CleanResult plain = clean_clip(clip, *cleaner, {}, method.name),
-                    held = clean_clip(clip, *cleaner, settings, method.name);
+  const CleanResult plain = clean_clip(clip, *cleaner), held = clean_clip(clip, *cleaner, settings);
   ASSERT_TRUE(held.report.feet);
   EXPECT_GT(held.report.feet->contacts.size(), 4u);
   EXPECT_GT(held.report.feet->before.most_slide, 1);

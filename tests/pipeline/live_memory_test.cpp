@@ -31,29 +31,35 @@ std::vector<Live> every_live_method() {
           {"one-euro", {}}};
 }
 
+template <class AnyClip>
+std::vector<Frame> frames_of(const AnyClip& clip) {
+  const TakeView view = view_of(clip);
+  std::vector<Frame> frames;
+  for (std::size_t f = 0; f < view.frames; ++f) frames.push_back(frame_of(view, f));
+  return frames;
+}
+
 class LiveMemory : public testing::TestWithParam<Live> {
  protected:
   std::unique_ptr<Cleaner> cleaner_ = make_cleaner(GetParam().method, GetParam().options);
-
-  // Bytes taken from the heap by the second half of the frames.
-  static std::size_t taken_when_warm(Stream& stream, const std::vector<Frame>& frames) {
-    Frame out;
-    const std::size_t half = frames.size() / 2;
-    for (std::size_t f = 0; f < half; ++f) stream.push(frames[f], out);
-    const std::size_t before = memory_taken;
-    for (std::size_t f = half; f < frames.size(); ++f) stream.push(frames[f], out);
-    return memory_taken - before;
-  }
-  template <class AnyClip>
-  static std::vector<Frame> frames_of(const AnyClip& clip) {
-    const TakeView view = view_of(clip);
-    std::vector<Frame> frames;
-    for (std::size_t f = 0; f < view.frames; ++f) frames.push_back(frame_of(view, f));
-    return frames;
-  }
 };
 
 #if !defined(KINEMEND_SANITIZED) && defined(__GLIBC__)
+
+// Bytes that the second half of the frames takes from the heap.
+std::size_t taken_when_warm(Stream& stream, const std::vector<Frame>& frames) {
+  Frame out;
+  std::size_t came = 0;
+  const std::size_t half = frames.size() / 2, outset = memory_taken;
+  for (std::size_t f = 0; f < half; ++f) came += stream.push(frames[f], out) ? 1 : 0;
+  const std::size_t warm = memory_taken;
+  for (std::size_t f = half; f < frames.size(); ++f) came += stream.push(frames[f], out) ? 1 : 0;
+  const std::size_t taken = memory_taken - warm;
+  EXPECT_GT(warm, outset) << "nothing counts what a cold stream takes";
+  EXPECT_EQ(came, frames.size() - stream.latency_frames());
+  EXPECT_LT(stream.latency_frames(), half) << "the second half begins before the stream is warm";
+  return taken;
+}
 
 TEST_P(LiveMemory, TakesNoneOnceItIsWarm) {
   Clip clip = moving_take(700, 120);
@@ -72,42 +78,24 @@ TEST(RecurrentMemory, TakesNoneOnceItIsWarm) {
   BodyLayoutBuilder builder;
   builder.add(clip);
   const BodyLayout layout = builder.finish();
-  const TakeView view = view_of(clip);
-  std::vector<Frame> frames;
-  for (std::size_t f = 0; f < view.frames; ++f) {
-    frames.push_back(frame_of(view, f));
-    frames.back().observed.assign(clip.joint_count(), 1);
-    frames.back().observed[f % clip.joint_count()] = 0;
+  std::vector<Frame> frames = frames_of(clip);
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    frames[f].observed.assign(clip.joint_count(), 1);
+    frames[f].observed[f % clip.joint_count()] = 0;
   }
   for (const RandomNetwork kind : {RandomNetwork{.layers = 2, .has_roughness = true},
                                    RandomNetwork{.layers = 0, .reach = 15}}) {
     auto model = std::make_shared<const Model>(random_filter_model(kind, &layout));
     const auto cleaner = make_recurrent({.live = true}, model);
-    const auto stream = make_stream(*cleaner, clip);
-    Frame out;
-    const std::size_t half = frames.size() / 2;
-    for (std::size_t f = 0; f < half; ++f) stream->push(frames[f], out);
-    const std::size_t before = memory_taken;
-    for (std::size_t f = half; f < frames.size(); ++f) stream->push(frames[f], out);
-    EXPECT_EQ(memory_taken, before);
+    EXPECT_EQ(taken_when_warm(*make_stream(*cleaner, clip), frames), 0u);
   }
 }
 
 TEST(LearnedMemory, TakesNoneOnceItIsWarm) {
   const Clip clip = synthesize({.motion = "walk", .duration_s = 6, .frame_rate_hz = 120});
-  const TakeView view = view_of(clip);
   const auto cleaner =
       make_learned({.live = true}, std::make_shared<const Model>(small_motion_model()));
-  const auto stream = make_stream(*cleaner, clip);
-  Frame out;
-  std::size_t before = 0;
-  for (std::size_t f = 0; f < view.frames; ++f) {
-    const Frame frame = frame_of(view, f);
-    const std::size_t outset = memory_taken;
-    stream->push(frame, out);
-    if (f >= view.frames / 2) before += memory_taken - outset;
-  }
-  EXPECT_EQ(before, 0u);
+  EXPECT_EQ(taken_when_warm(*make_stream(*cleaner, clip), frames_of(clip)), 0u);
 }
 
 #endif
@@ -125,9 +113,10 @@ TEST_P(LiveMemory, ThrowsForNoValue) {
   }
   const auto stream = make_stream(*cleaner_, clip);
   Frame out;
-  for (const Frame& frame : frames) EXPECT_NO_THROW(stream->push(frame, out));
-  while (stream->flush(out)) {
-  }
+  std::size_t came = 0;
+  for (const Frame& frame : frames) EXPECT_NO_THROW(came += stream->push(frame, out) ? 1 : 0);
+  while (stream->flush(out)) ++came;
+  EXPECT_EQ(came, frames.size());
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, LiveMemory, testing::ValuesIn(every_live_method()),

@@ -17,6 +17,7 @@ using testing::SizeIs;
 class Mover final : public Cleaner {
  public:
   explicit Mover(Vec3 shift, Action stated = Action::denoised) : shift_(shift), stated_(stated) {}
+  std::string_view name() const override { return "mover"; }
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>&) const override {
     CleanTrace trace;
@@ -38,6 +39,7 @@ class Mover final : public Cleaner {
 
 class OnlyJoints final : public Cleaner {
  public:
+  std::string_view name() const override { return "only-joints"; }
   CleanTrace clean(const TakeView& take, const TrackSink&,
                    const std::function<void(double)>&) const override {
     if (take.markers) throw Error(ErrorKind::usage, "this method works on joints, not on markers");
@@ -134,8 +136,7 @@ TEST(MarkerPipeline, CountsNoGapOfAPointThatIsAnAngle) {
 }
 
 TEST(MarkerPipeline, ReportsInFileUnits) {
-  const MarkerResult result =
-      clean_markers(small_take(), Mover({3, 4, 0}, Action::despiked), {}, "mover");
+  const MarkerResult result = clean_markers(small_take(), Mover({3, 4, 0}, Action::despiked));
   const CleanReport& report = result.report;
   EXPECT_EQ(report.method, "mover");
   EXPECT_EQ(report.unit, "mm");

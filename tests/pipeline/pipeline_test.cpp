@@ -22,6 +22,7 @@ using testing::SizeIs;
 class Turner final : public Cleaner {
  public:
   explicit Turner(Vec3 turn, Vec3 shift = {}) : turn_(turn), shift_(shift) {}
+  std::string_view name() const override { return "turner"; }
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>&) const override {
     for (std::size_t n = 0; n < take.tracks.size(); ++n) {
@@ -203,7 +204,7 @@ TEST(Report, SaysWhatWasDoneWhereAndByHowMuch) {
   cleaner.trace.warnings = {"a warning"};
   CleanSettings settings;
   settings.joints = {"Spine", "Hips"};
-  const CleanReport report = clean_clip(input, cleaner, settings, "turner").report;
+  const CleanReport report = clean_clip(input, cleaner, settings).report;
   EXPECT_EQ(report.method, "turner");
   EXPECT_EQ(report.frames, 30U);
   EXPECT_EQ(report.calibration_frames, 0U);

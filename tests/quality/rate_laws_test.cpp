@@ -159,7 +159,7 @@ TEST_P(EveryRate, CleansMarkersAtACostThatGoesByFrames) {
 }
 
 TEST_P(EveryRate, RunsLiveAtACostThatGoesByFrames) {
-  if (cleaner_->live_support(120).kind == LiveSupport::Kind::none) return;
+  if (!cleaner_->live_support(120).runs()) return;
   const std::size_t latency = make_stream(*cleaner_, walk(few_frames, 1000))->latency_frames();
   expect_cost_by_frames(
       [&](std::size_t frames, double rate_hz) {

@@ -9,6 +9,7 @@
 #include "kinemend/experimental/synth.hpp"
 #include "kinemend/methods.hpp"
 #include "quality/quality.hpp"
+#include "registry/takes.hpp"
 #include "rotation/random_rotations.hpp"
 
 namespace kinemend::quality {
@@ -70,9 +71,7 @@ class OfAnyMethod : public testing::TestWithParam<std::string> {
 
   Clip cleaned(const Clip& clip) const { return clean_clip(clip, *cleaner_).clip; }
   // Follows travel late by nature, the later the faster.
-  bool is_causal() const {
-    return cleaner_->live_support(rate_hz).kind == LiveSupport::Kind::causal;
-  }
+  bool is_causal() const { return runs_without_delay(*cleaner_); }
   // A filter of fixed weights turns with the take_to_turn; others measure, compare or choose anew.
   bool has_fixed_weights() const {
     for (const char* name : {"gaussian", "butterworth", "weighted-mean", "kalman"})

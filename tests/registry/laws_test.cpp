@@ -19,8 +19,7 @@ class Every : public testing::TestWithParam<std::string> {
   Clip cleaned(const Clip& clip, const CleanSettings& settings = {}) const {
     return clean_clip(clip, *cleaner_, settings).clip;
   }
-  // Follows the motion late by nature.
-  bool is_causal() const { return cleaner_->live_support(120).kind == LiveSupport::Kind::causal; }
+  bool is_causal() const { return runs_without_delay(*cleaner_); }
 };
 
 Clip noisy_take() {

@@ -25,6 +25,12 @@ std::string message_of(std::string_view method, const OptionValues& values = {})
   return "no error";
 }
 
+bool ships(const std::string& method) {
+  const auto models = shipped_models();
+  return std::any_of(models.begin(), models.end(),
+                     [&](const ShippedModel& model) { return model.method == method; });
+}
+
 TEST(Methods, HaveDifferentNamesAndSayWhatTheyAre) {
   std::vector<std::string> names;
   for (const Method& method : methods()) names.push_back(method.name);
@@ -48,6 +54,22 @@ TEST(Methods, AreMadeFromTheirOwnDefaultsAndDescribeEveryOption) {
       EXPECT_NE(method.make(defaults), nullptr);
     }
   }
+}
+
+TEST(Methods, MakeCleanersThatKnowTheirNameAndTheirOptions) {
+  for (const Method& method : methods()) {
+    if (method.learned && !ships(method.name)) continue;
+    OptionValues defaults;
+    for (const OptionSpec& spec : method.options) defaults[spec.name] = spec.default_value;
+    const auto cleaner = method.make({});
+    EXPECT_EQ(cleaner->name(), method.name);
+    EXPECT_EQ(cleaner->options(), defaults) << method.name;
+  }
+  EXPECT_EQ(make_cleaner("median", {{"window_s", 0.2}})->options().at("window_s"),
+            OptionValue(0.2));
+  const auto live = make_cleaner("learned", {{"live", true}});
+  EXPECT_EQ(live->name(), "learned");
+  EXPECT_EQ(live->options().at("live"), OptionValue(true));
 }
 
 TEST(Methods, WithALearnedModelAreThoseThatModelsAreTrainedFor) {

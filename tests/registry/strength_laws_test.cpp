@@ -185,6 +185,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryAtStrength, testing::ValuesIn(method_name
 class RepairingMover final : public Cleaner {
  public:
   explicit RepairingMover(const Clip& truth) : truth_(truth) {}
+  std::string_view name() const override { return "repairing-mover"; }
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>&) const override {
     const TakeView truth = view_of(truth_);

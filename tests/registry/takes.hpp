@@ -33,6 +33,12 @@ inline Clip empty_take(std::size_t frames, double rate_hz) {
   return clip;
 }
 
+/// Whether a method runs live without looking ahead: it follows the motion late by nature.
+inline bool runs_without_delay(const Cleaner& cleaner) {
+  const Clip like = empty_take(0, 120);
+  return cleaner.live_support(120).runs() && cleaner.live(view_of(like))->lookahead() == 0;
+}
+
 /// Rotation of joint `joint` of the moving take at a time.
 inline Quat motion_at(std::size_t joint, double time_s) {
   const double a = std::sin(2 * pi * 0.8 * time_s + 0.7 * static_cast<double>(joint));

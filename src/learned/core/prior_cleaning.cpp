@@ -338,34 +338,34 @@ namespace {
 
 class PriorCleaner final : public Cleaner {
  public:
-  PriorCleaner(std::shared_ptr<const Model> model, NameMap names, bool fill, PriorHold hold,
-               PriorFilter filter)
-      : model_(std::move(model)),
-        names_(std::move(names)),
-        fill_(fill),
-        hold_(hold),
-        filter_(std::move(filter)) {}
+  PriorCleaner(std::shared_ptr<const Model> model, PriorMethod method)
+      : model_(std::move(model)), names_(name_map_at(method.map)), method_(std::move(method)) {}
+
+  std::string_view name() const override { return method_.name; }
+  OptionValues options() const override { return method_.options; }
 
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& /*progress*/) const override {
-    return clean_with_prior(take, sink, model_->layout, names_, fill_, hold_, filter_);
+    return clean_with_prior(take, sink, model_->layout, names_, method_.fill, method_.hold,
+                            method_.filter);
+  }
+
+  LiveSupport live_support(double frame_rate_hz) const override {
+    if (method_.why_not_live.empty()) return Cleaner::live_support(frame_rate_hz);
+    return {.why_not = method_.why_not_live};
   }
 
  private:
   std::shared_ptr<const Model> model_;
   NameMap names_;
-  bool fill_;
-  PriorHold hold_;
-  PriorFilter filter_;
+  PriorMethod method_;
 };
 
 }  // namespace
 
 std::unique_ptr<Cleaner> make_prior_cleaner(std::shared_ptr<const Model> model,
-                                            const std::string& map, bool fill, PriorHold hold,
-                                            PriorFilter filter) {
-  return std::make_unique<PriorCleaner>(std::move(model), name_map_at(map), fill, hold,
-                                        std::move(filter));
+                                            PriorMethod method) {
+  return std::make_unique<PriorCleaner>(std::move(model), std::move(method));
 }
 
 NameMap name_map_at(const std::string& path) {

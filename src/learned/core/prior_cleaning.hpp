@@ -63,11 +63,19 @@ CleanTrace clean_with_prior(const TakeView& take, const TrackSink& sink, const B
                             const NameMap& names, bool fill, PriorHold hold,
                             const PriorFilter& filter);
 
-/// A cleaner that does this to every take of joints or markers; `map` is the path of a mapping
-/// file, or empty. Errors: as of `name_map_at`.
-std::unique_ptr<Cleaner> make_prior_cleaner(std::shared_ptr<const Model> model,
-                                            const std::string& map, bool fill, PriorHold hold,
-                                            PriorFilter filter);
+/// What makes a method of such a filter.
+struct PriorMethod {
+  std::string name;
+  OptionValues options;  ///< all that the method has
+  std::string map;       ///< the path of a mapping file, or empty
+  bool fill = false;
+  PriorHold hold = PriorHold::noise;
+  PriorFilter filter;
+  std::string why_not_live{};  ///< where there is more to say than that it needs the whole take
+};
+/// A cleaner that does `clean_with_prior` to every take of joints or markers. Errors: as of
+/// `name_map_at`.
+std::unique_ptr<Cleaner> make_prior_cleaner(std::shared_ptr<const Model> model, PriorMethod method);
 
 /// The names of a mapping file; none for an empty path. Errors: `ErrorKind::unreadable_input`.
 NameMap name_map_at(const std::string& path);

@@ -18,12 +18,11 @@
 #include "learned/corrector/learned_body.hpp"
 #include "learned/corrector/learned_errors.hpp"
 #include "learned/corrector/learned_live.hpp"
-#include "learned/corrector/live_motion_steps.hpp"
 #include "learned/corrector/measured_smoothing.hpp"
 #include "learned/corrector/motion_channels.hpp"
 #include "learned/corrector/motion_filter.hpp"
 #include "methods/auto/auto_scale.hpp"
-#include "methods/core/live_cleaning.hpp"
+#include "methods/core/live.hpp"
 #include "methods/core/pieces.hpp"
 
 namespace kinemend {
@@ -48,9 +47,13 @@ constexpr const char* live_needs =
 class Learned final : public Cleaner {
  public:
   Learned(const LearnedOptions& options, std::shared_ptr<const Model> model)
-      : model_(std::move(model)),
+      : options_(options),
+        model_(std::move(model)),
         names_(name_map_at(options.map)),
         network_(motion_network_of(*model_)) {}
+
+  std::string_view name() const override { return "learned"; }
+  OptionValues options() const override { return learned_table().values(options_); }
 
   CleanTrace clean(const TakeView& view, const TrackSink& sink,
                    const std::function<void(double)>& tell) const override {
@@ -77,9 +80,7 @@ class Learned final : public Cleaner {
     progress.step();
     return trace;
   }
-  LiveSupport live_support(double) const override {
-    return {LiveSupport::Kind::none, 0, 0, live_needs};
-  }
+  LiveSupport live_support(double) const override { return {.why_not = live_needs}; }
 
  private:
   // How bodies travel through the world is nothing that the network has learned from: places of
@@ -185,6 +186,7 @@ class Learned final : public Cleaner {
     }
   }
 
+  LearnedOptions options_;
   std::shared_ptr<const Model> model_;
   NameMap names_;
   MotionNetwork network_;
@@ -194,26 +196,29 @@ class Learned final : public Cleaner {
 class LiveLearned final : public Cleaner {
  public:
   LiveLearned(const LearnedOptions& options, std::shared_ptr<const Model> model)
-      : model_(std::move(model)),
+      : options_(options),
+        model_(std::move(model)),
         names_(name_map_at(options.map)),
         network_(live_form(motion_network_of(*model_))) {}
 
+  std::string_view name() const override { return "learned"; }
+  OptionValues options() const override { return learned_table().values(options_); }
+
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
-    if (take.frame_rate_hz < lowest_learned_rate_hz)
-      throw Error(ErrorKind::usage, "learned runs live at 20 Hz and more");
     return clean_as_live(*this, take, sink, progress);
   }
   LiveSupport live_support(double frame_rate_hz) const override {
-    if (frame_rate_hz < lowest_learned_rate_hz)
-      return {LiveSupport::Kind::none, 0, 0, "learned runs live at 20 Hz and more"};
-    return {LiveSupport::Kind::delayed, 0, live_motion_ahead(frame_rate_hz), {}};
+    if (frame_rate_hz >= lowest_learned_rate_hz) return {};
+    return {.why_not = "learned runs live at 20 Hz and more"};
   }
-  std::unique_ptr<DelayedFilter> make_delayed_filter(const TakeView& like) const override {
+  std::unique_ptr<LiveFilter> live(const TakeView& like) const override {
+    if (!live_support(like.frame_rate_hz).runs()) return Cleaner::live(like);
     return make_learned_live(network_, model_->layout, names_, like);
   }
 
  private:
+  LearnedOptions options_;
   std::shared_ptr<const Model> model_;
   NameMap names_;
   MotionNetwork network_;

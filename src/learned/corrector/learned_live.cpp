@@ -53,7 +53,7 @@ std::optional<BodyMatch> match_of(const BodyLayout& layout, const NameMap& names
   }
 }
 
-class LearnedLive final : public DelayedFilter {
+class LearnedLive final : public LiveFilter {
  public:
   LearnedLive(const MotionNetwork& network, const BodyLayout& layout, const NameMap& names,
               const TakeView& like)
@@ -93,6 +93,8 @@ class LearnedLive final : public DelayedFilter {
                                                  std::move(is_position));
     waiting_.resize(filter_->ahead() + 1);
   }
+
+  std::size_t lookahead() const override { return filter_->ahead(); }
 
   bool push(const Frame& in, Frame& out) override {
     Waiting& waiting = waiting_[pushed_++ % waiting_.size()];
@@ -206,9 +208,9 @@ class LearnedLive final : public DelayedFilter {
 
 }  // namespace
 
-std::unique_ptr<DelayedFilter> make_learned_live(const MotionNetwork& network,
-                                                 const BodyLayout& layout, const NameMap& names,
-                                                 const TakeView& like) {
+std::unique_ptr<LiveFilter> make_learned_live(const MotionNetwork& network,
+                                              const BodyLayout& layout, const NameMap& names,
+                                              const TakeView& like) {
   return std::make_unique<LearnedLive>(network, layout, names, like);
 }
 

@@ -13,8 +13,8 @@ namespace kinemend {
 /// outlive the filter. A skeleton is matched by its rest pose; joints that the model does not know,
 /// and markers, are cleaned by what they do themselves. Errors: as of `match_body` for names that
 /// are mapped and do not fit.
-std::unique_ptr<DelayedFilter> make_learned_live(const MotionNetwork& network,
-                                                 const BodyLayout& layout, const NameMap& names,
-                                                 const TakeView& like);
+std::unique_ptr<LiveFilter> make_learned_live(const MotionNetwork& network,
+                                              const BodyLayout& layout, const NameMap& names,
+                                              const TakeView& like);
 
 }  // namespace kinemend

@@ -211,8 +211,13 @@ std::unique_ptr<Cleaner> make_tuned_example(const ExampleOptions& options,
   example_table().validate(options);
   model = model_of(example_learned(), options.model, std::move(model));
   const ExampleCleaning cleaning(options, model, tuning);
-  return make_prior_cleaner(model, options.map, options.fill, cleaning.hold(),
-                            [cleaning](PriorWork& work) { cleaning.filter(work); });
+  return make_prior_cleaner(model,
+                            {.name = "example",
+                             .options = example_table().values(options),
+                             .map = options.map,
+                             .fill = options.fill,
+                             .hold = cleaning.hold(),
+                             .filter = [cleaning](PriorWork& work) { cleaning.filter(work); }});
 }
 
 Method example_method() {

@@ -74,10 +74,15 @@ std::unique_ptr<Cleaner> make_kalman_learned(const KalmanLearnedOptions& options
   kalman_learned_table().validate(options);
   model = model_of(kalman_learned_learned(), options.model, std::move(model));
   const PriorHold hold = options.noise_deg > 0 ? PriorHold::nothing : PriorHold::white_noise;
-  return make_prior_cleaner(model, options.map, options.fill, hold,
-                            [options, dynamics = dynamics_of(*model)](PriorWork& work) {
-                              filter_learned(work, options, dynamics);
-                            });
+  return make_prior_cleaner(model,
+                            {.name = "kalman-learned",
+                             .options = kalman_learned_table().values(options),
+                             .map = options.map,
+                             .fill = options.fill,
+                             .hold = hold,
+                             .filter = [options, dynamics = dynamics_of(*model)](PriorWork& work) {
+                               filter_learned(work, options, dynamics);
+                             }});
 }
 
 Method kalman_learned_method() {

@@ -18,7 +18,7 @@
 #include "learned/papers/live_filter_network.hpp"
 #include "learned/papers/recurrent_live.hpp"
 #include "learned/papers/recurrent_networks.hpp"
-#include "methods/core/live_cleaning.hpp"
+#include "methods/core/live.hpp"
 
 namespace kinemend {
 
@@ -110,43 +110,31 @@ constexpr const char* live_needs =
     "recurrent runs live in its live form (--live), 15 frames behind; without it, auto sees the "
     "whole take first";
 
-// A cleaner of the whole take, which says what would run live.
-class WholeTakeRecurrent final : public Cleaner {
- public:
-  explicit WholeTakeRecurrent(std::unique_ptr<Cleaner> cleaner) : cleaner_(std::move(cleaner)) {}
-
-  CleanTrace clean(const TakeView& take, const TrackSink& sink,
-                   const std::function<void(double)>& progress) const override {
-    return cleaner_->clean(take, sink, progress);
-  }
-  LiveSupport live_support(double) const override {
-    return {LiveSupport::Kind::none, 0, 0, live_needs};
-  }
-
- private:
-  std::unique_ptr<Cleaner> cleaner_;
-};
-
 class LiveRecurrent final : public Cleaner {
  public:
-  LiveRecurrent(std::shared_ptr<const Model> model, const std::string& map)
-      : model_(std::move(model)), names_(name_map_at(map)), network_(filter_network_of(*model_)) {
+  LiveRecurrent(const RecurrentOptions& options, std::shared_ptr<const Model> model)
+      : options_(options),
+        model_(std::move(model)),
+        names_(name_map_at(options.map)),
+        network_(filter_network_of(*model_)) {
     LiveFilterNetwork::check(network_);
   }
+
+  std::string_view name() const override { return "recurrent"; }
+  OptionValues options() const override { return recurrent_table().values(options_); }
 
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
     return clean_as_live(*this, take, sink, progress);
   }
   // A stream at another rate is refused when it begins.
-  LiveSupport live_support(double) const override {
-    return {LiveSupport::Kind::delayed, 0, LiveFilterNetwork::delay, {}};
-  }
-  std::unique_ptr<DelayedFilter> make_delayed_filter(const TakeView& like) const override {
+  LiveSupport live_support(double) const override { return {}; }
+  std::unique_ptr<LiveFilter> live(const TakeView& like) const override {
     return make_recurrent_live(network_, model_->layout, names_, like);
   }
 
  private:
+  RecurrentOptions options_;
   std::shared_ptr<const Model> model_;
   NameMap names_;
   FilterNetwork network_;
@@ -157,7 +145,7 @@ std::unique_ptr<Cleaner> make_live(const RecurrentOptions& options,
   if (has_gap_model)
     throw Error(ErrorKind::usage,
                 "live, gaps are held or bridged: a gap model needs the whole take");
-  return std::make_unique<LiveRecurrent>(model, options.map);
+  return std::make_unique<LiveRecurrent>(options, model);
 }
 
 }  // namespace
@@ -170,8 +158,12 @@ std::unique_ptr<Cleaner> make_recurrent(const RecurrentOptions& options,
   if (!options.gap_model.empty())
     gap_model = model_of(recurrent_learned(), options.gap_model, std::move(gap_model));
   if (options.live) return make_live(options, model, gap_model != nullptr);
-  return std::make_unique<WholeTakeRecurrent>(make_prior_cleaner(
-      model, options.map, options.fill, PriorHold::noise, filter_of(model, gap_model)));
+  return make_prior_cleaner(model, {.name = "recurrent",
+                                    .options = recurrent_table().values(options),
+                                    .map = options.map,
+                                    .fill = options.fill,
+                                    .filter = filter_of(model, gap_model),
+                                    .why_not_live = live_needs});
 }
 
 Method recurrent_method() {

@@ -24,7 +24,7 @@ Vec3 vector_at(const std::vector<float>& values, std::size_t place) {
           static_cast<double>(values[place + 2])};
 }
 
-class RecurrentLive final : public DelayedFilter {
+class RecurrentLive final : public LiveFilter {
  public:
   RecurrentLive(const FilterNetwork& network, const BodyLayout& layout, const NameMap& names,
                 const TakeView& like)
@@ -46,6 +46,8 @@ class RecurrentLive final : public DelayedFilter {
     }
     find_ancestors(still.skeleton, match);
   }
+
+  std::size_t lookahead() const override { return LiveFilterNetwork::delay; }
 
   bool push(const Frame& in, Frame& out) override {
     Frame& frame = waiting_[pushed_++ % waiting_.size()];
@@ -171,9 +173,9 @@ class RecurrentLive final : public DelayedFilter {
 
 }  // namespace
 
-std::unique_ptr<DelayedFilter> make_recurrent_live(const FilterNetwork& network,
-                                                   const BodyLayout& layout, const NameMap& names,
-                                                   const TakeView& like) {
+std::unique_ptr<LiveFilter> make_recurrent_live(const FilterNetwork& network,
+                                                const BodyLayout& layout, const NameMap& names,
+                                                const TakeView& like) {
   if (like.joints == nullptr)
     throw Error(ErrorKind::usage, "recurrent cleans joints, and this is a take of markers");
   if (!has_rate_of(network, like.frame_rate_hz)) {

@@ -14,8 +14,8 @@ namespace kinemend {
 /// measured. The skeleton is matched by its rest pose. `network` and `model` outlive the filter.
 /// Errors: `ErrorKind::usage` for markers, another rate, a network that filters nothing, and as of
 /// `match_body`.
-std::unique_ptr<DelayedFilter> make_recurrent_live(const FilterNetwork& network,
-                                                   const BodyLayout& layout, const NameMap& names,
-                                                   const TakeView& like);
+std::unique_ptr<LiveFilter> make_recurrent_live(const FilterNetwork& network,
+                                                const BodyLayout& layout, const NameMap& names,
+                                                const TakeView& like);
 
 }  // namespace kinemend

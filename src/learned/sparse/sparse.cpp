@@ -300,10 +300,14 @@ std::unique_ptr<Cleaner> make_tuned_sparse(const SparseOptions& options,
   model = model_of(sparse_learned(), options.model, std::move(model));
   const bool is_free = options.solver == "paper" || !tuning.holds;
   return make_prior_cleaner(
-      model, options.map, options.fill, is_free ? PriorHold::nothing : PriorHold::white_noise,
-      [options, model, tuning, prior = sparse_prior_of(*model)](PriorWork& work) {
-        filter_sparse(work, options, prior, model->layout, tuning);
-      });
+      model, {.name = "sparse",
+              .options = sparse_table().values(options),
+              .map = options.map,
+              .fill = options.fill,
+              .hold = is_free ? PriorHold::nothing : PriorHold::white_noise,
+              .filter = [options, model, tuning, prior = sparse_prior_of(*model)](PriorWork& work) {
+                filter_sparse(work, options, prior, model->layout, tuning);
+              }});
 }
 
 Method sparse_method() {

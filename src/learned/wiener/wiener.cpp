@@ -150,10 +150,15 @@ std::unique_ptr<Cleaner> make_wiener(const WienerOptions& options,
   wiener_table().validate(options);
   model = model_of(wiener_learned(), options.model, std::move(model));
   const PriorHold hold = options.noise_deg > 0 ? PriorHold::nothing : PriorHold::white_noise;
-  return make_prior_cleaner(model, options.map, options.fill, hold,
-                            [options, prior = wiener_prior_of(*model)](PriorWork& work) {
-                              filter(work, options, prior);
-                            });
+  return make_prior_cleaner(model,
+                            {.name = "wiener",
+                             .options = wiener_table().values(options),
+                             .map = options.map,
+                             .fill = options.fill,
+                             .hold = hold,
+                             .filter = [options, prior = wiener_prior_of(*model)](PriorWork& work) {
+                               filter(work, options, prior);
+                             }});
 }
 
 Method wiener_method() {

@@ -48,6 +48,9 @@ class Auto final : public Cleaner {
  public:
   explicit Auto(const AutoOptions& options) : options_(options) {}
 
+  std::string_view name() const override { return "auto"; }
+  OptionValues options() const override { return auto_table().values(options_); }
+
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& tell) const override {
     CleanTrace trace;

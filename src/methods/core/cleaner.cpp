@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "methods/core/pieces.hpp"
+#include "kinemend/error.hpp"
 
 namespace kinemend {
 
@@ -67,26 +67,15 @@ InPlaceTrace clean_view(const Cleaner& cleaner, const TakeView& take, AnyClip& c
 
 }  // namespace
 
-LiveSupport Cleaner::live_support(double) const { return {}; }
-std::unique_ptr<DelayedFilter> Cleaner::make_delayed_filter(const TakeView&) const {
-  return nullptr;
+LiveSupport Cleaner::live_support(double) const {
+  return {.why_not =
+              "this method needs the whole take; live, use a method with a window or a "
+              "causal one"};
 }
 
-Frame Cleaner::clean_frame(const TakeView& window, std::size_t frame) const {
-  Frame result = frame_of(window, frame);
-  const TrackSink sink = [&](std::size_t track, const CleanedTrack& cleaned) {
-    const Track& source = window.tracks[track];
-    if (source.space == Space::rotation) {
-      result.rotations[track] = cleaned.rotations[frame];
-    } else if (window.gaps == GapTreatment::bridge || source.is_observed(frame)) {
-      position_in(window, track, result) = cleaned.positions[frame];
-    }
-  };
-  clean(window, sink, {});
-  return result;
+std::unique_ptr<LiveFilter> Cleaner::live(const TakeView& like) const {
+  throw Error(ErrorKind::usage, live_support(like.frame_rate_hz).why_not);
 }
-
-std::unique_ptr<FrameFilter> Cleaner::make_frame_filter(const TakeView&) const { return nullptr; }
 
 InPlaceTrace clean_in_place(const Cleaner& cleaner, Clip& clip, const Selection& selection,
                             const std::function<void(double)>& progress) {

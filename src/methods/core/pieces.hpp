@@ -34,6 +34,18 @@ std::size_t longest_bridge(double frame_rate_hz);
 /// Frames on either side of such a gap that the bridge across it looks at: 0.05 s, at least 3.
 std::size_t bridge_support(double frame_rate_hz);
 
+/// The samples from `first` to before `end` of a piece.
+template <class Sample>
+Piece<Sample> stretch(const Piece<Sample>& piece, std::size_t first, std::size_t end) {
+  const auto cut = [&](const auto& values) {
+    const std::span all(values);
+    const auto part = all.empty() ? all : all.subspan(first, end - first);
+    return std::vector(part.begin(), part.end());
+  };
+  return {piece.track, piece.first_frame + first, cut(piece.samples), cut(piece.observed),
+          cut(piece.actions)};
+}
+
 /// The whole of a track of rotations, with geodesics in its gaps.
 Piece<Quat> rotation_piece(const TakeView& take, std::size_t track);
 /// The pieces of a track of positions, in the order of their frames. Bridges in positions of joints
@@ -81,26 +93,6 @@ void filter_pieces(const TakeView& take, const TrackSink& sink,
     }
     progress.step();
   });
-}
-
-/// One frame of what `filter_pieces` gives: `filter(piece, i)` returns sample i of the piece
-/// filtered.
-template <class Filter>
-Frame filter_frame(const TakeView& window, std::size_t frame, const Filter& filter) {
-  Frame result = frame_of(window, frame);
-  for (const std::size_t track : changeable_tracks(window)) {
-    if (window.tracks[track].space == Space::rotation) {
-      result.rotations[track] = filter(rotation_piece(window, track), frame);
-      continue;
-    }
-    for (const Piece<Vec3>& piece : position_pieces(window, track)) {
-      const std::size_t i = frame - piece.first_frame;
-      if (frame < piece.first_frame || i >= piece.samples.size()) continue;
-      if (piece.observed.empty() || piece.observed[i] != 0)
-        position_in(window, track, result) = filter(piece, i);
-    }
-  }
-  return result;
 }
 
 }  // namespace kinemend

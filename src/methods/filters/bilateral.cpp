@@ -7,7 +7,7 @@
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
-#include "methods/core/inner_filter.hpp"
+#include "methods/core/windowed.hpp"
 #include "methods/filters/bilateral_filter.hpp"
 #include "methods/filters/entries.hpp"
 #include "methods/filters/lanes.hpp"
@@ -30,6 +30,23 @@ const OptionTable<BilateralOptions>& bilateral_table() {
                   "back in time");
   return result;
 }
+
+struct BilateralFilter {
+  BilateralKernel turns, moves;
+  std::size_t passes;
+  BilateralEnds ends;
+
+  void operator()(Piece<Quat>& piece) const {
+    filter_lanes(piece, [&](RotationTrack& track) {
+      bilateral_filter(track, lane_weights(piece), turns, passes, ends);
+    });
+  }
+  // Bridges count like samples: a mean of one side only would lag behind a marker that travels.
+  void operator()(Piece<Vec3>& piece) const {
+    filter_lanes(piece,
+                 [&](VectorTrack& track) { bilateral_filter(track, {}, moves, passes, ends); });
+  }
+};
 
 // One pass amid a take, as `bilateral_filter` has it: a weight between two samples is found once,
 // when the later of them comes.
@@ -91,50 +108,40 @@ class BilateralStep {
   std::vector<BilateralPass<Sample>> passes_;
 };
 
-class BilateralCleaner final : public WindowedCleaner {
+class BilateralCleaner final : public Cleaner {
  public:
   explicit BilateralCleaner(const BilateralOptions& options) : options_(options) {
     bilateral_table().validate(options);
   }
 
+  std::string_view name() const override { return "bilateral"; }
+  OptionValues options() const override { return bilateral_table().values(options_); }
+
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
-    const auto passes = static_cast<std::size_t>(options_.passes);
-    const BilateralKernel turns = kernel_of_turns(take), moves = kernel_of_moves(take);
-    filter_pieces(take, sink, progress,
-                  Overloaded{[&](Piece<Quat>& piece) {
-                               filter_lanes(piece, [&](RotationTrack& track) {
-                                 bilateral_filter(track, lane_weights(piece), turns, passes,
-                                                  ends());
-                               });
-                             },
-                             // Bridges count like samples: a mean of one side only would lag behind
-                             // a marker that travels.
-                             [&](Piece<Vec3>& piece) {
-                               filter_lanes(piece, [&](VectorTrack& track) {
-                                 bilateral_filter(track, {}, moves, passes, ends());
-                               });
-                             }});
+    filter_pieces(take, sink, progress, filter_for(take));
     return {};
   }
 
-  LiveSupport live_support(double frame_rate_hz) const override {
-    const double sigma_t = options_.sigma_t_s * window_rate_hz(frame_rate_hz);
-    const std::size_t k = bilateral_kernel(sigma_t, 1).half_width();
-    return {LiveSupport::Kind::windowed, k * static_cast<std::size_t>(options_.passes)};
-  }
+  LiveSupport live_support(double) const override { return {}; }
 
-  std::unique_ptr<InnerFilter> make_inner_filter(const TakeView& like) const override {
-    const auto passes = static_cast<std::size_t>(options_.passes);
-    const BilateralKernel turns = kernel_of_turns(like), moves = kernel_of_moves(like);
-    return make_track_inner_filter<BilateralStep>(
-        like, turns.half_width() * passes, [&](const Track& track, auto sample) {
-          return BilateralStep<decltype(sample)>(track.space == Space::rotation ? turns : moves,
-                                                 passes);
-        });
+  std::unique_ptr<LiveFilter> live(const TakeView& like) const override {
+    const BilateralFilter filter = filter_for(like);
+    return windowed_filter<BilateralStep>(
+        like, filter.turns.half_width() * filter.passes,
+        [&](const Track& track, auto sample) {
+          const bool turns = track.space == Space::rotation;
+          return BilateralStep<decltype(sample)>(turns ? filter.turns : filter.moves,
+                                                 filter.passes);
+        },
+        filter);
   }
 
  private:
+  BilateralFilter filter_for(const TakeView& take) const {
+    return {kernel_of_turns(take), kernel_of_moves(take), static_cast<std::size_t>(options_.passes),
+            options_.ends == "mirror" ? BilateralEnds::mirror : BilateralEnds::reflect};
+  }
   double sigma_t_frames(const TakeView& take) const {
     return options_.sigma_t_s * window_rate_hz(take.frame_rate_hz);
   }
@@ -151,9 +158,6 @@ class BilateralCleaner final : public WindowedCleaner {
     if (take.markers) return take.body_height;
     const double height = body_height(take.joints->skeleton);
     return height > 0 ? height : 1;
-  }
-  BilateralEnds ends() const {
-    return options_.ends == "mirror" ? BilateralEnds::mirror : BilateralEnds::reflect;
   }
 
   BilateralOptions options_;

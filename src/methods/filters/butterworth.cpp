@@ -7,7 +7,7 @@
 #include "kinemend/experimental/representation.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "kinemend/methods.hpp"
-#include "methods/core/causal.hpp"
+#include "methods/core/live.hpp"
 #include "methods/filters/cutoff.hpp"
 #include "methods/filters/entries.hpp"
 #include "methods/filters/filter_channels.hpp"
@@ -64,6 +64,9 @@ class Butterworth final : public Cleaner {
  public:
   explicit Butterworth(const ButterworthOptions& options) : options_(options) {}
 
+  std::string_view name() const override { return "butterworth"; }
+  OptionValues options() const override { return butterworth_table().values(options_); }
+
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
     if (!acts(take.frame_rate_hz)) {
@@ -71,7 +74,7 @@ class Butterworth final : public Cleaner {
       trace.warnings.push_back(nothing_to_do(take.frame_rate_hz));
       return trace;
     }
-    if (options_.causal) return clean_causally(*this, take, sink, progress);
+    if (options_.causal) return clean_as_live(*this, take, sink, progress);
     const auto sections = design(take.frame_rate_hz);
     const std::size_t pad = settling_frames(sections);
     filter_channels(take, ChannelChoice::quaternion, sink, progress,
@@ -80,19 +83,15 @@ class Butterworth final : public Cleaner {
   }
 
   LiveSupport live_support(double frame_rate_hz) const override {
-    LiveSupport support;
-    if (!options_.causal) return support;
-    support.kind = LiveSupport::Kind::causal;
-    if (!acts(frame_rate_hz)) support.warning = nothing_to_do(frame_rate_hz);
-    return support;
+    if (!options_.causal) return Cleaner::live_support(frame_rate_hz);
+    return {.warning = acts(frame_rate_hz) ? std::string() : nothing_to_do(frame_rate_hz)};
   }
 
-  std::unique_ptr<FrameFilter> make_frame_filter(const TakeView& like) const override {
-    if (!options_.causal) return nullptr;
+  std::unique_ptr<LiveFilter> live(const TakeView& like) const override {
+    if (!options_.causal) return Cleaner::live(like);
     const std::vector<Biquad> sections =
         acts(like.frame_rate_hz) ? design(like.frame_rate_hz) : std::vector<Biquad>{};
-    return make_track_filter(like, ButterworthTrack<Quat>(sections),
-                             ButterworthTrack<Vec3>(sections));
+    return causal_filter(like, ButterworthTrack<Quat>(sections), ButterworthTrack<Vec3>(sections));
   }
 
  private:

@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "body/rotation_channels.hpp"
-#include "methods/core/pieces.hpp"
 
 namespace kinemend {
 
@@ -155,6 +154,14 @@ void filter_channels(const TakeView& take, ChannelChoice choice, const TrackSink
     progress.step();
   });
   hand_over(take, positions, std::move(pieces), sink);
+}
+
+void filter_channels(Piece<Quat>& piece, const ChannelFilter& filter) {
+  filter_block({&piece, 1}, Encoding::quaternion, filter);
+}
+
+void filter_channels(Piece<Vec3>& piece, const ChannelFilter& filter) {
+  filter_block({&piece, 1}, filter);
 }
 
 }  // namespace kinemend

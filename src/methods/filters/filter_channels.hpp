@@ -3,8 +3,8 @@
 
 #include <functional>
 
-#include "kinemend/cleaner.hpp"
 #include "kinemend/experimental/pose_matrix.hpp"
+#include "methods/core/pieces.hpp"
 
 namespace kinemend {
 
@@ -19,5 +19,8 @@ enum class ChannelChoice {
 void filter_channels(const TakeView& take, ChannelChoice choice, const TrackSink& sink,
                      const std::function<void(double)>& tell,
                      const std::function<void(PoseMatrix&)>& filter);
+/// The same on one piece, rotations as channels of quaternions.
+void filter_channels(Piece<Quat>& piece, const std::function<void(PoseMatrix&)>& filter);
+void filter_channels(Piece<Vec3>& piece, const std::function<void(PoseMatrix&)>& filter);
 
 }  // namespace kinemend

@@ -6,7 +6,7 @@
 
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/methods.hpp"
-#include "methods/core/inner_filter.hpp"
+#include "methods/core/windowed.hpp"
 #include "methods/filters/entries.hpp"
 #include "methods/filters/lanes.hpp"
 #include "methods/filters/orientation_filter.hpp"
@@ -102,9 +102,15 @@ class GaussianFilter {
 
   bool does_nothing() const { return values_.size() == 1; }
 
-  /// Samples of weight 0 count for nothing; no weights: all are 1.
+  template <class Sample>
+  void operator()(Piece<Sample>& piece) const {
+    filter_lanes(piece, [&](auto& track) { filter(track, lane_weights(piece)); });
+  }
+
+ private:
+  // Samples of weight 0 count for nothing; no weights: all are 1.
   template <class Track>
-  void operator()(Track& track, const std::vector<double>& observed) const {
+  void filter(Track& track, const std::vector<double>& observed) const {
     const VectorTrack steps = increments(track);
     VectorTrack moves = weigh_increments(steps, inner_);
     // Masks at the ends are the same for all tracks that were measured throughout.
@@ -120,7 +126,6 @@ class GaussianFilter {
     turn(track, moves);
   }
 
- private:
   std::vector<double> values_;
   std::size_t frames_;
   std::vector<double> inner_;
@@ -153,34 +158,32 @@ class GaussianStep {
   SlidingWindow<Vec3> increments_;
 };
 
-class GaussianCleaner final : public WindowedCleaner {
+class GaussianCleaner final : public Cleaner {
  public:
   explicit GaussianCleaner(const GaussianOptions& options) : options_(options) {
     gaussian_table().validate(options);
   }
 
+  std::string_view name() const override { return "gaussian"; }
+  OptionValues options() const override { return gaussian_table().values(options_); }
+
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
     const GaussianFilter filter(sigma_frames(take.frame_rate_hz), take.frames);
-    if (filter.does_nothing()) return {};
-    filter_pieces(take, sink, progress, [&](auto& piece) {
-      filter_lanes(piece, [&](auto& track) { filter(track, lane_weights(piece)); });
-    });
+    if (!filter.does_nothing()) filter_pieces(take, sink, progress, filter);
     return {};
   }
 
-  LiveSupport live_support(double frame_rate_hz) const override {
-    return {LiveSupport::Kind::windowed, half_width(sigma_frames(frame_rate_hz))};
-  }
+  LiveSupport live_support(double) const override { return {}; }
 
-  std::unique_ptr<InnerFilter> make_inner_filter(const TakeView& like) const override {
+  std::unique_ptr<LiveFilter> live(const TakeView& like) const override {
     const double sigma = sigma_frames(like.frame_rate_hz);
     const std::size_t k = half_width(sigma);
     const std::vector<double> weights =
         increment_weights(mask_at(gaussian_values(sigma, k), {}, k, 2 * k + 1));
-    return make_track_inner_filter<GaussianStep>(like, k, [&](const Track&, auto sample) {
-      return GaussianStep<decltype(sample)>(weights);
-    });
+    return windowed_filter<GaussianStep>(
+        like, k, [&](const Track&, auto sample) { return GaussianStep<decltype(sample)>(weights); },
+        GaussianFilter(sigma, 2 * k + 1));
   }
 
  private:

@@ -7,8 +7,7 @@
 #include "base/quantiles.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/methods.hpp"
-#include "methods/core/inner_filter.hpp"
-#include "methods/core/pieces.hpp"
+#include "methods/core/windowed.hpp"
 #include "methods/filters/entries.hpp"
 #include "methods/filters/medians.hpp"
 
@@ -87,6 +86,20 @@ class Despiker {
   std::vector<double> distances_;
 };
 
+struct HampelFilter {
+  std::vector<Rule> rules;  // of each track
+
+  template <class Sample>
+  void operator()(Piece<Sample>& piece) const {
+    const std::vector<Sample> track = piece.samples;
+    Despiker<Sample> despiker(track, rules[piece.track]);
+    piece.actions.assign(track.size(), Action::kept);
+    for (std::size_t t = 0; t < track.size(); ++t) {
+      if (despiker.despike(t, piece.samples[t])) piece.actions[t] = Action::despiked;
+    }
+  }
+};
+
 // The rule amid a take, where windows are whole.
 template <class Sample>
 class HampelStep {
@@ -117,54 +130,43 @@ class HampelStep {
   std::vector<Vec3> scratch_;
 };
 
-class Hampel final : public WindowedCleaner {
+class Hampel final : public Cleaner {
  public:
   explicit Hampel(const HampelOptions& options) : options_(options) {}
 
+  std::string_view name() const override { return "hampel"; }
+  OptionValues options() const override { return hampel_table().values(options_); }
+
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
-    filter_pieces(take, sink, progress, [&]<class Sample>(Piece<Sample>& piece) {
-      const std::vector<Sample> track = piece.samples;
-      Despiker<Sample> despiker(track, rule_for(take, piece.track));
-      piece.actions.assign(track.size(), Action::kept);
-      for (std::size_t t = 0; t < track.size(); ++t) {
-        if (despiker.despike(t, piece.samples[t])) piece.actions[t] = Action::despiked;
-      }
-    });
+    filter_pieces(take, sink, progress, filter_for(take));
     return {};
   }
 
-  LiveSupport live_support(double rate_hz) const override {
-    return {LiveSupport::Kind::windowed, half_frames(rate_hz)};
-  }
+  LiveSupport live_support(double) const override { return {}; }
 
-  std::unique_ptr<InnerFilter> make_inner_filter(const TakeView& like) const override {
-    const std::size_t half = half_frames(like.frame_rate_hz);
-    return make_track_inner_filter<
-        HampelStep>(like, half, [&](const kinemend::Track& track, auto sample) {
-      return HampelStep<decltype(sample)>({half, options_.threshold, least_distance(track.radian)});
-    });
-  }
-
-  Frame clean_frame(const TakeView& window, std::size_t frame) const override {
-    return filter_frame(
-        window, frame, [&]<class Sample>(const Piece<Sample>& piece, std::size_t i) {
-          Sample sample = piece.samples[i];
-          Despiker<Sample>(piece.samples, rule_for(window, piece.track)).despike(i, sample);
-          return sample;
-        });
+  std::unique_ptr<LiveFilter> live(const TakeView& like) const override {
+    return windowed_filter<HampelStep>(
+        like, half_frames(like.frame_rate_hz),
+        [&](const kinemend::Track& track, auto sample) {
+          return HampelStep<decltype(sample)>(rule_for(track, like.frame_rate_hz));
+        },
+        filter_for(like));
   }
 
  private:
   std::size_t half_frames(double rate_hz) const {
     return frames_in(options_.window_s / 2, window_rate_hz(rate_hz), 3);
   }
-  Rule rule_for(const TakeView& take, std::size_t track) const {
-    return {half_frames(take.frame_rate_hz), options_.threshold,
-            least_distance(take.tracks[track].radian)};
+  Rule rule_for(const kinemend::Track& track, double rate_hz) const {
+    return {half_frames(rate_hz), options_.threshold,
+            options_.minimum_deg * radians_per_degree * track.radian};
   }
-  double least_distance(double radian) const {
-    return options_.minimum_deg * radians_per_degree * radian;
+  HampelFilter filter_for(const TakeView& take) const {
+    HampelFilter filter;
+    for (const kinemend::Track& track : take.tracks)
+      filter.rules.push_back(rule_for(track, take.frame_rate_hz));
+    return filter;
   }
 
   HampelOptions options_;

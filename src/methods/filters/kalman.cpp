@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "kinemend/methods.hpp"
-#include "methods/core/causal.hpp"
+#include "methods/core/live.hpp"
 #include "methods/filters/entries.hpp"
 #include "methods/filters/track_kalman.hpp"
 #include "metrics/track_noise.hpp"
@@ -106,9 +106,12 @@ class Kalman final : public Cleaner {
  public:
   explicit Kalman(const KalmanOptions& options) : options_(options) {}
 
+  std::string_view name() const override { return "kalman"; }
+  OptionValues options() const override { return kalman_table().values(options_); }
+
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
-    if (!options_.smoother) return clean_causally(*this, take, sink, progress);
+    if (!options_.smoother) return clean_as_live(*this, take, sink, progress);
     CleanTrace trace;
     const std::vector<double> levels = noise_of(take);
     trace.noise = levels;
@@ -124,15 +127,14 @@ class Kalman final : public Cleaner {
     return trace;
   }
 
-  LiveSupport live_support(double) const override {
-    if (options_.smoother) return {};
-    return {LiveSupport::Kind::causal, 0};
+  LiveSupport live_support(double frame_rate_hz) const override {
+    return options_.smoother ? Cleaner::live_support(frame_rate_hz) : LiveSupport{};
   }
 
-  std::unique_ptr<FrameFilter> make_frame_filter(const TakeView& like) const override {
-    if (options_.smoother) return nullptr;
+  std::unique_ptr<LiveFilter> live(const TakeView& like) const override {
+    if (options_.smoother) return Cleaner::live(like);
     const double rate_hz = like.frame_rate_hz, reach = radian_of_positions(like);
-    return make_track_filter(
+    return causal_filter(
         like,
         LiveTrack<Quat>(model_for(options_, rate_hz, 1), options_.noise_deg * radians_per_degree,
                         1),

@@ -41,12 +41,4 @@ void filter_lanes(Piece<Sample>& piece, const Filter& filter) {
   if constexpr (std::is_same_v<Sample, Quat>) bridge_rotations(piece);
 }
 
-/// One function object of several.
-template <class... Functions>
-struct Overloaded : Functions... {
-  using Functions::operator()...;
-};
-template <class... Functions>
-Overloaded(Functions...) -> Overloaded<Functions...>;
-
 }  // namespace kinemend

@@ -3,8 +3,7 @@
 
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/methods.hpp"
-#include "methods/core/inner_filter.hpp"
-#include "methods/core/pieces.hpp"
+#include "methods/core/windowed.hpp"
 #include "methods/filters/entries.hpp"
 #include "methods/filters/medians.hpp"
 
@@ -45,35 +44,37 @@ Sample end_median(Sample end, Sample near, Sample far, std::vector<Vec3>& scratc
   return l1_median(samples, medoid(samples), scratch);
 }
 
+// Of a sample without neighbours on both sides, or of any where the window is one sample.
 template <class Sample>
-Sample median_at(SampleTrack<Sample> track, std::size_t t, std::size_t half,
-                 std::vector<Vec3>& scratch) {
+Sample lone_median(SampleTrack<Sample> track, std::size_t t, std::size_t half,
+                   std::vector<Vec3>& scratch) {
   const std::size_t last = track.size() - 1;
-  if (track.size() < 4 || half == 0 || (t > 0 && t < last)) {
-    return inner_median(track, t, half, scratch);
-  }
+  if (track.size() < 4 || half == 0) return track[t];
   const std::size_t near = t == 0 ? 1 : last - 1, far = t == 0 ? 2 : last - 2;
   return end_median(track[t], inner_median(track, near, half, scratch),
                     inner_median(track, far, half, scratch), scratch);
 }
 
-template <class Sample>
-std::vector<Sample> median_track(const std::vector<Sample>& samples, std::size_t half) {
-  const SampleTrack<Sample> track(samples);
-  std::vector<Vec3> scratch;
-  MovingMedoid<Sample> medoids(track, 2 * half + 1);
-  std::vector<Sample> result(track.size());
-  for (std::size_t t = 0; t < track.size(); ++t) {
-    const std::size_t h = std::min({half, t, track.size() - 1 - t});
-    if (h == 0) {
-      result[t] = median_at(track, t, half, scratch);
-    } else {
-      const std::size_t middle = medoids.find(t - h, t + h);
-      result[t] = l1_median(track.subspan(t - h, 2 * h + 1), middle - (t - h), scratch);
+struct MedianFilter {
+  std::size_t half;
+
+  template <class Sample>
+  void operator()(Piece<Sample>& piece) const {
+    const std::vector<Sample> samples = piece.samples;
+    const SampleTrack<Sample> track(samples);
+    std::vector<Vec3> scratch;
+    MovingMedoid<Sample> medoids(track, 2 * half + 1);
+    for (std::size_t t = 0; t < track.size(); ++t) {
+      const std::size_t h = std::min({half, t, track.size() - 1 - t});
+      if (h == 0) {
+        piece.samples[t] = lone_median(track, t, half, scratch);
+      } else {
+        const std::size_t middle = medoids.find(t - h, t + h);
+        piece.samples[t] = l1_median(track.subspan(t - h, 2 * h + 1), middle - (t - h), scratch);
+      }
     }
   }
-  return result;
-}
+};
 
 // The median of the `half` samples on either side, amid a window that may be longer.
 template <class Sample>
@@ -98,40 +99,32 @@ class MedianStep {
   std::vector<Vec3> scratch_;
 };
 
-class Median final : public WindowedCleaner {
+class Median final : public Cleaner {
  public:
   explicit Median(const MedianOptions& options) : options_(options) {}
 
+  std::string_view name() const override { return "median"; }
+  OptionValues options() const override { return median_table().values(options_); }
+
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
-    const std::size_t half = half_frames(take.frame_rate_hz);
-    filter_pieces(take, sink, progress,
-                  [half](auto& piece) { piece.samples = median_track(piece.samples, half); });
+    filter_pieces(take, sink, progress, MedianFilter{half_frames(take.frame_rate_hz)});
     return {};
   }
 
-  LiveSupport live_support(double rate_hz) const override {
-    // The ends look at the medians of the two frames beside them.
-    const std::size_t half = half_frames(rate_hz);
-    const std::size_t end = half == 0 ? 0 : half == 1 ? 3 : 4;
-    return {LiveSupport::Kind::windowed, std::max(half, end)};
-  }
+  LiveSupport live_support(double) const override { return {}; }
 
-  std::unique_ptr<InnerFilter> make_inner_filter(const TakeView& like) const override {
+  std::unique_ptr<LiveFilter> live(const TakeView& like) const override {
     const std::size_t half = half_frames(like.frame_rate_hz);
-    const std::size_t window_half = live_support(like.frame_rate_hz).half_window_frames;
-    return make_track_inner_filter<MedianStep>(
-        like, window_half, [&](const kinemend::Track&, auto sample) {
+    // The ends look at the medians of the two frames beside them.
+    const std::size_t end = half == 0 ? 0 : half == 1 ? 3 : 4;
+    const std::size_t window_half = std::max(half, end);
+    return windowed_filter<MedianStep>(
+        like, window_half,
+        [&](const kinemend::Track&, auto sample) {
           return MedianStep<decltype(sample)>(half, window_half);
-        });
-  }
-
-  Frame clean_frame(const TakeView& window, std::size_t frame) const override {
-    const std::size_t half = half_frames(window.frame_rate_hz);
-    return filter_frame(window, frame, [half](const auto& piece, std::size_t i) {
-      std::vector<Vec3> scratch;
-      return median_at(std::span(piece.samples), i, half, scratch);
-    });
+        },
+        MedianFilter{half});
   }
 
  private:

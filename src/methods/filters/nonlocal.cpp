@@ -7,7 +7,8 @@
 
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/methods.hpp"
-#include "methods/core/causal.hpp"
+#include "methods/core/live.hpp"
+#include "methods/core/windowed.hpp"
 #include "methods/filters/entries.hpp"
 #include "methods/filters/lanes.hpp"
 #include "methods/filters/nonlocal_causal.hpp"
@@ -60,6 +61,29 @@ std::size_t radius_frames(double seconds, double frame_rate_hz, std::size_t leas
   return std::max(least, static_cast<std::size_t>(std::max(radius, 0L)));
 }
 
+// Poses are compared as a whole: each frame is cleaned by what the method makes of its window.
+class NonlocalWindow final : public WindowedFilter {
+ public:
+  NonlocalWindow(const Cleaner& cleaner, const TakeView& like, std::size_t half)
+      : WindowedFilter(like, half), cleaner_(cleaner) {}
+
+ private:
+  void clean(std::size_t frame, bool /*has_stepped*/, Frame& out) override {
+    const TakeView& take = window();
+    const auto sink = [&](std::size_t track, const CleanedTrack& cleaned) {
+      const Track& source = take.tracks[track];
+      if (source.space == Space::rotation) {
+        out.rotations[track] = cleaned.rotations[frame];
+      } else if (take.gaps == GapTreatment::bridge || source.is_observed(frame)) {
+        position_in(take, track, out) = cleaned.positions[frame];
+      }
+    };
+    cleaner_.clean(take, sink, {});
+  }
+
+  const Cleaner& cleaner_;
+};
+
 class NonlocalCleaner final : public Cleaner {
  public:
   explicit NonlocalCleaner(const NonlocalOptions& options) : options_(options) {
@@ -69,9 +93,12 @@ class NonlocalCleaner final : public Cleaner {
     }
   }
 
+  std::string_view name() const override { return "nonlocal"; }
+  OptionValues options() const override { return nonlocal_table().values(options_); }
+
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
-    if (options_.causal) return clean_causally(*this, take, sink, progress);
+    if (options_.causal) return clean_as_live(*this, take, sink, progress);
     CleanTrace trace;
     if (take.frames < 2) return trace;
     Pose pose = pose_of(take);
@@ -93,16 +120,19 @@ class NonlocalCleaner final : public Cleaner {
   }
 
   LiveSupport live_support(double frame_rate_hz) const override {
-    if (options_.causal) return {LiveSupport::Kind::causal, 0};
     // The noise of a whole take and the whole take itself are not known live.
-    if (options_.bandwidth_deg == 0 || options_.window_s == 0) return {};
-    const NonlocalSettings settings = settings_for(frame_rate_hz);
-    return {LiveSupport::Kind::windowed, settings.window_radius + settings.patch_radius};
+    const bool is_windowed = options_.bandwidth_deg > 0 && options_.window_s > 0;
+    return options_.causal || is_windowed ? LiveSupport{} : Cleaner::live_support(frame_rate_hz);
   }
 
-  std::unique_ptr<FrameFilter> make_frame_filter(const TakeView& like) const override {
-    if (!options_.causal || !like.joints) return nullptr;
+  std::unique_ptr<LiveFilter> live(const TakeView& like) const override {
+    if (!live_support(like.frame_rate_hz).runs()) return Cleaner::live(like);
     const NonlocalSettings offline = settings_for(like.frame_rate_hz);
+    if (!options_.causal)
+      return std::make_unique<NonlocalWindow>(*this, like,
+                                              offline.window_radius + offline.patch_radius);
+    if (!like.joints)
+      throw Error(ErrorKind::usage, "nonlocal with causal works on joints, not on markers");
     CausalNonlocalSettings settings;
     settings.window = 2 * offline.window_radius;
     settings.patch = 2 * offline.patch_radius + 1;

@@ -59,7 +59,7 @@ class Latest {
   std::size_t count_ = 0;
 };
 
-class CausalNonlocal final : public FrameFilter {
+class CausalNonlocal final : public LiveFilter {
  public:
   CausalNonlocal(const CausalNonlocalSettings& settings, std::vector<std::size_t> joints)
       : settings_(settings),
@@ -67,16 +67,21 @@ class CausalNonlocal final : public FrameFilter {
         past_(settings.window + 1),
         distances_(std::max<std::size_t>(settings.patch, 1)) {}
 
-  void filter(Frame& frame) override {
-    remember(frame);
+  std::size_t lookahead() const override { return 0; }
+
+  bool push(const Frame& in, Frame& out) override {
+    remember(in);
     find_weights();
+    out = in;
     const Frame& present = past_[0];
-    for (const std::size_t joint : joints_) {
-      frame.rotations[joint] = present.rotations[joint] * exp(mean_turn(joint));
-    }
-    for (std::size_t i = 1; i < frame.positions.size(); ++i)
-      frame.positions[i] = present.positions[i] + mean_move(i);
+    for (const std::size_t joint : joints_)
+      out.rotations[joint] = present.rotations[joint] * exp(mean_turn(joint));
+    for (std::size_t i = 1; i < out.positions.size(); ++i)
+      out.positions[i] = present.positions[i] + mean_move(i);
+    return true;
   }
+
+  bool flush(Frame&) override { return false; }
 
  private:
   // Of one frame: per lag, the squared angles to the frame so far back, over joints measured in
@@ -205,8 +210,8 @@ class CausalNonlocal final : public FrameFilter {
 
 }  // namespace
 
-std::unique_ptr<FrameFilter> make_causal_nonlocal(const CausalNonlocalSettings& settings,
-                                                  std::vector<std::size_t> joints) {
+std::unique_ptr<LiveFilter> make_causal_nonlocal(const CausalNonlocalSettings& settings,
+                                                 std::vector<std::size_t> joints) {
   return std::make_unique<CausalNonlocal>(settings, std::move(joints));
 }
 

@@ -22,7 +22,7 @@ struct CausalNonlocalSettings {
 
 /// `joints` are those that belong to the pose. The root position stays as it is: where a body was
 /// says nothing of where it is.
-std::unique_ptr<FrameFilter> make_causal_nonlocal(const CausalNonlocalSettings& settings,
-                                                  std::vector<std::size_t> joints);
+std::unique_ptr<LiveFilter> make_causal_nonlocal(const CausalNonlocalSettings& settings,
+                                                 std::vector<std::size_t> joints);
 
 }  // namespace kinemend

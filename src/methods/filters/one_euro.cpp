@@ -1,6 +1,6 @@
 // The method `one-euro`: a causal low-pass filter whose cutoff grows with the speed.
 #include "kinemend/methods.hpp"
-#include "methods/core/causal.hpp"
+#include "methods/core/live.hpp"
 #include "methods/filters/cutoff.hpp"
 #include "methods/filters/entries.hpp"
 #include "methods/filters/track_kalman.hpp"
@@ -62,22 +62,23 @@ class OneEuro final : public Cleaner {
  public:
   explicit OneEuro(const OneEuroOptions& options) : options_(options) {}
 
+  std::string_view name() const override { return "one-euro"; }
+  OptionValues options() const override { return one_euro_table().values(options_); }
+
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
-    CleanTrace trace = clean_causally(*this, take, sink, progress);
+    CleanTrace trace = clean_as_live(*this, take, sink, progress);
     if (std::string warning = warning_at(take.frame_rate_hz); !warning.empty())
       trace.warnings.push_back(std::move(warning));
     return trace;
   }
   LiveSupport live_support(double frame_rate_hz) const override {
-    LiveSupport support{LiveSupport::Kind::causal};
-    support.warning = warning_at(frame_rate_hz);
-    return support;
+    return {.warning = warning_at(frame_rate_hz)};
   }
-  std::unique_ptr<FrameFilter> make_frame_filter(const TakeView& like) const override {
+  std::unique_ptr<LiveFilter> live(const TakeView& like) const override {
     const double rate_hz = like.frame_rate_hz;
-    return make_track_filter(like, OneEuroTrack<Quat>(options_, rate_hz, 1),
-                             OneEuroTrack<Vec3>(options_, rate_hz, radian_of_positions(like)));
+    return causal_filter(like, OneEuroTrack<Quat>(options_, rate_hz, 1),
+                         OneEuroTrack<Vec3>(options_, rate_hz, radian_of_positions(like)));
   }
 
  private:

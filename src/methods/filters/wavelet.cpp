@@ -41,17 +41,22 @@ WaveletOptions signal_options(const WaveletCleanerOptions& options) {
 
 class Wavelet final : public Cleaner {
  public:
-  explicit Wavelet(const WaveletCleanerOptions& options) : options_(signal_options(options)) {}
+  explicit Wavelet(const WaveletCleanerOptions& options) : options_(options) {}
+
+  std::string_view name() const override { return "wavelet"; }
+  OptionValues options() const override { return wavelet_table().values(options_); }
 
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
     filter_channels(take, ChannelChoice::suitable, sink, progress,
-                    [this](PoseMatrix& channels) { wavelet_denoise(channels, options_); });
+                    [options = signal_options(options_)](PoseMatrix& channels) {
+                      wavelet_denoise(channels, options);
+                    });
     return {};
   }
 
  private:
-  WaveletOptions options_;
+  WaveletCleanerOptions options_;
 };
 
 }  // namespace

@@ -2,7 +2,7 @@
 #include "kinemend/experimental/representation.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "kinemend/methods.hpp"
-#include "methods/core/inner_filter.hpp"
+#include "methods/core/windowed.hpp"
 #include "methods/filters/entries.hpp"
 #include "methods/filters/filter_channels.hpp"
 
@@ -56,30 +56,35 @@ class WeightedMeanStep {
   SignContinuation sign_;
 };
 
-class WeightedMean final : public WindowedCleaner {
+class WeightedMean final : public Cleaner {
  public:
   explicit WeightedMean(const WeightedMeanOptions& options) : options_(options) {}
 
+  std::string_view name() const override { return "weighted-mean"; }
+  OptionValues options() const override { return weighted_mean_table().values(options_); }
+
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
-    filter_channels(take, ChannelChoice::quaternion, sink, progress, [this](PoseMatrix& channels) {
-      weighted_mean_filter(channels, static_cast<int>(options_.passes));
-    });
+    filter_channels(take, ChannelChoice::quaternion, sink, progress, channel_filter());
     return {};
   }
 
-  LiveSupport live_support(double) const override {
-    return {LiveSupport::Kind::windowed, 2 * static_cast<std::size_t>(options_.passes)};
-  }
+  LiveSupport live_support(double) const override { return {}; }
 
-  std::unique_ptr<InnerFilter> make_inner_filter(const TakeView& like) const override {
-    const std::vector<double> mask = mask_of(static_cast<int>(options_.passes));
-    return make_track_inner_filter<WeightedMeanStep>(
+  std::unique_ptr<LiveFilter> live(const TakeView& like) const override {
+    const std::vector<double> mask = mask_of(passes());
+    return windowed_filter<WeightedMeanStep>(
         like, mask.size() / 2,
-        [&](const Track&, auto sample) { return WeightedMeanStep<decltype(sample)>(mask); });
+        [&](const Track&, auto sample) { return WeightedMeanStep<decltype(sample)>(mask); },
+        [filter = channel_filter()](auto& piece) { filter_channels(piece, filter); });
   }
 
  private:
+  int passes() const { return static_cast<int>(options_.passes); }
+  std::function<void(PoseMatrix&)> channel_filter() const {
+    return [passes = passes()](PoseMatrix& channels) { weighted_mean_filter(channels, passes); };
+  }
+
   WeightedMeanOptions options_;
 };
 

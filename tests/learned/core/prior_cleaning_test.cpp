@@ -71,6 +71,7 @@ class Filtering final : public Cleaner {
         fill_(fill),
         hold_(hold),
         filter_(std::move(filter)) {}
+  std::string_view name() const override { return "filtering"; }
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>&) const override {
     return clean_with_prior(take, sink, layout_, names_, fill_, hold_, filter_);
@@ -347,13 +348,13 @@ TEST(PriorCleaning, FillsMarkersThatAreNeverSeen) {
         encode_body(truth, layout, match_body(layout, truth), work.channels).poses;
   };
   const Filtering filling(layout, true, oracle), leaving(layout, false, oracle);
-  const MarkerResult filled = clean_markers(clip, filling, {}, "oracle");
+  const MarkerResult filled = clean_markers(clip, filling);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     ASSERT_TRUE(filled.clip.is_observed(f, marker));
     EXPECT_LT(norm(filled.clip.position(f, marker) - truth.position(f, marker)), 1e-6);
   }
   EXPECT_EQ(filled.report.tracks[marker].frames_missing, 0u);
-  EXPECT_FALSE(clean_markers(clip, leaving, {}, "oracle").clip.is_observed(5, marker));
+  EXPECT_FALSE(clean_markers(clip, leaving).clip.is_observed(5, marker));
 }
 
 TEST(PriorCleaning, FillsNoMarkerOutsideTheRangeOrTheSelection) {

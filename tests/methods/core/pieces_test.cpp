@@ -92,32 +92,5 @@ TEST(Pieces, OfAWholeMarkerRestWhereItWasNotSeenForLong) {
   EXPECT_NEAR(whole[150].x, (198 + 20 + 400 - 20) / 2.0, 3);
 }
 
-TEST(FilterPieces, GivesWhatFilterFrameGivesForEachFrame) {
-  const Clip clip = moving_take(40, 100);
-  const TakeView take = view_of(clip);
-  const auto one_before = [](const auto& piece, std::size_t i) {
-    return piece.samples[i == 0 ? i : i - 1];
-  };
-  Clip shifted = clip;
-  filter_pieces(
-      take,
-      [&](std::size_t n, const CleanedTrack& cleaned) {
-        set_track(shifted, n, cleaned.rotations);
-        set_track(shifted, n, cleaned.positions);
-      },
-      {},
-      [&](auto& piece) {
-        const auto copy = piece;
-        for (std::size_t i = 0; i < copy.samples.size(); ++i)
-          piece.samples[i] = one_before(copy, i);
-      });
-  for (std::size_t f = 0; f < 40; ++f) {
-    const Frame frame = filter_frame(take, f, one_before);
-    const Frame expected = frame_of(view_of(shifted), f);
-    EXPECT_EQ(frame.rotations, expected.rotations) << f;
-    EXPECT_EQ(frame.positions, expected.positions) << f;
-  }
-}
-
 }  // namespace
 }  // namespace kinemend::test

@@ -229,9 +229,7 @@ TEST(Gaussian, InterpolatesGapsBetweenWhatItCleaned) {
 
 TEST(Gaussian, DependsOnItsWindowOnly) {
   const auto cleaner = make_gaussian({0.03});
-  const LiveSupport live = cleaner->live_support(100);
-  ASSERT_EQ(live.kind, LiveSupport::Kind::windowed);
-  ASSERT_EQ(live.half_window_frames, 12U);
+  ASSERT_EQ(cleaner->live(view_of(noisy_take(1)))->lookahead(), 12U);
   const Clip input = noisy_take(60);
   const Clip output = cleaned(input, *cleaner), other = cleaned(changed_at(input, 30), *cleaner);
   EXPECT_EQ(output.rotation(17, 1), other.rotation(17, 1));

@@ -319,9 +319,7 @@ TEST(Nonlocal, LearnsFromRepetitionsInTheWholeTake) {
 
 TEST(Nonlocal, DependsOnItsWindowOnly) {
   const auto cleaner = make_nonlocal(small_options());
-  const LiveSupport live = cleaner->live_support(100);
-  ASSERT_EQ(live.kind, LiveSupport::Kind::windowed);
-  ASSERT_EQ(live.half_window_frames, 6U);
+  ASSERT_EQ(cleaner->live(view_of(noisy_take(1)))->lookahead(), 6U);
   const Clip input = noisy_take(60);
   const Clip output = cleaned(input, *cleaner), other = cleaned(changed_at(input, 30), *cleaner);
   EXPECT_EQ(output.rotation(23, 1), other.rotation(23, 1));
@@ -331,11 +329,11 @@ TEST(Nonlocal, DependsOnItsWindowOnly) {
 }
 
 TEST(Nonlocal, NeedsTheTakeWhereItMeasuresTheNoise) {
-  EXPECT_EQ(make_nonlocal()->live_support(100).kind, LiveSupport::Kind::none);
+  EXPECT_FALSE(make_nonlocal()->live_support(100).runs());
   NonlocalOptions options = small_options();
   options.window_s = 0;
-  EXPECT_EQ(make_nonlocal(options)->live_support(100).kind, LiveSupport::Kind::none);
-  EXPECT_EQ(make_nonlocal(options)->make_frame_filter(view_of(noisy_take(2))), nullptr);
+  EXPECT_FALSE(make_nonlocal(options)->live_support(100).runs());
+  EXPECT_THROW(make_nonlocal(options)->live(view_of(noisy_take(2))), Error);
 }
 
 NonlocalOptions causal_options(double bandwidth_deg) {
@@ -386,7 +384,7 @@ TEST(NonlocalCausal, AveragesPastPosesByTheirPatches) {
 TEST(NonlocalCausal, DoesNotKnowTheFuture) {
   for (const double bandwidth_deg : {0.0, 5.0}) {
     const auto cleaner = make_nonlocal(causal_options(bandwidth_deg));
-    EXPECT_EQ(cleaner->live_support(100).kind, LiveSupport::Kind::causal);
+    EXPECT_EQ(cleaner->live(view_of(noisy_take(1)))->lookahead(), 0U);
     const Clip input = noisy_take(60);
     const Clip output = cleaned(input, *cleaner), other = cleaned(changed_at(input, 30), *cleaner);
     for (std::size_t f = 0; f < 30; ++f) EXPECT_EQ(output.rotation(f, 1), other.rotation(f, 1));
