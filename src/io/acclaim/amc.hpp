@@ -1,3 +1,4 @@
+// The format AMC: recognises, reads and writes motion that belongs to an ASF skeleton.
 #pragma once
 
 #include <string>

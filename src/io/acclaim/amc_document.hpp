@@ -1,3 +1,4 @@
+// Keeps an AMC file as it was read so that it can be written back in its own layout.
 #pragma once
 
 #include <cstdint>

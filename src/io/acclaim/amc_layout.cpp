@@ -1,3 +1,4 @@
+// Matches the lines of the first frame with the bones of the skeleton.
 #include "io/acclaim/amc_layout.hpp"
 
 #include <fmt/format.h>

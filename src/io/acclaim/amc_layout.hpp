@@ -1,3 +1,4 @@
+// The head of an AMC file, and which line of a frame belongs to which bone.
 #pragma once
 
 #include <cstddef>

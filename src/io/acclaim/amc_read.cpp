@@ -1,3 +1,4 @@
+// Reads AMC and ASF files as takes, and recognises AMC.
 #include <fmt/format.h>
 
 #include <array>

@@ -1,3 +1,4 @@
+// Reads frames line by line, bones in any order, and finds a frame that is cut off.
 #include "io/acclaim/amc_rows.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Walks over the frames of an AMC file and reads their values.
 #pragma once
 
 #include <cstddef>

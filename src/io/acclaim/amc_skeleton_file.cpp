@@ -1,3 +1,4 @@
+// Looks for the skeleton's file by the likely names, then by the subject of the take.
 #include "io/acclaim/amc_skeleton_file.hpp"
 
 #include <fmt/format.h>

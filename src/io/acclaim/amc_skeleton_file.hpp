@@ -1,3 +1,4 @@
+// Finds the ASF file that belongs to an AMC file, and names one for an output.
 #pragma once
 
 #include <filesystem>

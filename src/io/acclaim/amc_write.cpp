@@ -1,3 +1,4 @@
+// Writes AMC in the layout of its source or in a plain one, and the ASF file beside it.
 #include <algorithm>
 #include <string>
 #include <utility>

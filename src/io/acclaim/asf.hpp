@@ -1,3 +1,4 @@
+// The format ASF: recognises, reads and writes skeletons.
 #pragma once
 
 #include <optional>

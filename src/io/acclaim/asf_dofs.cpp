@@ -1,3 +1,4 @@
+// Turns the degrees of freedom of ASF into the channels of a joint.
 #include <algorithm>
 #include <utility>
 

@@ -1,3 +1,4 @@
+// Parses an ASF file into a skeleton, and recognises the format.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Makes a bone of each joint, and bones that lead to children beside its end.
 #include "io/acclaim/asf_plan.hpp"
 
 #include <fmt/format.h>

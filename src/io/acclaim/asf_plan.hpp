@@ -1,3 +1,4 @@
+// Plans the bones that an ASF file needs for a skeleton.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Splits the text of an ASF file into words.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Writes the skeleton of a take as an ASF file.
 #include <fmt/format.h>
 
 #include <array>
