@@ -1,3 +1,4 @@
+// The format BVH: recognises, reads and writes it.
 #pragma once
 
 #include <string>

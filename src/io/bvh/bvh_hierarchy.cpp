@@ -1,3 +1,4 @@
+// Parses the hierarchy and the head of the motion, and finds the rate that a frame time means.
 #include "io/bvh/bvh_hierarchy.hpp"
 
 #include <fmt/format.h>

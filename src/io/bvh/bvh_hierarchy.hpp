@@ -1,3 +1,4 @@
+// The part of a BVH file above its frames: the hierarchy, the number of frames and their rate.
 #pragma once
 
 #include <cstddef>

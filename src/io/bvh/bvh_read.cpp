@@ -1,3 +1,4 @@
+// Reads BVH files as takes of joints, with repairs of what is damaged.
 #include <fmt/format.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>

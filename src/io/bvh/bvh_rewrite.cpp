@@ -1,3 +1,4 @@
+// Writes a changed take into the text of the BVH file that it comes from.
 #include <vector>
 
 #include "io/bvh/bvh_text.hpp"

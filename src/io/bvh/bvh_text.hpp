@@ -1,3 +1,4 @@
+// The pieces of text that the writers of BVH share.
 #pragma once
 
 #include <string>

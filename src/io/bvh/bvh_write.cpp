@@ -1,3 +1,4 @@
+// Writes BVH: with the hierarchy of the source where there is one, or in a plain layout.
 #include <fmt/format.h>
 
 #include <algorithm>
