@@ -1,3 +1,4 @@
+// The format C3D: recognises, reads and writes it, and names what it cannot keep.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// Decodes analog samples by the scales and offsets that the parameters state.
 #include "io/c3d/c3d_analog.hpp"
 
 #include "io/c3d/c3d_events.hpp"

@@ -1,3 +1,4 @@
+// The analog samples of a C3D file, such as those of force plates.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Compares the frames of a take with those of its source, and names what gets lost.
 #include "io/c3d/c3d_carry.hpp"
 
 #include <fmt/format.h>

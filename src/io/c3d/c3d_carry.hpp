@@ -1,3 +1,4 @@
+// Decides what a C3D file takes over from its source beside the points.
 #pragma once
 
 #include <cstddef>

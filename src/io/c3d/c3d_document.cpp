@@ -1,3 +1,4 @@
+// Carries the document of a C3D file through conversions, and finds it again.
 #include "io/c3d/c3d_document.hpp"
 
 namespace kinemend {

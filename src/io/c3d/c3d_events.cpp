@@ -1,3 +1,4 @@
+// Reads events from the parameters, or else from the header.
 #include "io/c3d/c3d_events.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The events of a C3D file, such as heel strikes.
 #pragma once
 
 #include <vector>

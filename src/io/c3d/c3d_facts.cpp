@@ -1,3 +1,4 @@
+// Gathers the facts of a C3D file: its encoding, cameras, force plates and programs.
 #include "io/c3d/c3d_facts.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Describes the content of a C3D file in words.
 #pragma once
 
 #include <string>

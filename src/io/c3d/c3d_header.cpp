@@ -1,3 +1,4 @@
+// Finds and reads the header of a C3D file, and the type of its processor.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Finds the layout by what the header, the parameters and the file's size agree on.
 #include "io/c3d/c3d_layout.hpp"
 
 #include <fmt/format.h>

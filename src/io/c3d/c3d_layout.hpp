@@ -1,3 +1,4 @@
+// Where the sections of a C3D file are, and how its samples are stored.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Writes header, parameters, points and analog samples as Intel floats.
 #include "io/c3d/c3d_new_file.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Makes a new C3D file of a take of markers.
 #pragma once
 
 #include <string>

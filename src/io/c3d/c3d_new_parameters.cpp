@@ -1,3 +1,4 @@
+// Fills the parameter groups from the take and from the file that it comes from.
 #include "io/c3d/c3d_new_parameters.hpp"
 
 #include <algorithm>

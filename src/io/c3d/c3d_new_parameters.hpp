@@ -1,3 +1,4 @@
+// Makes the parameters of a new C3D file.
 #pragma once
 
 #include "io/c3d/c3d_document.hpp"

@@ -1,3 +1,4 @@
+// Finds numbers that are not finite in parameters, header and samples, and replaces them.
 #include "io/c3d/c3d_not_finite.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Removes numbers that are not finite (nan, inf) from the bytes of a C3D file, so that no file that
+// is written from them holds one. Each function returns how many values or samples it changed.
 #pragma once
 
 #include <cstddef>
@@ -6,8 +8,6 @@
 #include "io/c3d/c3d_layout.hpp"
 #include "io/c3d/c3d_parameters.hpp"
 
-// Removes numbers that are not finite (nan, inf) from the bytes of a C3D file, so that no file that
-// is written from them holds one. Each function returns how many values or samples it changed.
 namespace kinemend {
 
 /// Gives the reals of POINT and ANALOG that are not finite a neutral value: 1 for the scales of

@@ -1,3 +1,4 @@
+// Builds, replaces and removes parameters, and lays out their section byte by byte.
 #include "io/c3d/c3d_parameter_writer.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Makes parameters of C3D, changes them, and writes them as a section of the file.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// Reads the entries of the parameter section, and looks parameters up by name.
 #include "io/c3d/c3d_parameters.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// The parameters of a C3D file: named values in groups.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Decodes points that are stored as reals or integers of any processor type.
 #include "io/c3d/c3d_points.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The samples of points in a C3D file: positions, residuals and cameras.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Reads C3D files as takes of markers, with repairs of what is damaged.
 #include <fmt/format.h>
 
 #include <algorithm>

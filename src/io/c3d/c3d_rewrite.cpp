@@ -1,3 +1,4 @@
+// Replaces the samples that changed, and the rate, and leaves every other byte.
 #include "io/c3d/c3d_rewrite.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Writes a changed take into the bytes of the C3D file that it comes from.
 #pragma once
 
 #include <optional>

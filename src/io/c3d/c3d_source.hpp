@@ -1,3 +1,4 @@
+// The bytes of a C3D file while it is read: words, reals, errors and repairs.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// The number formats of the three processor types of C3D: Intel, DEC and MIPS.
 #pragma once
 
 #include <bit>
