@@ -1,3 +1,4 @@
+// Reads whole files, and writes them so that an output is complete or not there at all.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>

@@ -1,3 +1,4 @@
+// The table of file formats, and how a take is read and written by them.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -1,3 +1,4 @@
+// The most memory that a take from a file of a given size may need.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Checks a stated frame rate, and notes one that is out of range as a repair.
 #include "io/stated_rate.hpp"
 
 #include <fmt/format.h>

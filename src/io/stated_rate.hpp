@@ -1,3 +1,4 @@
+// Decides whether the frame rate that a file states can be used.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Lays out the JSON and the binary data of a glTF file.
 #include "io/gltf/glb_builder.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Builds a binary glTF file from nodes, arrays, meshes and animations.
 #pragma once
 
 #include <array>

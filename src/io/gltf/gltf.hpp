@@ -1,3 +1,4 @@
+// The format glTF: writes takes as animated scenes.
 #pragma once
 
 #include <string>

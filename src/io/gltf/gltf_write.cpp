@@ -1,3 +1,4 @@
+// Writes skeletons as skinned bones, and markers as small spheres.
 #include <algorithm>
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// Appends rows to a take, and fills values that are missing from the frames beside them.
 #include "io/motion/clip_rows.hpp"
 
 #include <algorithm>

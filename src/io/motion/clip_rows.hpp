@@ -1,3 +1,4 @@
+// Turns rows of channel values into the frames of a take of joints.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Computes sines and cosines of half angles by series that compilers turn into SIMD code.
 #include "io/motion/half_angles.hpp"
 
 #include <bit>

@@ -1,3 +1,4 @@
+// Sines and cosines of half angles, the same on every machine.
 #pragma once
 
 #include <cstddef>

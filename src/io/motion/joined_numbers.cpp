@@ -1,3 +1,4 @@
+// Inserts blanks into a document, and moves its landmarks along.
 #include "io/motion/joined_numbers.hpp"
 
 #include <string>

@@ -1,3 +1,4 @@
+// Repairs numbers that have no blank between them.
 #pragma once
 
 #include <string_view>

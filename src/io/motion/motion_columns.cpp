@@ -1,3 +1,4 @@
+// Multiplies the rotations of channels out, and holds samples that are missing.
 #include "io/motion/motion_columns.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The meaning of each column of a frame, and rotations from the columns' angles.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// Keeps a text file of frames as it was read so that it can be written back in its own layout.
 #pragma once
 
 #include <cstddef>

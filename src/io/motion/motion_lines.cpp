@@ -1,3 +1,4 @@
+// Counts values line by line, and finds the first line that is too short or too long.
 #include "io/motion/motion_lines.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Finds the line to blame where the values of a file do not come out even.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Chooses new values in the order of the frames, and writes blocks of the text in parallel.
 #include "io/motion/motion_rewrite.hpp"
 
 #include <tbb/parallel_pipeline.h>

@@ -1,3 +1,4 @@
+// Writes a changed take of joints into the text of the file that it comes from.
 #pragma once
 
 #include <string>

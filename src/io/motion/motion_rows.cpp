@@ -1,3 +1,4 @@
+// Reads numbers by the fast path, and any other text by the slow one.
 #include "io/motion/motion_rows.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Walks over the channel values of a text, a frame at a time.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Checks that the channels can hold the motion, and writes their values frame by frame.
 #include "io/motion/motion_write.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Writes the frames of a take of joints as rows of text.
 #pragma once
 
 #include <cstddef>

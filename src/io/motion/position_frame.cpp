@@ -1,3 +1,4 @@
+// Makes the position frames of formats that replace a joint's offset, and of those that add to it.
 #include "io/motion/position_frame.hpp"
 
 namespace kinemend {

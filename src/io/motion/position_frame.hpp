@@ -1,3 +1,4 @@
+// The meaning of a joint's position columns in each format.
 #pragma once
 
 #include <cstddef>

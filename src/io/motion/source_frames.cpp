@@ -1,3 +1,4 @@
+// Decodes the frames of a document in blocks, with the repairs that its reader made.
 #include "io/motion/source_frames.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Walks over the frames of a document once more, for a rewrite.
 #pragma once
 
 #include <cstddef>

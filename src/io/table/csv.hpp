@@ -1,3 +1,4 @@
+// The format CSV: recognises, reads and writes tables of markers or joints.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// Carries through a conversion what a table holds beside the take.
 #include "io/table/csv_document.hpp"
 
 namespace kinemend {

@@ -1,3 +1,4 @@
+// Keeps a CSV file as it was read so that it can be written back in its own layout.
 #pragma once
 
 #include <array>

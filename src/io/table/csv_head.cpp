@@ -1,3 +1,4 @@
+// Splits the heads of tables into lines and cells, and guesses separators and decimal commas.
 #include "io/table/csv_head.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Helpers for the heads of tables, and the heads of exports of single programs.
 #pragma once
 
 #include <optional>
@@ -7,7 +8,6 @@
 
 #include "io/table/csv_document.hpp"
 
-// Helpers for the heads of tables, and the heads of exports of single programs.
 namespace kinemend {
 
 using Cells = std::vector<std::string>;

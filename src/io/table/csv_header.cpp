@@ -1,3 +1,4 @@
+// Reads the lines above the rows of a CSV file: notes, and the columns that belong together.
 #include <fmt/format.h>
 
 #include <algorithm>

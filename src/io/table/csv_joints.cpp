@@ -1,3 +1,4 @@
+// Reads a table of joints, and writes a changed take into its bytes.
 #include "io/table/csv_joints.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Tables of joints in CSV: rotations as quaternions, and positions.
 #pragma once
 
 #include <string>

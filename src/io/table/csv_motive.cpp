@@ -1,5 +1,5 @@
-// OptiTrack Motive's tables: a line of facts, then rows of types, names, identities and kinds, and
-// a row of axes.
+// Reads the heads of OptiTrack Motive's tables: a line of facts, then rows of types, names,
+// identities and kinds, and a row of axes.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,3 +1,4 @@
+// Reads CSV tables as takes of markers or joints.
 #include <fmt/format.h>
 
 #include <algorithm>

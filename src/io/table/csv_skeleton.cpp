@@ -1,3 +1,4 @@
+// Writes a skeleton as lines of notes, and reads it from them.
 #include "io/table/csv_skeleton.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// The lines of a CSV file that hold a skeleton.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// Vicon's tables: sections, each with its name, its rate, a row of names, one of axes, one of units
-// and its rows; a blank line between two.
+// Reads the heads of Vicon's tables: sections, each with its name, its rate, a row of names, one of
+// axes, one of units and its rows; a blank line between two.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

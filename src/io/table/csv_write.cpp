@@ -1,3 +1,4 @@
+// Writes CSV tables: in the layout of their source where they can, else in a plain one.
 #include <fmt/format.h>
 
 #include <string>

@@ -1,3 +1,4 @@
+// Reads the rows of a marker table, and the rate from their times.
 #include "io/table/marker_table.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Tables with the coordinates of markers in their cells, which TRC, TSV and CSV share.
 #pragma once
 
 #include <array>

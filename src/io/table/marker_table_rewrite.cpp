@@ -1,3 +1,4 @@
+// Writes changed markers into the bytes of the table that they come from.
 #include <algorithm>
 #include <cmath>
 #include <optional>

@@ -1,3 +1,4 @@
+// Tells zeros of missing markers from markers that rest at the origin, by their jumps.
 #include "io/table/marker_zeros.hpp"
 
 #include <algorithm>

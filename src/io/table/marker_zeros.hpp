@@ -1,3 +1,4 @@
+// Finds markers that are at the origin because they are missing.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Reads a table by its reader and keeps its bytes with the take.
 #pragma once
 
 #include <memory>

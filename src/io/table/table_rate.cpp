@@ -1,3 +1,4 @@
+// Compares the stated rate with the times of the rows, and notes what had to be assumed.
 #include "io/table/table_rate.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Decides on the frame rate of a table.
 #pragma once
 
 #include <cstddef>

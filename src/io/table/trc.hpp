@@ -1,3 +1,4 @@
+// The format TRC: recognises, reads and writes it.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// Reads the lines above the rows of a TRC file, in all its dialects.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Reads TRC files as takes of markers.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The tables of Qualisys Track Manager (TSV): recognises, reads and writes them.
 #pragma once
 
 #include <string>

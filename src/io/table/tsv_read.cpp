@@ -1,3 +1,4 @@
+// Reads TSV files as takes of markers.
 #include <fmt/format.h>
 
 #include <algorithm>

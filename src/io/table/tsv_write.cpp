@@ -1,3 +1,4 @@
+// Writes TSV in the layout of its source or in a plain one.
 #include <fmt/format.h>
 
 #include <algorithm>

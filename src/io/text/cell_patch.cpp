@@ -1,3 +1,4 @@
+// Replaces cells row by row, and adds the cells that a short row lacks.
 #include "io/text/cell_patch.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Copies a table of numbers with some of its cells replaced.
 #pragma once
 
 #include <cmath>

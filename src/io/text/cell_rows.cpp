@@ -1,3 +1,4 @@
+// Splits lines into cells, with quotes, and reads rows with separators or with blanks.
 #include "io/text/cell_rows.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Walks over the rows of a table and reads the numbers in their cells.
 #pragma once
 
 #include <algorithm>

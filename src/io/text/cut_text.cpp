@@ -1,3 +1,4 @@
+// Compares the digits of the last number with those of the lines before it.
 #include "io/text/cut_text.hpp"
 
 #include <algorithm>

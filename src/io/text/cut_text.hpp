@@ -1,3 +1,4 @@
+// Finds out whether a text file was cut off, as by a full disk or a broken transfer.
 #pragma once
 
 #include <cstddef>
@@ -5,7 +6,6 @@
 
 #include "io/text/number.hpp"
 
-// Finds out whether a text file was cut off, as by a full disk or a broken transfer.
 namespace kinemend {
 
 /// Whether the word can be the start of a number, such as `-`, `1.` or `2.5e-`.

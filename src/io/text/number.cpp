@@ -1,3 +1,4 @@
+// Reads the numbers that the fast path leaves, and writes numbers with fixed or fewest digits.
 #include "io/text/number.hpp"
 
 #include <fast_float/fast_float.h>

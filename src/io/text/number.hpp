@@ -1,3 +1,4 @@
+// Reads and writes numbers as text, correctly rounded and fast.
 #pragma once
 
 #include <bit>

@@ -1,3 +1,4 @@
+// Counts lines, notes repairs, and splits text into words.
 #include "io/text/text.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Tools that all readers of text share: lines, words, errors with their place, and repairs.
 #pragma once
 
 #include <cstddef>

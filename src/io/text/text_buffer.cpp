@@ -1,3 +1,4 @@
+// Appends numbers to a text, and refuses those that are not finite.
 #include "io/text/text_buffer.hpp"
 
 #include <algorithm>

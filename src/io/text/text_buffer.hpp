@@ -1,3 +1,4 @@
+// A text that writers append words and numbers to.
 #pragma once
 
 #include <cstddef>
