@@ -1,3 +1,4 @@
+// Guesses which axis points up, and turns a take so that another one does.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,3 +1,4 @@
+// Estimates the height of a body, and the unit that its lengths are in.
 #include <algorithm>
 #include <array>
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Takes the first frames off a clip while work is done on the others, and puts them back.
 #include "motion/calibration.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The motion of a clip without its calibration frames (`leading_calibration_frames`).
 #pragma once
 
 #include <cstddef>
@@ -6,7 +7,6 @@
 
 #include "kinemend/clip.hpp"
 
-// The motion of a clip without its calibration frames (`leading_calibration_frames`).
 namespace kinemend {
 
 /// Calls `work` with the clip without its first `frames` frames, and puts these back as they were,

@@ -1,3 +1,4 @@
+// Finds the calibration pose at the start of a take of joints.
 #include "kinemend/clip.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Checks that `validate` of skeletons and of takes share.
 #pragma once
 
 #include <fmt/format.h>
@@ -8,7 +9,6 @@
 #include "kinemend/error.hpp"
 #include "kinemend/rotation.hpp"
 
-// Checks that `validate` of skeletons and of both kinds of clips share.
 namespace kinemend {
 
 inline bool is_finite(Vec3 v) {

@@ -1,3 +1,4 @@
+// Converts between frames counted from 0 and the numbers that a file gives them.
 #include "kinemend/experimental/frame_numbers.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Notes the number that a file gives to its first frame.
 #pragma once
 
 #include "kinemend/clip.hpp"

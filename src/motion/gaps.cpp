@@ -1,3 +1,4 @@
+// Lists the gaps of a take, and marks samples as missing.
 #include "kinemend/gaps.hpp"
 
 #include <fmt/format.h>

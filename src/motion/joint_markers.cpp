@@ -1,3 +1,4 @@
+// Turns joints into markers, drops rest rotations from a skeleton, and scales lengths.
 #include <algorithm>
 #include <cmath>
 #include <string>

@@ -1,3 +1,4 @@
+// Computes where the joints and end sites are in the world (forward kinematics).
 #include "kinemend/experimental/kinematics.hpp"
 
 namespace kinemend {

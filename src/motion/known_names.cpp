@@ -1,3 +1,4 @@
+// Renames joints or markers by a map of names.
 #include "kinemend/known_names.hpp"
 
 #include <fmt/format.h>

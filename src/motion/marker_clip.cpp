@@ -1,3 +1,4 @@
+// Makes takes of markers, selects the points that are positions, and knows units by name.
 #include "kinemend/marker_clip.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Compares the rotations of a joint with its first one.
 #include "motion/moving_joints.hpp"
 
 namespace kinemend {

@@ -1,3 +1,4 @@
+// Finds the joints that turn at all within a take.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Selects joints and markers by names and shell patterns.
 #pragma once
 
 #include <cstdint>
@@ -5,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-// Matching of joints and markers by name.
 namespace kinemend {
 
 /// In lower case (ASCII).

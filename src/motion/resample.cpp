@@ -1,3 +1,4 @@
+// Brings a take to another frame rate by cubic interpolation.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The rules of a skeleton, and its joints by name.
 #include "kinemend/skeleton.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Sorts markers by the person that their names state.
 #include "kinemend/experimental/subjects.hpp"
 
 #include <algorithm>

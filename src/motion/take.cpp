@@ -1,3 +1,4 @@
+// The rules of a take, slices of its frames, and its markers by name.
 #include "kinemend/take.hpp"
 
 #include <fmt/format.h>

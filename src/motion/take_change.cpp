@@ -1,3 +1,4 @@
+// Composes conversions, and passes them on to the document that a take comes from.
 #include "motion/take_change.hpp"
 
 #include "kinemend/experimental/convert.hpp"

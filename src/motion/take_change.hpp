@@ -1,3 +1,4 @@
+// Describes a conversion of a take so that the rest of its file can follow it.
 #pragma once
 
 #include <array>

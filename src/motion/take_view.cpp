@@ -1,3 +1,4 @@
+// Makes the tracks of a take, and writes cleaned samples back into it.
 #include "kinemend/take_view.hpp"
 
 #include <algorithm>

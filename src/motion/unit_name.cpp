@@ -1,3 +1,4 @@
+// Compares a length with the usual units.
 #include "motion/unit_name.hpp"
 
 #include <cmath>

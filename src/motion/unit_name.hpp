@@ -1,3 +1,4 @@
+// Names a unit of length by its size.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// Compares a name with the names that capture systems give to unlabelled points.
 #include "motion/unlabelled.hpp"
 
 #include <algorithm>

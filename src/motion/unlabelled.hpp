@@ -1,3 +1,4 @@
+// Recognises points that have a number from the capture system in place of a label.
 #pragma once
 
 #include <string_view>
