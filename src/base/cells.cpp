@@ -1,3 +1,4 @@
+// Splits small tables into lines and cells, and quotes cells.
 #include "base/cells.hpp"
 
 #include <algorithm>

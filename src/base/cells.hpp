@@ -1,3 +1,5 @@
+// Small tables that people edit: cells separated by commas, quoted if they have to be; `#`
+// comments.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +9,6 @@
 #include <string_view>
 #include <vector>
 
-// Small tables that people edit: cells separated by commas, quoted if they have to be; `#`
-// comments.
 namespace kinemend {
 
 /// The text without blanks and tabs at both ends.

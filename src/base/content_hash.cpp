@@ -1,3 +1,4 @@
+// Computes the hash of a content with XXH3.
 #include "kinemend/experimental/content_hash.hpp"
 
 #include <fmt/format.h>

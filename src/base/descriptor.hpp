@@ -1,3 +1,4 @@
+// Owns an open file and closes it.
 #pragma once
 
 #include <unistd.h>

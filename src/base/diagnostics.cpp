@@ -1,3 +1,4 @@
+// Collects repairs, counting those that repeat.
 #include "kinemend/diagnostics.hpp"
 
 #include <algorithm>

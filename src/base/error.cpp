@@ -1,3 +1,4 @@
+// Builds the messages of errors, with the place in the file.
 #include "kinemend/error.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Reads files and pipes to their end, and reports why one cannot be read.
 #include "base/file_bytes.hpp"
 
 #include <fcntl.h>

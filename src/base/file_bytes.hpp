@@ -1,3 +1,4 @@
+// Reads the whole content of a file or of standard input.
 #pragma once
 
 #include <filesystem>

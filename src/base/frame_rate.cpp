@@ -1,3 +1,4 @@
+// Rejects frame rates that no take may have.
 #include "kinemend/experimental/frame_rate.hpp"
 
 #include <fmt/format.h>

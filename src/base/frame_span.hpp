@@ -1,3 +1,4 @@
+// Spans of frames, and seconds as a number of frames.
 #pragma once
 
 #include <algorithm>

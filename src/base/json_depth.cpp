@@ -1,3 +1,4 @@
+// Finds where JSON is nested too deeply.
 #include "kinemend/experimental/json_depth.hpp"
 
 namespace kinemend {

@@ -1,3 +1,4 @@
+// Chooses the unit in which a value is shown.
 #include "base/measure.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
+// Measured values with units, for people.
 #pragma once
 
 #include <string>
 #include <string_view>
 
-// Measured values for people.
 namespace kinemend {
 
 /// In what unit noise, changes and errors are shown: in metres they would begin with zeros.

@@ -1,3 +1,4 @@
+// Tables whose entries are chosen by their member `name`: methods, trainings, options.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,7 +13,6 @@
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/options.hpp"
 
-// Tables whose entries are chosen by their member `name`: methods, trainings, options.
 namespace kinemend {
 
 std::vector<std::string> names_of(const auto& entries) {

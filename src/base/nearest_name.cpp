@@ -1,3 +1,4 @@
+// Suggests the name that a misspelt one may stand for.
 #include <algorithm>
 #include <cstddef>
 #include <numeric>

@@ -1,3 +1,4 @@
+// Parses and checks the values of options.
 #include "kinemend/options.hpp"
 
 #include <fast_float/fast_float.h>

@@ -1,3 +1,4 @@
+// Decides by the amount of work whether to use threads.
 #include "base/parallel.hpp"
 
 #include <tbb/parallel_for.h>

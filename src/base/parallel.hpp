@@ -1,3 +1,4 @@
+// Runs independent pieces of work in parallel where that is worth it.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Reports the progress of parallel work to one callback.
 #pragma once
 
 #include <cstddef>

@@ -1,10 +1,10 @@
+// Medians, quantiles, and their values for normal numbers.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <vector>
 
-// Medians, quantiles, and their values for normal numbers.
 namespace kinemend {
 
 /// From the median size of normal numbers of mean 0, or a median absolute deviation, to their

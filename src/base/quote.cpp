@@ -1,3 +1,4 @@
+// Shortens quoted text, and replaces characters that must not reach a terminal.
 #include "base/quote.hpp"
 
 #include "base/utf8.hpp"

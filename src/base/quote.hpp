@@ -1,3 +1,4 @@
+// Quotes text from a file in a message.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// Generates random numbers that are the same on every machine.
 #include "kinemend/experimental/random.hpp"
 
 #include <bit>

@@ -1,3 +1,4 @@
+// Writes and reads the records of a spool, and its file without a name.
 #include "base/spool.hpp"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// Keeps large records in memory up to a limit, and beyond it in a temporary file.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Formats text for people: tables, wrapped lines, figures, colours, and escaped text.
 #include "kinemend/experimental/text.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Decodes characters, and knows those that command a terminal.
 #include "base/utf8.hpp"
 
 namespace kinemend {

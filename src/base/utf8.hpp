@@ -1,10 +1,10 @@
+// Characters of UTF-8, one at a time, for text that may hold anything.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
 
-// Characters of UTF-8, one at a time, for text that may hold anything.
 namespace kinemend {
 
 /// The character that a text begins with. A byte that begins none has the size 1 and is not valid.

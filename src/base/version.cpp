@@ -1,3 +1,4 @@
+// The version of the program.
 #include "kinemend/experimental/version.hpp"
 
 namespace kinemend {

@@ -1,3 +1,4 @@
+// The components of a vector by the number of an axis.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Converts between rotations and Euler angles in any order, with one to three axes.
 #include <algorithm>
 #include <cctype>
 

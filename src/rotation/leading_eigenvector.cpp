@@ -1,3 +1,4 @@
+// Squares the matrix until only the leading eigenvector is left.
 #include "rotation/leading_eigenvector.hpp"
 
 namespace kinemend::rotation {

@@ -1,3 +1,4 @@
+// Finds the leading eigenvector of a small matrix, for means of rotations.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// Computes means of rotations: chordal, Karcher's, and in a tangent space.
 #include "rotation/leading_eigenvector.hpp"
 
 #include <array>

@@ -1,3 +1,4 @@
+// The basic operations on rotations: exponential and logarithm, angles, slerp, and signs of tracks.
 #include "kinemend/rotation.hpp"
 
 #include <algorithm>

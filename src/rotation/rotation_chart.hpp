@@ -1,3 +1,4 @@
+// Describes the rotations of a joint as vectors that linear filters can work on.
 #pragma once
 
 #include <cstddef>

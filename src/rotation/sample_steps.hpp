@@ -1,8 +1,8 @@
+// The step from one sample to another, the same for rotations (rotation vectors) and positions.
 #pragma once
 
 #include "kinemend/rotation.hpp"
 
-// The step from one sample to another, the same for rotations (rotation vectors) and positions.
 namespace kinemend {
 
 inline Vec3 difference(Quat from, Quat to) { return log(conjugate(from) * to); }
