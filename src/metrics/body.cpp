@@ -1,3 +1,4 @@
+// Measures how far feet slide while they stand.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Compares two takes of joints in every figure, joint by joint.
 #include <algorithm>
 #include <utility>
 #include <vector>

@@ -1,3 +1,4 @@
+// Compares two takes of markers, also of different systems, whose lag in time it finds.
 #include <algorithm>
 #include <cmath>
 #include <limits>

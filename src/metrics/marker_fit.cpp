@@ -1,3 +1,4 @@
+// Fits each marker by a rigid motion, or by a gain and an offset along each axis.
 #include "metrics/marker_fit.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Pairs the markers of two takes, and fits those of one to those of the other.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Checks that two takes have the same joints and frames, and measures their angles.
 #include "metrics/pairing.hpp"
 
 #include <fmt/format.h>

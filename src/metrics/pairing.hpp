@@ -1,3 +1,4 @@
+// Checks and angles that the figures of joints share.
 #pragma once
 
 #include <vector>

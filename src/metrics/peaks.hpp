@@ -1,3 +1,4 @@
+// Peak speeds of two versions of a track, in radians or the points' unit.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include "kinemend/rotation.hpp"
 #include "metrics/track_noise.hpp"
 
-// Peak speeds of two versions of a track, in radians or the points' unit.
 namespace kinemend {
 
 /// Of the samples of a track, along each axis.

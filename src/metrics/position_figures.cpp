@@ -1,3 +1,4 @@
+// Error figures of positions and their accelerations.
 #include <fmt/format.h>
 
 #include <cmath>

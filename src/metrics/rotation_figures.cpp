@@ -1,3 +1,4 @@
+// Error figures of rotations, and peak speeds of joints.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Takes the median of second differences, spread over the track.
 #include "metrics/track_noise.hpp"
 
 #include <algorithm>

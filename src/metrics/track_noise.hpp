@@ -1,3 +1,4 @@
+// Estimates the white noise of a track from its second differences.
 #pragma once
 
 #include <cstddef>
