@@ -1,3 +1,5 @@
+// Builds the humanoid from shares of its height, and bends its limbs to where wrists and ankles
+// belong.
 #include "synth/body.hpp"
 
 #include <algorithm>

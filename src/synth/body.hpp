@@ -1,3 +1,4 @@
+// The humanoid of artificial takes: its skeleton, its postures, and poses from them.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// Evaluates and fits periodic curves, key curves and slow wandering.
 #include "synth/curves.hpp"
 
 #include <algorithm>

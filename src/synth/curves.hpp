@@ -1,3 +1,4 @@
+// Smooth functions of time and phase from which motions are made.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// Places the feet on the path, moves the pelvis above them, and corrects the swing between stances.
 #include "synth/gait.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Walking and running along a path.
 #pragma once
 
 #include <array>

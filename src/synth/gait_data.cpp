@@ -1,3 +1,4 @@
+// The tables of joint angles over the stride.
 #include "synth/gait_data.hpp"
 
 namespace kinemend::synth {

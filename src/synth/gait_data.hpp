@@ -1,3 +1,4 @@
+// Published joint angles and measures of walking and running.
 #pragma once
 
 #include <span>

@@ -1,3 +1,4 @@
+// Motions that leave the floor: jumps on the spot, and a landing from a box.
 #include <algorithm>
 #include <array>
 #include <cmath>

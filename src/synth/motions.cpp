@@ -1,3 +1,4 @@
+// Makes a motion by its name.
 #include "synth/motions.hpp"
 
 namespace kinemend::synth {

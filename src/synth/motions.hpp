@@ -1,3 +1,4 @@
+// The motions of artificial takes, as functions of time.
 #pragma once
 
 #include <functional>

@@ -1,3 +1,4 @@
+// Integrates the heading into points of the path.
 #include "synth/path.hpp"
 
 #include <algorithm>

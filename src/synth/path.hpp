@@ -1,3 +1,4 @@
+// The path on the floor that a person walks along.
 #pragma once
 
 #include <functional>

@@ -1,3 +1,4 @@
+// Makes the take of the turning chain.
 #include "synth/spin.hpp"
 
 #include <array>

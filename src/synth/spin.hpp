@@ -1,3 +1,4 @@
+// A chain of joints that turn near the lock of their Euler angles.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Motions on planted feet: standing still, waving, clapping and punching.
 #include <array>
 #include <cmath>
 #include <memory>

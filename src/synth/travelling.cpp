@@ -1,3 +1,4 @@
+// Motions that travel: walking, running, circles, and a stroll.
 #include <cmath>
 #include <memory>
 #include <utility>
