@@ -1,3 +1,4 @@
+// Parses lines of joints and markers, and holds values that are missing.
 #include "live/frame_reader.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Reads the frames of a live stream from lines of values.
 #pragma once
 
 #include <cstddef>

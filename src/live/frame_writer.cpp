@@ -1,3 +1,4 @@
+// Writes headers and frames as BVH text or as lines of JSON.
 #include "live/frame_writer.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Writes the cleaned frames of a live stream as text, one line each.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// Keeps a partial line until the rest arrives, and discards lines that are too long.
 #include "live/line_splitter.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Splits bytes that arrive in pieces of any size into lines, in bounded memory.
 #pragma once
 
 #include <cstddef>

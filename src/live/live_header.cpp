@@ -1,3 +1,4 @@
+// Recognises headers, gathers their lines and parses them.
 #include "live/live_header.hpp"
 
 #include <fmt/format.h>

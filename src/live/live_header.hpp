@@ -1,3 +1,4 @@
+// The header of a live stream: a skeleton, or the names of markers.
 #pragma once
 
 #include <cstddef>

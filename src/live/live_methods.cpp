@@ -1,3 +1,4 @@
+// Lists the methods that can clean a live stream.
 #include <algorithm>
 
 #include "kinemend/error.hpp"

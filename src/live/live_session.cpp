@@ -1,3 +1,4 @@
+// Runs a live session: splits bytes into lines, and starts a stage for each header.
 #include <fmt/format.h>
 
 #include <algorithm>

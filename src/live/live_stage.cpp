@@ -1,3 +1,4 @@
+// Puts frames in order, interpolates lost ones, and passes them through the stream.
 #include "live/live_stage.hpp"
 
 #include <algorithm>

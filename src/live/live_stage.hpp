@@ -1,3 +1,4 @@
+// Cleans the frames of one header of a live stream: takes lines, gives cleaned lines.
 #pragma once
 
 #include <cstddef>
