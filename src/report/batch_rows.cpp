@@ -1,3 +1,4 @@
+// Makes the rows and sums of a batch, and reads rows back.
 #include "kinemend/experimental/batch_rows.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Says in text what `check` found.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +13,6 @@
 #include "report/texts.hpp"
 #include "report/words.hpp"
 
-// What `check` says.
 namespace kinemend {
 
 std::string with_unit(double value, std::string_view unit) {

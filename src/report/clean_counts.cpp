@@ -1,3 +1,4 @@
+// Counts the spans, tracks and frames of a cleaning report.
 #include "report/clean_counts.hpp"
 
 #include <algorithm>

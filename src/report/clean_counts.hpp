@@ -1,3 +1,4 @@
+// Sums over what `clean` did.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +7,6 @@
 
 #include "kinemend/clean.hpp"
 
-// Sums over what `clean` did.
 namespace kinemend {
 
 std::size_t count_spans(const CleanReport& report, Action action);

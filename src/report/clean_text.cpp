@@ -1,3 +1,4 @@
+// Says in text what `clean` did.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +12,6 @@
 #include "report/texts.hpp"
 #include "report/words.hpp"
 
-// What `clean` says.
 namespace kinemend {
 
 namespace {

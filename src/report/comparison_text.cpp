@@ -1,3 +1,4 @@
+// Says in text how two takes differ.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -7,7 +8,6 @@
 #include "report/figures.hpp"
 #include "report/texts.hpp"
 
-// What `compare` says.
 namespace kinemend {
 
 namespace {

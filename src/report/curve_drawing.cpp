@@ -1,3 +1,4 @@
+// Draws the curves of a track as SVG.
 #include <fmt/format.h>
 
 #include <algorithm>

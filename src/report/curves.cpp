@@ -1,3 +1,4 @@
+// Takes the curves of a track from takes before and after.
 #include "kinemend/experimental/curves.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Says in text what `clean` did to the feet.
 #include <fmt/format.h>
 
 #include "kinemend/experimental/frame_numbers.hpp"

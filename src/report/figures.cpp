@@ -1,3 +1,4 @@
+// The tables of all figures, with their units and how to get them.
 #include "report/figures.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The figures of `check` and `compare`, each defined once for text, JSON and limits.
 #pragma once
 
 #include <array>
@@ -7,7 +8,6 @@
 
 #include "kinemend/report.hpp"
 
-// The figures of `check` and `compare`, each defined once for text, JSON and limits.
 namespace kinemend {
 
 struct CheckFigure {

@@ -1,3 +1,4 @@
+// Says in text what `fill` did.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include "report/texts.hpp"
 #include "report/words.hpp"
 
-// What `fill` says.
 namespace kinemend {
 
 namespace {

@@ -1,3 +1,4 @@
+// Draws poses of a take from left to right.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Lists the findings of any command in one form.
 #include "report/findings.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The quantity and the unit of a gap in the findings of a report.
 #pragma once
 
 #include <string>

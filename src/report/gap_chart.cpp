@@ -1,3 +1,4 @@
+// Draws when each track of a take is missing.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
+// Colours and letters of all drawings.
 #pragma once
 
 #include <string_view>
 
-// Colours and letters of all drawings.
 namespace kinemend::inks {
 
 inline constexpr std::string_view before = "#d9480f", after = "#0b7285", difference = "#5f3dc4";

@@ -1,3 +1,4 @@
+// Writes a report as JSON, whole or in part.
 #include "report/json.hpp"
 
 #include <utility>

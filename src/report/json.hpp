@@ -1,3 +1,4 @@
+// JSON of reports, for the files of this room only.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -6,7 +7,6 @@
 
 #include "kinemend/report.hpp"
 
-// JSON of reports, for the files of this room only.
 namespace kinemend {
 
 using Json = nlohmann::ordered_json;

@@ -1,3 +1,4 @@
+// Finds the limits that the figures of a report exceed.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Describes the noise of a take in words.
 #include <fmt/format.h>
 
 #include "base/measure.hpp"

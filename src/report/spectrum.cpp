@@ -1,3 +1,4 @@
+// Computes the power spectrum of a track, and draws it.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Writes drawings as SVG, in few bytes.
 #include "kinemend/experimental/svg.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Gathers the facts of a take for its report, and words for what its reader repaired.
 #include <fmt/format.h>
 
 #include <algorithm>

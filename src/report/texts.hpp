@@ -1,3 +1,4 @@
+// The verdict and the text of each command's result.
 #pragma once
 
 #include <cstdint>
@@ -5,7 +6,6 @@
 
 #include "kinemend/report.hpp"
 
-// The verdict and the text of each command's result.
 namespace kinemend {
 
 std::string clean_verdict(const TakeFacts& take, const CleanOutcome& outcome);

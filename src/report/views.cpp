@@ -1,3 +1,4 @@
+// Answers the same questions about the result of any command: figures, tracks, verdict, text.
 #include <fmt/format.h>
 
 #include <limits>
@@ -12,7 +13,6 @@
 #include "report/texts.hpp"
 #include "report/words.hpp"
 
-// The same questions to the result of any command.
 namespace kinemend {
 
 namespace {

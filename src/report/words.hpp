@@ -1,3 +1,4 @@
+// Words that several reports share.
 #pragma once
 
 #include <string>
@@ -5,7 +6,6 @@
 
 #include "kinemend/report.hpp"
 
-// Words that several reports share.
 namespace kinemend {
 
 /// "joint" or "marker".

@@ -1,3 +1,4 @@
+// Makes the page of a batch.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>

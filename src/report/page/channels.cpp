@@ -1,3 +1,4 @@
+// Samples the channels of both takes and rounds them to quanta.
 #include "report/page/channels.hpp"
 
 #include <algorithm>

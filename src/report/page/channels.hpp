@@ -1,3 +1,4 @@
+// A take as the channels that the page holds.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +9,6 @@
 #include "kinemend/marker_clip.hpp"
 #include "report/page/codec.hpp"
 
-// A take as the channels that the page holds.
 namespace kinemend::page {
 
 /// Half a quantum is the largest error of a value, unless it is too large for 2^30 quanta. These

@@ -1,3 +1,4 @@
+// Predicts each sample from those before it, and packs what the prediction leaves.
 #include "report/page/codec.hpp"
 
 #include <zlib.h>

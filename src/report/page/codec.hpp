@@ -1,3 +1,4 @@
+// Packs channels into few bytes, which the page unpacks again (web/src/codec.ts).
 #pragma once
 
 #include <cstddef>
@@ -7,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-// Channels as few bytes, which the page takes apart again (web/src/codec.ts).
 namespace kinemend::page {
 
 /// One number over time as whole multiples of a quantum. `after` is empty where there is one take.

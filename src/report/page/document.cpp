@@ -1,3 +1,4 @@
+// Puts the program, the styles and the data of the page into one document.
 #include "report/page/document.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// The page as HTML.
 #pragma once
 
 #include <string>
@@ -5,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-// The page as HTML.
 namespace kinemend::page {
 
 /// Data of the page: the name of an element and what it holds, before it is deflated.

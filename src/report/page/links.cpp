@@ -1,3 +1,4 @@
+// Links the pairs of markers whose distance is short and steady, until all groups are connected.
 #include "report/page/links.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Lines between markers, so that they look like a body and not like a cloud of dots.
 #pragma once
 
 #include <array>
@@ -6,7 +7,6 @@
 
 #include "kinemend/marker_clip.hpp"
 
-// Lines between markers, so that they look like a body and not like a cloud of dots.
 namespace kinemend::page {
 
 /// Pairs of markers to draw a line between, lower index first, in a fixed order. Markers on one

@@ -1,9 +1,10 @@
+// The program and the styles of the page, which cmake/embed_page.cmake makes of the bundle of web/;
+// empty without web/dist.
 #pragma once
 
 #include <cstddef>
 #include <string_view>
 
-// What cmake/embed_page.cmake makes of the bundle of web/; empty without web/dist.
 namespace kinemend::page {
 
 extern const std::string_view script;

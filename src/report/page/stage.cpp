@@ -1,3 +1,4 @@
+// Finds the floor and the contacts of feet for the page.
 #include "report/page/stage.hpp"
 
 #include <algorithm>

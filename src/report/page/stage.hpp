@@ -1,3 +1,4 @@
+// The space in which a body moves: which way is up, the floor, and when feet stand on it.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,6 @@
 #include "kinemend/feet.hpp"
 #include "kinemend/marker_clip.hpp"
 
-// Where a body moves: up, the floor, when feet stand on it.
 namespace kinemend::page {
 
 /// A time in which a foot stands.

@@ -1,3 +1,4 @@
+// Writes names, skeleton, gaps and stage of a take as JSON.
 #include "report/page/take_json.hpp"
 
 #include <string>

@@ -1,3 +1,4 @@
+// Data of a take that the page needs beside its channels.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,7 +9,6 @@
 #include "report/page/channels.hpp"
 #include "report/page/stage.hpp"
 
-// What the page must know of a take beside its channels.
 namespace kinemend::page {
 
 using Json = nlohmann::ordered_json;

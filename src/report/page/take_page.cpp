@@ -1,3 +1,4 @@
+// Makes the page of a take's report.
 #include <fmt/format.h>
 
 #include <array>
