@@ -1,3 +1,5 @@
+// Checks the health of a take before cleaning: gaps, spikes, noise, swapped markers, sliding feet
+// and more.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +15,6 @@
 #include "kinemend/known_names.hpp"
 #include "kinemend/marker_clip.hpp"
 
-// The health of a take before cleaning.
 namespace kinemend {
 
 enum class FindingKind : std::uint8_t {

@@ -1,3 +1,4 @@
+// Cleans whole takes, and reports what was done to them.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// The repairs that a reader makes to odd but usable input.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// The exception that all functions of the library throw.
 #pragma once
 
 #include <cstddef>

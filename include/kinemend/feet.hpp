@@ -1,3 +1,4 @@
+// Feet on the floor: when they stand, how they slide, and how to stop them sliding.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,6 @@
 #include "kinemend/clip.hpp"
 #include "kinemend/known_names.hpp"
 
-// Feet on the floor: when they stand, how they slide, and how to stop them sliding.
 namespace kinemend {
 
 /// The point of a foot that a contact holds. The toe is the joint at the ball of the foot, or the

@@ -1,3 +1,4 @@
+// Fills gaps from the take itself and, where one is given, by a trained model.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +14,6 @@
 #include "kinemend/gaps.hpp"
 #include "kinemend/marker_clip.hpp"
 
-// Gap filling from the take itself and, where one is given, by a trained model.
 namespace kinemend {
 
 /// How a trained model fills the gaps of a take of joints.

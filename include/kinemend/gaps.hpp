@@ -1,3 +1,4 @@
+// Finds and marks spans of missing samples.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,6 @@
 #include "kinemend/clip.hpp"
 #include "kinemend/marker_clip.hpp"
 
-// Spans of missing samples.
 namespace kinemend {
 
 /// A run of consecutive missing samples of one joint or marker.

@@ -1,3 +1,4 @@
+// Reads takes from files of any format, and writes them.
 #pragma once
 
 #include <cstddef>

@@ -1,10 +1,10 @@
+// Gives known names to the joints or markers of a take whose own names mean nothing to the program.
 #pragma once
 
 #include <map>
 #include <string>
 #include <vector>
 
-// Takes whose names mean nothing to the program.
 namespace kinemend {
 
 /// Names that are known ("LeftFoot", "LTOE") to names in a take ("bone_17", "M3"); an empty one:

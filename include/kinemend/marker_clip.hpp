@@ -1,3 +1,4 @@
+// A take of markers: one of the two kinds of a take.
 #pragma once
 
 #include "kinemend/take.hpp"

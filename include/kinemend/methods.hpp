@@ -1,3 +1,4 @@
+// Every cleaning method: a struct of options and the function that makes its cleaner.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +12,8 @@ namespace kinemend {
 
 struct Model;
 
-// Every cleaning method: a struct of options and the function that makes its cleaner. Times are in
-// seconds and frequencies in hertz, so that options mean the same at every frame rate. The
-// functions throw `ErrorKind::usage` for a value out of range.
+// Times are in seconds and frequencies in hertz, so that options mean the same at every frame rate.
+// The functions throw `ErrorKind::usage` for a value out of range.
 
 /// Smoothing with Gaussian weights in time, by Lee & Shin's orientation filter (Courty 2008, eq.
 /// 2-3).

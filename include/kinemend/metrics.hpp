@@ -1,3 +1,4 @@
+// Every error figure of the project, defined once.
 #pragma once
 
 #include <array>
@@ -13,10 +14,10 @@
 
 namespace kinemend {
 
-// Every error figure of the project, defined once. A figure compares `other` with `reference`, from
-// `first_frame` on: pass `leading_calibration_frames(reference)` to leave a calibration pose out.
-// Both clips have the same joints (number and names) and the same number of frames, and
-// `first_frame` lies inside; otherwise `ErrorKind::usage`. Where both are the same the figure is 0.
+// A figure compares `other` with `reference`, from `first_frame` on: pass
+// `leading_calibration_frames(reference)` to leave a calibration pose out. Both clips have the same
+// joints (number and names) and the same number of frames, and `first_frame` lies inside; otherwise
+// `ErrorKind::usage`. Where both are the same the figure is 0.
 
 /// Mean and standard deviation (divided by n, as in NumPy) over frames.
 struct MeanAndDeviation {

@@ -1,3 +1,4 @@
+// The options of methods, each defined once for command lines, files and C++.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// The result of any command as figures, findings and tracks in one form, and as JSON and text.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +18,6 @@
 #include "kinemend/metrics.hpp"
 #include "kinemend/options.hpp"
 
-// The result of any command as figures, findings and tracks in one form, and as JSON and text.
 namespace kinemend {
 
 /// Name and version of the JSON; docs/report.md describes it, docs/report.schema.json states it.

@@ -1,3 +1,4 @@
+// Vectors, rotations as unit quaternions, and Euler angles.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// A skeleton: a tree of joints with their offsets, rest rotations and channels.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// The data type that everything works on: a take, which is the motion of a skeleton or of markers.
 #pragma once
 
 #include <cstddef>

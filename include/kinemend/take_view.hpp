@@ -1,3 +1,4 @@
+// Shows a take of joints or of markers as one kind of thing: a set of tracks.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,6 @@
 #include "kinemend/clip.hpp"
 #include "kinemend/marker_clip.hpp"
 
-// A take of joints or of markers as one kind of thing: a set of tracks.
 namespace kinemend {
 
 /// Where the samples of a track live: SO(3), unit quaternions; or R^3, file units.

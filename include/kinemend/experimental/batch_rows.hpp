@@ -1,3 +1,4 @@
+// The results of a batch: a row for each take, and sums over them.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,6 @@
 
 #include "kinemend/report.hpp"
 
-// What a batch says of its takes: a row each, and sums over them.
 namespace kinemend {
 
 /// A take of a batch: what its report says without lists.

@@ -1,3 +1,5 @@
+// Bodies as learned models see them: channels that do not depend on where a person stands, which
+// way the person faces, which way the file's axes point and how its joints' frames are turned.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +15,6 @@
 #include "kinemend/experimental/pose_matrix.hpp"
 #include "kinemend/marker_clip.hpp"
 
-// Bodies as learned models see them: channels that do not depend on where a person stands, which
-// way the person faces, which way the file's axes point and how its joints' frames are turned.
 namespace kinemend {
 
 enum class BodyKind : std::uint8_t { joints, markers };

@@ -1,3 +1,4 @@
+// A hash that shows whether bytes have changed.
 #pragma once
 
 #include <cstddef>

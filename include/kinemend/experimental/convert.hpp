@@ -1,3 +1,7 @@
+// Converts takes to another rate, axis, unit or kind. What comes out is written anew, not in its
+// source's layout; what a C3D file holds beside its points (analog samples, force plates,
+// parameters) goes along all the same, and follows the points. What already has the rate, axis or
+// unit asked for comes back as it is.
 #pragma once
 
 #include <string_view>
@@ -5,10 +9,6 @@
 #include "kinemend/clip.hpp"
 #include "kinemend/marker_clip.hpp"
 
-// Takes brought to another rate, axis, unit or kind. What comes out is written anew, not in its
-// source's layout; what a C3D file holds beside its points (analog samples, force plates,
-// parameters) goes along all the same, and follows the points. What already has the rate, axis or
-// unit asked for comes back as it is.
 namespace kinemend {
 
 /// The same motion at another rate, from its first frame to its last or just before. A frame that

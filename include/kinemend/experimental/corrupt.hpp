@@ -1,3 +1,4 @@
+// Damages takes in known ways, for tests and for training.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// A track over time, before and after, as values and as a drawing.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,6 @@
 #include "kinemend/marker_clip.hpp"
 #include "kinemend/report.hpp"
 
-// A track over time, before and after, as values and as a drawing.
 namespace kinemend {
 
 /// Curves of one joint or marker. A sample that was not observed is NaN.

@@ -1,3 +1,4 @@
+// Frames as people count them: frame f of a clip has the number `first_frame_number` + f.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +7,6 @@
 #include "kinemend/clip.hpp"
 #include "kinemend/marker_clip.hpp"
 
-// Frames as people count them: frame f of a clip has the number `first_frame_number` + f.
 namespace kinemend {
 
 /// The number of frame `frame` (from 0) in a take whose first frame has the number `first`.

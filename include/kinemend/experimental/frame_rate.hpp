@@ -1,3 +1,4 @@
+// The frame rates that takes may have.
 #pragma once
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// A gap plan: one row a gap, with what is to be done about it. It is written by a run of `fill`,
+// edited, and applied in another.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +16,6 @@
 #include "kinemend/gaps.hpp"
 #include "kinemend/marker_clip.hpp"
 
-// A gap plan: one row a gap, with what is to be done about it. It is written by a run of `fill`,
-// edited, and applied in another.
 namespace kinemend {
 
 enum class GapVerdict : std::uint8_t {

@@ -1,9 +1,9 @@
+// A bound on how deeply JSON from outside may be nested. Every reader of JSON uses it.
 #pragma once
 
 #include <cstddef>
 #include <string_view>
 
-// A bound on how deeply JSON from outside may be nested. Every reader of JSON uses it.
 namespace kinemend {
 
 /// The most levels of arrays and objects, one inside the other, that are read. Files of the program

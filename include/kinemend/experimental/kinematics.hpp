@@ -1,3 +1,4 @@
+// Where the joints of a take are in the world (forward kinematics).
 #pragma once
 
 #include <cstddef>

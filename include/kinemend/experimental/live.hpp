@@ -1,3 +1,5 @@
+// Cleans live motion as text: bytes of BVH, or of lines of markers, come in as they arrive, and
+// cleaned frames go out as text. docs/live.md describes both.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +12,6 @@
 
 #include "kinemend/cleaner.hpp"
 
-// Live motion as text: bytes of BVH, or of lines of markers, as they arrive in, cleaned frames as
-// text out. docs/live.md describes both.
 namespace kinemend {
 
 /// How cleaned frames are written.

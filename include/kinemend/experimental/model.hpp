@@ -1,3 +1,4 @@
+// Learned models: what a method knows of human motion, in a file (`walk.kmodel`, safetensors).
 #pragma once
 
 #include <filesystem>
@@ -11,7 +12,6 @@
 #include "kinemend/experimental/body.hpp"
 #include "kinemend/experimental/tensor.hpp"
 
-// Learned models: what a method knows of human motion, in a file (`walk.kmodel`, safetensors).
 namespace kinemend {
 
 /// What a model says of itself, for people.

@@ -1,3 +1,4 @@
+// A report as one page for a browser: the body in 3D, curves, findings and changes.
 #pragma once
 
 #include <functional>
@@ -12,7 +13,6 @@
 #include "kinemend/marker_clip.hpp"
 #include "kinemend/report.hpp"
 
-// A report as one page for a browser: the body in 3D, curves, findings and changes.
 namespace kinemend {
 
 /// Whether this build contains the page's program. A build whose bundle in web/dist

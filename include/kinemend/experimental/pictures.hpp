@@ -1,3 +1,4 @@
+// Drawings of whole takes as SVG. Names may hold any characters.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +12,6 @@
 #include "kinemend/experimental/curves.hpp"
 #include "kinemend/marker_clip.hpp"
 
-// Drawings of whole takes as SVG. Names may hold any characters.
 namespace kinemend {
 
 /// Frames [first, last], counted from 0; more than the take has are left out.

@@ -1,3 +1,4 @@
+// A matrix of channels over frames, on which filters work.
 #pragma once
 
 #include <cassert>

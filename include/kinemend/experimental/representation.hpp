@@ -1,3 +1,4 @@
+// Encodes the rotations of a take as channels that may be filtered, and decodes them.
 #pragma once
 
 #include <cstdint>

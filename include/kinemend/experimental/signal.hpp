@@ -1,3 +1,4 @@
+// Filters on F x D matrices of equally spaced samples, in place, each channel by itself.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +9,8 @@
 
 #include "kinemend/experimental/pose_matrix.hpp"
 
-/// Filters on F x D matrices of equally spaced samples, in place, each channel by itself. They know
-/// nothing of skeletons: widths are frames, and only `butterworth_lowpass` speaks of hertz.
+/// The filters know nothing of skeletons: widths are frames, and only `butterworth_lowpass` speaks
+/// of hertz.
 ///
 /// What holds for all of them: any F and D, 0 included; a channel's result does not depend on its
 /// neighbours; the negated signal gives the negated result bit for bit; results do not depend on

@@ -1,3 +1,4 @@
+// The people of a take of markers.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +7,6 @@
 
 #include "kinemend/marker_clip.hpp"
 
-// The people of a take of markers.
 namespace kinemend {
 
 struct Subject {

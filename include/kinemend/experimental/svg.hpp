@@ -1,10 +1,10 @@
+// Builds drawings as SVG text.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-// Drawings as text.
 namespace kinemend {
 
 /// A drawing in SVG, in pixels from the top left corner. Coordinates are written to a tenth, lines

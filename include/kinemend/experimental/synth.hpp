@@ -1,3 +1,4 @@
+// Makes artificial takes of known motion.
 #pragma once
 
 #include <cstdint>

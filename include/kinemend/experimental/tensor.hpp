@@ -1,3 +1,4 @@
+// Files of named arrays of numbers (safetensors), in which learned models are kept.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-// Files of named arrays of numbers (safetensors), in which learned models are kept.
 namespace kinemend {
 
 /// How the numbers of a tensor are stored. In memory they are doubles.

@@ -1,3 +1,4 @@
+// Text for people: words, figures and tables.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-// Text for people: words, figures and tables.
 namespace kinemend {
 
 enum class Align { left, right };

@@ -1,3 +1,4 @@
+// Fits models to clean takes.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +18,6 @@
 #include "kinemend/marker_clip.hpp"
 #include "kinemend/options.hpp"
 
-// Fitting models to clean takes.
 namespace kinemend {
 
 /// Clean takes of one kind, handed out one at a time: each is asked for once, in order.
