@@ -71,7 +71,7 @@ class OfAnyMethod : public testing::TestWithParam<std::string> {
 
   Clip cleaned(const Clip& clip) const { return clean_clip(clip, *cleaner_).clip; }
   // Follows travel late by nature, the later the faster.
-  bool is_causal() const { return runs_without_delay(*cleaner_); }
+  bool is_causal() const { return test::runs_without_delay(*cleaner_); }
   // A filter of fixed weights turns with the take_to_turn; others measure, compare or choose anew.
   bool has_fixed_weights() const {
     for (const char* name : {"gaussian", "butterworth", "weighted-mean", "kalman"})
