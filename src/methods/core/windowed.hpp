@@ -15,7 +15,7 @@
 // the rest of its live form: steps where nothing is missing, pieces at gaps and at the ends.
 namespace kinemend {
 
-/// The last samples of a track, one behind the other. Takes memory when it is made only.
+/// The last samples of a track, one behind the other. Takes memory only when it is made.
 template <class Sample>
 class SlidingWindow {
  public:
@@ -51,14 +51,14 @@ class WindowedFilter : public LiveFilter {
   bool flush(Frame& out) final;
 
  protected:
-  /// Meets every frame of the stream, `half` frames before `clean` is asked for it.
+  /// Takes every frame of the stream, `half` frames before `clean` is called for it.
   virtual void step(const Frame& /*newest*/) {}
-  /// Cleans `out`, which holds frame `frame` of the window as it came. `has_stepped`: the frame
-  /// `half` behind it is the last that `step` met; else the stream has ended before.
+  /// Cleans `out`, which holds frame `frame` of the window as it came. `has_stepped`: `step` took
+  /// the frame `half` after it last; false once the stream has ended.
   virtual void clean(std::size_t frame, bool has_stepped, Frame& out) = 0;
 
   std::size_t half() const { return half_; }
-  /// The frames that are kept, as a take; its samples are there within `clean`.
+  /// The frames that are kept, as a take. Its samples may be read within `clean` only.
   const TakeView& window() const { return view_; }
 
  private:
@@ -69,7 +69,7 @@ class WindowedFilter : public LiveFilter {
   void give(bool has_stepped, Frame& out);
 
   std::size_t half_, bridge_;
-  TakeView view_;  // of what stands in the three below, a row a frame
+  TakeView view_;  // refers to the three arrays below, which hold one row per frame
   std::vector<Quat> rotations_;
   std::vector<Vec3> positions_;
   std::vector<std::uint8_t> observed_;
