@@ -57,21 +57,21 @@ AnyTake read_training_take(const Training& training, const std::string& path) {
 }
 
 /// Empty if it cannot be read and such takes are skipped, with a warning.
-std::optional<AnyTake> training_take(const Training& training, const std::string& path) {
+std::optional<Take> training_take(const Training& training, const std::string& path) {
   std::optional<AnyTake> take;
   try {
     take = read_training_take(training, path);
   } catch (const Error& error) {
     if (!training.skip_unreadable || error.kind() != ErrorKind::unreadable_input) throw;
     say_warning(fmt::format("{} (skipped)", error.what()));
-    return take;
+    return std::nullopt;
   }
   if (!training.fill.empty()) {
     FillSettings settings;
     settings.method = training.fill;
     std::visit([&](auto& clip) { fill_gaps(clip, settings); }, *take);
   }
-  return take;
+  return std::visit([](auto& clip) { return Take(std::move(clip)); }, *take);
 }
 
 TrainingTakes takes_of(const Training& training, ProgressLine& progress) {

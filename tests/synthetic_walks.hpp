@@ -10,13 +10,12 @@ namespace kinemend {
 
 /// Walks of two bodies, encoded at 120 Hz.
 inline TrainingSequences encoded_walks(double duration_s) {
-  const TrainingTakes takes{
-      2, [duration_s](std::size_t index) -> std::optional<std::variant<Clip, MarkerClip>> {
-        SynthOptions options;
-        options.duration_s = duration_s;
-        options.seed = index + 1;
-        return synthesize(options);
-      }};
+  const TrainingTakes takes{2, [duration_s](std::size_t index) -> std::optional<Take> {
+                              SynthOptions options;
+                              options.duration_s = duration_s;
+                              options.seed = index + 1;
+                              return synthesize(options);
+                            }};
   return encode_takes(takes, {}, 120);
 }
 

@@ -78,7 +78,7 @@ std::shared_ptr<const Model> learned(const std::string& method, const std::vecto
                                      OptionValues options = {}) {
   TrainingTakes takes;
   takes.count = clips.size();
-  takes.take = [&clips](std::size_t i) { return std::variant<Clip, MarkerClip>(clips[i]); };
+  takes.take = [&clips](std::size_t i) { return Take(clips[i]); };
   if (method != "wiener") options.try_emplace("rate_hz", lou_rate_hz);
   return std::make_shared<const Model>(train_model(method, takes, options));
 }

@@ -125,8 +125,7 @@ void dances(const Arguments& arguments) {
   TrainingTakes takes;
   takes.count = training.size();
   takes.take = [&](std::size_t i) {
-    return std::variant<Clip, MarkerClip>(
-        load_take(arguments, training[i] + ".bvh", {.motion = training[i]}).clip);
+    return Take(load_take(arguments, training[i] + ".bvh", {.motion = training[i]}).clip);
   };
   const auto model = std::make_shared<const Model>(train_model("wiener", takes));
   shares_of_gaussian(arguments, "page_dances.csv", names, model);

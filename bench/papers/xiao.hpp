@@ -97,7 +97,7 @@ inline std::shared_ptr<const Model> xiao_model(const std::string& method,
                                                const OptionValues& options = {}) {
   TrainingTakes takes;
   takes.count = clips.size();
-  takes.take = [&clips](std::size_t i) { return std::variant<Clip, MarkerClip>(clips[i]); };
+  takes.take = [&clips](std::size_t i) { return Take(clips[i]); };
   return std::make_shared<const Model>(train_model(method, takes, options));
 }
 

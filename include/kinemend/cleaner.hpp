@@ -150,10 +150,7 @@ struct InPlaceTrace : CleanTrace {
 };
 /// The cleaner alone, without the pipeline of `clean_clip`: writes what it makes of the clip back
 /// into it. Markers that it filled become observed.
-InPlaceTrace clean_in_place(const Cleaner& cleaner, Clip& clip, const Selection& selection = {},
-                            const std::function<void(double)>& progress = {});
-InPlaceTrace clean_in_place(const Cleaner& cleaner, MarkerClip& clip,
-                            const Selection& selection = {},
+InPlaceTrace clean_in_place(const Cleaner& cleaner, Take& take, const Selection& selection = {},
                             const std::function<void(double)>& progress = {});
 
 /// An entry of the table of methods.

@@ -16,6 +16,6 @@ struct Clip : Take {
 /// of their rest rotation, 6 on average. A jump follows: one joint turns by more than 25 degrees,
 /// and the mean turn of the joints is 1.5 times that of the next step and of nine in ten later
 /// steps. Noise does not hide it. Never all frames of a clip.
-std::size_t leading_calibration_frames(const Clip& clip);
+std::size_t leading_calibration_frames(const Take& clip);
 
 }  // namespace kinemend

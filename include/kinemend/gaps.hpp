@@ -26,10 +26,9 @@ struct Gap {
 
 /// The runs of samples that are not observed, by track, then frame. Points of a marker clip that
 /// are not positions have no gaps.
-std::vector<Gap> find_gaps(const Clip& clip);
-std::vector<Gap> find_gaps(const MarkerClip& clip);
-/// The same for `Clip::observed_positions`.
-std::vector<Gap> find_position_gaps(const Clip& clip);
+std::vector<Gap> find_gaps(const Take& take);
+/// The same for `Take::observed_positions`.
+std::vector<Gap> find_position_gaps(const Take& clip);
 
 /// A gap as a side file states it, for formats that cannot store gaps.
 struct NamedGap {
@@ -41,8 +40,7 @@ struct NamedGap {
 /// Marks the samples as not observed, so that nothing uses their values. A gap of a joint is a gap
 /// of its rotation and, where it has position channels, of its position too. Errors:
 /// `ErrorKind::usage` for a name or a frame that the take does not have.
-void mark_gaps(Clip& clip, std::span<const NamedGap> gaps);
-void mark_gaps(MarkerClip& clip, std::span<const NamedGap> gaps);
+void mark_gaps(Take& take, std::span<const NamedGap> gaps);
 
 /// Reads a side file: lines `name,first,last`, where a frame has the number that its take gives it
 /// and the last frame is inclusive. `first_frame` is the number of the take's first frame

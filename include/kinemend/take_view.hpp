@@ -71,8 +71,8 @@ struct Track {
 /// A take as its tracks, which refer to a clip that outlives the view. Joints: J rotations, the
 /// root position, then the positions of the translated joints. Markers: M positions.
 struct TakeView {
-  const Clip* joints = nullptr;         ///< the clip of a take of joints, else null
-  const MarkerClip* markers = nullptr;  ///< that of a take of markers, else null
+  const Take* joints = nullptr;   ///< the clip of a take of joints, else null
+  const Take* markers = nullptr;  ///< that of a take of markers, else null
   std::vector<Track> tracks;
   std::size_t owners = 0;  ///< J or M: track n < owners is that of joint or marker n
   std::size_t frames = 0;
@@ -86,9 +86,8 @@ struct TakeView {
   std::size_t root_track() const noexcept { return owners; }
 };
 
-TakeView view_of(const Clip& clip, const Selection& selection = {});
 /// Markers that are no positions are never selected.
-TakeView view_of(const MarkerClip& clip, const Selection& selection = {});
+TakeView view_of(const Take& take, const Selection& selection = {});
 
 /// `Track::radian` of the positions of a take, which is the same for all of them.
 double radian_of_positions(const TakeView& take);
@@ -106,10 +105,8 @@ std::vector<Vec3> positions_of(const Track& track);
 std::vector<std::uint8_t> observed_of(const Track& track);
 
 /// Writes samples of track `track` of the clip that a view was made of, from frame `first` on.
-void set_track(Clip& clip, std::size_t track, std::span<const Quat> samples, std::size_t first = 0);
-void set_track(Clip& clip, std::size_t track, std::span<const Vec3> samples, std::size_t first = 0);
-void set_track(MarkerClip& clip, std::size_t track, std::span<const Vec3> samples,
-               std::size_t first = 0);
+void set_track(Take& take, std::size_t track, std::span<const Quat> samples, std::size_t first = 0);
+void set_track(Take& take, std::size_t track, std::span<const Vec3> samples, std::size_t first = 0);
 
 /// Mean length of the bones (offsets that are not zero), file units; 1 when there are none. It puts
 /// positions and rotations on one scale: a turn of one radian moves a bone's end by about this.

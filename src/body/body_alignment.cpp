@@ -45,7 +45,7 @@ std::vector<std::int32_t> only_children(const BodyLayout& layout) {
 
 }  // namespace
 
-std::vector<Vec3> bone_directions(const BodyLayout& layout, const Clip& clip, const RestPose& rest,
+std::vector<Vec3> bone_directions(const BodyLayout& layout, const Take& clip, const RestPose& rest,
                                   const std::vector<std::int32_t>& tracks) {
   constexpr double least_share = 1e-3;  // of all the skeleton's bones
   double all = 0;
@@ -77,7 +77,7 @@ std::int32_t matched_parent(const BodyLayout& layout, const std::vector<std::int
   return above;
 }
 
-void align_joints(const BodyLayout& layout, const Clip& clip, const RestPose& rest,
+void align_joints(const BodyLayout& layout, const Take& clip, const RestPose& rest,
                   BodyMatch& match) {
   const std::size_t count = layout.track_count();
   const std::vector<Vec3> bones = bone_directions(layout, clip, rest, match.tracks);

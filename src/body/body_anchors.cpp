@@ -100,7 +100,7 @@ std::optional<RigidFit> fit_rigidly(std::vector<Anchor> anchors, double body_hei
   return fit;
 }
 
-std::optional<RigidFit> fit_frame(const MarkerClip& clip, const BodyLayout& layout,
+std::optional<RigidFit> fit_frame(const Take& clip, const BodyLayout& layout,
                                   const BodyMatch& match, std::size_t frame) {
   std::vector<Anchor> anchors;
   for (std::size_t i = 0; i < layout.track_count(); ++i) {
@@ -112,7 +112,7 @@ std::optional<RigidFit> fit_frame(const MarkerClip& clip, const BodyLayout& layo
   return fit_rigidly(std::move(anchors), match.body_height);
 }
 
-void follow_anchors(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match,
+void follow_anchors(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
                     double floor, BodyChannels& channels) {
   const std::size_t frames = clip.frame_count();
   const Vec3 centre = match.body_height * body_centre(layout);
@@ -131,7 +131,7 @@ void follow_anchors(const MarkerClip& clip, const BodyLayout& layout, const Body
          channels);
 }
 
-double low_level(const MarkerClip& clip, Quat upright, std::span<const std::int32_t> markers) {
+double low_level(const Take& clip, Quat upright, std::span<const std::int32_t> markers) {
   constexpr double smoothing_s = 0.1;
   constexpr double low = 0.2;  // share of the frames in which the lowest marker is lower still
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -154,7 +154,7 @@ double low_level(const MarkerClip& clip, Quat upright, std::span<const std::int3
   return quantile_of(lowest, low);
 }
 
-double floor_height(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match) {
+double floor_height(const Take& clip, const BodyLayout& layout, const BodyMatch& match) {
   if (!match.feet.empty()) {
     // Where the lowest of the layout's markers are missing, those that are left stand higher.
     double lowest = std::numeric_limits<double>::infinity(), known = lowest;

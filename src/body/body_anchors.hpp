@@ -34,22 +34,22 @@ struct RigidFit {
 std::optional<RigidFit> fit_rigidly(std::vector<Anchor> anchors, double body_height);
 
 /// The fit of the layout's shape to the anchors seen in a frame, file units, upright axes.
-std::optional<RigidFit> fit_frame(const MarkerClip& clip, const BodyLayout& layout,
+std::optional<RigidFit> fit_frame(const Take& clip, const BodyLayout& layout,
                                   const BodyMatch& match, std::size_t frame);
 
 /// Headings and places of the channels, from the anchors. `floor`: height of the floor.
-void follow_anchors(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match,
+void follow_anchors(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
                     double floor, BodyChannels& channels);
 
 /// Height of the floor in upright axes: the feet return to it again and again.
-double floor_height(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match);
+double floor_height(const Take& clip, const BodyLayout& layout, const BodyMatch& match);
 
 /// The lowest of some markers, frame by frame, smoothed over a tenth of a second; empty where none
 /// of them is ever seen.
-double low_level(const MarkerClip& clip, Quat upright, std::span<const std::int32_t> markers);
+double low_level(const Take& clip, Quat upright, std::span<const std::int32_t> markers);
 
 /// A marker in upright axes.
-inline Vec3 upright_position(const MarkerClip& clip, Quat upright, std::size_t frame,
+inline Vec3 upright_position(const Take& clip, Quat upright, std::size_t frame,
                              std::size_t marker) {
   return rotate(upright, clip.position(frame, marker));
 }

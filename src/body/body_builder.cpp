@@ -41,12 +41,12 @@ BodyLayoutBuilder::BodyLayoutBuilder(std::vector<std::string> names, double tren
 BodyLayoutBuilder::~BodyLayoutBuilder() = default;
 BodyLayoutBuilder::BodyLayoutBuilder(BodyLayoutBuilder&&) noexcept = default;
 
-void BodyLayoutBuilder::add(const Clip& clip) {
-  state_->of_kind<representation::JointLearning>(BodyKind::joints).add(clip);
-}
-
-void BodyLayoutBuilder::add(const MarkerClip& clip) {
-  state_->of_kind<representation::MarkerLearning>(BodyKind::markers).add(clip);
+void BodyLayoutBuilder::add(const Take& take) {
+  if (take.has_joints()) {
+    state_->of_kind<representation::JointLearning>(BodyKind::joints).add(take);
+  } else {
+    state_->of_kind<representation::MarkerLearning>(BodyKind::markers).add(take);
+  }
 }
 
 BodyLayout BodyLayoutBuilder::finish() const {

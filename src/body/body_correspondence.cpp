@@ -62,18 +62,14 @@ void check_kind(const BodyLayout& layout, BodyKind kind) {
                                             to_string(layout.kind), to_string(kind)));
 }
 
-std::vector<std::uint8_t> possible_tracks(const Clip& clip) {
-  std::vector<std::uint8_t> turning(clip.joint_count());
-  for (std::size_t j = 0; j < clip.joint_count(); ++j)
-    turning[j] = clip.skeleton.rotation_order(j).count > 0 ? 1 : 0;
-  return turning;
-}
-
-std::vector<std::uint8_t> possible_tracks(const MarkerClip& clip) {
-  std::vector<std::uint8_t> positions(clip.marker_count());
-  for (std::size_t m = 0; m < clip.marker_count(); ++m)
-    positions[m] = clip.holds_positions(m) ? 1 : 0;
-  return positions;
+std::vector<std::uint8_t> possible_tracks(const Take& take) {
+  std::vector<std::uint8_t> possible(take.has_joints() ? take.joint_count() : take.marker_count());
+  for (std::size_t n = 0; n < possible.size(); ++n) {
+    const bool can =
+        take.has_joints() ? take.skeleton.rotation_order(n).count > 0 : take.holds_positions(n);
+    possible[n] = can ? 1 : 0;
+  }
+  return possible;
 }
 
 void list_unmatched(const BodyLayout& layout, const std::vector<std::string>& names,

@@ -21,18 +21,21 @@ MappedTracks mapped_tracks(const BodyLayout& layout, const std::vector<std::stri
                            const NameMap& map);
 
 /// Parts of joints by name, then by topology; -1: none.
-std::vector<std::int32_t> match_joints(const BodyLayout& layout, const Clip& clip,
+std::vector<std::int32_t> match_joints(const BodyLayout& layout, const Take& clip,
                                        const NameMap& map);
 /// Parts of markers by name.
-std::vector<std::int32_t> match_markers(const BodyLayout& layout, const MarkerClip& clip,
+std::vector<std::int32_t> match_markers(const BodyLayout& layout, const Take& clip,
                                         const NameMap& map);
+
+/// `match_body` of a take of one kind.
+BodyMatch match_body_of_joints(const BodyLayout& layout, const Take& take, const NameMap& names);
+BodyMatch match_body_of_markers(const BodyLayout& layout, const Take& take, const NameMap& names);
 
 /// Errors: `ErrorKind::usage` when a layout is of the other kind.
 void check_kind(const BodyLayout& layout, BodyKind kind);
 
 /// 1 for joints that can turn, and for markers that are positions.
-std::vector<std::uint8_t> possible_tracks(const Clip& clip);
-std::vector<std::uint8_t> possible_tracks(const MarkerClip& clip);
+std::vector<std::uint8_t> possible_tracks(const Take& take);
 
 /// Fills `match.missing` and `match.unknown`. `known`: 1 for the names of the take that may be
 /// tracks. Errors: `ErrorKind::usage` when less than half of the tracks are found.

@@ -14,8 +14,8 @@ namespace kinemend::representation {
 
 namespace {
 
-// Column of a joint among `Clip::translated_joints`.
-std::optional<std::size_t> translation_column(const Clip& clip, std::size_t joint) {
+// Column of a joint among `Take::translated_joints`.
+std::optional<std::size_t> translation_column(const Take& clip, std::size_t joint) {
   const auto& joints = clip.translated_joints;
   const auto found =
       std::lower_bound(joints.begin(), joints.end(), static_cast<std::int32_t>(joint));
@@ -26,7 +26,7 @@ std::optional<std::size_t> translation_column(const Clip& clip, std::size_t join
 // A joint with those above it, from the top, and where each one's offset stands.
 class Chain {
  public:
-  Chain(const Clip& clip, std::int32_t joint) : clip_(clip) {
+  Chain(const Take& clip, std::int32_t joint) : clip_(clip) {
     for (; joint >= 0; joint = clip.skeleton.parents[static_cast<std::size_t>(joint)]) {
       const auto j = static_cast<std::size_t>(joint);
       links_.push_back({j, translation_column(clip, j)});
@@ -70,7 +70,7 @@ class Chain {
     return clip_.skeleton.offsets[joint];
   }
 
-  const Clip& clip_;
+  const Take& clip_;
   std::vector<Link> links_;
 };
 
@@ -78,7 +78,7 @@ std::size_t root_joint(const BodyMatch& match) { return static_cast<std::size_t>
 
 }  // namespace
 
-RootMotion root_motion(const Clip& clip, const BodyMatch& match) {
+RootMotion root_motion(const Take& clip, const BodyMatch& match) {
   const std::size_t frames = clip.frame_count();
   const Chain chain(clip, match.tracks[0]);
   const std::size_t above = chain.length() - 1;
@@ -102,12 +102,12 @@ Heading heading_of(Quat q) {
   return {2 * std::atan2(q.y, q.w), weight > least_weight ? weight : 0};
 }
 
-std::size_t root_track(const Clip& clip, const BodyMatch& match) {
+std::size_t root_track(const Take& clip, const BodyMatch& match) {
   const auto column = translation_column(clip, root_joint(match));
   return column ? *column + 1 : 0;
 }
 
-void place_root(Clip& clip, const BodyMatch& match, std::size_t frame, Vec3 position) {
+void place_root(Take& clip, const BodyMatch& match, std::size_t frame, Vec3 position) {
   const Vec3 global = rotate(conjugate(match.upright), position);
   const std::size_t joint = root_joint(match);
   if (joint == 0) {
@@ -124,7 +124,7 @@ void place_root(Clip& clip, const BodyMatch& match, std::size_t frame, Vec3 posi
   clip.root_position(frame) += global - chain.at(frame, chain.length()).position;
 }
 
-void follow_root(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,
+void follow_root(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
                  const RootMotion& root, BodyChannels& channels) {
   const std::size_t frames = clip.frame_count();
   const std::size_t joint = root_joint(match), track = root_track(clip, match);
@@ -139,7 +139,7 @@ void follow_root(const Clip& clip, const BodyLayout& layout, const BodyMatch& ma
          floor_height(clip, layout, match, root), channels);
 }
 
-double floor_height(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,
+double floor_height(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
                     const RootMotion& root) {
   constexpr double smoothing_s = 0.1;
   constexpr double low = 0.2;  // share of the frames in which the lower foot is lower still

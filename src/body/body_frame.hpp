@@ -17,14 +17,14 @@ struct RootMotion {
   std::vector<Quat> rotations;  ///< F, global
   std::vector<Vec3> positions;  ///< F, file units
 };
-RootMotion root_motion(const Clip& clip, const BodyMatch& match);
+RootMotion root_motion(const Take& clip, const BodyMatch& match);
 
 /// Writes where and how the joint of the first track stands in a frame, in upright axes. The
 /// position goes into the joint's own channels where it has some, else into those of joint 0.
-void place_root(Clip& clip, const BodyMatch& match, std::size_t frame, Vec3 position);
+void place_root(Take& clip, const BodyMatch& match, std::size_t frame, Vec3 position);
 
-/// The track of the positions that carry the root: see `Clip::is_position_observed`.
-std::size_t root_track(const Clip& clip, const BodyMatch& match);
+/// The track of the positions that carry the root: see `Take::is_position_observed`.
+std::size_t root_track(const Take& clip, const BodyMatch& match);
 
 /// The turn about y that a rotation holds, and how well it is known: 1 upright, 0 upside down,
 /// where there is none; next to that, 0.
@@ -35,7 +35,7 @@ struct Heading {
 Heading heading_of(Quat rotation);
 
 /// Headings and places of the channels, from the root's motion.
-void follow_root(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,
+void follow_root(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
                  const RootMotion& root, BodyChannels& channels);
 
 /// Headings and places of the channels, smoothed: angles and points frame by frame, and how well
@@ -45,7 +45,7 @@ void follow(const BodyLayout& layout, std::vector<double> headings, std::span<co
             double floor, BodyChannels& channels);
 
 /// Height of the floor in upright axes: the feet return to it again and again.
-double floor_height(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,
+double floor_height(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
                     const RootMotion& root);
 
 /// Degrees that a length of one file unit is, on an arc of a quarter of the body height.

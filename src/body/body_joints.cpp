@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "body/body_frame.hpp"
+#include "body/body_kinds.hpp"
 #include "body/body_rotations.hpp"
 #include "kinemend/experimental/body.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
@@ -16,7 +17,7 @@ using representation::RootMotion;
 
 Quat heading_turn(double heading) { return exp({0, heading, 0}); }
 
-void encode_track(const Clip& clip, const BodyLayout& layout, const std::vector<Quat>& rotations,
+void encode_track(const Take& clip, const BodyLayout& layout, const std::vector<Quat>& rotations,
                   std::size_t track, const BodyChannels* guide, const BodyMatch& match,
                   BodyChannels& channels) {
   const Quat from_reference = conjugate(layout.references[track]);
@@ -38,7 +39,7 @@ void encode_track(const Clip& clip, const BodyLayout& layout, const std::vector<
     representation::put_channels(channels, frames[i], 3 * track, degrees_per_radian * vectors[i]);
 }
 
-void encode_place(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,
+void encode_place(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
                   const RootMotion& root, BodyChannels& channels) {
   const std::size_t channel = 3 * layout.track_count();
   const std::size_t track = representation::root_track(clip, match);
@@ -52,8 +53,12 @@ void encode_place(const Clip& clip, const BodyLayout& layout, const BodyMatch& m
   }
 }
 
-BodyChannels encode(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,
-                    const BodyChannels* guide) {
+}  // namespace
+
+namespace representation {
+
+BodyChannels encode_joints(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
+                           const BodyChannels* guide) {
   const std::size_t frames = clip.frame_count();
   BodyChannels channels;
   channels.frame_rate_hz = window_rate_hz(clip.frame_rate_hz);
@@ -75,19 +80,8 @@ BodyChannels encode(const Clip& clip, const BodyLayout& layout, const BodyMatch&
   return channels;
 }
 
-}  // namespace
-
-BodyChannels encode_body(const Clip& clip, const BodyLayout& layout, const BodyMatch& match) {
-  return encode(clip, layout, match, nullptr);
-}
-
-BodyChannels encode_body(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,
-                         const BodyChannels& guide) {
-  return encode(clip, layout, match, &guide);
-}
-
-void decode_body(const BodyChannels& channels, const BodyLayout& layout, const BodyMatch& match,
-                 Clip& clip, std::span<const std::uint8_t> chosen) {
+void decode_joints(const BodyChannels& channels, const BodyLayout& layout, const BodyMatch& match,
+                   Take& clip, std::span<const std::uint8_t> chosen) {
   const std::size_t frames = clip.frame_count(), tracks = layout.track_count();
   representation::check_fit(channels, layout, match, frames, chosen);
   const RootMotion root = representation::root_motion(clip, match);
@@ -113,5 +107,7 @@ void decode_body(const BodyChannels& channels, const BodyLayout& layout, const B
         clip, match, f, channels.places[f] + rotate(heading_turn(channels.headings[f]), ahead));
   }
 }
+
+}  // namespace representation
 
 }  // namespace kinemend

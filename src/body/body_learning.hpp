@@ -14,7 +14,7 @@ namespace kinemend::representation {
 class JointLearning {
  public:
   JointLearning(std::vector<std::string> patterns, double trend_s);
-  void add(const Clip& clip);
+  void add(const Take& clip);
   BodyLayout finish() const;
 
  private:
@@ -25,8 +25,8 @@ class JointLearning {
     std::size_t samples = 0, takes = 0;
   };
 
-  void start(const Clip& clip);
-  void add_rotations(const Clip& clip, const BodyMatch& match, std::size_t track,
+  void start(const Take& clip);
+  void add_rotations(const Take& clip, const BodyMatch& match, std::size_t track,
                      const std::vector<Quat>& rotations);
 
   std::vector<std::string> patterns_;
@@ -39,7 +39,7 @@ class JointLearning {
 class MarkerLearning {
  public:
   MarkerLearning(std::vector<std::string> patterns, double trend_s);
-  void add(const MarkerClip& clip);
+  void add(const Take& clip);
   BodyLayout finish() const;
 
  private:
@@ -53,13 +53,13 @@ class MarkerLearning {
     std::size_t samples = 0;
   };
 
-  BodyMatch start(const MarkerClip& clip);
-  void sum_distances(const MarkerClip& clip, const BodyMatch& match);
-  void sum_shape(const MarkerClip& clip, const BodyMatch& match);
-  void sum_means(const MarkerClip& clip, const BodyMatch& match);
+  BodyMatch start(const Take& clip);
+  void sum_distances(const Take& clip, const BodyMatch& match);
+  void sum_shape(const Take& clip, const BodyMatch& match);
+  void sum_means(const Take& clip, const BodyMatch& match);
   double unsteadiness(std::size_t track) const;
   void choose_anchors();
-  void stand_upright(const MarkerClip& clip, const BodyMatch& match);
+  void stand_upright(const Take& clip, const BodyMatch& match);
 
   std::vector<std::string> patterns_;
   BodyLayout layout_;  // as far as it is known

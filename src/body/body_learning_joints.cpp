@@ -18,7 +18,7 @@ namespace kinemend::representation {
 
 namespace {
 
-bool moves(const Clip& clip, std::size_t joint) {
+bool moves(const Take& clip, std::size_t joint) {
   constexpr double least = 1e-3;
   for (std::size_t f = 1; f < clip.frame_count(); ++f) {
     if (clip.is_observed(f, joint) &&
@@ -36,7 +36,7 @@ bool moves(const Clip& clip, std::size_t joint) {
 }
 
 // Joints that only carry the hips do not belong to the body.
-std::size_t body_root(const Clip& clip) {
+std::size_t body_root(const Take& clip) {
   std::size_t root = 0;
   while (!moves(clip, root)) {
     const auto is_child = [&](std::int32_t parent) {
@@ -63,7 +63,7 @@ JointLearning::JointLearning(std::vector<std::string> patterns, double trend_s)
   place_high_ = -place_low_;
 }
 
-void JointLearning::start(const Clip& clip) {
+void JointLearning::start(const Take& clip) {
   const Skeleton& skeleton = clip.skeleton;
   const std::size_t root = body_root(clip);
   const auto meant = names_meant(skeleton.names, patterns_, "joint");
@@ -88,7 +88,7 @@ void JointLearning::start(const Clip& clip) {
   tracks_.resize(tracks.size());
 }
 
-void JointLearning::add_rotations(const Clip& clip, const BodyMatch& match, std::size_t track,
+void JointLearning::add_rotations(const Take& clip, const BodyMatch& match, std::size_t track,
                                   const std::vector<Quat>& rotations) {
   Track& sums = tracks_[track];
   const auto joint = static_cast<std::size_t>(match.tracks[track]);
@@ -105,7 +105,7 @@ void JointLearning::add_rotations(const Clip& clip, const BodyMatch& match, std:
   ++sums.takes;
 }
 
-void JointLearning::add(const Clip& clip) {
+void JointLearning::add(const Take& clip) {
   if (takes_ == 0) start(clip);
   const BodyMatch match = match_body(layout_, clip);
   BodyChannels channels;

@@ -20,8 +20,7 @@ namespace kinemend::representation {
 namespace {
 
 // Markers that are seen now and then only, or have no name of their own, are no tracks.
-std::vector<std::int32_t> usable_markers(const MarkerClip& clip,
-                                         const std::vector<std::uint8_t>& meant) {
+std::vector<std::int32_t> usable_markers(const Take& clip, const std::vector<std::uint8_t>& meant) {
   std::vector<std::int32_t> usable;
   std::vector<std::string> taken;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
@@ -45,7 +44,7 @@ bool names_any(std::string_view name, std::initializer_list<std::string_view> wo
 }
 
 // From feet to head by their usual names, else where the floor seems to be.
-Quat upright_by_names(const MarkerClip& clip) {
+Quat upright_by_names(const Take& clip) {
   std::vector<std::size_t> high, low;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
     const std::string name = plain_name(clip.names[m]);
@@ -95,7 +94,7 @@ void face_ahead(BodyLayout& layout) {
   for (Vec3& point : layout.shape) point = turn.back(point);
 }
 
-std::size_t fullest_frame(const MarkerClip& clip, const BodyLayout& layout,
+std::size_t fullest_frame(const Take& clip, const BodyLayout& layout,
                           const std::vector<std::int32_t>& markers) {
   std::size_t best = 0, most = 0;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -120,7 +119,7 @@ MarkerLearning::MarkerLearning(std::vector<std::string> patterns, double trend_s
   layout_.trend_s = trend_s;
 }
 
-void MarkerLearning::sum_distances(const MarkerClip& clip, const BodyMatch& match) {
+void MarkerLearning::sum_distances(const Take& clip, const BodyMatch& match) {
   constexpr std::size_t most_frames = 256;
   const std::size_t count = tracks_.size(), frames = clip.frame_count();
   const std::size_t sampled = std::min(frames, most_frames);
@@ -181,7 +180,7 @@ void MarkerLearning::choose_anchors() {
     layout_.anchors[order[k].second] = 1;
 }
 
-void MarkerLearning::sum_shape(const MarkerClip& clip, const BodyMatch& match) {
+void MarkerLearning::sum_shape(const Take& clip, const BodyMatch& match) {
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const auto fit = fit_frame(clip, layout_, match, f);
     if (!fit) continue;
@@ -200,7 +199,7 @@ void MarkerLearning::sum_shape(const MarkerClip& clip, const BodyMatch& match) {
   }
 }
 
-void MarkerLearning::sum_means(const MarkerClip& clip, const BodyMatch& match) {
+void MarkerLearning::sum_means(const Take& clip, const BodyMatch& match) {
   BodyChannels frame;
   follow_anchors(clip, layout_, match, floor_height(clip, layout_, match), frame);
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
@@ -222,7 +221,7 @@ void MarkerLearning::sum_means(const MarkerClip& clip, const BodyMatch& match) {
 
 // Turns the shape so that it stands as the body does on average, faces ahead and is centred on its
 // anchors.
-void MarkerLearning::stand_upright(const MarkerClip& clip, const BodyMatch& match) {
+void MarkerLearning::stand_upright(const Take& clip, const BodyMatch& match) {
   Vec3 up;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     if (const auto fit = fit_frame(clip, layout_, match, f))
@@ -245,7 +244,7 @@ void MarkerLearning::stand_upright(const MarkerClip& clip, const BodyMatch& matc
 }
 
 // The shape of the first take, which starts from the frame in which most anchors are seen.
-BodyMatch MarkerLearning::start(const MarkerClip& clip) {
+BodyMatch MarkerLearning::start(const Take& clip) {
   constexpr int rounds = 4;
   BodyMatch match;
   match.tracks = usable_markers(clip, names_meant(clip.names, patterns_, "marker"));
@@ -282,7 +281,7 @@ BodyMatch MarkerLearning::start(const MarkerClip& clip) {
   return match;
 }
 
-void MarkerLearning::add(const MarkerClip& clip) {
+void MarkerLearning::add(const Take& clip) {
   const bool first = takes_ == 0;
   const BodyMatch match = first ? start(clip) : match_body(layout_, clip);
   sum_means(clip, match);

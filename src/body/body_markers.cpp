@@ -3,6 +3,7 @@
 
 #include "body/body_anchors.hpp"
 #include "body/body_frame.hpp"
+#include "body/body_kinds.hpp"
 #include "kinemend/experimental/body.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 
@@ -10,10 +11,10 @@ namespace kinemend {
 
 using representation::TurnAboutY;
 
-namespace {
+namespace representation {
 
-BodyChannels encode(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match,
-                    const BodyChannels* guide) {
+BodyChannels encode_markers(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
+                            const BodyChannels* guide) {
   const std::size_t frames = clip.frame_count();
   BodyChannels channels;
   channels.frame_rate_hz = window_rate_hz(clip.frame_rate_hz);
@@ -41,19 +42,8 @@ BodyChannels encode(const MarkerClip& clip, const BodyLayout& layout, const Body
   return channels;
 }
 
-}  // namespace
-
-BodyChannels encode_body(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match) {
-  return encode(clip, layout, match, nullptr);
-}
-
-BodyChannels encode_body(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match,
-                         const BodyChannels& guide) {
-  return encode(clip, layout, match, &guide);
-}
-
-void decode_body(const BodyChannels& channels, const BodyLayout& layout, const BodyMatch& match,
-                 MarkerClip& clip, std::span<const std::uint8_t> chosen) {
+void decode_markers(const BodyChannels& channels, const BodyLayout& layout, const BodyMatch& match,
+                    Take& clip, std::span<const std::uint8_t> chosen) {
   representation::check_fit(channels, layout, match, clip.frame_count(), chosen);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const TurnAboutY turn(channels.headings[f]);
@@ -67,5 +57,7 @@ void decode_body(const BodyChannels& channels, const BodyLayout& layout, const B
     }
   }
 }
+
+}  // namespace representation
 
 }  // namespace kinemend

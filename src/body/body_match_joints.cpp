@@ -16,7 +16,7 @@ namespace {
 
 class JointMatcher {
  public:
-  JointMatcher(const BodyLayout& layout, const Clip& clip, const NameMap& map)
+  JointMatcher(const BodyLayout& layout, const Take& clip, const NameMap& map)
       : layout_(layout),
         skeleton_(clip.skeleton),
         turning_(possible_tracks(clip)),
@@ -191,7 +191,7 @@ class JointMatcher {
 };
 
 // A matched joint is the bone that its track is, whatever its name.
-std::vector<BoneName> bones_of(const BodyLayout& layout, const Clip& clip,
+std::vector<BoneName> bones_of(const BodyLayout& layout, const Take& clip,
                                const std::vector<std::int32_t>& tracks) {
   std::vector<BoneName> bones = bone_names(clip.skeleton.names);
   const std::vector<BoneName> known = bone_names(layout.names);
@@ -216,15 +216,12 @@ std::vector<std::int32_t> feet_of(const std::vector<BoneName>& bones) {
 
 }  // namespace
 
-std::vector<std::int32_t> match_joints(const BodyLayout& layout, const Clip& clip,
+std::vector<std::int32_t> match_joints(const BodyLayout& layout, const Take& clip,
                                        const NameMap& map) {
   return JointMatcher(layout, clip, map).match();
 }
 
-}  // namespace representation
-
-BodyMatch match_body(const BodyLayout& layout, const Clip& clip, const NameMap& names) {
-  using namespace representation;
+BodyMatch match_body_of_joints(const BodyLayout& layout, const Take& clip, const NameMap& names) {
   check_kind(layout, BodyKind::joints);
   BodyMatch match;
   match.tracks = match_joints(layout, clip, names);
@@ -237,5 +234,7 @@ BodyMatch match_body(const BodyLayout& layout, const Clip& clip, const NameMap& 
   align_joints(layout, clip, rest, match);
   return match;
 }
+
+}  // namespace representation
 
 }  // namespace kinemend

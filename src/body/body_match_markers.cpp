@@ -31,7 +31,7 @@ std::string_view subject_of(std::string_view name) {
   return name.substr(0, name.size() - without_subject(name).size());
 }
 
-std::vector<std::size_t> seen_often(const MarkerClip& clip) {
+std::vector<std::size_t> seen_often(const Take& clip) {
   std::vector<std::size_t> seen(clip.marker_count());
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     for (std::size_t m = 0; m < clip.marker_count(); ++m) seen[m] += clip.is_observed(f, m) ? 1 : 0;
@@ -50,7 +50,7 @@ std::vector<std::pair<std::size_t, std::size_t>> anchors_of(const BodyLayout& la
 }
 
 // How the person stands most of the time tells what is up.
-Quat upright_by_anchors(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match) {
+Quat upright_by_anchors(const Take& clip, const BodyLayout& layout, const BodyMatch& match) {
   const std::size_t frames = clip.frame_count(), sampled = std::min(frames, most_frames);
   Vec3 up;
   for (std::size_t i = 0; i < sampled; ++i) {
@@ -61,8 +61,7 @@ Quat upright_by_anchors(const MarkerClip& clip, const BodyLayout& layout, const 
 }
 
 // The median of how much longer distances between anchors are than in the layout.
-double body_height_by_anchors(const MarkerClip& clip, const BodyLayout& layout,
-                              const BodyMatch& match) {
+double body_height_by_anchors(const Take& clip, const BodyLayout& layout, const BodyMatch& match) {
   constexpr double least_distance = 0.03;  // body heights
   const auto anchors = anchors_of(layout, match);
   const std::size_t frames = clip.frame_count(), sampled = std::min(frames, most_frames);
@@ -86,7 +85,7 @@ double body_height_by_anchors(const MarkerClip& clip, const BodyLayout& layout,
   return ratio > 0 ? ratio : body_height(clip);
 }
 
-std::vector<std::int32_t> feet_of(const BodyLayout& layout, const MarkerClip& clip,
+std::vector<std::int32_t> feet_of(const BodyLayout& layout, const Take& clip,
                                   const std::vector<std::int32_t>& tracks) {
   constexpr double foot_height = 0.1;  // body heights
   const std::vector<std::size_t> seen = seen_often(clip);
@@ -101,7 +100,7 @@ std::vector<std::int32_t> feet_of(const BodyLayout& layout, const MarkerClip& cl
 
 class MarkerMatcher {
  public:
-  MarkerMatcher(const BodyLayout& layout, const MarkerClip& clip, const NameMap& map)
+  MarkerMatcher(const BodyLayout& layout, const Take& clip, const NameMap& map)
       : clip_(clip), mapped_(mapped_tracks(layout, clip.names, map)), seen_(seen_often(clip)) {
     for (const std::string& name : layout.names) {
       known_.push_back(plain_name(name));
@@ -164,7 +163,7 @@ class MarkerMatcher {
     }
   }
 
-  const MarkerClip& clip_;
+  const Take& clip_;
   MappedTracks mapped_;
   std::vector<std::size_t> seen_;
   std::vector<std::string> known_, known_tails_, found_, found_tails_;
@@ -173,15 +172,12 @@ class MarkerMatcher {
 
 }  // namespace
 
-std::vector<std::int32_t> match_markers(const BodyLayout& layout, const MarkerClip& clip,
+std::vector<std::int32_t> match_markers(const BodyLayout& layout, const Take& clip,
                                         const NameMap& map) {
   return MarkerMatcher(layout, clip, map).match();
 }
 
-}  // namespace representation
-
-BodyMatch match_body(const BodyLayout& layout, const MarkerClip& clip, const NameMap& names) {
-  using namespace representation;
+BodyMatch match_body_of_markers(const BodyLayout& layout, const Take& clip, const NameMap& names) {
   check_kind(layout, BodyKind::markers);
   BodyMatch match;
   match.tracks = match_markers(layout, clip, names);
@@ -197,5 +193,7 @@ BodyMatch match_body(const BodyLayout& layout, const MarkerClip& clip, const Nam
   match.feet = feet_of(layout, clip, match.tracks);
   return match;
 }
+
+}  // namespace representation
 
 }  // namespace kinemend

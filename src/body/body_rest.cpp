@@ -110,7 +110,7 @@ double straightness(const std::vector<Vec3>& positions, const std::vector<BoneNa
   return bones_found == 5 ? norm(0.25 * legs + trunk) / 2 : 1;
 }
 
-std::size_t straightest_frame(const Clip& clip, const std::vector<BoneName>& bones) {
+std::size_t straightest_frame(const Take& clip, const std::vector<BoneName>& bones) {
   constexpr std::size_t most_frames = 200;
   const std::size_t frames = clip.frame_count(), sampled = std::min(frames, most_frames);
   std::size_t best = 0;
@@ -126,8 +126,8 @@ std::size_t straightest_frame(const Clip& clip, const std::vector<BoneName>& bon
 }
 
 // The skeleton with all local rotations identity, in one frame.
-Clip unturned_clip(const Clip& clip) {
-  Clip still;
+Take unturned_clip(const Take& clip) {
+  Take still;
   still.skeleton = clip.skeleton;
   still.frame_rate_hz = clip.frame_rate_hz;
   still.positions.resize(1);
@@ -135,7 +135,7 @@ Clip unturned_clip(const Clip& clip) {
   return still;
 }
 
-RestPose pose_of(const Clip& still) {
+RestPose pose_of(const Take& still) {
   const Skeleton& skeleton = still.skeleton;
   RestPose rest;
   rest.rotations = forward_kinematics(still, 0).rotations;
@@ -206,7 +206,7 @@ std::int32_t find_bone(const std::vector<BoneName>& bones, Bone bone, Side side)
   return -1;
 }
 
-RestPose rest_pose(const Clip& clip, const std::vector<BoneName>& bones) {
+RestPose rest_pose(const Take& clip, const std::vector<BoneName>& bones) {
   constexpr double straight = 0.9;
   RestPose rest = pose_of(unturned_clip(clip));
   const bool stands = straightness(rest.positions, bones) > straight;
@@ -218,7 +218,7 @@ RestPose rest_pose(const Clip& clip, const std::vector<BoneName>& bones) {
   return rest;
 }
 
-Quat upright_world(const Clip& clip, const std::vector<BoneName>& bones, const RestPose& rest) {
+Quat upright_world(const Take& clip, const std::vector<BoneName>& bones, const RestPose& rest) {
   constexpr std::size_t most_frames = 64;
   constexpr double agreement = 0.5;
   const auto rest_up = standing_direction(rest.positions, bones);

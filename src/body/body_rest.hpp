@@ -17,11 +17,11 @@ struct RestPose {
   std::vector<Vec3> positions;  ///< J, then the end sites
   Quat upright;  ///< turns the file's axes so that the person at rest stands along y and faces z
 };
-RestPose rest_pose(const Clip& clip, const std::vector<BoneName>& bones);
+RestPose rest_pose(const Take& clip, const std::vector<BoneName>& bones);
 
 /// Turns the axes of the motion so that y points up. Where it is not clear how the person stands
 /// most of the time, or where that is head down, the world is taken to be that of the rest pose.
-Quat upright_world(const Clip& clip, const std::vector<BoneName>& bones, const RestPose& rest);
+Quat upright_world(const Take& clip, const std::vector<BoneName>& bones, const RestPose& rest);
 
 /// Body height by the lengths of the legs, whatever the rest pose, else by the longest way along
 /// bones from one end to another; 1 for a skeleton without any length.

@@ -36,7 +36,7 @@ class VectorContinuation {
 
 }  // namespace
 
-std::vector<Quat> track_rotations(const Clip& clip, const BodyMatch& match, const RootMotion& root,
+std::vector<Quat> track_rotations(const Take& clip, const BodyMatch& match, const RootMotion& root,
                                   const BodyChannels& channels, std::size_t track) {
   const auto joint = static_cast<std::size_t>(match.tracks[track]);
   const std::size_t frames = clip.frame_count();

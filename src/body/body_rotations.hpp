@@ -12,7 +12,7 @@ namespace kinemend::representation {
 
 /// The rotations q of a track that the take has, as the layout's are (F): of the first track in the
 /// body's frame.
-std::vector<Quat> track_rotations(const Clip& clip, const BodyMatch& match, const RootMotion& root,
+std::vector<Quat> track_rotations(const Take& clip, const BodyMatch& match, const RootMotion& root,
                                   const BodyChannels& channels, std::size_t track);
 
 /// Continues rotation vectors of length up to pi from sample to sample, past half a turn. A few

@@ -78,17 +78,13 @@ NameMap parse_name_map(std::string_view text, std::string_view name) {
   return map;
 }
 
-std::string name_map_text(const BodyLayout& layout, const Clip& clip, const NameMap& names) {
-  representation::check_kind(layout, BodyKind::joints);
-  return mapping_text(layout, clip.skeleton.names,
-                      representation::match_joints(layout, clip, names),
-                      representation::possible_tracks(clip));
-}
-
-std::string name_map_text(const BodyLayout& layout, const MarkerClip& clip, const NameMap& names) {
-  representation::check_kind(layout, BodyKind::markers);
-  return mapping_text(layout, clip.names, representation::match_markers(layout, clip, names),
-                      representation::possible_tracks(clip));
+std::string name_map_text(const BodyLayout& layout, const Take& take, const NameMap& names) {
+  using namespace representation;
+  check_kind(layout, take.has_joints() ? BodyKind::joints : BodyKind::markers);
+  return mapping_text(
+      layout, take.has_joints() ? take.skeleton.names : take.names,
+      take.has_joints() ? match_joints(layout, take, names) : match_markers(layout, take, names),
+      possible_tracks(take));
 }
 
 }  // namespace kinemend

@@ -13,13 +13,13 @@ namespace kinemend {
 
 namespace {
 
-std::vector<Quat> rotations_of(const Clip& clip, std::size_t joint) {
+std::vector<Quat> rotations_of(const Take& clip, std::size_t joint) {
   std::vector<Quat> track(clip.frame_count());
   for (std::size_t f = 0; f < track.size(); ++f) track[f] = clip.rotation(f, joint);
   return track;
 }
 
-std::vector<std::uint8_t> observed_of(const Clip& clip, std::size_t joint) {
+std::vector<std::uint8_t> observed_of(const Take& clip, std::size_t joint) {
   std::vector<std::uint8_t> observed;
   if (clip.observed.empty()) return observed;
   for (std::size_t f = 0; f < clip.frame_count(); ++f)
@@ -47,7 +47,7 @@ void encode_quaternion(std::span<const Quat> track, PoseMatrix& channels, std::s
   }
 }
 
-void encode_positions(const Clip& clip, EncodedClip& encoded) {
+void encode_positions(const Take& clip, EncodedClip& encoded) {
   const std::size_t frames = clip.frame_count();
   const std::size_t first_channel = encoded.joints.size() * encoded.channels_per_joint();
   for (std::size_t column = 0; column <= clip.translated_joints.size(); ++column) {
@@ -65,7 +65,7 @@ void encode_positions(const Clip& clip, EncodedClip& encoded) {
   }
 }
 
-void check_decodable(const EncodedClip& encoded, const Clip& clip) {
+void check_decodable(const EncodedClip& encoded, const Take& clip) {
   const std::size_t rotations = encoded.joints.size() * encoded.channels_per_joint();
   const std::size_t positions =
       encoded.with_positions ? 3 * (1 + clip.translated_joints.size()) : 0;
@@ -94,7 +94,7 @@ Quat mean_rotation(std::span<const Quat> track, std::span<const std::uint8_t> ob
   return seen.empty() && !track.empty() ? track[0] : chordal_mean(seen);
 }
 
-Quat mean_rotation(const Clip& clip, std::size_t joint) {
+Quat mean_rotation(const Take& clip, std::size_t joint) {
   return mean_rotation(rotations_of(clip, joint), observed_of(clip, joint));
 }
 
@@ -143,7 +143,7 @@ double largest_angle_from_mean(std::span<const Quat> track,
 
 }  // namespace
 
-double largest_angle_from_mean(const Clip& clip, std::size_t joint) {
+double largest_angle_from_mean(const Take& clip, std::size_t joint) {
   return largest_angle_from_mean(rotations_of(clip, joint), observed_of(clip, joint));
 }
 
@@ -152,7 +152,7 @@ Encoding suitable_encoding(std::span<const Quat> track, std::span<const std::uin
                                                                       : Encoding::quaternion;
 }
 
-Encoding suitable_encoding(const Clip& clip, std::size_t joint) {
+Encoding suitable_encoding(const Take& clip, std::size_t joint) {
   return suitable_encoding(rotations_of(clip, joint), observed_of(clip, joint));
 }
 
@@ -172,7 +172,7 @@ Quat decode_rotation(const PoseMatrix& channels, Encoding encoding, Quat referen
   return normalized({v[0], v[1], v[2], v[3]});
 }
 
-EncodedClip encode(const Clip& clip, Encoding encoding, std::vector<std::size_t> joints,
+EncodedClip encode(const Take& clip, Encoding encoding, std::vector<std::size_t> joints,
                    bool with_positions) {
   if (joints.empty()) {
     joints.resize(clip.joint_count());
@@ -202,7 +202,7 @@ EncodedClip encode(const Clip& clip, Encoding encoding, std::vector<std::size_t>
   return encoded;
 }
 
-void decode(const EncodedClip& encoded, Clip& clip) {
+void decode(const EncodedClip& encoded, Take& clip) {
   check_decodable(encoded, clip);
   for (std::size_t f = 0; f < encoded.poses.frames; ++f) {
     for (std::size_t i = 0; i < encoded.joints.size(); ++i) {

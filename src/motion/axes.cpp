@@ -100,48 +100,45 @@ Axis up_axis(std::size_t frames, Axis fallback, Visit visit) {
   return most > 0 ? static_cast<Axis>(best) : fallback;
 }
 
-}  // namespace
-
-Axis guess_up_axis(const Clip& clip) {
-  const std::size_t width = clip.joint_count() + clip.skeleton.end_sites.size();
-  const std::vector<Vec3> points = joint_positions(clip, true);
-  return up_axis(clip.frame_count(), Axis::y, [&](std::size_t frame, auto use) {
-    for (std::size_t i = 0; i < width; ++i) use(points[frame * width + i]);
-  });
-}
-
-Axis guess_up_axis(const MarkerClip& clip) {
-  return up_axis(clip.frame_count(), Axis::z, [&](std::size_t frame, auto use) {
-    for (std::size_t m = 0; m < clip.marker_count(); ++m) {
-      if (clip.is_observed(frame, m) && clip.holds_positions(m)) use(clip.position(frame, m));
-    }
-  });
-}
-
-Clip turn_axes(const Clip& clip, Axis from, Axis to) {
-  if (from == to) return clip;
-  const QuarterTurn turn(from, to);
-  Clip result = clip;
-  result.source.document.reset();
-  Skeleton& skeleton = result.skeleton;
+void turn_skeleton(const QuarterTurn& turn, Skeleton& skeleton) {
   for (Vec3& offset : skeleton.offsets) offset = turn(offset);
   for (Quat& rest : skeleton.rest_rotations) rest = turn(rest);
   for (EndSite& site : skeleton.end_sites) site.offset = turn(site.offset);
   turn_channels(turn, skeleton);
-  for (Vec3& position : result.positions) position = turn(position);
-  for (Quat& rotation : result.rotations) rotation = turn(rotation);
-  return result;
 }
 
-MarkerClip turn_axes(const MarkerClip& clip, Axis from, Axis to) {
-  if (from == to) return clip;
+}  // namespace
+
+Axis guess_up_axis(const Take& take) {
+  if (!take.has_joints()) {
+    return up_axis(take.frame_count(), Axis::z, [&](std::size_t frame, auto use) {
+      for (std::size_t m = 0; m < take.marker_count(); ++m) {
+        if (take.is_observed(frame, m) && take.holds_positions(m)) use(take.position(frame, m));
+      }
+    });
+  }
+  const std::size_t width = take.joint_count() + take.skeleton.end_sites.size();
+  const std::vector<Vec3> points = joint_positions(take, true);
+  return up_axis(take.frame_count(), Axis::y, [&](std::size_t frame, auto use) {
+    for (std::size_t i = 0; i < width; ++i) use(points[frame * width + i]);
+  });
+}
+
+Take turn_axes(const Take& take, Axis from, Axis to) {
+  if (from == to) return take;
   const QuarterTurn turn(from, to);
-  TakeChange change;
-  change.axes = {turn.axis_after(Axis::x), turn.axis_after(Axis::y), turn.axis_after(Axis::z)};
-  MarkerClip result = clip;
-  result.source.document = document_after(clip.source, change);
+  Take result = take;
+  if (take.has_joints()) {
+    result.source.document.reset();
+    turn_skeleton(turn, result.skeleton);
+    for (Quat& rotation : result.rotations) rotation = turn(rotation);
+  } else {
+    TakeChange change;
+    change.axes = {turn.axis_after(Axis::x), turn.axis_after(Axis::y), turn.axis_after(Axis::z)};
+    result.source.document = document_after(take.source, change);
+  }
   for (std::size_t i = 0; i < result.positions.size(); ++i) {
-    if (clip.holds_positions(i % clip.marker_count()))
+    if (take.has_joints() || take.holds_positions(i % take.marker_count()))
       result.positions[i] = turn(result.positions[i]);
   }
   return result;

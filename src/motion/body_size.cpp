@@ -13,7 +13,7 @@
 namespace kinemend {
 
 double body_height(const Skeleton& skeleton) {
-  Clip rest;
+  Take rest;
   rest.skeleton = skeleton;
   rest.positions.resize(1);
   rest.rotations.resize(skeleton.joint_count());
@@ -38,7 +38,7 @@ std::optional<LengthUnit> guess_length_unit(const Skeleton& skeleton) {
   return std::nullopt;
 }
 
-double body_height(const MarkerClip& clip) {
+double body_height(const Take& clip) {
   constexpr std::size_t most_frames = 64;
   constexpr double heights_per_quartile = 4.2;
   constexpr double usual_m = 1.75, tallest_m = 2.2;

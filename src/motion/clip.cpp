@@ -20,7 +20,7 @@ struct Turn {
   double mean = 0, largest = 0;  // over joints
 };
 
-Turn turn_between(const Clip& clip, std::size_t first, std::size_t second) {
+Turn turn_between(const Take& clip, std::size_t first, std::size_t second) {
   Turn turn;
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
     const double angle = angle_between(clip.rotation(first, j), clip.rotation(second, j));
@@ -32,7 +32,7 @@ Turn turn_between(const Clip& clip, std::size_t first, std::size_t second) {
 
 // The pose of a calibration frame: roots may be turned, joints are nearly at rest. The T-pose
 // of the CMU files turns hips and feet by up to 21 degrees, 3.5 on average.
-bool is_near_rest(const Clip& clip, std::size_t frame) {
+bool is_near_rest(const Take& clip, std::size_t frame) {
   constexpr double largest = 25 * radians_per_degree, largest_mean = 6 * radians_per_degree;
   double sum = 0;
   std::size_t joints = 0;
@@ -47,7 +47,7 @@ bool is_near_rest(const Clip& clip, std::size_t frame) {
 }
 
 // 90 % quantile of the joints' mean turn per step, from `first` on.
-double usual_step(const Clip& clip, std::size_t first, std::size_t last) {
+double usual_step(const Take& clip, std::size_t first, std::size_t last) {
   std::vector<double> steps;
   for (std::size_t f = first; f + 1 < last; ++f) steps.push_back(turn_between(clip, f, f + 1).mean);
   return of_rank(steps, (steps.size() - 1) * 9 / 10);
@@ -55,7 +55,7 @@ double usual_step(const Clip& clip, std::size_t first, std::size_t last) {
 
 }  // namespace
 
-std::size_t leading_calibration_frames(const Clip& clip) {
+std::size_t leading_calibration_frames(const Take& clip) {
   constexpr std::size_t most_frames = 10, compared_frames = 240;
   constexpr double clear_jump = 25 * radians_per_degree, clear_ratio = 1.5;
   const std::size_t frames = std::min(clip.frame_count(), compared_frames);

@@ -18,7 +18,7 @@ constexpr std::string_view first_frame_fact = "first frame";
 
 }  // namespace
 
-void note_first_frame(Clip& clip, double number) {
+void note_first_frame(Take& clip, double number) {
   constexpr double most = 9e15;
   if (number == 1 || number != std::floor(number) || !(std::fabs(number) < most)) return;
   clip.source.facts.push_back({std::string(first_frame_fact), fmt::format("{:.0f}", number)});

@@ -62,8 +62,8 @@ void for_each_named(std::span<const NamedGap> gaps, const std::vector<std::strin
   }
 }
 
-// Column of the joint in `Clip::observed_positions`; one past the last for a joint without.
-std::size_t position_track(const Clip& clip, std::size_t joint) {
+// Column of the joint in `Take::observed_positions`; one past the last for a joint without.
+std::size_t position_track(const Take& clip, std::size_t joint) {
   const std::size_t none = 1 + clip.translated_joints.size();
   if (joint == 0) return clip.skeleton.has_position_channels(0) ? 0 : none;
   const auto& joints = clip.translated_joints;
@@ -71,41 +71,8 @@ std::size_t position_track(const Clip& clip, std::size_t joint) {
   return found == joints.end() ? none : 1 + static_cast<std::size_t>(found - joints.begin());
 }
 
-}  // namespace
-
-std::vector<Gap> find_gaps(const Clip& clip) {
-  std::vector<Gap> gaps;
-  if (clip.observed.empty()) return gaps;
-  for (std::size_t j = 0; j < clip.joint_count(); ++j) {
-    append_gaps(
-        j, clip.frame_count(), [&](std::size_t f) { return !clip.is_observed(f, j); }, gaps);
-  }
-  return gaps;
-}
-
-std::vector<Gap> find_position_gaps(const Clip& clip) {
-  std::vector<Gap> gaps;
-  if (clip.observed_positions.empty()) return gaps;
-  for (std::size_t p = 0; p <= clip.translated_joints.size(); ++p) {
-    append_gaps(
-        p, clip.frame_count(), [&](std::size_t f) { return !clip.is_position_observed(f, p); },
-        gaps);
-  }
-  return gaps;
-}
-
-std::vector<Gap> find_gaps(const MarkerClip& clip) {
-  std::vector<Gap> gaps;
-  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
-    if (!clip.holds_positions(m)) continue;
-    append_gaps(
-        m, clip.frame_count(), [&](std::size_t f) { return !clip.is_observed(f, m); }, gaps);
-  }
-  return gaps;
-}
-
-void mark_gaps(Clip& clip, std::span<const NamedGap> gaps) {
-  const std::size_t joints = clip.joint_count(), positions = 1 + clip.translated_joints.size();
+void mark_gaps_of_joints(Take& clip, std::span<const NamedGap> gaps) {
+  const std::size_t joints = clip.joint_count(), positions = clip.point_count();
   for_each_named(gaps, clip.skeleton.names, clip.frame_count(), first_frame_number(clip), "joint",
                  [&](std::size_t joint, std::size_t first, std::size_t last) {
                    if (clip.observed.empty()) clip.observed.assign(clip.rotations.size(), 1);
@@ -120,7 +87,7 @@ void mark_gaps(Clip& clip, std::span<const NamedGap> gaps) {
                  });
 }
 
-void mark_gaps(MarkerClip& clip, std::span<const NamedGap> gaps) {
+void mark_gaps_of_markers(Take& clip, std::span<const NamedGap> gaps) {
   const std::size_t markers = clip.marker_count();
   for_each_named(gaps, clip.names, clip.frame_count(), first_frame_number(clip), "marker",
                  [&](std::size_t marker, std::size_t first, std::size_t last) {
@@ -130,6 +97,39 @@ void mark_gaps(MarkerClip& clip, std::span<const NamedGap> gaps) {
                      if (!clip.residuals.empty()) clip.residuals[f * markers + marker] = -1;
                    }
                  });
+}
+
+}  // namespace
+
+std::vector<Gap> find_gaps(const Take& take) {
+  std::vector<Gap> gaps;
+  if (take.observed.empty()) return gaps;
+  const std::size_t owners = take.has_joints() ? take.joint_count() : take.marker_count();
+  for (std::size_t n = 0; n < owners; ++n) {
+    if (!take.has_joints() && !take.holds_positions(n)) continue;
+    append_gaps(
+        n, take.frame_count(), [&](std::size_t f) { return !take.is_observed(f, n); }, gaps);
+  }
+  return gaps;
+}
+
+std::vector<Gap> find_position_gaps(const Take& clip) {
+  std::vector<Gap> gaps;
+  if (clip.observed_positions.empty()) return gaps;
+  for (std::size_t p = 0; p <= clip.translated_joints.size(); ++p) {
+    append_gaps(
+        p, clip.frame_count(), [&](std::size_t f) { return !clip.is_position_observed(f, p); },
+        gaps);
+  }
+  return gaps;
+}
+
+void mark_gaps(Take& take, std::span<const NamedGap> gaps) {
+  if (take.has_joints()) {
+    mark_gaps_of_joints(take, gaps);
+  } else {
+    mark_gaps_of_markers(take, gaps);
+  }
 }
 
 }  // namespace kinemend

@@ -18,7 +18,7 @@ std::string_view unit_name(double metres) {
 
 // One row of marks: 1 where the joint's own rotation and all above it are observed; a joint's
 // position does not depend on its own.
-void mark_frame(const Clip& clip, std::size_t frame, std::vector<std::uint8_t>& placed,
+void mark_frame(const Take& clip, std::size_t frame, std::vector<std::uint8_t>& placed,
                 std::vector<std::uint8_t>& turned) {
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
     const std::int32_t parent = clip.skeleton.parents[j];
@@ -27,9 +27,42 @@ void mark_frame(const Clip& clip, std::size_t frame, std::vector<std::uint8_t>& 
   }
 }
 
+Take scale_joints(const Take& take, double factor) {
+  Take result = take;
+  result.source.document.reset();
+  const auto scale = [factor](Vec3& v) { v = factor * v; };
+  std::for_each(result.skeleton.offsets.begin(), result.skeleton.offsets.end(), scale);
+  for (EndSite& site : result.skeleton.end_sites) scale(site.offset);
+  std::for_each(result.positions.begin(), result.positions.end(), scale);
+  for (std::size_t j = 0; j < result.skeleton.limits.size(); ++j) {
+    for (std::size_t c = 0; c < result.skeleton.limits[j].size(); ++c) {
+      if (is_rotation(result.skeleton.channels[j][c])) continue;
+      result.skeleton.limits[j][c].minimum *= factor;
+      result.skeleton.limits[j][c].maximum *= factor;
+    }
+  }
+  result.metres_per_unit = take.metres_per_unit / factor;
+  return result;
+}
+
+Take scale_markers(const Take& take, double factor, std::string_view unit) {
+  TakeChange change;
+  change.length_factor = factor;
+  Take result = take;
+  result.source.document = document_after(take.source, change);
+  result.unit = unit;
+  for (std::size_t i = 0; i < result.positions.size(); ++i) {
+    if (!take.holds_positions(i % take.marker_count())) continue;
+    result.positions[i] = factor * result.positions[i];
+    if (!result.residuals.empty() && result.residuals[i] > 0)
+      result.residuals[i] *= static_cast<float>(factor);
+  }
+  return result;
+}
+
 }  // namespace
 
-MarkerClip joint_markers(const Clip& clip, bool with_end_sites) {
+Take joint_markers(const Take& clip, bool with_end_sites) {
   const Skeleton& skeleton = clip.skeleton;
   std::vector<std::string> names = skeleton.names;
   if (with_end_sites) {
@@ -39,7 +72,7 @@ MarkerClip joint_markers(const Clip& clip, bool with_end_sites) {
     }
   }
   const std::size_t joints = clip.joint_count(), frames = clip.frame_count();
-  MarkerClip result = make_marker_clip(std::move(names), frames, clip.frame_rate_hz);
+  Take result = make_marker_clip(std::move(names), frames, clip.frame_rate_hz);
   result.unit = unit_name(clip.metres_per_unit);
   result.source.name = clip.source.name;
   result.positions = joint_positions(clip, with_end_sites);
@@ -58,8 +91,8 @@ MarkerClip joint_markers(const Clip& clip, bool with_end_sites) {
   return result;
 }
 
-Clip without_rest_rotations(const Clip& clip) {
-  Clip result = clip;
+Take without_rest_rotations(const Take& clip) {
+  Take result = clip;
   result.source.document.reset();
   Skeleton& skeleton = result.skeleton;
   const std::size_t joints = clip.joint_count();
@@ -97,40 +130,9 @@ Clip without_rest_rotations(const Clip& clip) {
   return result;
 }
 
-Clip scale_lengths(const Clip& clip, double factor) {
-  if (factor == 1) return clip;
-  Clip result = clip;
-  result.source.document.reset();
-  const auto scale = [factor](Vec3& v) { v = factor * v; };
-  std::for_each(result.skeleton.offsets.begin(), result.skeleton.offsets.end(), scale);
-  for (EndSite& site : result.skeleton.end_sites) scale(site.offset);
-  std::for_each(result.positions.begin(), result.positions.end(), scale);
-  for (std::size_t j = 0; j < result.skeleton.limits.size(); ++j) {
-    for (std::size_t c = 0; c < result.skeleton.limits[j].size(); ++c) {
-      if (is_rotation(result.skeleton.channels[j][c])) continue;
-      result.skeleton.limits[j][c].minimum *= factor;
-      result.skeleton.limits[j][c].maximum *= factor;
-    }
-  }
-  result.metres_per_unit = clip.metres_per_unit / factor;
-  return result;
-}
-
-MarkerClip scale_lengths(const MarkerClip& clip, double factor, std::string_view unit) {
-  if (factor == 1) return clip;
-  TakeChange change;
-  change.length_factor = factor;
-  MarkerClip result = clip;
-  result.source.document = document_after(clip.source, change);
-  result.unit = unit;
-  for (std::size_t i = 0; i < result.positions.size(); ++i) {
-    if (!clip.holds_positions(i % clip.marker_count())) continue;
-    result.positions[i] = factor * result.positions[i];
-    if (!result.residuals.empty() && result.residuals[i] > 0) {
-      result.residuals[i] *= static_cast<float>(factor);
-    }
-  }
-  return result;
+Take scale_lengths(const Take& take, double factor, std::string_view unit) {
+  if (factor == 1) return take;
+  return take.has_joints() ? scale_joints(take, factor) : scale_markers(take, factor, unit);
 }
 
 }  // namespace kinemend

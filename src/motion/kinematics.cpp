@@ -6,7 +6,7 @@ namespace kinemend {
 namespace {
 
 // A joint's offset from its parent in one frame.
-Vec3 offset_of(const Clip& clip, std::size_t frame, std::size_t joint,
+Vec3 offset_of(const Take& clip, std::size_t frame, std::size_t joint,
                std::size_t& next_translated) {
   if (joint == 0) return clip.root_position(frame);
   const std::size_t width = clip.translated_joints.size();
@@ -17,7 +17,7 @@ Vec3 offset_of(const Clip& clip, std::size_t frame, std::size_t joint,
   return clip.skeleton.offsets[joint];
 }
 
-void forward_kinematics_into(const Clip& clip, std::size_t frame, Pose& pose) {
+void forward_kinematics_into(const Take& clip, std::size_t frame, Pose& pose) {
   const Skeleton& skeleton = clip.skeleton;
   std::size_t next_translated = 0;
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
@@ -34,19 +34,19 @@ void forward_kinematics_into(const Clip& clip, std::size_t frame, Pose& pose) {
   }
 }
 
-Pose empty_pose(const Clip& clip) {
+Pose empty_pose(const Take& clip) {
   return {std::vector<Quat>(clip.joint_count()), std::vector<Vec3>(clip.joint_count())};
 }
 
 }  // namespace
 
-Pose forward_kinematics(const Clip& clip, std::size_t frame) {
+Pose forward_kinematics(const Take& clip, std::size_t frame) {
   Pose pose = empty_pose(clip);
   forward_kinematics_into(clip, frame, pose);
   return pose;
 }
 
-std::vector<Vec3> joint_positions(const Clip& clip, bool with_end_sites) {
+std::vector<Vec3> joint_positions(const Take& clip, bool with_end_sites) {
   const auto& end_sites = clip.skeleton.end_sites;
   const std::size_t width = clip.joint_count() + (with_end_sites ? end_sites.size() : 0);
   std::vector<Vec3> positions;

@@ -21,9 +21,8 @@ std::string_view without_subject(std::string_view name) {
   return colon == std::string_view::npos ? name : name.substr(colon + 1);
 }
 
-MarkerClip make_marker_clip(std::vector<std::string> names, std::size_t frames,
-                            double frame_rate_hz) {
-  MarkerClip clip;
+Take make_marker_clip(std::vector<std::string> names, std::size_t frames, double frame_rate_hz) {
+  Take clip;
   clip.names = std::move(names);
   clip.frame_rate_hz = frame_rate_hz;
   const std::size_t samples = frames * clip.names.size();
@@ -33,12 +32,12 @@ MarkerClip make_marker_clip(std::vector<std::string> names, std::size_t frames,
   return clip;
 }
 
-MarkerClip positions_only(const MarkerClip& clip) {
+Take positions_only(const Take& clip) {
   std::vector<std::size_t> kept;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
     if (clip.holds_positions(m)) kept.push_back(m);
   }
-  MarkerClip result = clip;
+  Take result = clip;
   const auto keep = [&](auto& values, std::size_t rows) {
     if (values.empty()) return;
     auto out = values.begin();

@@ -3,14 +3,14 @@
 
 namespace kinemend {
 
-bool joint_moves(const Clip& clip, std::size_t joint) {
+bool joint_moves(const Take& clip, std::size_t joint) {
   for (std::size_t f = 1; f < clip.frame_count(); ++f) {
     if (clip.rotation(f, joint) != clip.rotation(0, joint)) return true;
   }
   return false;
 }
 
-std::vector<std::size_t> moving_joints(const Clip& clip) {
+std::vector<std::size_t> moving_joints(const Take& clip) {
   std::vector<std::size_t> joints;
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
     if (joint_moves(clip, j)) joints.push_back(j);

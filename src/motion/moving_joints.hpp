@@ -9,8 +9,8 @@
 namespace kinemend {
 
 /// Whether a joint has two rotations that differ at all, observed or not.
-bool joint_moves(const Clip& clip, std::size_t joint);
+bool joint_moves(const Take& clip, std::size_t joint);
 /// All joints that do, in the skeleton's order.
-std::vector<std::size_t> moving_joints(const Clip& clip);
+std::vector<std::size_t> moving_joints(const Take& clip);
 
 }  // namespace kinemend

@@ -91,7 +91,7 @@ bool is_own_rate(double own, double rate) { return std::fabs(rate - own) <= 5e-6
 
 // The number that the new first frame has in a trial whose frame 1 stays where it is, rounded;
 // events are timed from there, and keep their moment of the motion.
-void renumber(const MarkerClip& clip, MarkerClip& result) {
+void renumber(const Take& clip, Take& result) {
   const double before_s = static_cast<double>(clip.first_frame - 1) / clip.frame_rate_hz;
   result.first_frame = clip.first_frame;
   if (clip.first_frame > 1) result.first_frame = 1 + std::llround(before_s * result.frame_rate_hz);
@@ -101,7 +101,7 @@ void renumber(const MarkerClip& clip, MarkerClip& result) {
   for (MarkerEvent& event : result.events) event.time_s += after_s - before_s;
 }
 
-void resample_rotations(const Clip& clip, const std::vector<Place>& at, Clip& result) {
+void resample_rotations(const Take& clip, const std::vector<Place>& at, Take& result) {
   const std::size_t joints = clip.joint_count(), frames = clip.frame_count();
   result.rotations.resize(at.size() * joints);
   if (!clip.observed.empty()) result.observed.resize(at.size() * joints);
@@ -137,25 +137,23 @@ std::vector<Vec3> resample_positions(const std::vector<Vec3>& values, std::size_
   return result;
 }
 
-}  // namespace
-
-Clip resample(const Clip& clip, double frame_rate_hz) {
+Take resample_joints(const Take& clip, double frame_rate_hz) {
   const std::vector<Place> at =
       places(clip.frame_count(), clip.joint_count(), clip.frame_rate_hz, frame_rate_hz);
   if (is_own_rate(clip.frame_rate_hz, frame_rate_hz)) return clip;
-  Clip result = slice(clip, 0, 0);
+  Take result = slice(clip, 0, 0);
   result.frame_rate_hz = frame_rate_hz;
   resample_rotations(clip, at, result);
   result.positions = resample_positions(clip.positions, clip.point_count(), clip.frame_count(), at);
   return result;
 }
 
-MarkerClip resample(const MarkerClip& clip, double frame_rate_hz) {
+Take resample_markers(const Take& clip, double frame_rate_hz) {
   const std::size_t markers = clip.marker_count(), frames = clip.frame_count();
   const std::vector<Place> at = places(frames, markers, clip.frame_rate_hz, frame_rate_hz);
   // A file of analog samples alone has no motion to bring to another rate.
   if (markers == 0 || is_own_rate(clip.frame_rate_hz, frame_rate_hz)) return clip;
-  MarkerClip result = make_marker_clip(clip.names, at.size(), frame_rate_hz);
+  Take result = make_marker_clip(clip.names, at.size(), frame_rate_hz);
   result.is_position = clip.is_position;
   result.unit = clip.unit;
   result.events = clip.events;
@@ -181,6 +179,13 @@ MarkerClip resample(const MarkerClip& clip, double frame_rate_hz) {
     }
   }
   return result;
+}
+
+}  // namespace
+
+Take resample(const Take& take, double frame_rate_hz) {
+  return take.has_joints() ? resample_joints(take, frame_rate_hz)
+                           : resample_markers(take, frame_rate_hz);
 }
 
 }  // namespace kinemend

@@ -14,7 +14,7 @@ std::string subject_name(const std::string& name) {
 
 }  // namespace
 
-std::vector<Subject> subjects_of(const MarkerClip& clip) {
+std::vector<Subject> subjects_of(const Take& clip) {
   std::vector<Subject> subjects;
   Subject nobody, all;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {

@@ -28,7 +28,7 @@ bool is_seen(const Track& track) {
   return false;
 }
 
-Track rotation_track(const Clip& clip, std::size_t joint) {
+Track rotation_track(const Take& clip, std::size_t joint) {
   Track track;
   track.frames = clip.frame_count();
   track.space = Space::rotation;
@@ -40,8 +40,8 @@ Track rotation_track(const Clip& clip, std::size_t joint) {
   return track;
 }
 
-// As `Clip::is_position_observed` counts them.
-Track track_of_positions(const Clip& clip, std::size_t number) {
+// As `Take::is_position_observed` counts them.
+Track track_of_positions(const Take& clip, std::size_t number) {
   Track track;
   track.frames = clip.frame_count();
   track.owner = number == 0 ? -1 : clip.translated_joints[number - 1];
@@ -57,14 +57,9 @@ void tell_noise(const TakeNoise& noise, TakeView& take) {
     take.tracks[n].noise = noise.strengths[n];
 }
 
-}  // namespace
-
-TakeView view_of(const Clip& clip, const Selection& selection) {
-  TakeView take;
+void add_joints(const Take& clip, const Selection& selection, TakeView& take) {
   take.joints = &clip;
   take.owners = clip.joint_count();
-  take.frames = clip.frame_count();
-  take.frame_rate_hz = clip.frame_rate_hz;
   take.tracks.reserve(take.owners + 1 + clip.translated_joints.size());
   for (std::size_t j = 0; j < take.owners; ++j) {
     take.tracks.push_back(rotation_track(clip, j));
@@ -79,16 +74,11 @@ TakeView view_of(const Clip& clip, const Selection& selection) {
                                   selection.includes(static_cast<std::size_t>(track.owner));
     take.tracks.push_back(track);
   }
-  tell_noise(selection.noise, take);
-  return take;
 }
 
-TakeView view_of(const MarkerClip& clip, const Selection& selection) {
-  TakeView take;
+void add_markers(const Take& clip, const Selection& selection, TakeView& take) {
   take.markers = &clip;
   take.owners = clip.marker_count();
-  take.frames = clip.frame_count();
-  take.frame_rate_hz = clip.frame_rate_hz;
   take.gaps = GapTreatment::cut;
   take.body_height = selection.body_height > 0 ? selection.body_height : body_height(clip);
   for (std::size_t m = 0; m < take.owners; ++m) {
@@ -102,8 +92,21 @@ TakeView view_of(const MarkerClip& clip, const Selection& selection) {
     track.selected = selection.includes(m) && clip.holds_positions(m);
     take.tracks.push_back(track);
   }
-  tell_noise(selection.noise, take);
-  return take;
+}
+
+}  // namespace
+
+TakeView view_of(const Take& take, const Selection& selection) {
+  TakeView view;
+  view.frames = take.frame_count();
+  view.frame_rate_hz = take.frame_rate_hz;
+  if (take.has_joints()) {
+    add_joints(take, selection, view);
+  } else {
+    add_markers(take, selection, view);
+  }
+  tell_noise(selection.noise, view);
+  return view;
 }
 
 double radian_of_positions(const TakeView& take) {
@@ -147,18 +150,13 @@ std::vector<std::uint8_t> observed_of(const Track& track) {
   return observed;
 }
 
-void set_track(Clip& clip, std::size_t track, std::span<const Quat> samples, std::size_t first) {
-  for (std::size_t i = 0; i < samples.size(); ++i) clip.rotation(first + i, track) = samples[i];
+void set_track(Take& take, std::size_t track, std::span<const Quat> samples, std::size_t first) {
+  for (std::size_t i = 0; i < samples.size(); ++i) take.rotation(first + i, track) = samples[i];
 }
 
-void set_track(Clip& clip, std::size_t track, std::span<const Vec3> samples, std::size_t first) {
-  const std::size_t number = track - clip.joint_count();
-  for (std::size_t i = 0; i < samples.size(); ++i) clip.position(first + i, number) = samples[i];
-}
-
-void set_track(MarkerClip& clip, std::size_t track, std::span<const Vec3> samples,
-               std::size_t first) {
-  for (std::size_t i = 0; i < samples.size(); ++i) clip.position(first + i, track) = samples[i];
+void set_track(Take& take, std::size_t track, std::span<const Vec3> samples, std::size_t first) {
+  const std::size_t point = track - take.joint_count();
+  for (std::size_t i = 0; i < samples.size(); ++i) take.position(first + i, point) = samples[i];
 }
 
 double typical_bone_length(const Skeleton& skeleton) {

@@ -75,8 +75,7 @@ class BodyLayoutBuilder {
   /// All frames are motion: leave a calibration pose out. Errors: `ErrorKind::usage` for a take of
   /// the other kind, one in which too few tracks are found, with their names, and a name or pattern
   /// that means nothing.
-  void add(const Clip& clip);
-  void add(const MarkerClip& clip);
+  void add(const Take& take);
   /// Joints that turn by less than 0.1 degrees in all takes are left out, and tracks that half of
   /// the takes lack. Errors: `ErrorKind::usage` when there was no take, or nothing that moves.
   BodyLayout finish() const;
@@ -95,9 +94,7 @@ NameMap parse_name_map(std::string_view text, std::string_view name);
 /// layout with what it matches in the take, if anything, and the other names of the take as
 /// comments. Errors: `ErrorKind::usage` for a take of the other kind and for a name of the map that
 /// there is not.
-std::string name_map_text(const BodyLayout& layout, const Clip& clip, const NameMap& names = {});
-std::string name_map_text(const BodyLayout& layout, const MarkerClip& clip,
-                          const NameMap& names = {});
+std::string name_map_text(const BodyLayout& layout, const Take& take, const NameMap& names = {});
 
 /// Which tracks of a take are those of a layout.
 struct BodyMatch {
@@ -119,8 +116,7 @@ struct BodyMatch {
 /// markers of the layout. Errors: `ErrorKind::usage` when less than half of the tracks are found,
 /// or no root, or fewer than three anchors: `the model knows 24 joints, of which the take lacks 20:
 /// ...`; for a name of the map that there is not.
-BodyMatch match_body(const BodyLayout& layout, const Clip& clip, const NameMap& names = {});
-BodyMatch match_body(const BodyLayout& layout, const MarkerClip& clip, const NameMap& names = {});
+BodyMatch match_body(const BodyLayout& layout, const Take& take, const NameMap& names = {});
 
 /// The channels of a take and what is needed to write them back.
 struct BodyChannels {
@@ -135,20 +131,15 @@ struct BodyChannels {
 
 /// Every frame of `clip` is motion. Samples of tracks that the take lacks are not observed. Errors:
 /// none beyond those of `match_body`.
-BodyChannels encode_body(const Clip& clip, const BodyLayout& layout, const BodyMatch& match);
-BodyChannels encode_body(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match);
+BodyChannels encode_body(const Take& take, const BodyLayout& layout, const BodyMatch& match);
 /// The same in the body's frame of `guide`, the channels of a cleaner copy of this take with the
 /// same frames; rotation vectors are those nearest to the guide's.
-BodyChannels encode_body(const Clip& clip, const BodyLayout& layout, const BodyMatch& match,
-                         const BodyChannels& guide);
-BodyChannels encode_body(const MarkerClip& clip, const BodyLayout& layout, const BodyMatch& match,
+BodyChannels encode_body(const Take& take, const BodyLayout& layout, const BodyMatch& match,
                          const BodyChannels& guide);
 /// Writes the channels of the tracks with `chosen[track]` (N, and one of the place; empty: all)
 /// back into all frames of the clip that they came from. Parts that the take lacks go nowhere. Of
 /// markers `observed` is left as it is.
 void decode_body(const BodyChannels& channels, const BodyLayout& layout, const BodyMatch& match,
-                 Clip& clip, std::span<const std::uint8_t> chosen = {});
-void decode_body(const BodyChannels& channels, const BodyLayout& layout, const BodyMatch& match,
-                 MarkerClip& clip, std::span<const std::uint8_t> chosen = {});
+                 Take& take, std::span<const std::uint8_t> chosen = {});
 
 }  // namespace kinemend

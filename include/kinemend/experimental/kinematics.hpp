@@ -16,9 +16,9 @@ struct Pose {
   std::vector<Vec3> positions;
 };
 
-Pose forward_kinematics(const Clip& clip, std::size_t frame);
+Pose forward_kinematics(const Take& clip, std::size_t frame);
 
 /// Joint positions of every frame, F x J, then end sites if asked: F x (J + E), file units.
-std::vector<Vec3> joint_positions(const Clip& clip, bool with_end_sites = false);
+std::vector<Vec3> joint_positions(const Take& clip, bool with_end_sites = false);
 
 }  // namespace kinemend

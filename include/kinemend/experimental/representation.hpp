@@ -39,11 +39,11 @@ struct EncodedClip {
 inline constexpr double tangent_limit_rad = 150 * radians_per_degree;
 
 /// Chordal mean of a joint's observed rotations; its first rotation when none is observed.
-Quat mean_rotation(const Clip& clip, std::size_t joint);
+Quat mean_rotation(const Take& clip, std::size_t joint);
 /// Largest angle (radians, [0, pi]) between a joint's observed rotations and their mean.
-double largest_angle_from_mean(const Clip& clip, std::size_t joint);
+double largest_angle_from_mean(const Take& clip, std::size_t joint);
 /// `tangent` where the joint stays within `tangent_limit_rad` of its mean, else `quaternion`.
-Encoding suitable_encoding(const Clip& clip, std::size_t joint);
+Encoding suitable_encoding(const Take& clip, std::size_t joint);
 /// Of the rotation vectors v (1 + 2 pi k / |v|), which all mean the same rotation, the one nearest
 /// to `previous`.
 Vec3 continue_rotation_vector(Vec3 v, Vec3 previous);
@@ -63,10 +63,10 @@ class SignContinuation {
 
 /// The channels of the given joints (empty: all). Unobserved samples are encoded as they stand.
 /// Errors: `ErrorKind::usage` for a joint that is not there.
-EncodedClip encode(const Clip& clip, Encoding encoding, std::vector<std::size_t> joints = {},
+EncodedClip encode(const Take& clip, Encoding encoding, std::vector<std::size_t> joints = {},
                    bool with_positions = true);
 /// Writes the channels back into the joints and frames they came from; `clip` has the same frames
 /// and joints.
-void decode(const EncodedClip& encoded, Clip& clip);
+void decode(const EncodedClip& encoded, Take& clip);
 
 }  // namespace kinemend

@@ -17,6 +17,6 @@ struct Subject {
 /// Whose markers a take holds, by what stands before the last colon of their names (`Ann:LASI`), in
 /// the order of their first markers; those of nobody come last. All markers in one without a name
 /// where no two subjects are told apart; none of a take without positions.
-std::vector<Subject> subjects_of(const MarkerClip& clip);
+std::vector<Subject> subjects_of(const Take& clip);
 
 }  // namespace kinemend

@@ -24,7 +24,7 @@ namespace kinemend {
 struct TrainingTakes {
   std::size_t count = 0;
   /// Nothing for a take that is to be left out.
-  std::function<std::optional<std::variant<Clip, MarkerClip>>(std::size_t index)> take;
+  std::function<std::optional<Take>(std::size_t index)> take;
 };
 
 /// A training was asked to end before it was done; it goes on from what it has kept.

@@ -26,10 +26,9 @@ namespace kinemend {
 namespace {
 
 // What a take is to a method with a model.
-template <class AnyClip>
 struct PriorTake {
   const TakeView& view;
-  const AnyClip& clip;  // positions of joints without gaps
+  const Take& clip;  // positions of joints without gaps
   const BodyLayout& layout;
   const BodyMatch& match;
 
@@ -46,8 +45,7 @@ struct PriorTake {
 };
 
 // Which parts may change.
-template <class AnyClip>
-std::vector<std::uint8_t> chosen_parts(const PriorTake<AnyClip>& take) {
+std::vector<std::uint8_t> chosen_parts(const PriorTake& take) {
   std::vector<std::uint8_t> chosen(take.match.tracks.size() + (take.view.joints ? 1 : 0), 0);
   for (std::size_t part = 0; part < take.part_count(); ++part) {
     const auto track = take.track(part);
@@ -63,9 +61,8 @@ void mark_part(std::vector<std::uint8_t>& marks, std::size_t channels, std::size
 }
 
 // What `auto` makes of a take, whatever is selected.
-template <class AnyClip>
 struct AutoRun {
-  AnyClip clip;
+  Take clip;
   InPlaceTrace trace;
 
   bool is_spike(std::size_t track, std::size_t frame) const {
@@ -82,14 +79,8 @@ Selection all_tracks(const TakeView& view) {
   return all;
 }
 
-AutoRun<Clip> run_auto(const PriorTake<Clip>& take) {
-  AutoRun<Clip> run{take.clip, {}};
-  run.trace = clean_in_place(*make_auto(), run.clip, all_tracks(take.view));
-  return run;
-}
-
-AutoRun<MarkerClip> run_auto(const PriorTake<MarkerClip>& take) {
-  AutoRun<MarkerClip> run{take.clip, {}};
+AutoRun run_auto(const PriorTake& take) {
+  AutoRun run{take.clip, {}};
   run.trace = clean_in_place(*make_auto(), run.clip, all_tracks(take.view));
   return run;
 }
@@ -114,8 +105,7 @@ std::vector<double> needs_of(const TakeView& view, const std::vector<double>& no
 
 // The take's channels in the frame of what `auto` made of it, with what `auto` says of each part's
 // samples.
-template <class AnyClip>
-PriorWork work_of(const PriorTake<AnyClip>& take, const AutoRun<AnyClip>& run) {
+PriorWork work_of(const PriorTake& take, const AutoRun& run) {
   BodyChannels guide = encode_body(run.clip, take.layout, take.match);
   PriorWork work;
   work.match = &take.match;
@@ -209,9 +199,7 @@ void leave_far_turns_to_auto(PriorWork& work, const BodyLayout& layout,
 
 // What `auto` made of the tracks that the result may need: not of parts whose every sample is the
 // filter's.
-template <class AnyClip>
-std::vector<CleanedTrack> keep_fallback(const PriorTake<AnyClip>& take, AutoRun<AnyClip> run,
-                                        const PriorWork& work,
+std::vector<CleanedTrack> keep_fallback(const PriorTake& take, AutoRun run, const PriorWork& work,
                                         const std::vector<std::uint8_t>& chosen, bool fill) {
   const TakeView view = view_of(run.clip);
   std::vector<std::uint8_t> needed(view.tracks.size(), 1);
@@ -261,12 +249,11 @@ CleanedTrack filtered_track(const TakeView& view, const TakeView& filtered, std:
   return cleaned;
 }
 
-template <class AnyClip>
-CleanTrace clean_known(const PriorTake<AnyClip>& take, bool fill, PriorHold hold,
-                       const PriorFilter& filter, const TrackSink& sink) {
+CleanTrace clean_known(const PriorTake& take, bool fill, PriorHold hold, const PriorFilter& filter,
+                       const TrackSink& sink) {
   const TakeView& view = take.view;
   std::vector<std::uint8_t> chosen = chosen_parts(take);
-  AutoRun<AnyClip> run = run_auto(take);
+  AutoRun run = run_auto(take);
   PriorWork work = work_of(take, run);
   if (view.joints) leave_far_turns_to_auto(work, take.layout, chosen);
   settle_needs(work, hold);
@@ -280,7 +267,7 @@ CleanTrace clean_known(const PriorTake<AnyClip>& take, bool fill, PriorHold hold
                   {work.left_out.begin(), work.left_out.end()});
   }
 
-  AnyClip filtered = take.clip;
+  Take filtered = take.clip;
   decode_body(work.channels, take.layout, take.match, filtered, chosen);
   const TakeView result = view_of(filtered);
   std::vector<std::uint8_t> selected(view.owners, 0);
@@ -311,8 +298,8 @@ CleanTrace clean_known(const PriorTake<AnyClip>& take, bool fill, PriorHold hold
 }
 
 // Gaps in the positions of joints hold their bridges.
-Clip with_bridged_positions(const TakeView& view) {
-  Clip clip = *view.joints;
+Take with_bridged_positions(const TakeView& view) {
+  Take clip = *view.joints;
   for (std::size_t n = view.owners; n < view.tracks.size() && !clip.observed_positions.empty(); ++n)
     set_track(clip, n, position_pieces(view, n).front().samples);
   return clip;
@@ -323,15 +310,13 @@ Clip with_bridged_positions(const TakeView& view) {
 CleanTrace clean_with_prior(const TakeView& take, const TrackSink& sink, const BodyLayout& layout,
                             const NameMap& names, bool fill, PriorHold hold,
                             const PriorFilter& filter) {
-  const BodyMatch match = take.joints ? match_body(layout, *take.joints, names)
-                                      : match_body(layout, *take.markers, names);
+  const Take& whole = take.joints ? *take.joints : *take.markers;
+  const BodyMatch match = match_body(layout, whole, names);
   if (take.frames == 0) return {};
-  if (take.markers)
-    return clean_known<MarkerClip>({take, *take.markers, layout, match}, fill, hold, filter, sink);
-  if (take.joints->observed_positions.empty())
-    return clean_known<Clip>({take, *take.joints, layout, match}, fill, hold, filter, sink);
-  const Clip bridged = with_bridged_positions(take);
-  return clean_known<Clip>({take, bridged, layout, match}, fill, hold, filter, sink);
+  if (whole.observed_positions.empty())
+    return clean_known({take, whole, layout, match}, fill, hold, filter, sink);
+  const Take bridged = with_bridged_positions(take);
+  return clean_known({take, bridged, layout, match}, fill, hold, filter, sink);
 }
 
 namespace {

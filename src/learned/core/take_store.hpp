@@ -18,14 +18,14 @@ class TakeStore {
   explicit TakeStore(std::size_t most_memory) : frames_(most_memory) {}
 
   /// The take's source document is dropped. Errors: as of `Spool`.
-  void add(std::variant<Clip, MarkerClip> take);
+  void add(Take take);
   std::size_t count() const noexcept { return takes_.size(); }
   /// Bit-identical to the take added. Errors: as of `Spool`.
-  std::variant<Clip, MarkerClip> take(std::size_t index) const;
+  Take take(std::size_t index) const;
 
  private:
   struct Entry {
-    std::variant<Clip, MarkerClip> head;  // without frames
+    Take head;  // without frames
     std::size_t first_record = 0;
   };
 

@@ -8,7 +8,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "kinemend/error.hpp"
@@ -20,11 +19,10 @@ namespace kinemend {
 
 namespace {
 
-Clip motion_of(Clip clip) {
-  const std::size_t first = leading_calibration_frames(clip);
-  return first == 0 ? std::move(clip) : slice(clip, first, clip.frame_count());
+Take motion_of(Take take) {
+  const std::size_t first = take.has_joints() ? leading_calibration_frames(take) : 0;
+  return first == 0 ? std::move(take) : slice(take, first, take.frame_count());
 }
-MarkerClip motion_of(MarkerClip clip) { return clip; }
 
 void report(const TrainSettings& settings, std::string_view stage, std::size_t done,
             std::size_t count) {
@@ -70,8 +68,7 @@ std::vector<Stretch> whole_stretches(const BodyChannels& channels) {
   return stretches;
 }
 
-template <class AnyClip>
-BodyChannels channels_at_rate(AnyClip clip, const BodyLayout& layout, double rate_hz,
+BodyChannels channels_at_rate(Take clip, const BodyLayout& layout, double rate_hz,
                               std::size_t& phases) {
   phases = whole_ratio(clip.frame_rate_hz, rate_hz);
   if (phases == 0) {
@@ -106,15 +103,11 @@ TrainingSequences encode_takes(const TrainingTakes& takes, const TrainSettings& 
   TakeStore store(settings.most_memory / 2);
   for (std::size_t i = 0; i < takes.count; ++i) {
     report(settings, "reading takes", i, takes.count);
-    std::optional<std::variant<Clip, MarkerClip>> take = takes.take(i);
+    std::optional<Take> take = takes.take(i);
     if (!take) continue;
-    std::visit(
-        [&](auto& clip) {
-          clip = motion_of(std::move(clip));
-          builder.add(clip);
-          store.add(std::move(clip));
-        },
-        *take);
+    *take = motion_of(std::move(*take));
+    builder.add(*take);
+    store.add(std::move(*take));
   }
   if (store.count() == 0) throw Error(ErrorKind::usage, "no takes to learn from");
   TrainingSequences sequences;
@@ -125,12 +118,8 @@ TrainingSequences encode_takes(const TrainingTakes& takes, const TrainSettings& 
   for (std::size_t i = 0; i < store.count(); ++i) {
     report(settings, "encoding motion", i, store.count());
     std::size_t phases = 1;
-    const BodyChannels channels = std::visit(
-        [&](auto&& clip) {
-          return channels_at_rate(std::forward<decltype(clip)>(clip), sequences.layout, rate_hz,
-                                  phases);
-        },
-        store.take(i));
+    const BodyChannels channels =
+        channels_at_rate(store.take(i), sequences.layout, rate_hz, phases);
     add_sequences(channels, phases, i, settings.stages.get(), sequences);
   }
   if (settings.stages) settings.stages->end_of_takes();

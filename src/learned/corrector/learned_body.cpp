@@ -26,7 +26,7 @@ bool is_tame(const BodyChannels& body, std::size_t part) {
   return true;
 }
 
-void see_everywhere(const MotionTracks& tracks, Clip& clip) {
+void see_everywhere(const MotionTracks& tracks, Take& clip) {
   const std::size_t joints = clip.joint_count(), positions = 1 + clip.translated_joints.size();
   for (const std::size_t number : tracks.numbers) {
     const bool turns = number < joints;

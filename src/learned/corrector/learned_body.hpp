@@ -22,7 +22,7 @@ std::string why_not_learned(const TakeView& view);
 
 struct KnownBody {
   BodyMatch match;
-  Clip clip;  ///< without spikes
+  Take clip;  ///< without spikes
   BodyChannels channels;
   std::vector<std::int32_t> track_of;  ///< N and the place: the track among those cleaned, or -1
 };

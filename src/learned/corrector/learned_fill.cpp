@@ -23,7 +23,7 @@ namespace kinemend {
 namespace {
 
 LearnedFilling fill_by_network(const MotionNetwork& network, const BodyLayout& layout,
-                               const NameMap& names, const Clip& clip) {
+                               const NameMap& names, const Take& clip) {
   LearnedFilling filling{clip.rotations, {}, true};
   const TakeView view = view_of(clip);
   filling.left_out.assign(clip.joint_count(), why_not_learned(view));
@@ -57,7 +57,7 @@ LearnedFilling fill_by_network(const MotionNetwork& network, const BodyLayout& l
 LearnedFill make_learned_fill(const LearnedOptions& options, std::shared_ptr<const Model> model) {
   model = model_of(learned_learned(), options.model, std::move(model));
   auto network = std::make_shared<const MotionNetwork>(motion_network_of(*model));
-  return [network, model, names = name_map_at(options.map)](const Clip& clip) {
+  return [network, model, names = name_map_at(options.map)](const Take& clip) {
     return fill_by_network(*network, model->layout, names, clip);
   };
 }

@@ -42,7 +42,7 @@ struct StreamedTrack {
 std::optional<BodyMatch> match_of(const BodyLayout& layout, const NameMap& names,
                                   const TakeView& like) {
   if (like.joints == nullptr || layout.kind != BodyKind::joints) return std::nullopt;
-  Clip still;
+  Take still;
   still.skeleton = like.joints->skeleton;
   still.frame_rate_hz = like.frame_rate_hz;
   try {

@@ -25,8 +25,8 @@ namespace {
 constexpr double most_within = 0.98;  // a few of the samples may be spikes
 
 // The body's frame needs a root in every frame, and rotation vectors the shortest way through gaps.
-Clip bridged_take(const Clip& clip) {
-  Clip whole = clip;
+Take bridged_take(const Take& clip) {
+  Take whole = clip;
   const TakeView view = view_of(clip);
   for (std::size_t n = 0; n < view.tracks.size(); ++n) {
     if (observed_of(view.tracks[n]).empty()) continue;
@@ -52,7 +52,7 @@ bool turns_too_far(const BodyChannels& channels, std::size_t part) {
 }
 
 LearnedFilling fill_by_network(const FilterNetwork& network, const BodyLayout& layout,
-                               const NameMap& names, const Clip& clip) {
+                               const NameMap& names, const Take& clip) {
   LearnedFilling filling{clip.rotations, {}};
   filling.left_out.assign(clip.joint_count(), "the model does not know them");
   if (!has_rate_of(network, clip.frame_rate_hz)) {
@@ -62,7 +62,7 @@ LearnedFilling fill_by_network(const FilterNetwork& network, const BodyLayout& l
     return filling;
   }
   const BodyMatch match = match_body(layout, clip, names);
-  const Clip guide = bridged_take(clip);
+  const Take guide = bridged_take(clip);
   BodyChannels channels = encode_body(clip, layout, match, encode_body(guide, layout, match));
   std::vector<std::uint8_t> chosen(layout.track_count() + 1, 0);
   for (std::size_t part = 0; part < layout.track_count(); ++part) {
@@ -74,7 +74,7 @@ LearnedFilling fill_by_network(const FilterNetwork& network, const BodyLayout& l
     chosen[part] = reason.empty() ? 1 : 0;
   }
   channels.poses = filled_by_network(network, layout, channels);
-  Clip filled = guide;
+  Take filled = guide;
   decode_body(channels, layout, match, filled, chosen);
   filling.rotations = std::move(filled.rotations);
   return filling;
@@ -86,7 +86,7 @@ LearnedFill make_recurrent_fill(const RecurrentFillOptions& options,
                                 std::shared_ptr<const Model> model) {
   model = model_of(recurrent_learned(), options.model, std::move(model));
   auto network = std::make_shared<const FilterNetwork>(gap_network_of(*model));
-  return [network, model, names = name_map_at(options.map)](const Clip& clip) {
+  return [network, model, names = name_map_at(options.map)](const Take& clip) {
     return fill_by_network(*network, model->layout, names, clip);
   };
 }

@@ -34,7 +34,7 @@ class RecurrentLive final : public LiveFilter {
         missing_(network.channels() / turn_axes),
         held_(like.owners),
         waiting_(LiveFilterNetwork::delay + 1) {
-    Clip still;
+    Take still;
     still.skeleton = like.joints->skeleton;
     still.frame_rate_hz = like.frame_rate_hz;
     const BodyMatch match = match_body(layout, still, names);

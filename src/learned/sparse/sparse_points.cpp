@@ -72,7 +72,7 @@ Quat nearest_rotation(const Matrix3d& m) {
 SparsePointsBuilder::SparsePointsBuilder(const BodyLayout& layout)
     : layout_(layout), sums_(layout.track_count()), counts_(layout.track_count(), 0) {}
 
-void SparsePointsBuilder::add(const Clip& clip) {
+void SparsePointsBuilder::add(const Take& clip) {
   if (clip.frame_count() == 0) return;
   const BodyMatch match = match_body(layout_, clip);
   const BodyChannels channels = encode_body(clip, layout_, match);

@@ -28,7 +28,7 @@ struct SparsePoints {
 class SparsePointsBuilder {
  public:
   explicit SparsePointsBuilder(const BodyLayout& layout);
-  void add(const Clip& clip);
+  void add(const Take& clip);
   SparsePoints finish() const;
 
  private:

@@ -72,11 +72,11 @@ const OptionTable<SparseTraining>& sparse_training_table() {
 }
 
 // Takes as they are asked for, of which one frame each is kept.
-TrainingTakes keeping_frames(const TrainingTakes& takes, std::vector<Clip>& frames) {
+TrainingTakes keeping_frames(const TrainingTakes& takes, std::vector<Take>& frames) {
   return {takes.count, [&takes, &frames](std::size_t index) {
             auto take = takes.take(index);
-            if (take && std::holds_alternative<Clip>(*take)) {
-              const Clip& clip = std::get<Clip>(*take);
+            if (take && std::holds_alternative<Take>(*take)) {
+              const Take& clip = std::get<Take>(*take);
               const std::size_t middle = clip.frame_count() / 2;
               if (clip.frame_count() > 0) frames.push_back(slice(clip, middle, middle + 1));
             }
@@ -84,10 +84,10 @@ TrainingTakes keeping_frames(const TrainingTakes& takes, std::vector<Clip>& fram
           }};
 }
 
-SparsePoints points_for(const BodyLayout& layout, const std::vector<Clip>& frames) {
+SparsePoints points_for(const BodyLayout& layout, const std::vector<Take>& frames) {
   if (layout.kind == BodyKind::markers) return marker_points(layout);
   SparsePointsBuilder builder(layout);
-  for (const Clip& clip : frames) builder.add(clip);
+  for (const Take& clip : frames) builder.add(clip);
   return builder.finish();
 }
 
@@ -253,7 +253,7 @@ Model train_sparse(const TrainingTakes& takes, const OptionValues& values,
   const std::string poselet_text =
       options.poselets.empty() ? std::string() : file_bytes(options.poselets);
   settings.stages->see(poselet_text);
-  std::vector<Clip> frames;
+  std::vector<Take> frames;
   const TrainingSequences sequences =
       encode_takes(keeping_frames(takes, frames), settings, options.rate_hz);
   Model model;

@@ -17,7 +17,7 @@ std::vector<std::vector<std::size_t>> rigid_neighbours(const TakeView& take,
                                                        const std::vector<std::size_t>& markers) {
   constexpr std::size_t most_frames = 50, least_frames = 10, most_neighbours = 4;
   constexpr double farthest = 0.3, largest_spread = 0.02;  // body heights
-  const MarkerClip& clip = *take.markers;
+  const Take& clip = *take.markers;
   const std::size_t frames = take.frames, sampled = std::min(frames, most_frames);
   std::vector<std::vector<std::size_t>> result(markers.size());
   for_each_parallel(markers.size(), markers.size() * markers.size() * sampled, [&](std::size_t n) {

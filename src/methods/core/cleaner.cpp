@@ -33,36 +33,18 @@ double NoiseCharacter::frequency_of_share(double share, double frame_rate_hz) co
 
 namespace {
 
-void put_back(Clip& clip, std::size_t track, const CleanedTrack& cleaned) {
-  if (!cleaned.rotations.empty()) set_track(clip, track, cleaned.rotations);
-  if (!cleaned.positions.empty()) set_track(clip, track, cleaned.positions);
-}
-
-void put_back(MarkerClip& clip, std::size_t track, const CleanedTrack& cleaned) {
+void put_back(Take& take, std::size_t track, const CleanedTrack& cleaned) {
+  if (!cleaned.rotations.empty()) set_track(take, track, cleaned.rotations);
+  if (take.has_joints()) return set_track(take, track, cleaned.positions);
   for (std::size_t f = 0; f < cleaned.positions.size(); ++f) {
-    const std::size_t sample = f * clip.marker_count() + track;
-    if (clip.observed[sample] == 0) {
+    const std::size_t sample = f * take.marker_count() + track;
+    if (take.observed[sample] == 0) {
       if (cleaned.actions.empty() || cleaned.actions[f] != Action::filled) continue;
-      clip.observed[sample] = 1;
-      if (!clip.residuals.empty()) clip.residuals[sample] = 0;
+      take.observed[sample] = 1;
+      if (!take.residuals.empty()) take.residuals[sample] = 0;
     }
-    clip.positions[sample] = cleaned.positions[f];
+    take.positions[sample] = cleaned.positions[f];
   }
-}
-
-template <class AnyClip>
-InPlaceTrace clean_view(const Cleaner& cleaner, const TakeView& take, AnyClip& clip,
-                        const std::function<void(double)>& progress) {
-  InPlaceTrace trace;
-  trace.actions.resize(take.tracks.size());
-  trace.coloured.resize(take.tracks.size());
-  const TrackSink sink = [&](std::size_t track, CleanedTrack cleaned) {
-    put_back(clip, track, cleaned);
-    trace.actions[track] = std::move(cleaned.actions);
-    trace.coloured[track] = cleaned.noise;
-  };
-  static_cast<CleanTrace&>(trace) = cleaner.clean(take, sink, progress);
-  return trace;
 }
 
 }  // namespace
@@ -77,14 +59,19 @@ std::unique_ptr<LiveFilter> Cleaner::live(const TakeView& like) const {
   throw Error(ErrorKind::usage, live_support(like.frame_rate_hz).why_not);
 }
 
-InPlaceTrace clean_in_place(const Cleaner& cleaner, Clip& clip, const Selection& selection,
+InPlaceTrace clean_in_place(const Cleaner& cleaner, Take& take, const Selection& selection,
                             const std::function<void(double)>& progress) {
-  return clean_view(cleaner, view_of(clip, selection), clip, progress);
-}
-
-InPlaceTrace clean_in_place(const Cleaner& cleaner, MarkerClip& clip, const Selection& selection,
-                            const std::function<void(double)>& progress) {
-  return clean_view(cleaner, view_of(clip, selection), clip, progress);
+  const TakeView view = view_of(take, selection);
+  InPlaceTrace trace;
+  trace.actions.resize(view.tracks.size());
+  trace.coloured.resize(view.tracks.size());
+  const TrackSink sink = [&](std::size_t track, CleanedTrack cleaned) {
+    put_back(take, track, cleaned);
+    trace.actions[track] = std::move(cleaned.actions);
+    trace.coloured[track] = cleaned.noise;
+  };
+  static_cast<CleanTrace&>(trace) = cleaner.clean(view, sink, progress);
+  return trace;
 }
 
 }  // namespace kinemend

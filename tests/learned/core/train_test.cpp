@@ -55,7 +55,7 @@ TEST(LearnedMethods, AnswersAnUnknownNameWithTheOneMeant) {
 }
 
 TEST(TrainModel, RefusesWhatMakesNoSenseBeforeATakeIsRead) {
-  const TrainingTakes unread{1, [](std::size_t) -> std::variant<Clip, MarkerClip> {
+  const TrainingTakes unread{1, [](std::size_t) -> Take {
                                ADD_FAILURE() << "a take was read";
                                return Clip();
                              }};

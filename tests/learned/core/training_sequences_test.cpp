@@ -18,8 +18,6 @@
 namespace kinemend {
 namespace {
 
-using AnyTake = std::variant<Clip, MarkerClip>;
-
 Clip walk_at(std::uint64_t seed, double rate_hz = 60) {
   SynthOptions options;
   options.duration_s = 3;
@@ -43,16 +41,16 @@ void lose_frames(Clip& clip) {
               10 * clip.joint_count(), std::uint8_t{0});
 }
 
-TrainingTakes takes_of(const std::vector<AnyTake>& takes) {
+TrainingTakes takes_of(const std::vector<Take>& takes) {
   return {takes.size(), [&takes](std::size_t i) { return takes[i]; }};
 }
 
-std::vector<AnyTake> joint_takes() {
-  std::vector<AnyTake> takes = {walk_at(1), walk_at(2, 120), walk_at(3, 50), walk_at(4)};
+std::vector<Take> joint_takes() {
+  std::vector<Take> takes = {walk_at(1), walk_at(2, 120), walk_at(3, 50), walk_at(4)};
   lose_frames(std::get<Clip>(takes[0]));
   return takes;
 }
-std::vector<AnyTake> marker_takes() {
+std::vector<Take> marker_takes() {
   return {markers_of(walk_at(1)), markers_of(walk_at(2, 120)), markers_of(walk_at(3, 50))};
 }
 
@@ -104,7 +102,7 @@ TEST(TakeStore, GivesTakesBackToTheBit) {
 }
 
 TEST(TrainingSequences, AreTheChannelsOfWholeStretchesInEveryPhase) {
-  const std::vector<AnyTake> takes = joint_takes();
+  const std::vector<Take> takes = joint_takes();
   const TrainingSequences sequences = encode_takes(takes_of(takes), {}, 60);
   std::vector<std::size_t> of_take(takes.size(), 0);
   for (const auto& entry : sequences.entries) ++of_take[entry.take];
@@ -130,7 +128,7 @@ TEST(TrainingSequences, AreTheChannelsOfWholeStretchesInEveryPhase) {
 }
 
 TEST(TrainingSequences, GiveAnyFramesOfThem) {
-  const std::vector<AnyTake> takes = {walk_at(1)};
+  const std::vector<Take> takes = {walk_at(1)};
   const TrainingSequences sequences = encode_takes(takes_of(takes), {}, 60);
   const PoseMatrix all = sequence_at(sequences, 0).poses;
   const PoseMatrix part = sequence_at(sequences, 0, 20, 52).poses;
@@ -152,7 +150,7 @@ TEST(TrainingSequences, AreWalkedThroughAsOftenAsOneLikesButReadOnce) {
 }
 
 TEST(TrainingSequences, GiveTheSameModelFromMemoryAndFromAFile) {
-  for (const std::vector<AnyTake>& takes : {joint_takes(), marker_takes()}) {
+  for (const std::vector<Take>& takes : {joint_takes(), marker_takes()}) {
     for (const LearnedMethod& method : learned_methods()) {
       const auto bytes = [&](std::size_t most_memory) {
         TrainSettings settings;
@@ -167,9 +165,9 @@ TEST(TrainingSequences, GiveTheSameModelFromMemoryAndFromAFile) {
 }
 
 TEST(TrainingSequences, LeaveTakesOutThatAreNotGiven) {
-  const std::vector<AnyTake> takes = joint_takes();
-  const std::vector<AnyTake> fewer = {takes[0], takes[2], takes[3]};
-  const TrainingTakes skipping{takes.size(), [&](std::size_t i) -> std::optional<AnyTake> {
+  const std::vector<Take> takes = joint_takes();
+  const std::vector<Take> fewer = {takes[0], takes[2], takes[3]};
+  const TrainingTakes skipping{takes.size(), [&](std::size_t i) -> std::optional<Take> {
                                  if (i == 1) return std::nullopt;
                                  return takes[i];
                                }};
@@ -178,7 +176,7 @@ TEST(TrainingSequences, LeaveTakesOutThatAreNotGiven) {
     EXPECT_EQ(model.takes, 3u);
     EXPECT_EQ(write_model(model), write_model(trained(method, takes_of(fewer))));
   }
-  const TrainingTakes none{2, [](std::size_t) { return std::optional<AnyTake>(); }};
+  const TrainingTakes none{2, [](std::size_t) { return std::optional<Take>(); }};
   EXPECT_THROW(train_model("wiener", none), Error);
 }
 

@@ -14,19 +14,19 @@ namespace {
 
 constexpr std::size_t channel = 10, first = 60, last = 130;  // a gap of track 3
 
-struct AnyTake {
+struct TakeWithGap {
   BodyLayout layout;
   BodyChannels channels;
 };
 
-AnyTake with_gap() {
+TakeWithGap with_gap() {
   SynthOptions options;
   options.duration_s = 2;
   options.frame_rate_hz = 120;
   const Clip clip = synthesize(options);
   BodyLayoutBuilder builder;
   builder.add(clip);
-  AnyTake take{builder.finish(), {}};
+  TakeWithGap take{builder.finish(), {}};
   take.channels = encode_body(clip, take.layout, match_body(take.layout, clip));
   for (std::size_t f = first; f < last; ++f) {
     for (std::size_t c = 9; c < 12; ++c) {
@@ -37,12 +37,12 @@ AnyTake with_gap() {
   return take;
 }
 
-FilterNetwork network_of(const AnyTake& take, double output) {
+FilterNetwork network_of(const TakeWithGap& take, double output) {
   return filter_network_of(
       test::constant_filter_model(take.layout, FilterHead::residual, output, {false, true}));
 }
 
-PoseMatrix straight_lines(const AnyTake& take) {
+PoseMatrix straight_lines(const TakeWithGap& take) {
   std::vector<std::uint8_t> missing;
   for (const std::uint8_t seen : take.channels.observed) missing.push_back(seen == 0 ? 1 : 0);
   PoseMatrix poses = take.channels.poses;
@@ -51,13 +51,13 @@ PoseMatrix straight_lines(const AnyTake& take) {
 }
 
 TEST(GapNetwork, ThatAddsNothingLeavesStraightLines) {
-  const AnyTake take = with_gap();
+  const TakeWithGap take = with_gap();
   const PoseMatrix filled = filled_by_network(network_of(take, 0), take.layout, take.channels);
   EXPECT_EQ(filled.values, straight_lines(take).values);
 }
 
 TEST(GapNetwork, AddsInTheMiddleOfAGapAndMeetsItsEnds) {
-  const AnyTake take = with_gap();
+  const TakeWithGap take = with_gap();
   const PoseMatrix lines = straight_lines(take);
   const PoseMatrix filled = filled_by_network(network_of(take, 5), take.layout, take.channels);
   EXPECT_NEAR(filled(95, channel) - lines(95, channel), 5, 1);
@@ -66,7 +66,7 @@ TEST(GapNetwork, AddsInTheMiddleOfAGapAndMeetsItsEnds) {
 }
 
 TEST(GapNetwork, KeepsWhatWasMeasured) {
-  const AnyTake take = with_gap();
+  const TakeWithGap take = with_gap();
   const PoseMatrix filled = filled_by_network(network_of(take, 5), take.layout, take.channels);
   for (std::size_t i = 0; i < filled.values.size(); ++i) {
     if (take.channels.observed[i] == 0) continue;
@@ -75,7 +75,7 @@ TEST(GapNetwork, KeepsWhatWasMeasured) {
 }
 
 TEST(GapNetwork, FillsATakeAtAnotherRateAlike) {
-  AnyTake take = with_gap();
+  TakeWithGap take = with_gap();
   const PoseMatrix same = filled_by_network(network_of(take, 5), take.layout, take.channels);
   FilterNetwork slower = network_of(take, 5);
   slower.rate_hz = 50;

@@ -23,9 +23,7 @@ Clip slow_walk(std::uint64_t seed, double rate_hz = 30) {
 std::shared_ptr<const Model> learned(const OptionValues& options = {}) {
   static const std::vector<Clip> clips = {slow_walk(1, 120), slow_walk(2, 120), slow_walk(3, 120)};
   return std::make_shared<const Model>(train_model(
-      "kalman-learned",
-      {clips.size(), [](std::size_t i) { return std::variant<Clip, MarkerClip>(clips[i]); }},
-      options));
+      "kalman-learned", {clips.size(), [](std::size_t i) { return Take(clips[i]); }}, options));
 }
 
 Clip noisy(Clip clip, double std_deg) {

@@ -35,8 +35,7 @@ Model trained(const std::vector<AnyClip>& clips, OptionValues options = {}) {
   options.try_emplace("atoms", std::int64_t{60});
   options.try_emplace("window_frames", std::int64_t{9});
   options.try_emplace("iterations", std::int64_t{4});
-  TrainingTakes takes{clips.size(),
-                      [&](std::size_t i) -> std::variant<Clip, MarkerClip> { return clips[i]; }};
+  TrainingTakes takes{clips.size(), [&](std::size_t i) -> Take { return clips[i]; }};
   return train_model("sparse", takes, options);
 }
 

@@ -26,10 +26,9 @@ Clip seeded_walk(std::uint64_t seed) {
 
 template <class AnyClip>
 std::shared_ptr<const Model> learned(const std::vector<AnyClip>& clips) {
-  return std::make_shared<const Model>(train_model(
-      "sparse",
-      {clips.size(), [&](std::size_t i) { return std::variant<Clip, MarkerClip>(clips[i]); }},
-      {{"atoms", std::int64_t{60}}, {"iterations", std::int64_t{4}}}));
+  return std::make_shared<const Model>(
+      train_model("sparse", {clips.size(), [&](std::size_t i) { return Take(clips[i]); }},
+                  {{"atoms", std::int64_t{60}}, {"iterations", std::int64_t{4}}}));
 }
 
 std::shared_ptr<const Model> joints() {
