@@ -165,7 +165,6 @@ FilterTrainer::FilterTrainer(std::vector<Clip> takes, const FilterTraining& sett
   std::vector<FilterTake> clean;
   for (const Clip& take : takes_) {
     clean.push_back(filter_take_of(encode_body(take, layout_, match_body(layout_, take)), layout_));
-    truths_.push_back(clean.back().values);
     const std::size_t chunk = settings_.frames * (settings_.kind == "ebd" ? 4 : 1);
     chunks_of_epoch_ += (take.frame_count() + chunk - 1) / chunk;
   }

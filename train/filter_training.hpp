@@ -104,7 +104,6 @@ class FilterTrainer {
   BidirectionalShape shape_;
   std::size_t stride_ = 1, margin_ = predicted_filter_reach, chunks_of_epoch_ = 0;
   std::unique_ptr<SequenceNetwork> network_;
-  std::vector<std::vector<float>> truths_;  // of each take, F x C
   std::vector<Sample> samples_;
   std::size_t round_ = 0;  // of the samples at hand, plus 1
   std::size_t batch_ = 0;

@@ -7,11 +7,11 @@
 
 namespace kinemend::nn {
 
-/// Functions of single numbers, and softmax of rows.
-enum class Activation : std::uint8_t { none, relu, elu, tanh, sigmoid, exp, softmax };
+/// Functions of single numbers.
+enum class Activation : std::uint8_t { none, relu, tanh, exp };
 
-/// In place; softmax over all of `values`. Within 2e-7 of the function (relative for `exp` and
-/// `softmax`), and the same bits on every processor. exp of numbers beyond +-87 is that of +-87.
+/// In place. Within 2e-7 of the function (relative for `exp`), and the same bits on every
+/// processor. exp of numbers beyond +-87 is that of +-87.
 void activate(Activation activation, std::span<float> values);
 /// Of each row.
 void activate(Activation activation, const MutableMatrixViewF& rows);

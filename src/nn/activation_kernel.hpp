@@ -7,9 +7,7 @@ namespace kinemend::nn {
 
 void exp_of(float* values, std::size_t count);
 void tanh_of(float* values, std::size_t count);
-void sigmoid_of(float* values, std::size_t count);
 void relu_of(float* values, std::size_t count);
-void elu_of(float* values, std::size_t count);
 
 /// A step of an LSTM's memory from its gates i, f, g and o, `units` each, one behind the other, to
 /// which their functions have not been applied: c = s(f) c + s(i) tanh(g), h = s(o) tanh(c).

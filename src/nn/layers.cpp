@@ -61,7 +61,7 @@ Dense read_dense(const NamedTensors& tensors, const std::string& name, Activatio
 }
 
 Convolution read_convolution(const NamedTensors& tensors, const std::string& name,
-                             std::size_t dilation, bool is_causal, Activation activation) {
+                             std::size_t dilation, Activation activation) {
   const Tensor& weight = find_tensor(tensors, name + ".weight", 3);
   const std::size_t outputs = weight.shape[0], taps = weight.shape[1], inputs = weight.shape[2];
   Convolution layer;
@@ -69,7 +69,6 @@ Convolution read_convolution(const NamedTensors& tensors, const std::string& nam
     layer.taps.push_back(packed_transpose(weight, k * inputs, outputs, inputs, taps * inputs));
   layer.bias = read_bias(tensors, name + ".bias", outputs);
   layer.dilation = dilation;
-  layer.is_causal = is_causal;
   layer.activation = activation;
   return layer;
 }

@@ -47,8 +47,7 @@ struct Convolution {
 Dense read_dense(const NamedTensors& tensors, const std::string& name,
                  Activation activation = Activation::none);
 Convolution read_convolution(const NamedTensors& tensors, const std::string& name,
-                             std::size_t dilation = 1, bool is_causal = false,
-                             Activation activation = Activation::none);
+                             std::size_t dilation = 1, Activation activation = Activation::none);
 /// A tensor of so many dimensions. Errors: as above.
 const Tensor& find_tensor(const NamedTensors& tensors, const std::string& name,
                           std::size_t dimensions);

@@ -170,13 +170,9 @@ void smooth_with(const ModelGrid& grid, std::span<const std::size_t> models, Cha
   }
 }
 
-namespace {
-
-// Calls work(channels of a block, their values, their models).
-template <class Work>
-std::vector<std::size_t> for_models(const PoseMatrix& matrix,
-                                    std::span<const double> noise_variance, const ModelGrid& grid,
-                                    std::size_t group, const Work& work) {
+std::vector<std::size_t> most_likely_models(const PoseMatrix& matrix,
+                                            std::span<const double> noise_variance,
+                                            const ModelGrid& grid, std::size_t group) {
   assert(noise_variance.size() == matrix.channels && grid.frames() == matrix.frames);
   assert(group >= 1 && group <= block_channels && matrix.channels % group == 0);
   if (grid.models().empty()) return {};
@@ -184,32 +180,11 @@ std::vector<std::size_t> for_models(const PoseMatrix& matrix,
   std::iota(all.begin(), all.end(), std::size_t{0});
   std::vector<std::size_t> chosen(matrix.channels);
   for_each_block(in_blocks(all, group), [&](const Channels& block) {
-    ChannelBlock y = gather(matrix, block);
-    const std::vector<std::size_t> best =
-        most_likely_models(y, noise_variance.subspan(block[0], block.size()), grid, group);
+    const std::vector<std::size_t> best = most_likely_models(
+        gather(matrix, block), noise_variance.subspan(block[0], block.size()), grid, group);
     std::copy(best.begin(), best.end(), chosen.begin() + static_cast<std::ptrdiff_t>(block[0]));
-    work(block, y, best);
   });
   return chosen;
-}
-
-}  // namespace
-
-std::vector<std::size_t> most_likely_models(const PoseMatrix& matrix,
-                                            std::span<const double> noise_variance,
-                                            const ModelGrid& grid, std::size_t group) {
-  return for_models(matrix, noise_variance, grid, group,
-                    [](const Channels&, const ChannelBlock&, const Channels&) {});
-}
-
-std::vector<std::size_t> smooth_by_evidence(PoseMatrix& matrix,
-                                            std::span<const double> noise_variance,
-                                            const ModelGrid& grid, std::size_t group) {
-  return for_models(matrix, noise_variance, grid, group,
-                    [&](const Channels& block, ChannelBlock& y, const Channels& best) {
-                      smooth_with(grid, best, y);
-                      scatter(y, block, matrix);
-                    });
 }
 
 ChannelBlock smooth_adaptively(const ChannelBlock& y, const ChannelBlock& weight,

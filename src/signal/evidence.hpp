@@ -60,11 +60,6 @@ void smooth_with(const ModelGrid& grid, std::span<const std::size_t> models, Cha
 std::vector<std::size_t> most_likely_models(const PoseMatrix& matrix,
                                             std::span<const double> noise_variance,
                                             const ModelGrid& grid, std::size_t group = 1);
-/// Smooths the channels of `matrix` in place, each with its most likely model, and returns these;
-/// without any nothing is changed.
-std::vector<std::size_t> smooth_by_evidence(PoseMatrix& matrix,
-                                            std::span<const double> noise_variance,
-                                            const ModelGrid& grid, std::size_t group = 1);
 
 struct AdaptiveSettings {
   /// Of the moving average of squared differences, applied twice; three frames at least.

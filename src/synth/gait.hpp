@@ -28,7 +28,6 @@ class Gait {
   Posture posture(double time_s) const;
   /// Strides since time 0, counted from a contact of the left foot.
   double strides(double time_s) const;
-  double stride_length_cm() const { return pace_.mean(); }
 
  private:
   struct Footprint {

@@ -225,7 +225,7 @@ TEST(NotFinite, RatesAndScalesOfC3dAreUnknown) {
   const std::string written = write_take(read.clip);
   EXPECT_EQ(C3dFile::at(written, rate->data_begin), 0);
   EXPECT_EQ(C3dFile::at(written, scale->data_begin), 1);
-  for (const double value : decode_c3d_analog(document_of(read_c3d_bytes(written).clip)).values)
+  for (const double value : analog_of(read_c3d_bytes(written).clip).values)
     ASSERT_TRUE(std::isfinite(value));
 }
 

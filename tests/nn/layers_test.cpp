@@ -22,10 +22,10 @@ using test::FloatMatrix;
 TEST(Layers, DenseLayersAgreeWithLibTorchForEachActivation) {
   const NamedTensors& tensors = expected_of_layers();
   const FloatMatrix x(tensors.at("dense.x"));
-  const std::vector<std::pair<std::string, Activation>> activations{
-      {"none", Activation::none},      {"relu", Activation::relu}, {"elu", Activation::elu},
-      {"tanh", Activation::tanh},      {"exp", Activation::exp},   {"sigmoid", Activation::sigmoid},
-      {"softmax", Activation::softmax}};
+  const std::vector<std::pair<std::string, Activation>> activations{{"none", Activation::none},
+                                                                    {"relu", Activation::relu},
+                                                                    {"tanh", Activation::tanh},
+                                                                    {"exp", Activation::exp}};
   for (const auto& [name, activation] : activations) {
     const Dense layer = read_dense(tensors, "dense", activation);
     FloatMatrix y(x.rows, layer.outputs());
@@ -38,7 +38,8 @@ TEST(Layers, ConvolutionsAgreeWithLibTorchCausalAndCentred) {
   const NamedTensors& tensors = expected_of_layers();
   for (const std::string name : {"centred", "causal"}) {
     const FloatMatrix x(tensors.at(name + ".x"));
-    const Convolution layer = read_convolution(tensors, name, 2, name == "causal");
+    Convolution layer = read_convolution(tensors, name, 2);
+    layer.is_causal = name == "causal";
     FloatMatrix y(x.rows, layer.outputs());
     run(layer, x.view(), y.mutable_view());
     expect_near(y, tensors.at(name + ".y"), 1e-5);
@@ -72,23 +73,15 @@ TEST(Layers, ActivationsAreTheirFunctionsOverTheRangeOfFloatsAndAtAnyLength) {
       return y;
     };
     const auto exps = result(Activation::exp), tanhs = result(Activation::tanh);
-    const auto sigmoids = result(Activation::sigmoid), elus = result(Activation::elu);
+    const auto relus = result(Activation::relu);
     for (std::size_t i = 0; i < count; ++i) {
       const double v = static_cast<double>(x[i]);
       const double bounded = std::exp(std::min(87.0, std::max(-87.0, v)));
       EXPECT_NEAR(exps[i] / bounded, 1, 3e-7) << v;
       EXPECT_NEAR(tanhs[i], std::tanh(v), 3e-7) << v;
-      EXPECT_NEAR(sigmoids[i], 1 / (1 + std::exp(-v)), 3e-7) << v;
-      EXPECT_NEAR(elus[i], v > 0 ? v : std::expm1(v), v > 0 ? 0 : 3e-7) << v;
+      EXPECT_EQ(relus[i], std::max(0.0F, x[i])) << v;
     }
   }
-}
-
-TEST(Layers, SoftmaxOfLargeNumbersAddsUpToOne) {
-  std::vector<float> values{1000, 999, -1000};
-  activate(Activation::softmax, values);
-  EXPECT_NEAR(values[0], 1 / (1 + std::exp(-1.0)), 1e-6);
-  EXPECT_NEAR(values[0] + values[1] + values[2], 1, 1e-6);
 }
 
 TEST(Layers, ALayerWhoseTensorsAreMissingOrDoNotFitIsRefusedByName) {

@@ -43,11 +43,10 @@ PoseMatrix random_walks(std::size_t frames, std::size_t channels, Random& random
 TEST(Evidence, ChoosesTheModelOfLargestLikelihood) {
   Random random(3);
   const std::size_t frames = 60, channels = 11;
-  PoseMatrix matrix = random_walks(frames, channels, random);
-  const PoseMatrix measured = matrix;
+  const PoseMatrix measured = random_walks(frames, channels, random);
   const std::vector<double> variance(channels, 0.25);
   const ModelGrid grid(frames, 60);
-  const std::vector<std::size_t> chosen = smooth_by_evidence(matrix, variance, grid);
+  const std::vector<std::size_t> chosen = most_likely_models(measured, variance, grid);
   ASSERT_EQ(chosen.size(), channels);
   for (std::size_t c = 0; c < channels; ++c) {
     Eigen::VectorXd y(static_cast<Eigen::Index>(frames));
@@ -64,27 +63,33 @@ TEST(Evidence, ChoosesTheModelOfLargestLikelihood) {
 
 TEST(Evidence, ChannelsOfAGroupShareTheirModel) {
   Random random(4);
-  PoseMatrix matrix = random_walks(80, 12, random);
+  const PoseMatrix matrix = random_walks(80, 12, random);
   const ModelGrid grid(80, 60);
-  const auto chosen = smooth_by_evidence(matrix, std::vector<double>(12, 0.25), grid, 3);
+  const auto chosen = most_likely_models(matrix, std::vector<double>(12, 0.25), grid, 3);
   for (std::size_t c = 0; c < 12; ++c) EXPECT_EQ(chosen[c], chosen[c - c % 3]);
 }
 
 TEST(Evidence, AChannelDoesNotDependOnItsNeighbours) {
   Random random(5);
-  const PoseMatrix all = random_walks(70, 9, random);
-  PoseMatrix together = all, alone(70, 1);
-  for (std::size_t t = 0; t < 70; ++t) alone(t, 0) = all(t, 4);
+  const PoseMatrix all = random_walks(70, 8, random);
+  const std::vector<double> variance(8, 0.25);
   const ModelGrid grid(70, 60);
-  smooth_by_evidence(together, std::vector<double>(9, 0.25), grid);
-  smooth_by_evidence(alone, std::vector<double>(1, 0.25), grid);
-  for (std::size_t t = 0; t < 70; ++t) EXPECT_EQ(together(t, 4), alone(t, 0));
+  const std::vector<std::size_t> channels{0, 1, 2, 3, 4, 5, 6, 7}, fourth{4};
+  ChannelBlock together = gather(all, channels), alone = gather(all, fourth);
+  const auto models = most_likely_models(together, variance, grid);
+  const auto own = most_likely_models(alone, std::span(variance).first(1), grid);
+  EXPECT_EQ(models[4], own[0]);
+  smooth_with(grid, models, together);
+  smooth_with(grid, own, alone);
+  for (std::size_t t = 0; t < 70; ++t) {
+    EXPECT_EQ(together(t, 4), alone(t, 0));
+    EXPECT_NE(together(t, 4), all(t, 4));
+  }
 }
 
 TEST(Evidence, TooShortATakeHasNoModel) {
-  PoseMatrix matrix(3, 2, 1.0);
-  EXPECT_TRUE(smooth_by_evidence(matrix, std::vector<double>(2, 1.0), ModelGrid(3, 60)).empty());
-  EXPECT_EQ(matrix.values, std::vector<double>(6, 1.0));
+  const PoseMatrix matrix(3, 2, 1.0);
+  EXPECT_TRUE(most_likely_models(matrix, std::vector<double>(2, 1.0), ModelGrid(3, 60)).empty());
 }
 
 // A channel at rest, then a snap of a few frames, then at rest.
@@ -114,8 +119,12 @@ TEST(Evidence, FollowingTheMotionBeatsOneStrengthForTheWholeTake) {
     for (double& value : noisy.values) value += random.normal();
     PoseMatrix constant = noisy, adaptive = noisy;
     const std::vector<double> variance{1.0};
+    const std::vector<std::size_t> only{0};
     const ModelGrid grid(frames, 120);
-    const auto chosen = smooth_by_evidence(constant, variance, grid);
+    const auto chosen = most_likely_models(noisy, variance, grid);
+    ChannelBlock block = gather(noisy, only);
+    smooth_with(grid, chosen, block);
+    scatter(block, only, constant);
     smooth_adaptively(adaptive, {}, variance, std::vector<SmoothingModel>{grid.models()[chosen[0]]},
                       120);
     constant_error += squared_error(truth, constant);

@@ -35,11 +35,8 @@ void dense() {
   keep("dense.x", 4 * x);
   keep("dense.none", y);
   keep("dense.relu", torch::relu(y));
-  keep("dense.elu", torch::elu(y));
   keep("dense.tanh", torch::tanh(y));
-  keep("dense.sigmoid", torch::sigmoid(y));
   keep("dense.exp", torch::exp(y));
-  keep("dense.softmax", torch::softmax(y, 1));
 }
 
 void convolution(const std::string& name, bool is_causal) {

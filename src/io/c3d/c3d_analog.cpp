@@ -1,7 +1,6 @@
 // Decodes analog samples by the scales and offsets that the parameters state.
 #include "io/c3d/c3d_analog.hpp"
 
-#include "io/c3d/c3d_events.hpp"
 #include "io/text/text.hpp"
 
 namespace kinemend {
@@ -12,13 +11,6 @@ std::vector<double> per_channel(const C3dDocument& document, const char* name, d
   std::vector<double> values = document.parameters.numbers("ANALOG", name);
   values.resize(document.layout.analog_count, otherwise);
   return values;
-}
-
-std::vector<std::string> texts_per_channel(const C3dDocument& document, const char* name) {
-  std::vector<std::string> texts = document.parameters.texts("ANALOG", name);
-  texts.resize(document.layout.analog_count);
-  for (std::string& text : texts) text = as_utf8(text);
-  return texts;
 }
 
 }  // namespace
@@ -51,25 +43,6 @@ void C3dAnalogDecoder::stored(std::size_t frame, std::vector<double>& values) co
       }
     }
   });
-}
-
-C3dAnalog decode_c3d_analog(const C3dDocument& document) {
-  const C3dLayout& layout = document.layout;
-  C3dAnalog analog;
-  const std::size_t channels = layout.analog_count, instants = layout.analog_instants();
-  if (channels == 0 || instants == 0) return analog;
-  analog.names = texts_per_channel(document, "LABELS");
-  analog.units = texts_per_channel(document, "UNITS");
-  analog.rate_hz = layout.rate_hz * static_cast<double>(instants);
-  analog.values.reserve(layout.frame_count * instants * channels);
-  const C3dAnalogDecoder decoder(document);
-  std::vector<double> frame;
-  for (std::size_t f = 0; f < layout.frame_count; ++f) {
-    decoder.stored(f, frame);
-    for (std::size_t i = 0; i < instants * channels; ++i)
-      analog.values.push_back(decoder.value(frame[i], i % channels));
-  }
-  return analog;
 }
 
 }  // namespace kinemend

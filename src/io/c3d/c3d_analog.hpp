@@ -2,23 +2,15 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "io/c3d/c3d_document.hpp"
 
 namespace kinemend {
 
-/// The analog samples of a file: force plates, muscle sensors and the like.
-struct C3dAnalog {
-  std::vector<std::string> names;  ///< C channels
-  std::vector<std::string> units;  ///< C
-  double rate_hz = 0;
-  std::vector<double> values;  ///< N x C, instant by instant; N is a multiple of the frame count
-};
-
-/// Reads stored analog values: `(stored - OFFSET) * SCALE * GEN_SCALE`, where both stored integers
-/// and OFFSET are unsigned if ANALOG:FORMAT says UNSIGNED.
+/// Reads the analog samples of a file (force plates, muscle sensors and the like): `(stored -
+/// OFFSET) * SCALE * GEN_SCALE`, where both stored integers and OFFSET are unsigned if
+/// ANALOG:FORMAT says UNSIGNED.
 class C3dAnalogDecoder {
  public:
   explicit C3dAnalogDecoder(const C3dDocument& document);
@@ -36,8 +28,5 @@ class C3dAnalogDecoder {
   std::vector<double> offsets_;
   std::vector<double> scales_;
 };
-
-/// All analog samples of a file; without channels where the file has none.
-C3dAnalog decode_c3d_analog(const C3dDocument& document);
 
 }  // namespace kinemend

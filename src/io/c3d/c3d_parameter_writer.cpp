@@ -169,8 +169,6 @@ std::vector<C3dParameter> c3d_texts(const std::string& name,
   return parts;
 }
 
-void add_group(C3dParameters& parameters, std::string_view name) { group_number(parameters, name); }
-
 void set_parameter(C3dParameters& parameters, std::string_view group, C3dParameter parameter) {
   parameter.group = group_number(parameters, group);
   const C3dParameter* const old = parameters.find(group, parameter.name);

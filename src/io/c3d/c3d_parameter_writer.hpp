@@ -28,7 +28,6 @@ void set_texts(C3dParameters& parameters, std::string_view group, const std::str
 void remove_parameter(C3dParameters& parameters, std::string_view group, std::string_view name);
 /// Removes a group and all that is in it.
 void remove_group(C3dParameters& parameters, std::string_view name);
-void add_group(C3dParameters& parameters, std::string_view name);
 
 /// A parameter section of Intel numbers, whole blocks of 512 bytes.
 std::string c3d_parameter_section(const C3dParameters& parameters);

@@ -186,7 +186,7 @@ MotionNetwork motion_network_of(const Model& model) {
   network.second_encoder =
       nn::read_convolution(tensors, "second_encoder",
                            whole_number(model, "second_encoder.dilation", 1, most_motion_dilation),
-                           false, nn::Activation::relu);
+                           nn::Activation::relu);
   check_width("second_encoder", network.second_encoder.inputs(), width);
   check_width("second_encoder", network.second_encoder.outputs(), width);
   network.of_take = nn::read_dense(tensors, "of_take");
@@ -204,7 +204,7 @@ MotionNetwork motion_network_of(const Model& model) {
     MotionNetwork::Block block{
         nn::read_convolution(tensors, name + ".convolution",
                              whole_number(model, name + ".dilation", 1, most_motion_dilation),
-                             false, nn::Activation::relu),
+                             nn::Activation::relu),
         nn::read_dense(tensors, name + ".dense")};
     check_width(name, block.convolution.inputs(), hidden);
     check_width(name, block.dense.inputs(), block.convolution.outputs());

@@ -281,11 +281,6 @@ bool is_clear(const NoiseSpectrum& spectrum, double frame_rate_hz, TrackKind kin
 
 double NoiseSpectrum::fast_share() const { return fast_share_of(correlation); }
 
-double NoiseSpectrum::share_below(double frequency_hz, double frame_rate_hz) const {
-  const double angle = pi * std::min(0.5, frequency_hz / frame_rate_hz);
-  return 2 / pi * std::atan((1 + correlation) / (1 - correlation) * std::tan(angle));
-}
-
 std::vector<double> NoiseSpectrum::strengths() const {
   std::vector<double> result;
   for (const Vec3 d : deviations) result.push_back(std::sqrt(dot(d, d) / 3));

@@ -26,8 +26,6 @@ struct NoiseSpectrum {
   bool is_clear = false;  ///< more than motion could be taken for
   bool is_slow = false;   ///< of positions, and mostly below their motion's highest frequencies
 
-  /// The share of the noise's power below a frequency, at a frame rate; hertz.
-  double share_below(double frequency_hz, double frame_rate_hz) const;
   /// Deviation of the white noise that is as strong as this at the highest frequencies, over that
   /// of this noise.
   double fast_share() const;

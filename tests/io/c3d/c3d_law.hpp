@@ -144,8 +144,7 @@ inline void expect_plates_to_follow(const C3dParameters& before, const C3dParame
 /// The same values at the same rate, from the first on; what is cut or repeated is named.
 inline void expect_same_analog(const MarkerClip& before, const MarkerClip& after,
                                const Diagnostics& losses) {
-  const C3dAnalog was = decode_c3d_analog(document_of(before)),
-                  is = decode_c3d_analog(document_of(after));
+  const C3dAnalog was = analog_of(before), is = analog_of(after);
   if (losses.count("analog_lost") > 0) {
     EXPECT_TRUE(is.values.empty());
     return;

@@ -42,7 +42,7 @@ void expect_fixture(const std::string& name) {
   const C3dResult result = read_c3d_bytes(good_c3d(name));
   const MarkerClip& clip = result.clip;
   clip.validate();
-  const C3dAnalog analog = decode_c3d_analog(document_of(clip));
+  const C3dAnalog analog = analog_of(clip);
   std::vector<std::string> names;
   std::vector<std::uint8_t> kinds;
   std::vector<MarkerEvent> events;

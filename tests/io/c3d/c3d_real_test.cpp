@@ -99,7 +99,7 @@ void expect_same_recording(const MarkerClip& a, const MarkerClip& b, double tole
   }
   for (const char* const fact : {"analog", "force plates", "cameras", "subjects", "software"})
     EXPECT_EQ(fact_of(a, fact), fact_of(b, fact)) << fact;
-  const C3dAnalog x = decode_c3d_analog(document_of(a)), y = decode_c3d_analog(document_of(b));
+  const C3dAnalog x = analog_of(a), y = analog_of(b);
   EXPECT_EQ(x.names, y.names);
   EXPECT_EQ(x.units, y.units);
   ASSERT_EQ(x.values.size(), y.values.size());
@@ -183,7 +183,7 @@ TEST(RealC3d, ReadsWhatIsKnownOfTheTakes) {
 
 TEST(RealC3d, ReadsMoreThan255AnalogChannels) {
   const MarkerClip clip = read_real(suite / "others/many_analogs.c3d");
-  const C3dAnalog analog = decode_c3d_analog(document_of(clip));
+  const C3dAnalog analog = analog_of(clip);
   ASSERT_EQ(analog.names.size(), 922u);
   EXPECT_NE(analog.names[921], "");
   EXPECT_EQ(analog.values.size(), 922u * clip.frame_count());

@@ -11,6 +11,7 @@
 
 #include "io/c3d/c3d_analog.hpp"
 #include "io/c3d/c3d_document.hpp"
+#include "io/c3d/c3d_events.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
 
@@ -40,6 +41,41 @@ inline MarkerClip read_good_c3d(const std::string& name) {
 
 inline const C3dDocument& document_of(const MarkerClip& clip) {
   return dynamic_cast<const C3dDocument&>(*clip.source.document);
+}
+
+/// The analog samples of a file.
+struct C3dAnalog {
+  std::vector<std::string> names;  ///< C channels
+  std::vector<std::string> units;  ///< C
+  double rate_hz = 0;
+  std::vector<double> values;  ///< N x C, instant by instant; N is a multiple of the frame count
+};
+
+inline std::vector<std::string> analog_texts(const C3dDocument& document, const char* name) {
+  std::vector<std::string> texts = document.parameters.texts("ANALOG", name);
+  texts.resize(document.layout.analog_count);
+  for (std::string& text : texts) text = as_utf8(text);
+  return texts;
+}
+
+/// Without channels where the file has none.
+inline C3dAnalog analog_of(const MarkerClip& clip) {
+  const C3dDocument& document = document_of(clip);
+  const C3dLayout& layout = document.layout;
+  C3dAnalog analog;
+  const std::size_t channels = layout.analog_count, instants = layout.analog_instants();
+  if (channels == 0 || instants == 0) return analog;
+  analog.names = analog_texts(document, "LABELS");
+  analog.units = analog_texts(document, "UNITS");
+  analog.rate_hz = layout.rate_hz * static_cast<double>(instants);
+  const C3dAnalogDecoder decoder(document);
+  std::vector<double> frame;
+  for (std::size_t f = 0; f < layout.frame_count; ++f) {
+    decoder.stored(f, frame);
+    for (std::size_t i = 0; i < instants * channels; ++i)
+      analog.values.push_back(decoder.value(frame[i], i % channels));
+  }
+  return analog;
 }
 
 inline std::string fact_of(const MarkerClip& clip, const std::string& name) {

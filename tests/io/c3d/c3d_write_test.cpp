@@ -139,8 +139,8 @@ TEST(C3dWriter, WhatDoesNotFitIntoIntegersBecomesAFileOfRealsThatLosesNothing) {
     EXPECT_EQ(fact_of(again, "subjects"), "Ann");
     ASSERT_EQ(again.events.size(), 2u);
     EXPECT_EQ(again.events[1].context, "Right");
-    const C3dAnalog before = decode_c3d_analog(document_of(clip));
-    const C3dAnalog after = decode_c3d_analog(document_of(again));
+    const C3dAnalog before = analog_of(clip);
+    const C3dAnalog after = analog_of(again);
     EXPECT_EQ(after.values, before.values);
     EXPECT_EQ(after.names, before.names);
     EXPECT_EQ(after.rate_hz, before.rate_hz);
@@ -182,8 +182,7 @@ TEST(C3dWriter, OtherMarkersGetANewFileWithTheSourcesParameters) {
   EXPECT_EQ(again.events[0].time_s, 123.75);
   EXPECT_EQ(fact_of(again, "subjects"), "Ann");
   EXPECT_EQ(fact_of(again, "analog"), "2 channels at 100 Hz");
-  EXPECT_EQ(decode_c3d_analog(document_of(again)).values,
-            decode_c3d_analog(document_of(source)).values);
+  EXPECT_EQ(analog_of(again).values, analog_of(source).values);
 }
 
 // Two groups of one number; analog values that belong to no channel.

@@ -97,22 +97,6 @@ TEST(NoiseSpectrum, IsWhiteWhereTracksDoNotAgree) {
   }
 }
 
-TEST(NoiseSpectrum, SaysWhatShareOfTheNoiseIsSlow) {
-  NoiseSpectrum spectrum;
-  EXPECT_NEAR(spectrum.share_below(15, 120), 0.25, 1e-12);
-  spectrum.correlation = 0.95;
-  // The spectrum itself, added up.
-  double below = 0, all = 0;
-  for (double f = 0.005; f < 60; f += 0.01) {
-    const double c = std::cos(2 * pi * f / 120);
-    const double density = 1 / (1 - 2 * 0.95 * c + 0.95 * 0.95);
-    all += density;
-    if (f < 3) below += density;
-  }
-  EXPECT_NEAR(spectrum.share_below(3, 120), below / all, 1e-4);
-  EXPECT_NEAR(spectrum.share_below(60, 120), 1, 1e-12);
-}
-
 TEST(NoiseSpectrum, LeavesShortTakesAndFewTracksAlone) {
   EXPECT_FALSE(spectrum_of(correlated_curves(20, 1.5, 0.8, 1)).is_clear);
   VectorTracks few(400, 2);
