@@ -213,7 +213,9 @@ TEST(BodyOfMarkers, DoesNotMixTwoPeople) {
   for (std::size_t i = 0; i < two.observed.size(); i += 3) {
     if (i % (2 * count) >= count) two.observed[i] = 0;
   }
-  for (const std::int32_t marker : match_body(layout, two).tracks)
+  const BodyMatch match = match_body(layout, two);
+  ASSERT_EQ(match.tracks.size(), layout.track_count());
+  for (const std::int32_t marker : match.tracks)
     EXPECT_GE(marker, static_cast<std::int32_t>(count));
 }
 

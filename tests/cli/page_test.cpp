@@ -30,7 +30,7 @@ class PageReport : public Program {
 };
 
 TEST_F(PageReport, IsWrittenByEveryCommandThatLooksAtATake) {
-  if (!has_page()) return;
+  if (!has_page()) GTEST_SKIP() << "built without the page";
   noisy("noisy.bvh", "1");
   put(folder / "gaps.csv", "LeftArm,20,26\n");
   EXPECT_EQ(run({"clean", "noisy.bvh", "--report", "clean.html"}).code, 0);
@@ -46,7 +46,7 @@ TEST_F(PageReport, IsWrittenByEveryCommandThatLooksAtATake) {
 }
 
 TEST_F(PageReport, GoesToStandardOutputNever) {
-  if (!has_page()) return;
+  if (!has_page()) GTEST_SKIP() << "built without the page";
   noisy("noisy.bvh", "1");
   // Standard output has no extension: what goes there is JSON, as ever.
   const Ran ran = run({"check", "noisy.bvh", "--report", "-"});
@@ -55,7 +55,7 @@ TEST_F(PageReport, GoesToStandardOutputNever) {
 }
 
 TEST_F(PageReport, IsOfOneTake) {
-  if (!has_page()) return;
+  if (!has_page()) GTEST_SKIP() << "built without the page";
   synth("a.bvh");
   synth("b.bvh");
   for (const char* command : {"clean", "check"}) {
@@ -67,7 +67,7 @@ TEST_F(PageReport, IsOfOneTake) {
 }
 
 TEST_F(PageReport, ReplacesNoTakeAndNoFileUnasked) {
-  if (!has_page()) return;
+  if (!has_page()) GTEST_SKIP() << "built without the page";
   synth("walk.bvh");
   fs::rename(folder / "walk.bvh", folder / "walk.html");
   const std::string take = contents(folder / "walk.html");
@@ -115,7 +115,7 @@ TEST_F(PageReport, AsJsonIsWhatCheckAndComparePrint) {
 }
 
 TEST_F(PageReport, OfABatchIsAnIndexWithAPageForEachTake) {
-  if (!has_page()) return;
+  if (!has_page()) GTEST_SKIP() << "built without the page";
   fs::create_directories(folder / "raw/deep");
   synth("raw/a.bvh");
   synth("raw/deep/b #1.bvh");

@@ -24,6 +24,8 @@ TEST(Drift, KeepsTheLengthOfStepsAndTheHeight) {
 
 TEST(Drift, TurnsAboutTheAxisThatPointsUpOnly) {
   const Drift drift = drifted(walk(1000), 100, Axis::z, 30, 0.5, Random(2));
+  ASSERT_EQ(drift.headings.size(), 1000u);
+  EXPECT_GT(std::fabs(drift.headings.back().z), 0.01);
   for (const Quat q : drift.headings) {
     EXPECT_NEAR(q.x, 0, 1e-15);
     EXPECT_NEAR(q.y, 0, 1e-15);

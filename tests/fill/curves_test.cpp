@@ -217,7 +217,9 @@ TEST(Curves, ShapePreservingNeverOvershoots) {
   for (int round = 0; round < 50; ++round) {
     Track samples = sampled(60, {20, 39}, [&](double) { return random.normal(); });
     const double a = samples.values[19].x, b = samples.values[40].x;
-    for (const double value : filled(samples, {20, 39}, Curve::shape_preserving)) {
+    const auto values = filled(samples, {20, 39}, Curve::shape_preserving);
+    ASSERT_EQ(values.size(), 20u);
+    for (const double value : values) {
       EXPECT_GE(value, std::min(a, b) - 1e-12);
       EXPECT_LE(value, std::max(a, b) + 1e-12);
     }

@@ -30,6 +30,7 @@ inline std::vector<std::filesystem::path> fixture_paths(const std::string& forma
       paths.push_back(entry.path());
   }
   std::sort(paths.begin(), paths.end());
+  EXPECT_GT(paths.size(), 10u) << format << ": fixtures are missing";
   return paths;
 }
 

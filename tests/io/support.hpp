@@ -22,6 +22,7 @@ inline std::vector<std::filesystem::path> fixtures_in(const std::string& folder)
   for (const auto& entry : std::filesystem::directory_iterator(fixture(folder)))
     paths.push_back(entry.path());
   std::sort(paths.begin(), paths.end());
+  EXPECT_GT(paths.size(), 20u) << folder << ": fixtures are missing";
   return paths;
 }
 

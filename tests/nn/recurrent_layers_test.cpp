@@ -51,10 +51,13 @@ TEST(RecurrentLayers, ALayerWhoseGatesDoNotFitItsUnitsIsRefused) {
   EXPECT_THROW(read_lstm(tensors, "lstm.forward"), Error);
 }
 
-TEST(RecurrentLayers, NoFramesGiveNone) {
+TEST(RecurrentLayers, NoFramesWriteNothing) {
   const Lstm layer = read_lstm(expected_of_layers(), "lstm.forward");
   const MatrixViewF x{nullptr, 0, layer.inputs(), layer.inputs()};
-  run(layer, Direction::forward, x, {nullptr, 0, layer.units(), layer.units()});
+  std::vector<float> beyond(layer.units(), 7.0F);
+  for (const Direction direction : {Direction::forward, Direction::backward})
+    run(layer, direction, x, {beyond.data(), 0, layer.units(), layer.units()});
+  EXPECT_EQ(beyond, std::vector<float>(layer.units(), 7.0F));
 }
 
 }  // namespace

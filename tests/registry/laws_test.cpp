@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "kinemend/clean.hpp"
@@ -19,8 +20,11 @@ class Every : public testing::TestWithParam<std::string> {
   Clip cleaned(const Clip& clip, const CleanSettings& settings = {}) const {
     return clean_clip(clip, *cleaner_, settings).clip;
   }
-  bool is_causal() const { return runs_without_delay(*cleaner_); }
 };
+
+// Laws of methods that look ahead, and of those that follow the past alone and so lag behind.
+class EveryAhead : public Every {};
+class EveryCausal : public Every {};
 
 Clip noisy_take() {
   Clip clip = moving_take(240, 120);
@@ -81,14 +85,14 @@ double lag_frames(const Clip& truth, const Clip& output) {
   return above / below;
 }
 
-TEST_P(Every, DoesNotShiftTheMotionInTime) {
+TEST_P(EveryAhead, DoesNotShiftTheMotionInTime) {
   const Clip truth = moving_take(240, 120);
-  const double lag = lag_frames(truth, cleaned(noisy_take()));
-  if (is_causal()) {
-    EXPECT_GT(lag, -0.1);
-  } else {
-    EXPECT_NEAR(lag, 0, 0.1);
-  }
+  EXPECT_NEAR(lag_frames(truth, cleaned(noisy_take())), 0, 0.1);
+}
+
+TEST_P(EveryCausal, LagsByHalfAFrame) {
+  const Clip truth = moving_take(240, 120);
+  EXPECT_NEAR(lag_frames(truth, cleaned(noisy_take())), 0.52, 0.25);
 }
 
 TEST_P(Every, LeavesAConstantTakeByteForByte) {
@@ -128,8 +132,7 @@ TEST_P(Every, LeavesWhatIsNotSelectedAloneAlsoWithoutThePipeline) {
   EXPECT_EQ(output.positions, input.positions);
 }
 
-TEST_P(Every, KeepsASteadyTurnUpToBothEnds) {
-  if (is_causal()) return;
+TEST_P(EveryAhead, KeepsASteadyTurnUpToBothEnds) {
   Clip clip = empty_take(150, 120);
   for (std::size_t f = 0; f < 150; ++f) {
     const double t = static_cast<double>(f) / 120;
@@ -146,13 +149,15 @@ TEST_P(Every, KeepsASteadyTurnUpToBothEnds) {
 }
 
 TEST_P(Every, TakesAnyNumberOfFrames) {
+  // Measured: 5.5 degrees at most, but 12 of `butterworth` in two frames.
+  const double bound = GetParam() == "butterworth" ? 14 : 7;
   for (const std::size_t frames : {0, 1, 2, 3, 4, 7}) {
     Clip clip = moving_take(frames, 120);
     add_noise(clip, 1.5, 0.5, frames);
     const Clip output = cleaned(clip);
     EXPECT_EQ(output.frame_count(), frames);
     EXPECT_NO_THROW(output.validate());
-    EXPECT_LT(max_angle_deg(output, clip), 30) << frames;
+    EXPECT_LT(max_angle_deg(output, clip), bound) << frames;
   }
 }
 
@@ -184,7 +189,6 @@ TEST_P(Every, RespectsTheLargestChange) {
 }
 
 TEST_P(Every, TakesNoNoticeOfWhatStandsInAGap) {
-  const Clip truth = moving_take(240, 120);
   Clip zeros = noisy_take();
   zeros.observed.assign(zeros.rotations.size(), 1);
   for (std::size_t f = 100; f < 112; ++f) {
@@ -194,19 +198,35 @@ TEST_P(Every, TakesNoNoticeOfWhatStandsInAGap) {
   Clip other = zeros;
   for (std::size_t f = 100; f < 112; ++f) other.rotation(f, 2) = exp({2, 1, 0.3});
   const Clip a = cleaned(zeros), b = cleaned(other);
-  for (std::size_t f = 0; f < truth.frame_count(); ++f) {
+  for (std::size_t f = 0; f < a.frame_count(); ++f) {
     ASSERT_LT(angle_between(a.rotation(f, 2), b.rotation(f, 2)), 1e-9) << f;
-    if (is_causal()) continue;
-    // The chord over a tenth of a second of this motion is within 8 degrees of it.
-    ASSERT_LT(angle_between(a.rotation(f, 2), truth.rotation(f, 2)) * degrees_per_radian, 12) << f;
   }
 }
 
-TEST_P(Every, ChangesLittleWhenRunAgain) {
-  if (is_causal()) return;  // its delay adds up
+TEST_P(EveryAhead, GoesStraightThroughAGap) {
+  const Clip truth = moving_take(240, 120);
+  Clip clip = noisy_take();
+  clip.observed.assign(clip.local_rotations.size(), 1);
+  for (std::size_t f = 100; f < 112; ++f) {
+    clip.observed[f * clip.joint_count() + 2] = 0;
+    clip.rotation(f, 2) = {};
+  }
+  const Clip result = cleaned(clip);
+  // The chord over a tenth of a second of this motion is within 8 degrees of it. Measured: 9.2 of
+  // `nonlocal`, 5.3 at most of the others.
+  const double bound = GetParam() == "nonlocal" ? 10.5 : 6.5;
+  for (std::size_t f = 0; f < truth.frame_count(); ++f) {
+    ASSERT_LT(angle_between(result.rotation(f, 2), truth.rotation(f, 2)) * degrees_per_radian,
+              bound)
+        << f;
+  }
+}
+
+// The delays of the others add up.
+TEST_P(EveryAhead, ChangesLittleWhenRunAgain) {
   const Clip input = noisy_take();
   const Clip once = cleaned(input), twice = cleaned(once);
-  EXPECT_LE(rms_angle_deg(once, twice), 0.5 * rms_angle_deg(input, once) + 1e-9);
+  EXPECT_LE(rms_angle_deg(once, twice), 0.25 * rms_angle_deg(input, once) + 1e-9);  // 0.18
 }
 
 TEST_P(Every, BeatsItsDamagedInputOnAWalk) {
@@ -216,10 +236,10 @@ TEST_P(Every, BeatsItsDamagedInputOnAWalk) {
   Clip damaged = truth;
   Random random(7);
   // Each against the damage it is made for.
-  double margin = 0.75;
+  double margin = GetParam() == "one-euro" ? 0.65 : 0.45;  // measured: 0.59, and 0.40 at most
   if (GetParam() == "hampel") {
     apply_damage(damaged, "outliers", {{"share", 0.01}, {"std_deg", 25.0}}, random);
-    margin = 0.4;
+    margin = 0.15;  // 0.09
   } else {
     apply_damage(damaged, "gaussian", {{"std_deg", 1.5}}, random);
   }
@@ -229,13 +249,21 @@ TEST_P(Every, BeatsItsDamagedInputOnAWalk) {
   RecordProperty("after_over_before", std::to_string(after / before));
 }
 
+std::vector<std::string> timed_method_names() {
+  std::vector<std::string> names = other_method_names();
+  std::erase_if(names, [](const std::string& name) {
+    const std::vector<OptionSpec>& options = find_method(name).options;
+    return std::none_of(options.begin(), options.end(), [](const OptionSpec& spec) {
+      return spec.unit == "s" || spec.unit == "Hz";
+    });
+  });
+  return names;
+}
+
 // Methods whose options are times and frequencies do the same to the same motion at every rate.
-TEST_P(Every, GoesBySecondsNotByFrames) {
-  bool timed = false;
-  for (const OptionSpec& spec : find_method(GetParam()).options) {
-    timed = timed || spec.unit == "s" || spec.unit == "Hz";
-  }
-  if (!timed || is_causal()) return;
+class EveryTimed : public Every {};
+
+TEST_P(EveryTimed, GoesBySecondsNotByFrames) {
   const auto shaking = [](double rate_hz) {
     Clip clip = moving_take(static_cast<std::size_t>(2 * rate_hz), rate_hz);
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -254,12 +282,17 @@ TEST_P(Every, GoesBySecondsNotByFrames) {
     wrong += std::pow(angle_between(mislabelled.rotation(f, 2), fast.rotation(2 * f, 2)), 2);
   }
   const auto frames = static_cast<double>(slow.frame_count());
-  EXPECT_LT(std::sqrt(right / frames) * degrees_per_radian, 0.5);
+  EXPECT_LT(std::sqrt(right / frames) * degrees_per_radian, 0.3);  // 0.21
   EXPECT_LE(right, wrong);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Every, testing::ValuesIn(method_names()),
-                         [](const auto& method) { return camel_case(method.param); });
+INSTANTIATE_TEST_SUITE_P(Methods, Every, testing::ValuesIn(method_names()), test_name_of);
+INSTANTIATE_TEST_SUITE_P(Methods, EveryAhead, testing::ValuesIn(other_method_names()),
+                         test_name_of);
+INSTANTIATE_TEST_SUITE_P(Methods, EveryCausal, testing::ValuesIn(causal_method_names()),
+                         test_name_of);
+INSTANTIATE_TEST_SUITE_P(Methods, EveryTimed, testing::ValuesIn(timed_method_names()),
+                         test_name_of);
 
 }  // namespace
 }  // namespace kinemend::test

@@ -21,8 +21,11 @@ class EveryOnMarkers : public testing::TestWithParam<std::string> {
     clean_in_place(*cleaner_, clip);
     return clip;
   }
-  bool is_causal() const { return runs_without_delay(*cleaner_); }
 };
+
+// Laws of methods that look ahead, and of those that follow the past alone.
+class EveryAheadOnMarkers : public EveryOnMarkers {};
+class EveryCausalOnMarkers : public EveryOnMarkers {};
 
 MarkerClip noisy_markers() { return damaged(marker_take(), 3, 0.003, 100, 1); }
 
@@ -55,8 +58,7 @@ TEST_P(EveryOnMarkers, LeavesAConstantTakeByteForByte) {
   EXPECT_EQ(cleaned(clip).positions, clip.positions);
 }
 
-TEST_P(EveryOnMarkers, KeepsStraightLinesUpToEveryEnd) {
-  if (is_causal()) return;
+TEST_P(EveryAheadOnMarkers, KeepsStraightLinesUpToEveryEnd) {
   MarkerClip clip = marker_take("walk", 1.5);
   for (std::size_t f = 1; f < clip.frame_count(); ++f) {
     for (std::size_t m = 0; m < clip.marker_count(); ++m)
@@ -74,12 +76,11 @@ TEST_P(EveryOnMarkers, MovesWithTheTake) {
 }
 
 TEST_P(EveryOnMarkers, TurnsWithTheTake) {
-  // Wavelets work on each axis by itself, and so does the choice of a strength in `auto`, but for
-  // the rounding of its principal axes.
-  if (GetParam() == "wavelet") return;
   const MarkerClip clip = gappy_take();
-  const Quat quarter = exp({0.3, -1.1, 0.8});
-  const auto turn = [&](Vec3 p) { return rotate(quarter, p); };
+  // Wavelets work on each axis by itself, so that only turns onto other axes commute with them. So
+  // does the choice of a strength in `auto`, but for the rounding of its principal axes.
+  const Quat by = GetParam() == "wavelet" ? Quat{0.5, 0.5, 0.5, 0.5} : exp({0.3, -1.1, 0.8});
+  const auto turn = [&](Vec3 p) { return rotate(by, p); };
   EXPECT_LT(max_distance(cleaned(mapped(clip, turn)), mapped(cleaned(clip), turn)), 1e-3);
 }
 
@@ -145,14 +146,20 @@ TEST_P(EveryOnMarkers, LeavesMarkersThatWereNotAskedForByteForByte) {
   EXPECT_GT(max_distance(result, clip), 1);
 }
 
+// Nothing is thrown off in so few frames: what a method takes out is noise of 3 mm an axis.
 TEST_P(EveryOnMarkers, TakesAnyNumberOfFrames) {
-  const MarkerClip whole = noisy_markers();
+  const MarkerClip whole = damaged(marker_take(), 3, 0, 0, 1);
+  // Measured: 14.8 mm at most, but 50 mm of `butterworth` in three frames.
+  const double bound = GetParam() == "butterworth" ? 60 : 18;
   for (const std::size_t frames : {0, 1, 2, 3, 4, 5, 7}) {
     const MarkerClip clip = slice(whole, 0, frames);
     const MarkerClip result = cleaned(clip);
     EXPECT_EQ(result.frame_count(), frames);
     EXPECT_NO_THROW(result.validate());
-    EXPECT_LT(max_distance(result, clip), 110) << frames;
+    EXPECT_LT(max_distance(result, clip), bound) << frames;
+    if (frames == 1) {
+      EXPECT_EQ(result.positions, clip.positions);
+    }
   }
 }
 
@@ -161,8 +168,11 @@ TEST_P(EveryOnMarkers, TakesALonelyMarkerAndNone) {
   clip.observed.assign(200, 1);
   for (std::size_t f = 0; f < 200; ++f)
     clip.position(f, 0) = {std::sin(0.05 * static_cast<double>(f)), 1, 0};
-  EXPECT_NO_THROW(cleaned(clip).validate());
-  EXPECT_NO_THROW(cleaned(make_marker_clip({}, 0, 100)));
+  const MarkerClip result = cleaned(clip);
+  EXPECT_NO_THROW(result.validate());
+  EXPECT_EQ(result.observed, clip.observed);
+  EXPECT_LT(max_distance(result, clip), 0.02);  // of a slow swing of 1; measured: 0.015 at most
+  EXPECT_EQ(cleaned(make_marker_clip({}, 0, 100)).frame_count(), 0u);
 }
 
 TEST_P(EveryOnMarkers, GivesTheSameOnAnyNumberOfThreads) {
@@ -183,22 +193,57 @@ TEST_P(EveryOnMarkers, IsNotMovedByWhatLiesBeyondALongGap) {
   MarkerClip a = clip, b = other;
   clean_in_place(*cleaner_, a, selection);
   clean_in_place(*cleaner_, b, selection);
-  // `auto` and `nonlocal` share strengths and distances in the whole take, but nothing rings over.
-  const double bound = GetParam() == "auto" || GetParam() == "nonlocal" ? 2.5 : 1e-9;
+  // `auto` chooses strengths from the whole take, but nothing rings over; measured: 1.2 mm.
+  const double bound = GetParam() == "auto" ? 1.6 : 1e-9;
+  double most = 0;
   for (std::size_t f = 0; f < 100; ++f)
-    ASSERT_LT(norm(a.position(f, 2) - b.position(f, 2)), bound) << f;
+    most = std::max(most, norm(a.position(f, 2) - b.position(f, 2)));
+  EXPECT_LT(most, bound);
 }
 
-TEST_P(EveryOnMarkers, BeatsItsDamagedInputOnAWalk) {
+TEST_P(EveryAheadOnMarkers, BeatsItsDamagedInputOnAWalk) {
   const MarkerClip truth = marker_take("walk", 3);
   const bool spikes = GetParam() == "hampel";
   const MarkerClip noisy = spikes ? damaged(truth, 0, 0.01, 100, 2) : damaged(truth, 5, 0, 0, 2);
+  // Measured: 0.86 of `hampel`, 0.59 at most of the others.
   EXPECT_LT(rms_distance(cleaned(noisy), truth),
-            (is_causal() ? 6 : 0.9) * rms_distance(noisy, truth));
+            (spikes ? 0.9 : 0.65) * rms_distance(noisy, truth));
 }
 
-TEST_P(EveryOnMarkers, MakesNoBumpAtTheEdgesOfGaps) {
-  if (is_causal()) return;
+// A body at rest, where a lag costs nothing.
+TEST_P(EveryCausalOnMarkers, BeatsItsDamagedInputAtRest) {
+  MarkerClip truth = marker_take("walk", 3);
+  for (std::size_t f = 1; f < truth.frame_count(); ++f) {
+    for (std::size_t m = 0; m < truth.marker_count(); ++m)
+      truth.position(f, m) = truth.position(0, m);
+  }
+  const MarkerClip noisy = damaged(truth, 5, 0, 0, 2);
+  EXPECT_LT(rms_distance(cleaned(noisy), truth), 0.5 * rms_distance(noisy, truth));  // 0.41
+}
+
+// On a walk its lag costs about as much as its smoothing brings.
+TEST_P(EveryCausalOnMarkers, IsNoWorseThanItsDamagedInputOnAWalk) {
+  const MarkerClip truth = marker_take("walk", 3), noisy = damaged(truth, 5, 0, 0, 2);
+  EXPECT_LT(rms_distance(cleaned(noisy), truth), rms_distance(noisy, truth));  // 0.95 times
+}
+
+TEST_P(EveryCausalOnMarkers, StaysBehindOnAStraightLineByTheSameTime) {
+  MarkerClip clip = marker_take("walk", 3);
+  const Vec3 step{7, -1, 2};
+  for (std::size_t f = 1; f < clip.frame_count(); ++f) {
+    for (std::size_t m = 0; m < clip.marker_count(); ++m)
+      clip.position(f, m) = clip.position(0, m) + static_cast<double>(f) * step;
+  }
+  const MarkerClip result = cleaned(clip);
+  const auto lag_frames = [&](std::size_t f) {
+    return dot(clip.position(f, 0) - result.position(f, 0), step) / dot(step, step);
+  };
+  const double lag = lag_frames(clip.frame_count() - 1);
+  EXPECT_NEAR(lag, 0.825, 0.2);
+  for (std::size_t f = 100; f < clip.frame_count(); ++f) ASSERT_NEAR(lag_frames(f), lag, 1e-3) << f;
+}
+
+TEST_P(EveryAheadOnMarkers, MakesNoBumpAtTheEdgesOfGaps) {
   const MarkerClip truth = marker_take("walk", 3);
   MarkerClip noisy = damaged(truth, 2, 0, 0, 3);
   Random random(4);
@@ -219,11 +264,15 @@ TEST_P(EveryOnMarkers, MakesNoBumpAtTheEdgesOfGaps) {
     squares += dot(error, error);
   }
   const double edge_error = std::sqrt(squares / static_cast<double>(edges.size()));
-  EXPECT_LT(edge_error, 2.5 * rms_distance(cleaned(damaged(truth, 2, 0, 0, 3)), truth) + 0.5);
+  // Measured: 1.8 times of `nonlocal`, 1.6 times at most of the others.
+  EXPECT_LT(edge_error, 1.7 * rms_distance(cleaned(damaged(truth, 2, 0, 0, 3)), truth) + 0.5);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, EveryOnMarkers, testing::ValuesIn(method_names()),
-                         [](const auto& method) { return camel_case(method.param); });
+INSTANTIATE_TEST_SUITE_P(Methods, EveryOnMarkers, testing::ValuesIn(method_names()), test_name_of);
+INSTANTIATE_TEST_SUITE_P(Methods, EveryAheadOnMarkers, testing::ValuesIn(other_method_names()),
+                         test_name_of);
+INSTANTIATE_TEST_SUITE_P(Methods, EveryCausalOnMarkers, testing::ValuesIn(causal_method_names()),
+                         test_name_of);
 
 }  // namespace
 }  // namespace kinemend::test

@@ -15,21 +15,22 @@ namespace {
 class EveryAtStrength : public testing::TestWithParam<std::string> {
  protected:
   std::unique_ptr<Cleaner> cleaner_ = make_cleaner(GetParam());
-  bool repairs() const { return GetParam() == "auto" || GetParam() == "hampel"; }
 };
 
-TEST_P(EveryAtStrength, RepairsRotationsWhole) {
+// Laws of methods that repair samples and say so.
+class EveryRepairAtStrength : public EveryAtStrength {};
+
+TEST_P(EveryRepairAtStrength, RepairsRotationsWhole) {
   Clip input = moving_take(480, 120);
   add_noise(input, 1.5, 0.5, 1);
   const std::vector<Thrown> thrown = throw_spikes(input, {0, 1, 2, 6}, 40, 2);
   const std::size_t repaired = expect_whole_repairs(input, thrown, *cleaner_);
-  if (repairs()) {
-    EXPECT_GT(repaired, thrown.size() / 2);
-  }
+  EXPECT_EQ(repaired, thrown.size());
 }
 
-TEST_P(EveryAtStrength, RepairsHingesAndSaddlesWhole) {
+TEST_P(EveryRepairAtStrength, RepairsHingesAndSaddlesWhole) {
   Clip input = moving_take(480, 120);
+  add_noise(input, 1.5, 0.5, 2);
   for (const std::size_t joint : {3, 4}) {
     const RotationOrder order = input.skeleton.rotation_order(joint);
     for (std::size_t f = 20; f < 470; f += 50) {
@@ -41,17 +42,20 @@ TEST_P(EveryAtStrength, RepairsHingesAndSaddlesWhole) {
   CleanSettings half;
   half.strength = 0.5;
   const CleanResult whole = clean_clip(input, *cleaner_), part = clean_clip(input, *cleaner_, half);
+  std::size_t repaired = 0;
   for (const ReportSpan& span : whole.report.spans) {
     if (span.joint < 0 || span.action != Action::despiked) continue;
     const auto joint = static_cast<std::size_t>(span.joint);
     for (std::size_t f = span.first_frame; f <= span.last_frame; ++f) {
+      ++repaired;
       EXPECT_LT(angle_between(part.clip.rotation(f, joint), whole.clip.rotation(f, joint)), 0.12)
           << f << " " << joint;
     }
   }
+  EXPECT_GE(repaired, 18U);
 }
 
-TEST_P(EveryAtStrength, RepairsPositionsWhole) {
+TEST_P(EveryRepairAtStrength, RepairsPositionsWhole) {
   const Clip truth = moving_take(480, 120);
   Clip input = truth;
   add_noise(input, 1.5, 0.05, 3);
@@ -66,24 +70,21 @@ TEST_P(EveryAtStrength, RepairsPositionsWhole) {
   const double tenth = 0.1 * norm(off);
   std::size_t repaired = 0;
   for (std::size_t f = 15; f < 470; f += 60) {
-    // What stands within a tenth of the truth has been repaired, by whichever method.
-    const bool states = repairs();
-    if (norm(whole.clip.root_position(f) - truth.root_position(f)) < tenth && states) {
+    // What stands within a tenth of the truth has been repaired.
+    if (norm(whole.clip.root_position(f) - truth.root_position(f)) < tenth) {
       ++repaired;
       EXPECT_LT(norm(part.clip.root_position(f) - truth.root_position(f)), tenth) << f;
     }
     const Vec3 there = truth.position(f + 20, 1);
-    if (norm(whole.clip.position(f + 20, 1) - there) < tenth && states) {
+    if (norm(whole.clip.position(f + 20, 1) - there) < tenth) {
       ++repaired;
       EXPECT_LT(norm(part.clip.position(f + 20, 1) - there), tenth) << f + 20;
     }
   }
-  if (repairs()) {
-    EXPECT_GT(repaired, 8U);
-  }
+  EXPECT_EQ(repaired, 16U);
 }
 
-TEST_P(EveryAtStrength, RepairsMarkersWhole) {
+TEST_P(EveryRepairAtStrength, RepairsMarkersWhole) {
   const MarkerClip truth = marker_take("walk", 2);
   MarkerClip input = damaged(truth, 2, 0, 0, 4);
   const Vec3 off{80, -60, 0};
@@ -106,9 +107,8 @@ TEST_P(EveryAtStrength, RepairsMarkersWhole) {
               0.1 * norm(off))
         << at.frame << " " << at.joint;
   }
-  if (repairs()) {
-    EXPECT_GT(repaired, thrown.size() / 4);
-  }
+  // Measured: all 79 of `auto`, 24 of `hampel`.
+  EXPECT_GE(repaired, GetParam() == "auto" ? thrown.size() - 2 : thrown.size() / 4);
 }
 
 // Root mean square distance of samples from the middle of their neighbours, degrees.
@@ -128,7 +128,7 @@ Roughness roughness(const Clip& clip, const std::vector<ReportSpan>& spans, std:
   return {counts[0] > 0 ? std::sqrt(sums[0] / counts[0]) : 0, std::sqrt(sums[1] / counts[1])};
 }
 
-TEST_P(EveryAtStrength, LetsNoRepairStandOut) {
+TEST_P(EveryRepairAtStrength, LetsNoRepairStandOut) {
   Clip input = moving_take(960, 120);
   add_noise(input, 1.5, 0.5, 5);
   throw_spikes(input, {1, 2, 6}, 40, 6);
@@ -138,6 +138,7 @@ TEST_P(EveryAtStrength, LetsNoRepairStandOut) {
     const CleanResult part = clean_clip(input, *cleaner_, settings);
     for (const std::size_t joint : {1, 2, 6}) {
       const Roughness rough = roughness(part.clip, part.report.spans, joint);
+      EXPECT_GT(rough.repaired, 0) << "strength " << strength << " " << joint;
       EXPECT_LT(rough.repaired, 1.3 * rough.others) << "strength " << strength << " " << joint;
     }
   }
@@ -178,8 +179,9 @@ TEST_P(EveryAtStrength, OfZeroChangesNothingOfSpikesAndGapsEither) {
   EXPECT_EQ(same.clip.observed, markers.observed);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, EveryAtStrength, testing::ValuesIn(method_names()),
-                         [](const auto& method) { return camel_case(method.param); });
+INSTANTIATE_TEST_SUITE_P(Methods, EveryAtStrength, testing::ValuesIn(method_names()), test_name_of);
+INSTANTIATE_TEST_SUITE_P(Methods, EveryRepairAtStrength, testing::Values("auto", "hampel"),
+                         test_name_of);
 
 // Moves everything, and repairs one sample of each kind on the way.
 class RepairingMover final : public Cleaner {

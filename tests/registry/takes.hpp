@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -114,6 +116,22 @@ inline std::vector<std::string> method_names() {
   return names;
 }
 
+/// Those of them that follow the past alone by default, and so lag behind the motion.
+inline std::vector<std::string> causal_method_names() {
+  std::vector<std::string> names = method_names();
+  std::erase_if(names, [](const std::string& name) {
+    return make_cleaner(name)->live_support(120).kind != LiveSupport::Kind::causal;
+  });
+  return names;
+}
+
+/// The others, which look ahead.
+inline std::vector<std::string> other_method_names() {
+  std::vector<std::string> names = method_names();
+  for (const std::string& causal : causal_method_names()) std::erase(names, causal);
+  return names;
+}
+
 /// A test name from a method's name.
 inline std::string camel_case(std::string_view name) {
   std::string text;
@@ -127,6 +145,9 @@ inline std::string camel_case(std::string_view name) {
     upper = false;
   }
   return text;
+}
+inline std::string test_name_of(const testing::TestParamInfo<std::string>& method) {
+  return camel_case(method.param);
 }
 
 }  // namespace kinemend::test

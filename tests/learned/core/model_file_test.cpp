@@ -255,6 +255,7 @@ TEST(Model, SaysWhichNumberOrTensorIsMissing) {
 }
 
 TEST(ShippedModels, AreReadableAndOfTheMethodTheyAreNamedAfter) {
+  ASSERT_FALSE(shipped_models().empty());
   for (const ShippedModel& shipped : shipped_models()) {
     const auto model = shipped_model(shipped.method);
     EXPECT_EQ(model->method, shipped.method);

@@ -43,7 +43,10 @@ double mean_square(const PoseMatrix& a, const PoseMatrix& b) {
 }
 
 TEST(ExampleNoise, IsTheMeasuredOne) {
-  for (const double level : example_noise(work_of(2))) EXPECT_NEAR(level, 2, 1e-12);
+  const PriorWork work = work_of(2);
+  const std::vector<double> levels = example_noise(work);
+  ASSERT_EQ(levels.size(), work.noise.size());
+  for (const double level : levels) EXPECT_NEAR(level, 2, 1e-12);
 }
 
 TEST(ExampleNoise, IsTheTypicalOneWhereNothingIsKnown) {

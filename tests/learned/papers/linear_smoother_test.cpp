@@ -274,12 +274,17 @@ TEST(LinearSmoother, IsLinearInWhatItMeasures) {
   }
 }
 
-TEST(LinearSmoother, TakesTakesOfAnyLength) {
-  for (const std::size_t frames : {0, 1, 2}) {
-    Scene scene = scene_of(first_order(12), frames, 0, 12);
-    EXPECT_NO_THROW(smooth_with_dynamics(scene.measured, scene.facts(), scene.dynamics));
-    EXPECT_NO_THROW(filter_with_dynamics(scene.measured, scene.facts(), scene.dynamics));
+TEST(LinearSmoother, GivesTheExpectationOfTheShortestTakes) {
+  for (const std::size_t frames : {1, 2, 3}) {
+    SCOPED_TRACE(frames);
+    expect_conditioned(scene_of(first_order(12), frames, 0, 12));
   }
+  PoseMatrix nothing(0, 4);
+  const std::vector<double> noise_deg(4, 1.0);
+  smooth_with_dynamics(nothing, {{}, noise_deg}, first_order(12));
+  filter_with_dynamics(nothing, {{}, noise_deg}, first_order(12));
+  EXPECT_EQ(nothing.frames, 0u);
+  EXPECT_TRUE(nothing.values.empty());
 }
 
 TEST(LinearSmoother, RefusesMeasurementsThatDoNotFit) {

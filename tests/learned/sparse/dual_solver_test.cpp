@@ -233,6 +233,7 @@ TEST(DualSolver, CodesZeroWhereTheWeightOfSparsityIsLarge) {
   Problems problems = random_problems(12, 30, 5, 1e4, 14);
   for (const Loss loss : {Loss::squares, Loss::absolute}) {
     const SparseSolution solution = solve_sparse(problems.dictionary, problems.as(loss), exact);
+    ASSERT_FALSE(solution.codes.empty());
     for (const double code : solution.codes) EXPECT_NEAR(code, 0, 1e-9);
   }
 }

@@ -69,6 +69,7 @@ TEST(NoiseSpectrum, HasTheColourAndTheStrengthOfTheNoise) {
 
 TEST(NoiseSpectrum, SeesTheAxesApart) {
   const NoiseSpectrum found = spectrum_of(correlated_curves(1200, 1.5, 0.8, 2, 3));
+  ASSERT_EQ(found.deviations.size(), tracks_count);
   for (const Vec3 deviations : found.deviations) {
     EXPECT_NEAR(deviations.z / deviations.x, 3, 0.7);
     EXPECT_NEAR(deviations.y / deviations.x, 1, 0.3);
