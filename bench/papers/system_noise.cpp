@@ -245,26 +245,14 @@ std::vector<Line> lines_of(const Arguments& arguments) {
   const auto image = [](std::size_t c) { return c % 3 != 0; };
   const auto depth = [](std::size_t c) { return c % 3 == 0; };
   const auto all = [](std::size_t) { return true; };
-  const auto video = [](OptionValues more) {
-    more["kind"] = std::string("video");
-    more["depth_axis"] = std::string("x");
-    return more;
-  };
+  const OptionValues video{{"kind", std::string("video")}, {"depth_axis", std::string("x")}};
   std::vector<Line> lines;
   const auto fast = video_pairs(arguments, "video-60fps_01");
   const auto slow = video_pairs(arguments, "video-regular");
-  lines.push_back({"video 60 Hz, image", fast, image, 5, video({})});
-  lines.push_back({"video 60 Hz, depth", fast, depth, 5, video({})});
-  // Drumming puts a peak at 2.5 Hz into this one, which no family has.
-  lines.push_back({"video 60 Hz, depth, own numbers", fast, depth, 5,
-                   video({{"floor_hz", 12.0},
-                          {"fc_hz", 1.6},
-                          {"slope", 4.0},
-                          {"floor_depth_factor", 6.0},
-                          {"motion_depth_factor", 3.2},
-                          {"motion_hz", 3.6}})});
-  lines.push_back({"video 30 Hz, image", slow, image, 5, video({})});
-  lines.push_back({"video 30 Hz, depth", slow, depth, 5, video({})});
+  lines.push_back({"video 60 Hz, image", fast, image, 5, video});
+  lines.push_back({"video 60 Hz, depth", fast, depth, 5, video});
+  lines.push_back({"video 30 Hz, image", slow, image, 5, video});
+  lines.push_back({"video 30 Hz, depth", slow, depth, 5, video});
   lines.push_back({"depth camera",
                    {trc_pair(arguments, "depth-CTK"), trc_pair(arguments, "depth-RTK")},
                    all,
@@ -310,10 +298,40 @@ void families(const Arguments& arguments) {
   std::string header = "option";
   for (const auto& family : corrupt::system_families()) header += "," + std::string(family.name);
   Table table(arguments, "system_families.csv", header);
-  for (const auto& field : corrupt::system_fields()) {
-    std::vector<std::string> cells{field.name};
+  using S = corrupt::SystemNoise;
+  static constexpr std::pair<const char*, double S::*> numbers[] = {
+      {"std_mm", &S::std_mm},
+      {"arm_factor", &S::arm_factor},
+      {"depth_factor", &S::depth_factor},
+      {"fc_hz", &S::fc_hz},
+      {"slope", &S::slope},
+      {"floor_mm", &S::floor_mm},
+      {"floor_depth_factor", &S::floor_depth_factor},
+      {"floor_hz", &S::floor_hz},
+      {"correlation", &S::correlation},
+      {"limb_correlation", &S::limb_correlation},
+      {"depth_correlation", &S::depth_correlation},
+      {"depth_limb_correlation", &S::depth_limb_correlation},
+      {"motion_mm", &S::motion_mm},
+      {"motion_depth_factor", &S::motion_depth_factor},
+      {"motion_hz", &S::motion_hz},
+      {"leak", &S::leak},
+      {"leak_depth_factor", &S::leak_depth_factor},
+      {"bursts_per_min", &S::bursts_per_min},
+      {"burst_min_s", &S::burst_min_s},
+      {"burst_max_s", &S::burst_max_s},
+      {"burst_min_height", &S::burst_min_height},
+      {"burst_max_height", &S::burst_max_height},
+      {"limb_errors_per_min", &S::limb_errors_per_min},
+      {"limb_error_s", &S::limb_error_s},
+      {"limb_error_mm", &S::limb_error_mm},
+      {"heading_deg", &S::heading_deg},
+      {"root_mm", &S::root_mm},
+  };
+  for (const auto& [name, member] : numbers) {
+    std::vector<std::string> cells{name};
     for (const auto& family : corrupt::system_families())
-      cells.push_back(fmt::format("{:g}", family.noise.*field.member));
+      cells.push_back(fmt::format("{:g}", family.noise.*member));
     table.add(cells);
   }
   table.close();

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +8,7 @@
 #include "corrupt/system_noise.hpp"
 #include "corrupt/targets.hpp"
 #include "corrupt/track_errors.hpp"
+#include "kinemend/error.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/take_view.hpp"
@@ -20,12 +19,19 @@ namespace {
 
 constexpr std::uint64_t drift_stream = std::uint64_t{1} << 42;
 
-struct SystemOptions : TargetOptions, SystemNoise {
-  SystemOptions() {}
+// Joints turn by an arc of this radius, a quarter of a body height of 1.7 m: 5 mm are 0.67 degrees.
+constexpr double lever_mm = 425;
+
+// Where the drift is given by its heading, the place drifts along, as in the family `inertial`.
+constexpr double root_mm_per_heading_deg = 300 / 8.0;
+
+// A number below zero is that of the kind.
+struct SystemOptions : TargetOptions {
   std::string kind = "video";
   double strength = 1;
-  double std_deg = -1;
-  double lever_mm = 425;
+  double fc_hz = -1;
+  double bursts_per_min = -1;
+  double heading_deg = -1;
   std::string depth_axis = "auto";
 };
 
@@ -113,7 +119,6 @@ int joint_depth_axis(const Random& random, std::size_t joint) {
 // What both kinds of motion damage by.
 struct Plan {
   SystemNoise noise;
-  double lever_mm = 0;
   int depth_axis = 0;
   bool drifts() const { return noise.heading_deg > 0 || noise.root_mm > 0; }
 };
@@ -123,12 +128,15 @@ Plan plan_of(const SystemOptions& options) {
   const auto family =
       std::find_if(families.begin(), families.end(),
                    [&](const SystemFamily& known) { return known.name == options.kind; });
-  Plan plan;
-  plan.lever_mm = options.lever_mm;
-  SystemNoise given = options;
-  if (options.std_deg >= 0) given.std_mm = options.std_deg * radians_per_degree * options.lever_mm;
-  plan.noise = scaled(completed(given, *family), options.strength);
-  return plan;
+  SystemNoise noise = family->noise;
+  if (options.fc_hz == 0) throw Error(ErrorKind::usage, "fc_hz: must be above 0 Hz");
+  if (options.fc_hz > 0) noise.fc_hz = options.fc_hz;
+  if (options.bursts_per_min >= 0) noise.bursts_per_min = options.bursts_per_min;
+  if (options.heading_deg >= 0) {
+    noise.heading_deg = options.heading_deg;
+    noise.root_mm = root_mm_per_heading_deg * options.heading_deg;
+  }
+  return {scaled(noise, options.strength)};
 }
 
 class ClipDamage {
@@ -179,13 +187,12 @@ class ClipDamage {
   void turn_joint(std::size_t joint) {
     const auto speed =
         speeds(clip_.frame_count(), clip_.frame_rate_hz, [&](std::size_t a, std::size_t b) {
-          return plan_.lever_mm *
-                 angle_between(truth_.rotation(a, joint), truth_.rotation(b, joint));
+          return lever_mm * angle_between(truth_.rotation(a, joint), truth_.rotation(b, joint));
         });
     const auto errors = errors_.errors_of(
         track(joint, joint, joint_depth_axis(random_, joint), speed, swing(joint)));
     for (std::size_t f = 0; f < errors.size(); ++f) {
-      if (!(errors[f] == Vec3{})) turn(clip_, f, joint, (1 / plan_.lever_mm) * errors[f]);
+      if (!(errors[f] == Vec3{})) turn(clip_, f, joint, (1 / lever_mm) * errors[f]);
     }
   }
 
@@ -196,7 +203,7 @@ class ClipDamage {
     const Quat mean = chordal_mean(rotations);
     std::vector<Vec3> arcs;
     arcs.reserve(rotations.size());
-    for (const Quat q : rotations) arcs.push_back(plan_.lever_mm * log(conjugate(mean) * q));
+    for (const Quat q : rotations) arcs.push_back(lever_mm * log(conjugate(mean) * q));
     return arcs;
   }
 
@@ -254,7 +261,7 @@ class VectorDamage {
     plan_.depth_axis = depth_axis_of(motion, options);
     for (std::size_t f = 0; f < motion.values.frames; ++f)
       centres_.push_back(mean_position(motion, f));
-    per_mm_ = motion.per_cm > 0 ? motion.per_cm / 10 : motion.per_radian / plan_.lever_mm;
+    per_mm_ = motion.per_cm > 0 ? motion.per_cm / 10 : motion.per_radian / lever_mm;
   }
 
   void run() {
@@ -268,7 +275,7 @@ class VectorDamage {
     const Vec3 from = vector_at(truth_, a, track), to = vector_at(truth_, b, track);
     if (truth_.is_rotation[track] == 0) return norm(to - from) / per_mm_;
     const double scale = 1 / truth_.per_radian;
-    return plan_.lever_mm * angle_between(exp(scale * from), exp(scale * to));
+    return lever_mm * angle_between(exp(scale * from), exp(scale * to));
   }
 
   // Of a rotation from its mean, as an arc.
@@ -279,7 +286,7 @@ class VectorDamage {
     const Quat mean = chordal_mean(rotations);
     std::vector<Vec3> arcs;
     arcs.reserve(rotations.size());
-    for (const Quat q : rotations) arcs.push_back(plan_.lever_mm * log(conjugate(mean) * q));
+    for (const Quat q : rotations) arcs.push_back(lever_mm * log(conjugate(mean) * q));
     return arcs;
   }
 
@@ -303,7 +310,7 @@ class VectorDamage {
     for (std::size_t f = 0; f < errors.size(); ++f) {
       if (errors[f] == Vec3{} || !is_observed(motion_, f, track)) continue;
       if (turns) {
-        turn(motion_, f, track, (1 / plan_.lever_mm) * errors[f]);
+        turn(motion_, f, track, (1 / lever_mm) * errors[f]);
       } else {
         set_vector(motion_, f, track, vector_at(motion_, f, track) + per_mm_ * errors[f]);
       }
@@ -356,17 +363,17 @@ struct System {
   static const OptionTable<Options>& table() {
     static const auto options = [] {
       OptionTable<Options> t;
-      t.choice(&Options::kind, "kind", kinds(), "the system, which gives what is not given here");
-      t.number(&Options::strength, "strength", "", 0, 100, "times every size below");
-      t.number(&Options::lever_mm, "lever_mm", "mm", 1, 1e5,
-               "joints turn by an arc of this radius");
-      t.number(&Options::std_deg, "std_deg", "deg", -1, 180,
-               "std_mm as a turn of joints; -1: as of std_mm");
+      t.choice(&Options::kind, "kind", kinds(), "the capture system");
+      t.number(&Options::strength, "strength", "", 0, 100, "factor on the size of all its errors");
+      t.number(&Options::fc_hz, "fc_hz", "Hz", -1, 100,
+               "corner of the slow noise, the slower the lower; -1: that of the kind");
+      t.number(&Options::bursts_per_min, "bursts_per_min", "", -1, 1e4,
+               "bursts of each joint or marker a minute; -1: those of the kind");
+      t.number(&Options::heading_deg, "heading_deg", "deg", -1, 360,
+               "drift of the heading in a minute, and of the place by 37.5 mm for each degree; -1: "
+               "those of the kind");
       t.choice(&Options::depth_axis, "depth_axis", {"auto", "x", "y", "z"},
                "axis that is depth; auto: along which the body is thinnest. Of joints any axis");
-      for (const SystemField& field : system_fields())
-        t.number(field.member, field.name, field.unit, -1, field.maximum,
-                 fmt::format("{}; -1: as of the kind", field.help));
       return add_target_options(t);
     }();
     return options;

@@ -198,7 +198,7 @@ TEST_F(Commands, CorruptMakesTheNoiseOfSystemsAndLeavesEveryByteAtNoStrength) {
     const std::string clean = contents(folder / input);
     for (const char* kind : {"video", "triangulated", "depth", "inertial", "optical"}) {
       const std::string system = std::string("system:kind=") + kind;
-      EXPECT_NE(damage(system + ",slope=2.5"), clean) << kind;
+      EXPECT_NE(damage(system + ",fc_hz=2.5"), clean) << kind;
       EXPECT_EQ(damage(system + ",strength=0"), clean) << kind;
     }
     EXPECT_NE(damage("held:rate_hz=10"), clean);

@@ -95,8 +95,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{{"corrupt", "a.bvh", "-o", "c.bvh", "--damage", "system:kind=radar"},
              "--damage system: kind: \"radar\" is not one of video, triangulated, depth, inertial, "
              "optical"},
-        Case{{"corrupt", "a.bvh", "-o", "c.bvh", "--damage", "system:slope=0.5"},
-             "slope: 0.5 is not above 1"},
+        Case{{"corrupt", "a.bvh", "-o", "c.bvh", "--damage", "system:fc_hz=0"},
+             "fc_hz: must be above 0 Hz"},
         Case{{"corrupt", "a.bvh", "-o", "c.bvh", "--damage", "held:rate_hz=0"},
              "--damage held: rate_hz: 0 is outside 0.1 to 100000 Hz"},
         Case{{"convert", "a.bvh", "-o", "c.xyz"},

@@ -4,6 +4,7 @@
 
 #include "corrupt/damage_support.hpp"
 #include "corrupt/system_noise.hpp"
+#include "corrupt/track_errors.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/kinematics.hpp"
 #include "noise_measures.hpp"
@@ -64,13 +65,20 @@ std::vector<double> errors(const MarkerClip& clean, const MarkerClip& noisy, std
 
 double deviation(const std::vector<double>& x) { return std::sqrt(test::variance_of(x)); }
 
-TEST(SystemNoise, GivesAllItsNumbersInEachFamily) {
-  for (const auto& family : corrupt::system_families()) {
-    for (const auto& field : corrupt::system_fields()) {
-      EXPECT_GE(family.noise.*field.member, 0) << family.name << " " << field.name;
-      EXPECT_LE(family.noise.*field.member, field.maximum) << family.name << " " << field.name;
-    }
-    EXPECT_NO_THROW(corrupt::completed({}, family)) << family.name;
+TEST(SystemNoise, OfEachFamilyMakesSense) {
+  for (const auto& [name, about, noise] : corrupt::system_families()) {
+    SCOPED_TRACE(std::string(name));
+    EXPECT_FALSE(about.empty());
+    EXPECT_GT(noise.std_mm, 0);
+    EXPECT_GT(noise.fc_hz, 0);
+    EXPECT_GT(noise.slope, 1);
+    EXPECT_GT(noise.floor_hz, 0);
+    EXPECT_GT(noise.motion_hz, 0);
+    EXPECT_LE(noise.correlation + noise.limb_correlation, 1);
+    EXPECT_LE(noise.depth_correlation + noise.depth_limb_correlation, 1);
+    EXPECT_LE(noise.burst_min_s, noise.burst_max_s);
+    EXPECT_LE(noise.burst_min_height, noise.burst_max_height);
+    EXPECT_EQ(noise.limb_errors_per_min > 0, noise.limb_error_mm > 0);
   }
 }
 
@@ -110,45 +118,74 @@ TEST(SystemNoise, IsOfMillimetresWhateverTheUnitOfTheFile) {
   }
 }
 
+// Slow noise and floor of a family alone, five tracks, the density of an axis.
+test::Spectrum density_of(corrupt::SystemNoise noise, double rate_hz, std::uint64_t seed,
+                          double Vec3::*axis) {
+  noise.motion_mm = noise.leak = noise.bursts_per_min = noise.limb_error_mm = 0;
+  const auto frames = static_cast<std::size_t>(600 * rate_hz);
+  const std::vector<double> still(frames, 0.0);
+  corrupt::TrackErrors tracks(noise, frames, rate_hz, Random(seed));
+  test::Spectrum sum;
+  for (std::size_t m = 0; m < 5; ++m) {
+    std::vector<double> along;
+    for (const Vec3 e : tracks.errors_of({m, m, false, 2, still, {}})) along.push_back(e.*axis);
+    const auto found = test::welch(along, rate_hz, static_cast<std::size_t>(4 * rate_hz));
+    if (m == 0) sum = found;
+    for (std::size_t k = 0; m > 0 && k < sum.density.size(); ++k)
+      sum.density[k] += found.density[k];
+  }
+  return sum;
+}
+
 TEST(SystemNoise, HasTheSameSpectrumBelow25HzAtBothRates) {
-  const OptionValues slow_only{
-      {"motion_mm", 0.0}, {"leak", 0.0}, {"bursts_per_min", 0.0}, {"depth_axis", std::string("z")}};
-  const MarkerClip at_60 = markers(60 * 600, 60), at_120 = markers(120 * 600, 120);
-  for (const std::string name : {"video", "triangulated", "optical"}) {
-    const MarkerClip a = with_noise(at_60, kind(name, slow_only), 3),
-                     b = with_noise(at_120, kind(name, slow_only), 4);
+  for (const auto& [name, about, noise] : corrupt::system_families()) {
+    if (name == "inertial") continue;  // has next to nothing above its corner of 1.4 Hz
     for (double Vec3::*const axis : {&Vec3::x, &Vec3::z}) {
-      test::Spectrum of_60, of_120;
-      for (std::size_t m = 0; m < 5; ++m) {
-        const auto s = test::welch(errors(at_60, a, m, axis), 60, 240),
-                   t = test::welch(errors(at_120, b, m, axis), 120, 480);
-        if (m == 0) of_60 = s, of_120 = t;
-        for (std::size_t k = 0; m > 0 && k < s.density.size(); ++k)
-          of_60.density[k] += s.density[k];
-        for (std::size_t k = 0; m > 0 && k < t.density.size(); ++k)
-          of_120.density[k] += t.density[k];
-      }
+      const test::Spectrum at_60 = density_of(noise, 60, 3, axis),
+                           at_120 = density_of(noise, 120, 4, axis);
       for (const auto& [low, high] : {std::pair{0.5, 2.0}, {2, 6}, {6, 15}, {15, 25}})
-        EXPECT_NEAR(of_60.between(low, high) / of_120.between(low, high), 1, 0.15)
+        EXPECT_NEAR(at_60.between(low, high) / at_120.between(low, high), 1, 0.15)
             << name << " " << low;
     }
   }
 }
 
 TEST(SystemNoise, IsStrongerAtArmsAndInDepth) {
-  const MarkerClip clean = markers(60 * 300, 60);
-  const MarkerClip noisy = with_noise(clean, kind("video", {{"std_mm", 5.0},
-                                                            {"arm_factor", 3.0},
-                                                            {"depth_factor", 4.0},
-                                                            {"fc_hz", 2.0},
-                                                            {"floor_mm", 0.0},
-                                                            {"motion_mm", 0.0},
-                                                            {"leak", 0.0},
-                                                            {"depth_axis", std::string("x")}}));
-  EXPECT_NEAR(deviation(errors(clean, noisy, 0, &Vec3::y)), 15, 1.5);
-  EXPECT_NEAR(deviation(errors(clean, noisy, 0, &Vec3::x)), 60, 6);
-  EXPECT_NEAR(deviation(errors(clean, noisy, 2, &Vec3::y)), 5, 0.5);
-  EXPECT_NEAR(deviation(errors(clean, noisy, 4, &Vec3::x)), 20, 2);
+  MarkerClip clean = markers(60 * 300, 60);
+  for (std::size_t f = 1; f < clean.frame_count(); ++f) {
+    for (std::size_t m = 0; m < 5; ++m) clean.position(f, m) = clean.position(0, m);
+  }
+  // Slow enough to be the family's, fast enough to average out in five minutes.
+  const MarkerClip noisy = with_noise(
+      clean,
+      kind("video", {{"fc_hz", 2.0}, {"bursts_per_min", 0.0}, {"depth_axis", std::string("x")}}));
+  const corrupt::SystemNoise video = corrupt::system_families()[0].noise;
+  const double floor = video.floor_mm, depth_floor = video.floor_depth_factor * floor;
+  const double arm = video.arm_factor * video.std_mm, depth = video.depth_factor;
+  const auto expect_deviation = [&](std::size_t marker, double Vec3::*axis, double expected) {
+    EXPECT_NEAR(deviation(errors(clean, noisy, marker, axis)), expected, 0.1 * expected) << marker;
+  };
+  expect_deviation(0, &Vec3::y, std::hypot(arm, floor));
+  expect_deviation(0, &Vec3::x, std::hypot(depth * arm, depth_floor));
+  expect_deviation(2, &Vec3::y, std::hypot(video.std_mm, floor));
+  expect_deviation(4, &Vec3::x, std::hypot(depth * video.std_mm, depth_floor));
+}
+
+TEST(SystemNoise, TakesItsOptionsInPlaceOfTheKind) {
+  const MarkerClip clean = markers(60 * 120, 60);
+  const corrupt::SystemNoise video = corrupt::system_families()[0].noise;
+  const auto with = [&](const OptionValues& more) {
+    return with_noise(clean, kind("video", more)).positions;
+  };
+  const std::vector<Vec3> usual = with({});
+  EXPECT_EQ(with({{"fc_hz", -1.0}, {"bursts_per_min", -1.0}, {"heading_deg", -1.0}}), usual);
+  EXPECT_EQ(with({{"fc_hz", video.fc_hz},
+                  {"bursts_per_min", video.bursts_per_min},
+                  {"heading_deg", video.heading_deg}}),
+            usual);
+  EXPECT_NE(with({{"fc_hz", 2 * video.fc_hz}}), usual);
+  EXPECT_NE(with({{"bursts_per_min", 0.0}}), usual);
+  EXPECT_NE(with({{"heading_deg", 8.0}}), usual);
 }
 
 TEST(SystemNoise, TakesTheAxisForDepthAlongWhichTheBodyIsThinnest) {
@@ -161,21 +198,20 @@ TEST(SystemNoise, TakesTheAxisForDepthAlongWhichTheBodyIsThinnest) {
 TEST(SystemNoise, TurnsJointsByDegrees) {
   const Clip clean = moving_humanoid(12000);
   const auto noisy =
-      damaged(clean, "system",
-              kind("inertial", {{"std_deg", 4.0}, {"heading_deg", 0.0}, {"root_mm", 0.0}}))
-          .clip;
+      damaged(clean, "system", kind("inertial", {{"strength", 0.8}, {"heading_deg", 0.0}})).clip;
   double square = 0;
   for (const std::size_t joint : {1, 5, 9, 12}) {
     for (const Vec3 e : test::errors_of(clean, noisy, joint)) square += dot(e, e) / 12000 / 4 / 3;
   }
-  EXPECT_NEAR(degrees_per_radian * std::sqrt(square), 4, 0.6);
+  const double arc_mm = 0.8 * corrupt::system_families()[3].noise.std_mm;
+  EXPECT_NEAR(std::sqrt(square), arc_mm / 425, 0.15 * arc_mm / 425);  // radians
 }
 
 TEST(SystemNoise, DriftsTheHeadingOfJointsAndMarkersAlike) {
-  const OptionValues drift =
-      kind("inertial", {{"std_mm", 0.0}, {"heading_deg", 30.0}, {"root_mm", 0.0}});
-  const Clip clean = moving_humanoid(2400);
-  const Clip turned = damaged(clean, "system", drift).clip;
+  // The same noise with and without a drift: the drift alone is what sets them apart.
+  const OptionValues still = kind("optical"), drift = kind("optical", {{"heading_deg", 30.0}});
+  const Clip clean = damaged(moving_humanoid(2400), "system", still).clip;
+  const Clip turned = damaged(moving_humanoid(2400), "system", drift).clip;
   const auto before = joint_positions(clean), after = joint_positions(turned);
   const std::size_t joints = clean.joint_count();
   // The body stays rigid: distances between joints are what they were.
@@ -186,7 +222,9 @@ TEST(SystemNoise, DriftsTheHeadingOfJointsAndMarkersAlike) {
     ASSERT_NEAR(after[f * joints].y, before[f * joints].y, 1e-6) << "heights stay";
   }
   EXPECT_GT(angle_between(clean.rotation(2399, 0), turned.rotation(2399, 0)), 0.02);
-  const MarkerClip taken = markers(2400, 120), moved = with_noise(taken, drift);
+  const MarkerClip taken = with_noise(markers(2400, 120), still),
+                   moved = with_noise(markers(2400, 120), drift);
+  EXPECT_GT(norm(moved.position(2399, 0) - taken.position(2399, 0)), 20);
   for (std::size_t f = 0; f < 2400; f += 100) {
     EXPECT_NEAR(norm(moved.position(f, 0) - moved.position(f, 4)),
                 norm(taken.position(f, 0) - taken.position(f, 4)), 1e-6);
@@ -223,18 +261,16 @@ TEST(SystemNoise, MovesTranslatedJointsAndTheRoot) {
   EXPECT_EQ(test::point_track(without, 1), test::point_track(noisy, 1));
 }
 
-TEST(SystemNoise, RefusesNumbersThatContradictEachOther) {
+TEST(SystemNoise, RefusesNumbersOutOfRange) {
   const MarkerClip clean = markers(10, 60);
   const auto refused = [&](const OptionValues& values, const std::string& text) {
     EXPECT_THAT([&] { with_noise(clean, values); }, ThrowsMessage<Error>(HasSubstr(text)));
   };
   refused({{"kind", std::string("radar")}},
           "is not one of video, triangulated, depth, inertial, optical");
-  refused({{"slope", 1.0}}, "slope: 1 is not above 1");
   refused({{"fc_hz", 0.0}}, "fc_hz: must be above 0 Hz");
   refused({{"fc_hz", 1000.0}}, "fc_hz: 1000 is outside -1 to 100 Hz");
-  refused({{"correlation", 0.7}, {"limb_correlation", 0.4}}, "more than 1 together");
-  refused({{"burst_min_s", 0.3}}, "burst_max_s is below burst_min_s");
+  refused({{"slope", 2.0}}, "unknown option slope");
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 // No noise of any kind, to which a test adds one.
 SystemNoise none() {
-  SystemNoise noise = completed({}, system_families()[0]);
+  SystemNoise noise = system_families()[0].noise;
   noise = scaled(noise, 0);
   noise.arm_factor = noise.depth_factor = 1;
   noise.floor_depth_factor = noise.motion_depth_factor = 1;
@@ -177,7 +177,7 @@ TEST(TrackErrors, LeakDisplacementsToOtherAxesByAFixedShare) {
 }
 
 TEST(TrackErrors, OfATrackDoNotDependOnWhichOthersAreAskedFor) {
-  const SystemNoise noise = completed({}, system_families()[0]);
+  const SystemNoise noise = system_families()[0].noise;
   TrackErrors some(noise, 200, rate, Random(7)), other(noise, 200, rate, Random(7));
   const std::vector<double> speed(200, 1.0);
   some.errors_of({4, 2, false, 0, speed, {}});
