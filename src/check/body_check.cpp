@@ -20,7 +20,7 @@ void put_largest(double value, std::optional<double>& largest) {
 
 void report_feet(const BodyPoints& body, Up up, const CheckSettings& settings,
                  CheckReport& report) {
-  constexpr double close_m = 0.02;
+  constexpr double close_m = 0.02;  // scale of the weights about the floor
   const std::vector<Contact> contacts = find_contacts(body, up);
   std::vector<Vec3> places;
   places.reserve(contacts.size());
@@ -72,6 +72,7 @@ double fall(const BodyPoints& body, Up up, const FrameSpan& span) {
 void report_rate_of_fall(const BodyPoints& body, Up up, CheckReport& report) {
   constexpr double gravity = 9.81, most_ratio = 2.5;  // a rate 1.6 times too high
   constexpr double least_height_m = 0.05;             // fall of the centre, above the noise
+  // Flights that must agree, and frames of one that tells a parabola.
   constexpr std::size_t fewest_flights = 2, fewest_frames = 6;
   std::vector<double> falls;
   for (const FrameSpan& span : find_flights(body, up)) {

@@ -13,7 +13,7 @@ namespace {
 
 // Equal to the frame before to the precision of text.
 bool repeats(const Clip& clip, std::size_t frame) {
-  constexpr double same_angle = 1e-7;
+  constexpr double same_angle = 1e-7;  // radians
   const Vec3 step = clip.root_position(frame) - clip.root_position(frame - 1);
   if (norm(step) > 1e-9 * (1 + norm(clip.root_position(frame)))) return false;
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {

@@ -67,7 +67,9 @@ struct RigidNeighbour {
 std::vector<RigidNeighbour> rigid_neighbours(const MarkerClip& clip,
                                              const std::vector<std::size_t>& markers,
                                              std::size_t of) {
+  // Spread of a rigid distance, 10th to 90th percentile, as a share of it.
   constexpr double rigid_share = 0.04;
+  // Neighbours that are kept, and frames in which both are seen.
   constexpr std::size_t wanted = 4, fewest_frames = 20;
   const std::size_t frames = clip.frame_count(), count = std::min(frames, looked_at);
   std::vector<RigidNeighbour> found;

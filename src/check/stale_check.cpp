@@ -46,6 +46,7 @@ void set_flags(const std::vector<double>& sizes, double most, std::size_t track,
 // The step of a file's digits: the smallest size but 0, where sizes of that kind are common; else
 // 0.
 double quantum(const std::vector<double>& sizes) {
+  // Share of all sizes, and within which two sizes are the same step.
   constexpr double common_share = 0.05, same = 1e-3;
   double least = std::numeric_limits<double>::infinity();
   for (const double s : sizes) {
@@ -74,7 +75,7 @@ struct ChangeScale {
 // end where it does not: the size beside it is large and not decreasing.
 bool has_sharp_end(const std::vector<double>& sizes, const FrameSpan& run,
                    const ChangeScale& scale) {
-  constexpr double still_large = 0.6;
+  constexpr double still_large = 0.6;  // of the size one frame farther
   const auto is_sharp = [&](std::size_t beside, std::size_t beyond) {
     return sizes[beside] > scale.clear() && sizes[beside] > still_large * sizes[beyond];
   };
@@ -100,7 +101,7 @@ struct HingeRange {
 };
 
 std::optional<HingeRange> hinge_range(const Clip& clip, std::size_t joint) {
-  constexpr double part_about_other_axes = 0.05;
+  constexpr double part_about_other_axes = 0.05;  // of the whole range
   const auto farthest_from = [&](Quat from) {
     std::pair<Quat, Vec3> farthest{from, {}};
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {

@@ -42,6 +42,7 @@ std::optional<std::size_t> next_seen(const MarkerClip& clip, std::size_t marker,
 }
 
 std::optional<Exchange> exchange_of(const MarkerClip& clip, const Break& a, const Break& b) {
+  // Mismatch as exchanged over the mismatch as labelled.
   constexpr double largest_doubt = 0.25;
   const double a_to_b = side_mismatch(clip, a.marker, a.before, b.marker, b.after);
   const double b_to_a = side_mismatch(clip, b.marker, b.before, a.marker, a.after);
@@ -75,7 +76,7 @@ double side_mismatch(const MarkerClip& clip, std::size_t from, std::size_t befor
 }
 
 std::vector<Break> find_breaks(const MarkerClip& clip, const std::vector<std::size_t>& markers) {
-  constexpr double clear_ratio = 6;
+  constexpr double clear_ratio = 6;  // of the median mismatch from frame to frame
   std::vector<Break> breaks;
   for (const std::size_t m : markers) {
     std::vector<Break> steps;
@@ -157,6 +158,7 @@ std::vector<Neighbour> steady_neighbours(const MarkerClip& clip,
                                          const std::vector<std::size_t>& markers, std::size_t of,
                                          std::size_t except,
                                          const std::vector<std::size_t>& frames) {
+  // Neighbours that are asked, and frames in which both are seen.
   constexpr std::size_t wanted = 5, fewest_frames = 8;
   std::vector<Neighbour> found;
   std::vector<double> distances;

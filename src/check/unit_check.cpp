@@ -11,7 +11,7 @@ namespace kinemend::check {
 namespace {
 
 constexpr std::size_t fewest_joints = 10;  // of a body whose size is meaningful
-constexpr std::size_t fewest_markers = 8;
+constexpr std::size_t fewest_markers = 8;  // the same
 
 std::string size_text(double metres) {
   return metres >= 0.1 ? fmt::format("{:.3g} m", metres) : fmt::format("{:.3g} mm", 1000 * metres);
@@ -19,7 +19,7 @@ std::string size_text(double metres) {
 
 // The median over frames of the largest extent along an axis, file units.
 double usual_extent(const MarkerClip& clip, const std::vector<std::size_t>& markers) {
-  constexpr std::size_t looked_at = 200;
+  constexpr std::size_t looked_at = 200;  // frames, evenly over the take
   const std::size_t frames = clip.frame_count(), count = std::min(frames, looked_at);
   std::vector<double> extents;
   for (std::size_t i = 0; i < count; ++i) {

@@ -28,7 +28,7 @@ namespace {
 
 // In body heights: smaller changes are rounding; larger remaining slides are reported.
 constexpr double least_shift = 1e-9, noticeable_rest = 0.002;
-constexpr double least_turn_rad = 1e-11;
+constexpr double least_turn_rad = 1e-11;  // rounding
 // Body heights that the root's place is off for a radian that joints are.
 constexpr double root_share = 0.05;
 

@@ -17,8 +17,8 @@ constexpr double least_travel =
     0.018;  // 3 cm: rolling of the foot and movement of the skin during a stand
 constexpr double least_jitter = 0.13;  // length of the path to and fro a second: 22 cm/s
 constexpr double small_travel = 0.03;  // 5 cm: shorter slides are not intended
-constexpr double most_travel = 0.25;
-constexpr double glide_speed = 0.06;
+constexpr double most_travel = 0.25;   // longer slides are no error
+constexpr double glide_speed = 0.06;   // of a foot that glides with the body
 
 struct Judge {
   const Soles& soles;
@@ -62,6 +62,7 @@ struct Judge {
 
   // During most stands the length of the path far exceeds the displacement.
   bool take_jitters() const {
+    // Length of the path over the displacement.
     constexpr double least_ratio = 1.5;
     std::size_t frames = 0, jittery = 0;
     for (const FootContact& c : contacts) {
@@ -78,6 +79,7 @@ struct Judge {
 
   // Most of the displacement occurs while another foot stands nearly still.
   bool slides_beside_standing_foot(const FootContact& c, double way) const {
+    // Share of the displacement, and the other foot's displacement over it.
     constexpr double least_share = 0.5, most_other = 0.25;
     for (const FootContact& other : contacts) {
       if (other.leg == c.leg) continue;
@@ -93,6 +95,7 @@ struct Judge {
 
   // The body moves along with the foot, and not slowly.
   bool glides(const FootContact& c) const {
+    // Foot's displacement over the body's, and the cosine between them.
     constexpr double least_share = 0.5, least_cosine = 0.8;
     const Vec3 own = moved(Soles::point_of(c), c.first_frame, c.last_frame);
     const auto hips = [&](std::size_t frame) {

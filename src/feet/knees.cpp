@@ -94,6 +94,7 @@ class KneeEasing {
   // Frames from `first` until `end`. After the first step only those near a remaining pop of a
   // knee.
   void ease_thoroughly(std::size_t first, std::size_t end) {
+    // Up to twice more, around what still pops (docs/feet-details.md, "Knees that do not pop").
     constexpr int more_rounds = 2;
     constexpr double around_s = 0.1;
     const auto around = static_cast<std::size_t>(std::ceil(around_s * motion_.frame_rate_hz));
@@ -118,6 +119,7 @@ class KneeEasing {
 
   // The change of a knee's angle has a kink.
   bool pops(std::size_t frame, std::size_t first, std::size_t end) const {
+    // Second difference of the change.
     constexpr double most_rad = 0.3 * radians_per_degree;
     const auto change = [&](std::size_t f, std::size_t l) {
       return f < first || f >= end ? 0 : changes_[f * legs_ + l];
@@ -232,7 +234,7 @@ class KneeEasing {
     if (first + last < 2 || first + last >= motion_.frames) return;
     std::array<std::size_t, 3> frames{};
     std::array<double, 3> factors{};
-    constexpr std::array<double, 3> difference{1, -2, 1};
+    constexpr std::array<double, 3> difference{1, -2, 1};  // of the second order
     for (std::size_t k = 0; k < 3; ++k) {
       if (last + k < 2 || last + k - 2 >= count) continue;
       frames[k] = last + k - 2;
@@ -262,7 +264,7 @@ class KneeEasing {
 
   // The foot turns for its share of the change; its distance from the hip provides the rest.
   void apply(std::size_t i, double bend, double by_root) const {
-    constexpr double most_turn = 0.35;
+    constexpr double most_turn = 0.35;  // radians in one step of Gauss and Newton
     FootTarget& foot = targets_[i];
     const LegState& before = states_[i];
     const double share = rooms_[i].turn_share();

@@ -133,6 +133,8 @@ std::vector<std::size_t> needed_joints(const Skeleton& skeleton, const std::vect
 // Mean height of a foot's toe below the ankle and way from ankle to toe, in the ankle's frame, over
 // the frames in which both are at their usual level.
 std::optional<Vec3> heel_of_flat_foot(const LegMotion& motion, std::size_t leg, Up up) {
+  // Share of the way from ankle to toe that the heel lies behind the ankle (docs/feet-details.md);
+  // of the mean on either side; time that a foot must stand flat.
   constexpr double behind = 0.25, reach_s = 0.02, least_s = 0.1;
   BodyPoints body;
   body.frames = motion.frames;
@@ -165,6 +167,7 @@ std::optional<Vec3> heel_of_flat_foot(const LegMotion& motion, std::size_t leg, 
 
 // The same of the rest pose, if the toes point ahead in it; else the ankle itself.
 Vec3 heel_at_rest(const Clip& clip, const LegModel& model, Up up) {
+  // As above; and the level share of the way from ankle to toe of a foot that points ahead.
   constexpr double behind = 0.25, least_ahead = 0.5;
   Clip rest;
   rest.skeleton = clip.skeleton;

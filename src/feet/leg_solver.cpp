@@ -57,6 +57,7 @@ KneeTurn knee_turn(const LegPose& pose, const LegModel& model) {
 // A knee with one channel for it turns about that; a free one in the plane of the leg, which is
 // that of the usual hinge where the leg is straight.
 Vec3 hinge_of(const LegPose& pose, const LegModel& model, KneeTurn turn) {
+  // Sine of the bend from which the leg's own plane counts more than the usual hinge.
   constexpr double clear_bend = 0.1;
   const Vec3 usual = rotate(pose.knee_parent, model.hinge);
   Vec3 hinge = usual;
@@ -125,7 +126,7 @@ class Leg {
         reach_(reach_of(pose, circle_, turn_, soft_reach, target.hold)) {}
 
   LegRotations solve() {
-    constexpr int rounds = 8;
+    constexpr int rounds = 8;  // hip and ankle depend on each other where channels are missing
     foot_ = target_.rotation;
     const bool is_limited = model_.hip.order.count < 3 || model_.ankle.order.count < 3;
     for (int round = 0; round < (is_limited ? rounds : 1); ++round) solve_once();
@@ -191,6 +192,7 @@ Vec3 turn_between(Vec3 from, Vec3 to) {
 }
 
 Quat least_turn(Vec3 from, Vec3 to) {
+  // Share of the product of lengths: what is less is rounding.
   constexpr double nearly_opposite = 1e-6;
   const double lengths = std::sqrt(dot(from, from) * dot(to, to));
   const double w = lengths + dot(from, to);

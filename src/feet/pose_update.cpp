@@ -17,6 +17,8 @@ constexpr double contact_deviation = 0.003, fading_deviation = 0.03;
 // Square radians of a joint for a square body height of a part: mean squares of the levers, and
 // that half of the error is in the place itself.
 constexpr double squares_per_part = 5;
+// Rounds of Gauss and Newton (docs/feet-details.md); turn and shift of a root; turns of hip, knee
+// and ankle.
 constexpr int rounds = 3;
 constexpr Eigen::Index root_unknowns = 6, leg_unknowns = 9;
 

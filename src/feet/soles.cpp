@@ -19,7 +19,7 @@ ContactThresholds thresholds_of(const ContactSettings& s) {
 
 // Noise of a coordinate of one frame, from third differences, in which motion is small.
 double noise_of(const BodyPoints& body, std::size_t point) {
-  constexpr double of_third_differences = 4.4721359549995796;
+  constexpr double of_third_differences = 4.4721359549995796;  // the root of 1 + 9 + 9 + 1
   std::vector<double> differences;
   for (std::size_t f = 3; f < body.frames; ++f) {
     const Vec3 third = body.at(f, point) - 3.0 * body.at(f - 1, point) +
@@ -33,6 +33,8 @@ double noise_of(const BodyPoints& body, std::size_t point) {
 
 // The reach at which the noise of speeds is well below the threshold of slow.
 double least_reach_s(const BodyPoints& body, std::size_t point, double slow) {
+  // 20 to 100 ms on either side (docs/feet-details.md, "Jitter"); share of the threshold that the
+  // noise of speeds may have.
   constexpr double least_s = 0.02, most_s = 0.1, share = 0.3;
   const double allowed = share * slow * body.height;
   if (!(allowed > 0)) return least_s;
@@ -42,7 +44,7 @@ double least_reach_s(const BodyPoints& body, std::size_t point, double slow) {
 
 // Speed of the slower frames in which the point is at its standing level.
 double standing_speed(const SolePoint& point, double low) {
-  constexpr double slower_share = 0.2;
+  constexpr double slower_share = 0.2;  // quantile
   std::vector<double> speeds;
   for (std::size_t f = 0; f < point.heights.size(); ++f) {
     if (point.seen[f] != 0 && point.heights[f] < point.level + low)
@@ -55,6 +57,8 @@ double standing_speed(const SolePoint& point, double low) {
 // while it slows them; where stands are short, as in running, more would mix them with the swing.
 SolePoint quiet_sole_point(const BodyPoints& body, std::size_t point, Up up,
                            const ContactSettings& settings) {
+  // Share of the threshold at which a foot stands well; growth of the window, up to 100 ms; share
+  // by which a wider one must slow standing feet.
   constexpr double quiet = 0.35, times = 1.6, most_s = 0.1, least_gain = 0.15;
   const double low = settings.begin_height * body.height;
   double reach_s = least_reach_s(body, point, settings.begin_speed);
@@ -74,8 +78,8 @@ SolePoint quiet_sole_point(const BodyPoints& body, std::size_t point, Up up,
 // A faster body rolls its feet faster, and their stands are so short that smoothing mixes them with
 // the swing.
 std::vector<double> paces_of(const LegMotion& motion, Up up) {
-  constexpr double walk = 1.2;  // body heights a second: from 2 m/s on people run
-  constexpr double reach_s = 0.1;
+  constexpr double walk = 1.2;     // body heights a second: from 2 m/s on people run
+  constexpr double reach_s = 0.1;  // on either side, over which the speed is measured
   const auto reach = static_cast<std::size_t>(std::lround(reach_s * motion.frame_rate_hz));
   std::vector<Vec3> hips(motion.frames);
   for (std::size_t i = 0; i < motion.poses.size(); ++i)

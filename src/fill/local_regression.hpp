@@ -55,7 +55,7 @@ class LocalRegression {
   Rows training_inputs() const;
   Rows training_outputs() const;
 
-  static constexpr std::size_t least_training_frames = 8;
+  static constexpr std::size_t least_training_frames = 8;  // fewer say nothing of a model
 
  private:
   Placement put_inputs(std::size_t frame, double* row) const;

@@ -15,7 +15,7 @@ namespace {
 // Not swept. Points are taken to lie on one line where the sum of the principal 2 x 2 minors of
 // their scatter is below this share of its squared trace.
 constexpr double least_plane = 0.0025;
-constexpr int shape_rounds = 2;
+constexpr int shape_rounds = 2;                     // of a mean shape
 constexpr std::size_t most_companion_frames = 192;  // for speed
 // Fewer common frames say nothing about a distance.
 constexpr double least_common = 3;

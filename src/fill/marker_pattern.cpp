@@ -9,7 +9,7 @@ namespace {
 
 // Of the donor's movement beside the gap. Not swept.
 constexpr double pattern_beside_s = 0.3;
-constexpr std::size_t least_beside = 16;
+constexpr std::size_t least_beside = 16;  // frames
 
 }  // namespace
 

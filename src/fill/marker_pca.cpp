@@ -15,8 +15,8 @@ namespace {
 // Not swept, but as Gloersen & Federolf 2016 have it: the width of the weights by distance, 200 mm
 // on a body whose radius is 450 mm.
 constexpr double weight_radius = 0.45;
-constexpr double least_weight = 0.02;
-constexpr std::size_t least_frames = 30;
+constexpr double least_weight = 0.02;          // of a helper, however far
+constexpr std::size_t least_frames = 30;       // common to all helpers
 constexpr std::size_t most_pca_frames = 1024;  // for speed
 // Components are kept until they hold this share of the weighted variance.
 constexpr double kept_variance = 0.9999;

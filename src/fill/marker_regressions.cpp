@@ -19,7 +19,7 @@ constexpr std::size_t most_companions = 8;
 constexpr double width_share = 0.3;
 // Of the body's radius: distances that hardly vary would let one of them decide.
 constexpr double least_spread_share = 0.002;
-constexpr int distance_rounds = 4;
+constexpr int distance_rounds = 4;  // over the companions
 
 // What is known of the distance from the marker to one companion.
 struct Distance {

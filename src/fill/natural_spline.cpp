@@ -168,7 +168,7 @@ double NaturalSpline::cross_validation_score() const {
 }
 
 double NaturalSpline::fit_by_cross_validation(double least, double most) {
-  constexpr int fine = 6;
+  constexpr int fine = 6;  // halvings: to a 64th of the grid's step
   const double low = std::log(least), width = std::log(most) - low;
   // The score has its minima no nearer to each other than a factor of about 16.
   const int coarse = 2 + static_cast<int>(width / std::log(16.0));

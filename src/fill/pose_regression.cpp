@@ -15,10 +15,10 @@ namespace {
 // nothing of the pose, its lean does.
 constexpr double farthest_from_mean = 150 * radians_per_degree;
 constexpr double farthest_of_a_root = 45 * radians_per_degree;
-constexpr std::size_t most_frames = 1500;  // for speed
-constexpr std::size_t least_joints = 4;
-constexpr double least_learned_s = 0.5;
-constexpr double stiffness = 1 * radians_per_degree;
+constexpr std::size_t most_frames = 1500;             // for speed
+constexpr std::size_t least_joints = 4;               // observed beside the gap's, to predict from
+constexpr double least_learned_s = 0.5;               // of poses to learn from
+constexpr double stiffness = 1 * radians_per_degree;  // of the ridge
 
 Eigen::Index as_index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 

@@ -173,7 +173,7 @@ Values values_of(const MarkerClip& clip, const PlannedGap& row, std::size_t firs
 template <class AnyClip>
 GapCurves curves_of(const AnyClip& clip, std::span<const PlannedGap> plan, std::size_t row,
                     const FillCheck& check, const FillModels& models) {
-  constexpr double around_s = 0.5;
+  constexpr double around_s = 0.5;         // shown on either side
   constexpr std::size_t least_around = 8;  // frames
   if (row >= plan.size())
     throw Error(ErrorKind::usage, fmt::format("fill: the plan has {} rows", plan.size()));

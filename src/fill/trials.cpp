@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t most_near = 6, most_elsewhere = 3, least_places = 3;
 // Of the evidence; for speed.
 constexpr double evidence_s = 60;
-constexpr std::size_t evidence_lengths = 10;
+constexpr std::size_t evidence_lengths = 10;  // of the gap, where that is more
 
 // Where a span of `length` frames may start.
 std::vector<std::size_t> starts_of(std::span<const std::uint8_t> usable, std::size_t first,

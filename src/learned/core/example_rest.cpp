@@ -16,8 +16,11 @@ namespace kinemend {
 
 namespace {
 
+// Noise of a channel at least, degrees.
 constexpr double least_error_deg = 0.05;
 constexpr double least_variance = 1e-6;  // square degrees: less is rounding
+// What the bases leave of a take over what they leave of the training is its strangeness; samples
+// of a lower weight count as missing.
 constexpr double least_strangeness = 1;
 constexpr double least_rest_weight = 0.01;
 constexpr double known_motion = 1.5, unknown_motion = 5;  // strangeness
@@ -25,6 +28,8 @@ constexpr double known_motion = 1.5, unknown_motion = 5;  // strangeness
 // noise. Of 25 samples of noise it is within a quarter of one, whatever a few outliers do; of 15, a
 // fifth of outliers are seldom half.
 constexpr double window_s = 0.2;
+// Frames of that window on either side at least; the bias at which `auto` begins to take over and
+// at which it has; channels of a joint.
 constexpr double least_half_window = 7;
 constexpr double believable_bias = 1, unbelievable_bias = 2;
 constexpr std::size_t part_channels = 3;

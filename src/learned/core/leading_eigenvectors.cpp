@@ -20,8 +20,8 @@ namespace {
 constexpr Eigen::Index first_count = 32;
 // Beyond this share of all eigenvectors the full solver is faster.
 constexpr Eigen::Index full_share = 6;
-constexpr Eigen::Index most_restarts = 1000;
-constexpr double rounding = 1e-14;  // of the largest eigenvalue
+constexpr Eigen::Index most_restarts = 1000;  // a limit for the solver
+constexpr double rounding = 1e-14;            // of the largest eigenvalue
 
 struct EigenPairs {
   Eigen::VectorXd values;  // descending

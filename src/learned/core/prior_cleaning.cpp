@@ -158,6 +158,7 @@ Vec3 turn_of(const PoseMatrix& poses, std::size_t frame, std::size_t part) {
 
 // From a frame to the next; where noise is strong, in medians of that.
 constexpr double flip_deg = 60, flip_medians = 6;
+// Half of the running median that takes out the spikes that `auto` left.
 constexpr std::size_t flip_half_frames = 3;
 constexpr double most_turns = 0.98;  // a few are noise
 

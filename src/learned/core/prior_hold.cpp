@@ -12,9 +12,9 @@ namespace kinemend {
 
 namespace {
 
-constexpr std::size_t channels_of_part = 3;
-constexpr double mostly_own = 0.5;     // need
-constexpr double most_deviations = 1;  // of the noise, from what `auto` makes of a sample
+constexpr std::size_t channels_of_part = 3;  // a rotation vector
+constexpr double mostly_own = 0.5;           // need
+constexpr double most_deviations = 1;        // of the noise, from what `auto` makes of a sample
 // A measurement is far from another result beyond so many medians of its channel's distances, and
 // beyond so much.
 constexpr double far_medians = 8, least_far_deg = 8;

@@ -122,6 +122,7 @@ class LearnedLive final : public LiveFilter {
   }
 
  private:
+  // Time constant with which the chart of a joint that no model knows follows it.
   static constexpr double follow_s = 0.05;
 
   struct Waiting {
@@ -144,6 +145,7 @@ class LearnedLive final : public LiveFilter {
 
   // A sample as a vector in degrees; nothing where it is not seen, or is no rotation.
   std::optional<Vec3> turned(StreamedTrack& track, Quat q, bool is_seen) const {
+    // A quaternion whose squared length is farther from 1 is no rotation.
     constexpr double near_one = 0.1;
     if (!is_seen || !(std::abs(dot(q, q) - 1) < near_one)) return std::nullopt;
     q = normalized(q);

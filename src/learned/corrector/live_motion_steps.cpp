@@ -9,6 +9,8 @@ namespace kinemend {
 
 namespace {
 
+// How far the live form looks ahead: 14 frames at 120 Hz, and no more at any rate; see
+// docs/methods/learned.md.
 constexpr double ahead_s = 0.117;
 constexpr std::size_t most_ahead = 14;
 // As many as samples have that the network learns from.

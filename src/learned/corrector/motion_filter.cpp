@@ -12,7 +12,7 @@ namespace kinemend {
 
 namespace {
 
-constexpr std::size_t steps_filtered_together = 256;
+constexpr std::size_t steps_filtered_together = 256;  // limits memory
 
 // Frames [first, last) lie between the first and the last of the steps.
 void put_frames(const MotionReader& reader, const MotionSteps& steps, std::vector<float> outputs,

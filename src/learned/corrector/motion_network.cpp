@@ -12,6 +12,8 @@ namespace kinemend {
 
 namespace {
 
+// Sizes that a model file may ask for; and the pace, in typical speeds of its channel, that the
+// network is shown at most.
 constexpr std::size_t most_motion_blocks = 64, most_motion_dilation = 4096;
 constexpr float most_pace = 6;
 

@@ -10,7 +10,7 @@ namespace kinemend {
 
 namespace {
 
-constexpr std::size_t steps_read_together = 512;
+constexpr std::size_t steps_read_together = 512;  // limits memory
 
 }  // namespace
 

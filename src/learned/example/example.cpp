@@ -22,6 +22,7 @@ namespace kinemend {
 
 namespace {
 
+// The weight below which a sample counts as rejected.
 constexpr double rejected_weight = 0.01;
 // What is missing settles last, and weighs little in the objective.
 constexpr double tolerance_of_gaps = 1e-3;

@@ -21,7 +21,7 @@ constexpr std::size_t usual_iterations = 12;
 // Least relative area of two directions that count as independent.
 constexpr double least_area = 1e-12;
 
-constexpr std::size_t frames_at_once = 64;
+constexpr std::size_t frames_at_once = 64;  // a share of work; sums have its order
 // A frame of the result depends on frames within a window in the linear filter; in the other on
 // all, but negligibly on those beyond two windows.
 constexpr std::size_t linear_margin = 1, margin = 2;

@@ -52,7 +52,7 @@ MatrixXd stationary_spread(MatrixXd transition, const MatrixXd& drive) {
 
 // Eigenvalues on the negative axis and at zero have no real power.
 MatrixXd with_real_powers(const MatrixXd& transition) {
-  constexpr double forgotten = 1e-6;
+  constexpr double forgotten = 1e-6;  // an eigenvalue without memory
   const Eigen::EigenSolver<MatrixXd> solver(transition);
   Eigen::VectorXcd values = solver.eigenvalues();
   bool changed = false;

@@ -17,7 +17,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double least_noise_deg = 1e-3;
+constexpr double least_noise_deg = 1e-3;  // against division by zero
 // Gains have converged when a frame changes no covariance by more than this, relative to the
 // variances of the two directions.
 constexpr double settled_change = 1e-9;

@@ -10,7 +10,7 @@ namespace kinemend {
 
 namespace {
 
-constexpr std::size_t live_axes = 3;
+constexpr std::size_t live_axes = 3;  // of a rotation vector
 constexpr std::size_t reach = predicted_filter_reach;
 // What a pass sees: its first frame and those ahead, before the end of the stream and at it.
 constexpr std::size_t pass_rows = reach + 2 - LiveFilterNetwork::period;

@@ -11,6 +11,7 @@ namespace kinemend {
 
 namespace {
 
+// Logarithms of the width of a Gaussian, frames: from 0.08, which keeps a sample, to 20.
 constexpr float least_log = -2.5F, most_log = 3.0F;
 constexpr std::size_t taps = 2 * predicted_filter_reach + 1;
 

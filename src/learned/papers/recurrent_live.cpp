@@ -17,7 +17,7 @@ namespace kinemend {
 
 namespace {
 
-constexpr std::size_t turn_axes = 3;
+constexpr std::size_t turn_axes = 3;  // of a rotation vector
 
 Vec3 vector_at(const std::vector<float>& values, std::size_t place) {
   return {static_cast<double>(values[place]), static_cast<double>(values[place + 1]),
@@ -108,7 +108,7 @@ class RecurrentLive final : public LiveFilter {
 
   // What is none must not go on in the network's state.
   static bool is_turn(Quat q) {
-    constexpr double near = 0.1;
+    constexpr double near = 0.1;  // of the square of its length
     return std::abs(dot(q, q) - 1) < near;
   }
 

@@ -10,7 +10,7 @@ namespace kinemend::sparse {
 
 namespace {
 
-constexpr std::size_t block_signals = 128;
+constexpr std::size_t block_signals = 128;  // a share of work
 // Of an atom's squared length outside of those chosen: less is rounding.
 constexpr float least_new_share = 1e-6F;
 constexpr float least_correlation = 1e-7F;  // of the signal's length

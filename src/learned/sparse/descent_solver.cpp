@@ -19,7 +19,7 @@ namespace {
 using Vector = Eigen::VectorXf;
 using Map = Eigen::Map<const Eigen::VectorXf>;
 
-constexpr std::size_t batch_signals = 64;
+constexpr std::size_t batch_signals = 64;  // a share of work
 // Of the absolute loss: rests count as at least this share of their median, so that weights stay
 // finite.
 constexpr float least_rest = 0.1F;
@@ -225,7 +225,7 @@ class DescentBatch {
 
   // The steepest few of the atoms whose slope is beyond lambda.
   bool add_steep(std::span<const float> slopes, float lambda, std::size_t s) {
-    constexpr std::size_t at_once = 6;
+    constexpr std::size_t at_once = 6;  // atoms
     const float limit = 0.5F * lambda * (1 + static_cast<float>(settings_.tolerance));
     std::vector<std::pair<float, std::size_t>> steep;
     for (std::size_t k = 0; k < slopes.size(); ++k) {

@@ -23,15 +23,15 @@ namespace kinemend {
 namespace {
 
 constexpr double outlier_deviations = 5;  // of the noise of a channel
-constexpr double many_outliers = 0.02;
-constexpr double well_below = 0.7;  // of the noise that `auto` sees
+constexpr double many_outliers = 0.02;    // share of samples: one in fifty
+constexpr double well_below = 0.7;        // of the noise that `auto` sees
 // Mean square of what the atoms miss, in those of the noise, from which on it counts; and how much
 // of `auto` the result has at most.
 constexpr double usual_rest = 0.1, most_of_auto = 0.5;
 // Of the root from the mean of the training, in all but a few frames.
 constexpr double far_root_deg = 70, mostly = 0.98;
-constexpr double least_channel_noise_deg = 0.05;
-constexpr double least_point_noise = 2e-4;  // body heights
+constexpr double least_channel_noise_deg = 0.05;  // against division by zero
+constexpr double least_point_noise = 2e-4;        // body heights
 
 const OptionTable<SparseOptions>& sparse_table() {
   static const auto options =

@@ -40,6 +40,7 @@ struct SparseTraining {
   bool local = false;
 };
 
+// Values of a window; limits memory.
 constexpr std::size_t largest_poselet_window = 16'384;
 // An atom stands for what several windows share.
 constexpr std::size_t least_windows_per_atom = 4;

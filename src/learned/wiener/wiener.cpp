@@ -39,6 +39,9 @@ const OptionTable<WienerOptions>& wiener_table() {
   return options;
 }
 
+// Against division by zero; differences that tell the noise of a channel; share of suspects, and
+// noise in degrees, from which the filter looks for dense outliers itself (ablation_wiener.csv:
+// "dense ones not looked for", "by suspects only", "always").
 constexpr double least_noise_deg = 1e-3;
 constexpr std::size_t fewest_differences = 8;
 constexpr double dense_share = 0.03, strong_noise_deg = 3;

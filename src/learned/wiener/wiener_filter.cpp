@@ -24,7 +24,7 @@ using Eigen::VectorXd;
 
 // Windows overlap by three quarters, so that neighbours are dependent.
 constexpr double window_weight = 0.25;
-constexpr std::size_t chunk_windows = 16;
+constexpr std::size_t chunk_windows = 16;  // a share of work
 
 // sin^2, which sums to a constant where windows follow each other by a quarter.
 VectorXd taper(Index frames) {

@@ -13,6 +13,8 @@ namespace kinemend {
 
 namespace {
 
+// Passes (ablation_wiener.csv: "one pass over dense ones"); median deviations, and degrees, from
+// which a sample is an outlier.
 constexpr int passes = 2;
 constexpr double outlier_deviations = 4;
 constexpr double least_outlier_deg = 1;

@@ -39,6 +39,7 @@ class ColouredSmoothing {
         variance_.push_back(deviation * deviation);
       }
     }
+    // Orders of differences, as of `signal::ModelGrid`; under slow noise the smoothest alone.
     constexpr std::size_t all_orders[] = {1, 2, 3}, smooth_order[] = {3};
     candidates_ = signal::models_of_orders(is_slow_ ? std::span<const std::size_t>(smooth_order)
                                                     : std::span<const std::size_t>(all_orders),

@@ -42,6 +42,7 @@ double ratio_of(const VectorTracks& tracks, const SampleMarks& marked,
         std::sqrt(u.x * u.x * squares.x + u.y * u.y * squares.y + u.z * u.z * squares.z));
   }
   if (changes.size() < fewest_frames) return std::numeric_limits<double>::infinity();
+  // Median of the size of a normal number of deviation 1.
   constexpr double median_of_normal = 0.6745;
   return median_of(changes) / (median_of_normal * median_of(expected));
 }

@@ -16,6 +16,7 @@ namespace {
 
 double squared(double x) { return x * x; }
 
+// Binomial coefficients.
 constexpr double third_difference[] = {-1, 3, -3, 1};
 constexpr double fifth_difference[] = {-1, 5, -10, 10, -5, 1};
 
@@ -62,8 +63,9 @@ double isotropic_level(std::span<const Vec3> track, std::span<const std::uint8_t
 
 // Huber's standard deviation of numbers with outliers: squares are limited to (2.5 deviations)^2.
 double huber_deviation(std::vector<double> numbers) {
+  // Of normal numbers of deviation 1: the mean of squares that are limited so, and the median size.
   constexpr double cut = 2.5, share_within_cut = 0.9775, median_size = 0.6745;
-  constexpr int rounds = 10;
+  constexpr int rounds = 10;  // of the fixed-point iteration
   if (numbers.empty()) return 0;
   for (double& number : numbers) number = std::abs(number);
   std::vector<double> ordered = numbers;

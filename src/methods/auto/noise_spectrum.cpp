@@ -311,6 +311,7 @@ NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& m
   if (tracks.frames() < std::max(fewest_noisy_frames, fewest)) return spectrum;
   const MovingTracks moving(tracks, marked, whitenings);
   if (moving.count() < tuning.fewest_tracks) return spectrum;
+  // Orders of differences, as of `signal::ModelGrid`.
   constexpr std::size_t all_orders[] = {1, 2, 3}, smooth_order[] = {3};
   const std::size_t most_windows =
       std::clamp<std::size_t>(most_lanes / (3 * moving.count()), 4, 24);
