@@ -119,22 +119,45 @@ std::unique_ptr<Cleaner> made(const std::string& method) {
   return make_kalman_learned({}, model);
 }
 
-std::vector<std::string> all_methods() {
-  std::vector<std::string> names;
-  for (const Method& method : methods()) {
+std::vector<std::string> every_method() {
 #if defined(KINEMEND_SANITIZED)
-    if (method.learned) continue;  // slow, and nothing is counted
+  return method_names();  // those with a model are slow, and nothing is counted
+#else
+  std::vector<std::string> names;
+  for (const Method& method : methods()) names.push_back(method.name);
+  return names;
 #endif
-    names.push_back(method.name);
-  }
+}
+
+// Of those with a model, `learned` is the one whose model knows markers.
+std::vector<std::string> methods_for_markers() {
+  std::vector<std::string> names = method_names();
+#if !defined(KINEMEND_SANITIZED)
+  names.push_back("learned");
+#endif
+  return names;
+}
+
+// Those that run live with their own options; those with a model have tests of their own streams.
+std::vector<std::string> methods_that_run_live() {
+  std::vector<std::string> names = method_names();
+  std::erase_if(names, [](const std::string& name) {
+    return make_cleaner(name)->live_support(120).kind == LiveSupport::Kind::none;
+  });
   return names;
 }
 
 class EveryRate : public testing::TestWithParam<std::string> {
  protected:
   std::unique_ptr<Cleaner> cleaner_ = made(GetParam());
-  bool is_learned() const { return find_method(GetParam()).learned; }
+  // Those with a model take longer.
+  std::vector<std::size_t> sizes() const {
+    if (find_method(GetParam()).learned) return {few_frames};
+    return {few_frames, more_frames};
+  }
 };
+class EveryRateOnMarkers : public EveryRate {};
+class EveryRateLive : public EveryRate {};
 
 TEST_P(EveryRate, CleansJointsAtACostThatGoesByFrames) {
   const auto run = [&](std::size_t frames, double rate_hz) {
@@ -142,24 +165,19 @@ TEST_P(EveryRate, CleansJointsAtACostThatGoesByFrames) {
     EXPECT_NO_THROW(result.clip.validate());
     expect_finite(result.report);
   };
-  if (is_learned()) {
-    expect_cost_by_frames(run, {few_frames});
-  } else {
-    expect_cost_by_frames(run);
-  }
+  expect_cost_by_frames(run, sizes());
 }
 
-TEST_P(EveryRate, CleansMarkersAtACostThatGoesByFrames) {
-  if (is_learned()) return;  // models of joints; channels are the same from here on
-  expect_cost_by_frames([&](std::size_t frames, double rate_hz) {
+TEST_P(EveryRateOnMarkers, CleansMarkersAtACostThatGoesByFrames) {
+  const auto run = [&](std::size_t frames, double rate_hz) {
     const MarkerResult result = clean_markers(walk_of_markers(frames, rate_hz), *cleaner_);
     EXPECT_NO_THROW(result.clip.validate());
     expect_finite(result.report);
-  });
+  };
+  expect_cost_by_frames(run, sizes());
 }
 
-TEST_P(EveryRate, RunsLiveAtACostThatGoesByFrames) {
-  if (!cleaner_->live_support(120).runs()) return;
+TEST_P(EveryRateLive, RunsLiveAtACostThatGoesByFrames) {
   const std::size_t latency = make_stream(*cleaner_, walk(few_frames, 1000))->latency_frames();
   expect_cost_by_frames(
       [&](std::size_t frames, double rate_hz) {
@@ -178,8 +196,11 @@ TEST_P(EveryRate, RunsLiveAtACostThatGoesByFrames) {
       {few_frames});
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, EveryRate, testing::ValuesIn(all_methods()),
-                         [](const auto& method) { return camel_case(method.param); });
+INSTANTIATE_TEST_SUITE_P(Methods, EveryRate, testing::ValuesIn(every_method()), test_name_of);
+INSTANTIATE_TEST_SUITE_P(Methods, EveryRateOnMarkers, testing::ValuesIn(methods_for_markers()),
+                         test_name_of);
+INSTANTIATE_TEST_SUITE_P(Methods, EveryRateLive, testing::ValuesIn(methods_that_run_live()),
+                         test_name_of);
 
 TEST(TheModelsWindow, IsNoLongerThanTheTakeAtHighRates) {
   const auto cleaner = make_cleaner("wiener");
@@ -246,6 +267,7 @@ TEST(FillAtEveryRate, CostsByFrames) {
             }
             fill_gaps(clip, settings);
             EXPECT_NO_THROW(clip.validate());
+            EXPECT_TRUE(find_gaps(clip).empty());
           }
           if (method.markers) {
             MarkerClip clip = walk_of_markers(frames, rate_hz);
@@ -255,6 +277,7 @@ TEST(FillAtEveryRate, CostsByFrames) {
             lose(clip, 2, 15, 30);
             fill_gaps(clip, with_donor);
             EXPECT_NO_THROW(clip.validate());
+            EXPECT_TRUE(find_gaps(clip).empty());
           }
         },
         {few_frames});
@@ -276,8 +299,13 @@ TEST(FiguresAtEveryRate, CostByFramesAndAreNumbers) {
     Clip other = truth;
     Random random(9);
     apply_damage(other, "gaussian", {{"std_deg", 1.0}}, random);
-    compare_clips(truth, other);
-    EXPECT_TRUE(std::isfinite(accel_error(truth, other)));
+    const Comparison comparison = compare_clips(truth, other);
+    for (const double figure : {comparison.rms_deg, comparison.geodesic_max_deg, comparison.mpjpe,
+                                comparison.accel_error, comparison.psnr_db, comparison.mse_rad2}) {
+      EXPECT_TRUE(std::isfinite(figure));
+      EXPECT_GT(figure, 0);
+    }
+    EXPECT_EQ(comparison.accel_error, accel_error(truth, other));
     for (const double speed : peak_angular_speed_deg_s(other)) EXPECT_TRUE(std::isfinite(speed));
   });
 }

@@ -163,8 +163,10 @@ TEST_P(OfAnyMethod, TheErrorDoesNotGrowWithTheLengthOfTheTake) {
   }
 }
 
-TEST_P(OfAnyMethod, MarkersTurnAndStandAnywhere) {
-  if (is_causal() || find_method(GetParam()).learned) return;  // the models that ship know joints
+// Methods that look ahead; of those with a model, `learned` is the one whose model knows markers.
+class OfAnyMethodForMarkers : public OfAnyMethod {};
+
+TEST_P(OfAnyMethodForMarkers, TurnAndStandAnywhere) {
   const MarkerClip truth = joint_markers(about_its_middle(take_to_turn("walk", 3)));
   MarkerClip input = truth;
   Random random(9);
@@ -190,11 +192,11 @@ TEST_P(OfAnyMethod, MarkersTurnAndStandAnywhere) {
   const MarkerClip result = clean(input);
   const double still = squares(truth, result);
   const Vec3 far{1e6, -2e5, 5e5};
-  EXPECT_LT(growth(squares(map(result, {}, far), clean(map(input, {}, far))), still), 0.01);
+  EXPECT_LT(growth(squares(map(result, {}, far), clean(map(input, {}, far))), still), 1e-4);
   const bool cuts_curves = GetParam() == "median" || GetParam() == "weighted-mean";
   for (const Vec3 speed : {Vec3{0, 20, 0}, Vec3{0, 60, 0}, Vec3{40, 0, 0}}) {
     const double error = squares(map(truth, speed, {}), clean(map(input, speed, {})));
-    EXPECT_LT(growth(error, still), cuts_curves ? 1.2 : 1.06) << speed.x << " " << speed.y;
+    EXPECT_LT(growth(error, still), cuts_curves ? 1.15 : 1.06) << speed.x << " " << speed.y;
   }
 }
 
@@ -209,13 +211,18 @@ std::vector<std::string> with_models_that_ship() {
   return names;
 }
 
+std::vector<std::string> methods_for_markers_that_turn() {
+  std::vector<std::string> names = test::other_method_names();
+#if !defined(KINEMEND_SANITIZED)
+  names.push_back("learned");
+#endif
+  return names;
+}
+
 INSTANTIATE_TEST_SUITE_P(Turning, OfAnyMethod, testing::ValuesIn(with_models_that_ship()),
-                         [](const auto& method) {
-                           std::string name;
-                           for (const char c : method.param)
-                             if (c != '-') name += c;
-                           return name;
-                         });
+                         test::test_name_of);
+INSTANTIATE_TEST_SUITE_P(Turning, OfAnyMethodForMarkers,
+                         testing::ValuesIn(methods_for_markers_that_turn()), test::test_name_of);
 
 }  // namespace
 }  // namespace kinemend::quality
