@@ -71,9 +71,8 @@ BENCHMARK(clean_by_auto)
 void training(benchmark::State& state) {
   std::vector<Clip> clips;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) clips.push_back(walk(seed, 120, 10));
-  const kinemend::TrainingTakes takes{clips.size(), [&](std::size_t i) {
-                                        return std::variant<Clip, kinemend::MarkerClip>(clips[i]);
-                                      }};
+  const kinemend::TrainingTakes takes{clips.size(),
+                                      [&](std::size_t i) { return kinemend::Take(clips[i]); }};
   for (auto _ : state)
     benchmark::DoNotOptimize(kinemend::train_model("wiener", takes).tensors.size());
 }

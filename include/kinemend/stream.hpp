@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <variant>
 
 #include "kinemend/cleaner.hpp"
 
@@ -14,7 +13,7 @@ namespace kinemend {
 class Stream {
  public:
   /// `make_stream` makes it, of a take without frames.
-  Stream(const Cleaner& cleaner, std::variant<Clip, MarkerClip> like, const Selection& selection);
+  Stream(const Cleaner& cleaner, Take like, const Selection& selection);
   Stream(const Stream&) = delete;
   Stream& operator=(const Stream&) = delete;
 
@@ -32,17 +31,16 @@ class Stream {
 
  private:
   const Cleaner& cleaner_;
-  std::variant<Clip, MarkerClip> like_;
+  Take like_;
   TakeView view_;  // of `like_`
   std::unique_ptr<LiveFilter> filter_;
 };
 
-/// A stream of this cleaner for takes with the skeleton and rate of `like`, whose frames are
-/// ignored. The cleaner must outlive the stream. Errors: as of `Cleaner::live`.
-std::unique_ptr<Stream> make_stream(const Cleaner& cleaner, const Clip& like);
-/// The same for markers with the names, kinds and rate of `like`. `body_height` is the height of
-/// the person in file units, for example that of an earlier take (`body_height(take)`).
-std::unique_ptr<Stream> make_stream(const Cleaner& cleaner, const MarkerClip& like,
-                                    double body_height);
+/// A stream of this cleaner for takes with the skeleton, or the names and kinds of markers, and the
+/// rate of `like`, whose frames are ignored. The cleaner must outlive the stream. `body_height`, of
+/// markers: the height of the person in file units, for example that of an earlier take
+/// (`body_height(take)`). Errors: as of `Cleaner::live`.
+std::unique_ptr<Stream> make_stream(const Cleaner& cleaner, const Take& like,
+                                    double body_height = 0);
 
 }  // namespace kinemend

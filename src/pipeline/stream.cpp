@@ -8,19 +8,15 @@ namespace kinemend {
 
 namespace {
 
-Clip without_frames(const Clip& like) {
-  Clip clip;
-  clip.skeleton = like.skeleton;
-  clip.frame_rate_hz = like.frame_rate_hz;
-  clip.translated_joints = like.translated_joints;
-  return clip;
-}
-
-MarkerClip without_frames(const MarkerClip& like) {
-  MarkerClip clip = make_marker_clip(like.names, 0, like.frame_rate_hz);
-  if (!like.is_position.empty()) clip.is_position = like.is_position;
-  clip.unit = like.unit;
-  return clip;
+Take without_frames(const Take& like) {
+  Take take;
+  take.skeleton = like.skeleton;
+  take.translated_joints = like.translated_joints;
+  take.names = like.names;
+  take.is_position = like.is_position;
+  take.unit = like.unit;
+  take.frame_rate_hz = like.frame_rate_hz;
+  return take;
 }
 
 void check_frame(const Frame& frame, const TakeView& like) {
@@ -36,11 +32,10 @@ void check_frame(const Frame& frame, const TakeView& like) {
 
 }  // namespace
 
-Stream::Stream(const Cleaner& cleaner, std::variant<Clip, MarkerClip> like,
-               const Selection& selection)
+Stream::Stream(const Cleaner& cleaner, Take like, const Selection& selection)
     : cleaner_(cleaner),
       like_(std::move(like)),
-      view_(std::visit([&](const auto& take) { return view_of(take, selection); }, like_)),
+      view_(view_of(like_, selection)),
       filter_(cleaner.live(view_)) {}
 
 bool Stream::push(const Frame& in, Frame& out) {
@@ -48,12 +43,7 @@ bool Stream::push(const Frame& in, Frame& out) {
   return filter_->push(in, out);
 }
 
-std::unique_ptr<Stream> make_stream(const Cleaner& cleaner, const Clip& like) {
-  return std::make_unique<Stream>(cleaner, without_frames(like), Selection{});
-}
-
-std::unique_ptr<Stream> make_stream(const Cleaner& cleaner, const MarkerClip& like,
-                                    double body_height) {
+std::unique_ptr<Stream> make_stream(const Cleaner& cleaner, const Take& like, double body_height) {
   Selection selection;
   selection.body_height = body_height;
   return std::make_unique<Stream>(cleaner, without_frames(like), selection);

@@ -81,10 +81,10 @@ class FeetAfter : public testing::TestWithParam<std::string> {};
 std::unique_ptr<Cleaner> made(const Method& method) {
   const bool has_network = method.name == "recurrent" || method.name == "learned";
   if (!method.learned || has_network) return make_cleaner(method.name);
-  const auto model = std::make_shared<const Model>(train_model(
-      method.name, {2, [](std::size_t i) {
-                      return std::variant<Clip, MarkerClip>(synthesize({"walk", 3, 60, i + 2}));
-                    }}));
+  const auto model = std::make_shared<const Model>(
+      train_model(method.name, {2, [](std::size_t i) {
+                                  return Take(synthesize({"walk", 3, 60, i + 2}));
+                                }}));
   return method.name == "example"  ? make_example({}, model)
          : method.name == "wiener" ? make_wiener({}, model)
          : method.name == "sparse" ? make_sparse({}, model)

@@ -28,7 +28,7 @@ Clip cleaned_by_default(const Clip& clip, const Method& method) {
       method.name, {7, [](std::size_t i) {
                       constexpr const char* names[] = {"35_02", "02_02", "09_01", "16_35",
                                                        "02_06", "02_07", "02_08"};
-                      return std::variant<Clip, MarkerClip>(real_clip(names[i]));
+                      return Take(real_clip(names[i]));
                     }}));
   return clean_clip(clip, *make_kalman_learned({}, model)).clip;
 }

@@ -115,7 +115,7 @@ std::unique_ptr<Cleaner> made(const std::string& method) {
   SynthOptions options{.motion = "walk", .duration_s = 3, .frame_rate_hz = 30};
   const Clip clip = synthesize(options);
   const auto model = std::make_shared<const Model>(
-      train_model(method, {1, [&](std::size_t) { return std::variant<Clip, MarkerClip>(clip); }}));
+      train_model(method, {1, [&](std::size_t) { return Take(clip); }}));
   return make_kalman_learned({}, model);
 }
 

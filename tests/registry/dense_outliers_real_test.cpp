@@ -29,10 +29,7 @@ std::shared_ptr<const Model> model_of_walks(const std::string& method) {
   OptionValues options;
   if (method != "wiener") options["rate_hz"] = 30.0;
   return std::make_shared<const Model>(train_model(
-      method,
-      {names.size(),
-       [&](std::size_t i) { return std::variant<Clip, MarkerClip>(walk_of(names[i])); }},
-      options));
+      method, {names.size(), [&](std::size_t i) { return Take(walk_of(names[i])); }}, options));
 }
 
 double error_left(const Cleaner& cleaner, const Clip& truth, std::uint64_t seed) {

@@ -206,7 +206,7 @@ TEST_P(Every, TakesNoNoticeOfWhatStandsInAGap) {
 TEST_P(EveryAhead, GoesStraightThroughAGap) {
   const Clip truth = moving_take(240, 120);
   Clip clip = noisy_take();
-  clip.observed.assign(clip.local_rotations.size(), 1);
+  clip.observed.assign(clip.rotations.size(), 1);
   for (std::size_t f = 100; f < 112; ++f) {
     clip.observed[f * clip.joint_count() + 2] = 0;
     clip.rotation(f, 2) = {};

@@ -34,9 +34,8 @@ Clip walk(std::uint64_t seed, double rate_hz = 30, double duration_s = 4) {
 
 template <class AnyClip>
 std::shared_ptr<const Model> learned(const std::string& method, const std::vector<AnyClip>& clips) {
-  return std::make_shared<const Model>(train_model(
-      method,
-      {clips.size(), [&](std::size_t i) { return std::variant<Clip, MarkerClip>(clips[i]); }}));
+  return std::make_shared<const Model>(
+      train_model(method, {clips.size(), [&](std::size_t i) { return Take(clips[i]); }}));
 }
 
 std::shared_ptr<const Model> walking(const std::string& method) {
