@@ -120,7 +120,7 @@ inline std::vector<std::string> method_names() {
 inline std::vector<std::string> causal_method_names() {
   std::vector<std::string> names = method_names();
   std::erase_if(names, [](const std::string& name) {
-    return make_cleaner(name)->live_support(120).kind != LiveSupport::Kind::causal;
+    return !runs_without_delay(*make_cleaner(name));
   });
   return names;
 }
