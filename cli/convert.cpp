@@ -55,10 +55,16 @@ std::string_view axis_name(Axis axis) {
   return axis == Axis::x ? "x" : axis == Axis::y ? "y" : "z";
 }
 
+AnyTake of_its_kind(Take take) {
+  if (take.has_joints()) return Clip(std::move(take));
+  return MarkerClip(std::move(take));
+}
+
 AnyTake resampled(const AnyTake& take, double frame_rate_hz) {
   if (const std::string contents = pointless_text(take); !contents.empty())
     say(fmt::format("{}: {}: --fps has no effect", source_of(take).name, contents));
-  return std::visit([&](const auto& clip) { return AnyTake(resample(clip, frame_rate_hz)); }, take);
+  return std::visit([&](const auto& clip) { return of_its_kind(resample(clip, frame_rate_hz)); },
+                    take);
 }
 
 /// The old vertical axis is that of --from-up, else it is found from the motion and said.
@@ -72,7 +78,7 @@ AnyTake turned(const AnyTake& take, const Arguments& arguments) {
     say(fmt::format("{}: {} is taken to be the vertical axis (set it with --from-up)",
                     source_of(take).name, axis_name(from)));
   }
-  return std::visit([&](const auto& clip) { return AnyTake(turn_axes(clip, from, to)); }, take);
+  return std::visit([&](const auto& clip) { return of_its_kind(turn_axes(clip, from, to)); }, take);
 }
 
 /// 0 where nothing tells. A guess is said, so ask once a take.
@@ -96,7 +102,7 @@ AnyTake in_unit(const AnyTake& take, const std::string& unit, double metres) {
   }
   const double factor = metres / metres_per_unit(unit);
   if (const auto* markers = std::get_if<MarkerClip>(&take)) {
-    return scale_lengths(*markers, factor, unit);
+    return MarkerClip(scale_lengths(*markers, factor, unit));
   }
   Clip scaled = scale_lengths(std::get<Clip>(take), factor);
   scaled.metres_per_unit = metres_per_unit(unit);
@@ -107,8 +113,8 @@ AnyTake in_unit(const AnyTake& take, const std::string& unit, double metres) {
 AnyTake as_markers(const AnyTake& take, const Arguments& arguments) {
   const bool with_end_sites = arguments.flag("end_sites");
   const double metres = arguments.given("unit") ? 0 : metres_per_unit_of(take);
-  if (metres == 0) return joint_markers(std::get<Clip>(take), with_end_sites);
-  return joint_markers(std::get<Clip>(in_unit(take, "mm", metres)), with_end_sites);
+  if (metres == 0) return MarkerClip(joint_markers(std::get<Clip>(take), with_end_sites));
+  return MarkerClip(joint_markers(std::get<Clip>(in_unit(take, "mm", metres)), with_end_sites));
 }
 
 /// The take in the form that the format can hold.
@@ -127,7 +133,7 @@ AnyTake fitted(AnyTake take, const Format& format, const Arguments& arguments) {
   if (joints && format.name == "bvh") {
     const Clip& clip = std::get<Clip>(take);
     for (const Quat rest : clip.skeleton.rest_rotations) {
-      if (!(rest == Quat{})) return without_rest_rotations(clip);
+      if (!(rest == Quat{})) return Clip(without_rest_rotations(clip));
     }
   }
   return take;

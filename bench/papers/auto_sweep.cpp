@@ -334,7 +334,8 @@ std::vector<Clip> takes_of(const Arguments& arguments) {
 }
 
 Clip at_rate(const Clip& clip, double rate_hz) {
-  return rate_hz == clip.frame_rate_hz ? clip : resample(clip, rate_hz);
+  if (rate_hz == clip.frame_rate_hz) return clip;
+  return resample(clip, rate_hz);
 }
 
 // A kind of damage on all takes: the error that cleaning leaves on each.

@@ -35,7 +35,8 @@ std::vector<HeldOut> hold_outs(const Arguments& arguments) {
 
 Clip clip_of(const Arguments& arguments, const std::string& name) {
   const Clip clip = load_take(arguments, name + ".bvh", {.motion = name, .duration_s = 3}).clip;
-  return arguments.quick ? slice(clip, 0, std::min<std::size_t>(clip.frame_count(), 240)) : clip;
+  if (!arguments.quick) return clip;
+  return slice(clip, 0, std::min<std::size_t>(clip.frame_count(), 240));
 }
 
 using Errors = std::map<std::string, std::vector<double>>;  // of each method, by take

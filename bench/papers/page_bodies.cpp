@@ -52,7 +52,7 @@ void noise(const Arguments& arguments) {
     const BodyLayout layout = layout_of(all);
     const double metres = guess_length_unit(all.skeleton)->metres;
     for (const double rate_hz : {120.0, 30.0}) {
-      const Clip truth = rate_hz == all.frame_rate_hz ? all : resample(all, rate_hz);
+      const Clip truth = resample(all, rate_hz);
       const BodyChannels expected = channels_of(layout, truth);
       FrameError mean;
       constexpr std::uint64_t seeds = 10;

@@ -60,6 +60,9 @@ void exp_f32(float* values, std::size_t count) {
 void tanh_f32(float* values, std::size_t count) {
   for_lanes(values, count, [](Tag d, V x) HWY_ATTR { return tanh_lanes(d, x); });
 }
+void sigmoid_f32(float* values, std::size_t count) {
+  for_lanes(values, count, [](Tag d, V x) HWY_ATTR { return sigmoid_lanes(d, x); });
+}
 void relu_f32(float* values, std::size_t count) {
   for_lanes(values, count, [](Tag d, V x) HWY_ATTR { return hn::Max(x, hn::Zero(d)); });
 }
@@ -111,11 +114,15 @@ HWY_AFTER_NAMESPACE();
 namespace kinemend::nn {
 HWY_EXPORT(exp_f32);
 HWY_EXPORT(tanh_f32);
+HWY_EXPORT(sigmoid_f32);
 HWY_EXPORT(relu_f32);
 HWY_EXPORT(lstm_f32);
 
 void exp_of(float* values, std::size_t count) { HWY_DYNAMIC_DISPATCH(exp_f32)(values, count); }
 void tanh_of(float* values, std::size_t count) { HWY_DYNAMIC_DISPATCH(tanh_f32)(values, count); }
+void sigmoid_of(float* values, std::size_t count) {
+  HWY_DYNAMIC_DISPATCH(sigmoid_f32)(values, count);
+}
 void relu_of(float* values, std::size_t count) { HWY_DYNAMIC_DISPATCH(relu_f32)(values, count); }
 void lstm_gates(float* gates, std::size_t units, float* cell, float* state) {
   HWY_DYNAMIC_DISPATCH(lstm_f32)(gates, units, cell, state);

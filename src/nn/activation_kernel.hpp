@@ -7,6 +7,8 @@ namespace kinemend::nn {
 
 void exp_of(float* values, std::size_t count);
 void tanh_of(float* values, std::size_t count);
+/// For training, which keeps the gates of each step.
+void sigmoid_of(float* values, std::size_t count);
 void relu_of(float* values, std::size_t count);
 
 /// A step of an LSTM's memory from its gates i, f, g and o, `units` each, one behind the other, to

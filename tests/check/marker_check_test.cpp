@@ -105,7 +105,7 @@ TEST(CheckMarkers, AcceptsTakesOfAnyLengthAndWithoutSamples) {
     std::fill(clip.observed.begin(), clip.observed.end(), std::uint8_t{1});
     EXPECT_EQ(check_take(clip).frames, frames);
   }
-  EXPECT_EQ(check_take(make_marker_clip({}, 0, 100)).tracks.size(), 0u);
+  EXPECT_EQ(check_take(MarkerClip(make_marker_clip({}, 0, 100))).tracks.size(), 0u);
 }
 
 // A hint costs less than a check, and says the same.

@@ -112,8 +112,11 @@ TEST_P(EveryFormatWithRates, IsWrittenAtTheRateThatItWasReadWith) {
   for (const double rate_hz : {1e-9, 1e12}) {
     const TakeResult result = read(rate_hz, 77);
     const std::string format = format_.substr(0, format_.find(' '));
-    AnyTake take =
-        std::visit([](const auto& clip) { return AnyTake(resample(clip, 38.5)); }, result.take);
+    AnyTake take = std::visit(
+        [](const auto& clip) {
+          return AnyTake(std::decay_t<decltype(clip)>(resample(clip, 38.5)));
+        },
+        result.take);
     ReadOptions options;
     options.format = format;
     const TakeResult again = read_take(write_take(take, format), "take", options);

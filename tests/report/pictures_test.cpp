@@ -126,7 +126,7 @@ TEST(Pictures, AreDrawnOfTakesWithNothingInThem) {
   const MarkerClip unseen = make_marker_clip({"A"}, 3, 100);
   expect_svg(film_strip_svg(unseen, nullptr, all_frames));
   expect_svg(gap_chart_svg(unseen, nullptr));
-  expect_svg(gap_chart_svg(make_marker_clip({}, 0, 100), nullptr));
+  expect_svg(gap_chart_svg(MarkerClip(make_marker_clip({}, 0, 100)), nullptr));
   EXPECT_THROW(film_strip_svg(clip, &none, all_frames), Error);
 }
 

@@ -242,7 +242,7 @@ TEST(Report, FactsAreThoseOfTheClip) {
   EXPECT_EQ(take_facts(markers).metres_per_unit, 0.001);
   EXPECT_EQ(take_facts(markers).first_frame, 7);
   EXPECT_EQ(take_facts(markers).contents, "");
-  EXPECT_EQ(take_facts(make_marker_clip({}, 0, 100)).contents, "no points");
+  EXPECT_EQ(take_facts(MarkerClip(make_marker_clip({}, 0, 100))).contents, "no points");
 }
 
 }  // namespace

@@ -76,10 +76,9 @@ const OptionTable<SparseTraining>& sparse_training_table() {
 TrainingTakes keeping_frames(const TrainingTakes& takes, std::vector<Take>& frames) {
   return {takes.count, [&takes, &frames](std::size_t index) {
             auto take = takes.take(index);
-            if (take && std::holds_alternative<Take>(*take)) {
-              const Take& clip = std::get<Take>(*take);
-              const std::size_t middle = clip.frame_count() / 2;
-              if (clip.frame_count() > 0) frames.push_back(slice(clip, middle, middle + 1));
+            if (take && take->has_joints() && take->frame_count() > 0) {
+              const std::size_t middle = take->frame_count() / 2;
+              frames.push_back(slice(*take, middle, middle + 1));
             }
             return take;
           }};

@@ -59,7 +59,7 @@ TEST(C3dConversions, NumberTheFramesOfTheTrialAnew) {
 TEST(C3dConversions, NameWhatTheyCut) {
   const auto losses = [](const MarkerClip& clip, double rate_hz) {
     std::vector<std::string> names;
-    const Diagnostics lost = lost_in_writing(resample(clip, rate_hz), "c3d");
+    const Diagnostics lost = lost_in_writing(MarkerClip(resample(clip, rate_hz)), "c3d");
     for (const Diagnostic& loss : lost.entries()) names.push_back(loss.name);
     return names;
   };
@@ -82,7 +82,7 @@ TEST(C3dConversions, NameWhatOtherFormatsCannotHold) {
                   " files cannot hold 3 analog channels at 200 Hz; 2 force plates; the parameters "
                   "of SUBJECTS, PROCESSING; 2 events; a point that is not a position");
   }
-  EXPECT_TRUE(lost_in_writing(make_marker_clip({"A"}, 1, 100), "trc").empty());
+  EXPECT_TRUE(lost_in_writing(MarkerClip(make_marker_clip({"A"}, 1, 100)), "trc").empty());
 }
 
 TEST(C3dConversions, LeaveAMarkerThatStandsAtTheOrigin) {

@@ -35,7 +35,7 @@ MarkerClip markers_of(const Clip& clip) {
 }
 
 // A gap of every part in frames 40 to 49.
-void lose_frames(Clip& clip) {
+void lose_frames(Take& clip) {
   clip.observed.assign(clip.rotations.size(), 1);
   std::fill_n(clip.observed.begin() + static_cast<std::ptrdiff_t>(40 * clip.joint_count()),
               10 * clip.joint_count(), std::uint8_t{0});
@@ -47,7 +47,7 @@ TrainingTakes takes_of(const std::vector<Take>& takes) {
 
 std::vector<Take> joint_takes() {
   std::vector<Take> takes = {walk_at(1), walk_at(2, 120), walk_at(3, 50), walk_at(4)};
-  lose_frames(std::get<Clip>(takes[0]));
+  lose_frames(takes[0]);
   return takes;
 }
 std::vector<Take> marker_takes() {
@@ -84,7 +84,7 @@ TEST(TakeStore, GivesTakesBackToTheBit) {
     store.add(clip);
     store.add(markers);
     ASSERT_EQ(store.count(), 2u);
-    const Clip again = std::get<Clip>(store.take(0));
+    const Clip again = store.take(0);
     EXPECT_EQ(again.skeleton.names, clip.skeleton.names);
     EXPECT_EQ(again.frame_rate_hz, clip.frame_rate_hz);
     EXPECT_EQ(again.positions, clip.positions);
@@ -92,7 +92,7 @@ TEST(TakeStore, GivesTakesBackToTheBit) {
     EXPECT_EQ(again.translated_joints, clip.translated_joints);
     EXPECT_EQ(again.observed, clip.observed);
     EXPECT_EQ(again.observed_positions, clip.observed_positions);
-    const MarkerClip seen = std::get<MarkerClip>(store.take(1));
+    const MarkerClip seen = store.take(1);
     EXPECT_EQ(seen.names, markers.names);
     EXPECT_EQ(seen.unit, "cm");
     EXPECT_EQ(seen.positions, markers.positions);
@@ -110,7 +110,7 @@ TEST(TrainingSequences, AreTheChannelsOfWholeStretchesInEveryPhase) {
   EXPECT_EQ(of_take, (std::vector<std::size_t>{2, 2, 1, 1}));
   EXPECT_EQ(sequences.takes, takes.size());
 
-  const auto& clip = std::get<Clip>(takes[1]);
+  const auto& clip = takes[1];
   const BodyChannels channels =
       encode_body(clip, sequences.layout, match_body(sequences.layout, clip));
   for (std::size_t phase = 0; phase < 2; ++phase) {

@@ -117,9 +117,10 @@ TEST(LearnedCleaner, LeavesShortTakesAndSlowOnesToAutoAndSaysSo) {
   Clip slow = noisy;
   slow.frame_rate_hz = 15;
   const std::unique_ptr<Cleaner> learned = asking_for(gaussian_of_50_ms), automatic = make_auto();
-  for (const auto& [take, reason] : {std::pair{slice(noisy, 0, 3), "shorter than half a second"},
-                                     {slice(noisy, 0, 59), "shorter than half a second"},
-                                     {slow, "below 20 Hz"}}) {
+  for (const auto& [take, reason] :
+       {std::pair{Clip(slice(noisy, 0, 3)), "shorter than half a second"},
+        {slice(noisy, 0, 59), "shorter than half a second"},
+        {slow, "below 20 Hz"}}) {
     const CleanResult result = clean_clip(take, *learned);
     EXPECT_EQ(result.clip.rotations, clean_clip(take, *automatic).clip.rotations);
     ASSERT_EQ(result.report.fall_backs.size(), 1U);
