@@ -6,7 +6,6 @@
 #include "body/body_kinds.hpp"
 #include "body/body_rotations.hpp"
 #include "kinemend/experimental/body.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/experimental/representation.hpp"
 
 namespace kinemend {
@@ -57,41 +56,30 @@ void encode_place(const Take& clip, const BodyLayout& layout, const BodyMatch& m
 
 namespace representation {
 
-BodyChannels encode_joints(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
-                           const BodyChannels* guide) {
-  const std::size_t frames = clip.frame_count();
-  BodyChannels channels;
-  channels.frame_rate_hz = window_rate_hz(clip.frame_rate_hz);
-  channels.degrees_per_unit = representation::degrees_per_unit(match);
-  channels.poses = PoseMatrix(frames, layout.channel_count());
-  channels.observed.assign(frames * layout.channel_count(), 0);
-  const RootMotion root = representation::root_motion(clip, match);
-  if (guide != nullptr)
-    representation::take_frame(*guide, layout, frames, channels);
-  else
-    representation::follow_root(clip, layout, match, root, channels);
+void encode_joints(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
+                   const BodyChannels* guide, BodyChannels& channels) {
+  const RootMotion root = root_motion(clip, match);
+  if (guide == nullptr) follow_root(clip, layout, match, root, channels);
   for (std::size_t track = 0; track < layout.track_count(); ++track) {
     if (match.tracks[track] < 0) continue;
-    encode_track(clip, layout, representation::track_rotations(clip, match, root, channels, track),
-                 track, guide, match, channels);
+    encode_track(clip, layout, track_rotations(clip, match, root, channels, track), track, guide,
+                 match, channels);
   }
   if (layout.with_place) encode_place(clip, layout, match, root, channels);
-  representation::hold_last_seen(channels.poses, channels.observed);
-  return channels;
 }
 
 void decode_joints(const BodyChannels& channels, const BodyLayout& layout, const BodyMatch& match,
                    Take& clip, std::span<const std::uint8_t> chosen) {
   const std::size_t frames = clip.frame_count(), tracks = layout.track_count();
-  representation::check_fit(channels, layout, match, frames, chosen);
-  const RootMotion root = representation::root_motion(clip, match);
+  check_fit(channels, layout, match, frames, chosen);
+  const RootMotion root = root_motion(clip, match);
   const auto is_chosen = [&](std::size_t track) { return chosen.empty() || chosen[track] != 0; };
   for (std::size_t track = 0; track < tracks; ++track) {
     if (match.tracks[track] < 0 || !is_chosen(track)) continue;
     const auto joint = static_cast<std::size_t>(match.tracks[track]);
     for (std::size_t f = 0; f < frames; ++f) {
-      Quat q = layout.references[track] *
-               exp(radians_per_degree * representation::channels_at(channels, f, 3 * track));
+      Quat q =
+          layout.references[track] * exp(radians_per_degree * channels_at(channels, f, 3 * track));
       if (track == 0) q = conjugate(root.ancestors[f]) * heading_turn(channels.headings[f]) * q;
       Quat& local = clip.rotation(f, joint);
       local = align_hemisphere(
@@ -100,11 +88,10 @@ void decode_joints(const BodyChannels& channels, const BodyLayout& layout, const
   }
   if (!layout.with_place || !is_chosen(tracks)) return;
   for (std::size_t f = 0; f < frames; ++f) {
-    const Vec3 ahead =
-        (1 / channels.degrees_per_unit) * representation::channels_at(channels, f, 3 * tracks) +
-        match.body_height * layout.place;
-    representation::place_root(
-        clip, match, f, channels.places[f] + rotate(heading_turn(channels.headings[f]), ahead));
+    const Vec3 ahead = (1 / channels.degrees_per_unit) * channels_at(channels, f, 3 * tracks) +
+                       match.body_height * layout.place;
+    place_root(clip, match, f,
+               channels.places[f] + rotate(heading_turn(channels.headings[f]), ahead));
   }
 }
 

@@ -8,11 +8,12 @@
 
 namespace kinemend::representation {
 
-/// As `encode_body`; `guide` may be nullptr.
-BodyChannels encode_joints(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
-                           const BodyChannels* guide);
-BodyChannels encode_markers(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
-                            const BodyChannels* guide);
+/// Fills the samples of `channels` that were measured, in the frame of `guide`, which `channels`
+/// has taken over; nullptr: finds the frame first.
+void encode_joints(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
+                   const BodyChannels* guide, BodyChannels& channels);
+void encode_markers(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
+                    const BodyChannels* guide, BodyChannels& channels);
 /// As `decode_body`.
 void decode_joints(const BodyChannels& channels, const BodyLayout& layout, const BodyMatch& match,
                    Take& clip, std::span<const std::uint8_t> chosen);

@@ -5,53 +5,37 @@
 #include "body/body_frame.hpp"
 #include "body/body_kinds.hpp"
 #include "kinemend/experimental/body.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend {
 
-using representation::TurnAboutY;
-
 namespace representation {
 
-BodyChannels encode_markers(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
-                            const BodyChannels* guide) {
-  const std::size_t frames = clip.frame_count();
-  BodyChannels channels;
-  channels.frame_rate_hz = window_rate_hz(clip.frame_rate_hz);
-  channels.degrees_per_unit = representation::degrees_per_unit(match);
-  channels.poses = PoseMatrix(frames, layout.channel_count());
-  channels.observed.assign(frames * layout.channel_count(), 0);
-  if (guide != nullptr)
-    representation::take_frame(*guide, layout, frames, channels);
-  else
-    representation::follow_anchors(clip, layout, match,
-                                   representation::floor_height(clip, layout, match), channels);
-  for (std::size_t f = 0; f < frames; ++f) {
+void encode_markers(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
+                    const BodyChannels* guide, BodyChannels& channels) {
+  if (guide == nullptr)
+    follow_anchors(clip, layout, match, floor_height(clip, layout, match), channels);
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const TurnAboutY turn(channels.headings[f]);
     for (std::size_t i = 0; i < layout.track_count(); ++i) {
       const auto marker = static_cast<std::size_t>(match.tracks[i]);
       if (match.tracks[i] < 0 || !clip.is_observed(f, marker)) continue;
-      const Vec3 ahead = turn.back(
-          representation::upright_position(clip, match.upright, f, marker) - channels.places[f]);
-      representation::put_channels(
-          channels, f, 3 * i,
-          channels.degrees_per_unit * (ahead - match.body_height * layout.means[i]));
+      const Vec3 ahead =
+          turn.back(upright_position(clip, match.upright, f, marker) - channels.places[f]);
+      put_channels(channels, f, 3 * i,
+                   channels.degrees_per_unit * (ahead - match.body_height * layout.means[i]));
     }
   }
-  representation::hold_last_seen(channels.poses, channels.observed);
-  return channels;
 }
 
 void decode_markers(const BodyChannels& channels, const BodyLayout& layout, const BodyMatch& match,
                     Take& clip, std::span<const std::uint8_t> chosen) {
-  representation::check_fit(channels, layout, match, clip.frame_count(), chosen);
+  check_fit(channels, layout, match, clip.frame_count(), chosen);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const TurnAboutY turn(channels.headings[f]);
     for (std::size_t i = 0; i < layout.track_count(); ++i) {
       if (match.tracks[i] < 0 || (!chosen.empty() && chosen[i] == 0)) continue;
-      const Vec3 ahead =
-          (1 / channels.degrees_per_unit) * representation::channels_at(channels, f, 3 * i) +
-          match.body_height * layout.means[i];
+      const Vec3 ahead = (1 / channels.degrees_per_unit) * channels_at(channels, f, 3 * i) +
+                         match.body_height * layout.means[i];
       clip.position(f, static_cast<std::size_t>(match.tracks[i])) =
           rotate(conjugate(match.upright), channels.places[f] + turn(ahead));
     }

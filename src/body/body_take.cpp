@@ -1,6 +1,8 @@
 // Matches, encodes and decodes takes of either kind.
 #include "body/body_correspondence.hpp"
+#include "body/body_frame.hpp"
 #include "body/body_kinds.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend {
 
@@ -8,8 +10,20 @@ namespace {
 
 BodyChannels encode_take(const Take& take, const BodyLayout& layout, const BodyMatch& match,
                          const BodyChannels* guide) {
-  return take.has_joints() ? representation::encode_joints(take, layout, match, guide)
-                           : representation::encode_markers(take, layout, match, guide);
+  const std::size_t frames = take.frame_count();
+  BodyChannels channels;
+  channels.frame_rate_hz = window_rate_hz(take.frame_rate_hz);
+  channels.degrees_per_unit = representation::degrees_per_unit(match);
+  channels.poses = PoseMatrix(frames, layout.channel_count());
+  channels.observed.assign(frames * layout.channel_count(), 0);
+  if (guide != nullptr) representation::take_frame(*guide, layout, frames, channels);
+  if (take.has_joints()) {
+    representation::encode_joints(take, layout, match, guide, channels);
+  } else {
+    representation::encode_markers(take, layout, match, guide, channels);
+  }
+  representation::hold_last_seen(channels.poses, channels.observed);
+  return channels;
 }
 
 }  // namespace

@@ -128,6 +128,7 @@ TEST(FrameNumbers, OfClipsAreThoseOfTheirFiles) {
   markers.first_frame = 300;
   EXPECT_EQ(first_frame_number(markers), 300);
   Clip clip;
+  clip.skeleton.names = {"Hips"};
   EXPECT_EQ(first_frame_number(clip), 1);
   clip.source.facts = {{"skeleton", "35.asf"}, {"first frame", "37"}};
   EXPECT_EQ(first_frame_number(clip), 37);
