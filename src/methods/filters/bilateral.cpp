@@ -11,6 +11,7 @@
 #include "methods/filters/bilateral_filter.hpp"
 #include "methods/filters/entries.hpp"
 #include "methods/filters/lanes.hpp"
+#include "rotation/sample_steps.hpp"
 
 namespace kinemend {
 

@@ -10,6 +10,7 @@
 #include "methods/filters/entries.hpp"
 #include "methods/filters/lanes.hpp"
 #include "methods/filters/orientation_filter.hpp"
+#include "rotation/sample_steps.hpp"
 
 namespace kinemend {
 
