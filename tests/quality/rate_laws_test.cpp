@@ -141,9 +141,8 @@ std::vector<std::string> methods_for_markers() {
 // Those that run live with their own options; those with a model have tests of their own streams.
 std::vector<std::string> methods_that_run_live() {
   std::vector<std::string> names = method_names();
-  std::erase_if(names, [](const std::string& name) {
-    return !make_cleaner(name)->live_support(120).runs();
-  });
+  std::erase_if(
+      names, [](const std::string& name) { return !make_cleaner(name)->live_support(120).runs(); });
   return names;
 }
 

@@ -119,9 +119,8 @@ inline std::vector<std::string> method_names() {
 /// Those of them that follow the past alone by default, and so lag behind the motion.
 inline std::vector<std::string> causal_method_names() {
   std::vector<std::string> names = method_names();
-  std::erase_if(names, [](const std::string& name) {
-    return !runs_without_delay(*make_cleaner(name));
-  });
+  std::erase_if(names,
+                [](const std::string& name) { return !runs_without_delay(*make_cleaner(name)); });
   return names;
 }
 
