@@ -18,12 +18,13 @@ from soaking import outputs  # noqa: E402
 from soaking.mutations import BINARY, JSON, mutate  # noqa: E402
 from soaking.program import MOST_STANDARD_ERROR, Program, Result  # noqa: E402
 
-# Does what is asked in the simplest way: refuses words of `batch`, and writes a file of one line for all else.
+# Does what is asked in the simplest way: refuses words of `batch`, and writes a file of one line for all else, if there is none.
 GOOD = """#!/bin/bash
 words=("$@"); out=
-for ((i = 1; i < $#; i++)); do case "${words[i]}" in -o|--report|--plan-out) out=${words[i+1]}; echo 1 > "$out";; esac; done
-[ "$1" = convert ] && echo 1 > "$3"
-[ "$1" = convert ] && [ "${3##*.}" = glb ] && printf 'glTF\\2\\0\\0\\0\\30\\0\\0\\0\\4\\0\\0\\0JSON{}  ' > "$3"
+for ((i = 1; i < $#; i++)); do case "${words[i]}" in -o|--report|--plan-out) out=${words[i+1]}; [ -e "$out" ] || echo 1 > "$out";; esac; done
+new=; [ "$1" = convert ] && [ ! -e "$3" ] && new=1
+[ -n "$new" ] && echo 1 > "$3"
+[ -n "$new" ] && [ "${3##*.}" = glb ] && printf 'glTF\\2\\0\\0\\0\\30\\0\\0\\0\\4\\0\\0\\0JSON{}  ' > "$3"
 [ "$1" = batch ] && { rm -f out; echo "kinemend: no" >&2; exit 3; }
 %s
 exit 0
